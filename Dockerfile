@@ -1,0 +1,27 @@
+# One image for all of VIPO's processes; docker-compose.yml says which one a container runs.
+FROM node:20-bookworm-slim AS frontend
+WORKDIR /build
+COPY frontend/package.json frontend/package-lock.json ./
+RUN npm ci --no-audit --no-fund --loglevel=error
+COPY frontend/ ./
+RUN npx vite build --logLevel warn
+
+FROM python:3.11-slim-bookworm
+ENV PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECODE=1 VIPO_MODE=served VIPO_STATE_DIR=/state \
+    DJANGO_SETTINGS_MODULE=vipo_site.settings
+WORKDIR /vipo
+# PyBullet's wheel is made for manylinux; nothing is compiled here.
+COPY pyproject.toml constraints.txt manage.py ./
+COPY vipo_site vipo_site
+COPY registry registry
+COPY editor editor
+COPY simulation simulation
+COPY execution execution
+RUN pip install --no-cache-dir --disable-pip-version-check --constraint constraints.txt --editable . \
+    && useradd --system --uid 10001 --home-dir /state vipo && mkdir /state && chown vipo: /state
+COPY examples examples
+COPY --from=frontend /build/dist frontend/dist
+USER vipo
+VOLUME /state
+EXPOSE 8000
+CMD ["daphne", "-b", "0.0.0.0", "-p", "8000", "--proxy-headers", "--websocket-max-message-size", "16777216", "--websocket-max-frame-size", "16777216", "vipo_site.asgi:application"]

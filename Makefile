@@ -1,0 +1,72 @@
+# One command for each thing a person does. `make demo` and `make test` set up what they need on a bare machine.
+PYTHON ?= python3.11
+BIN := .venv/bin
+SOURCES := vipo_site registry editor simulation execution tests bench scripts manage.py
+FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
+
+.PHONY: demo test check bench openapi format frontend setup setup-dev servers clean
+
+demo: setup frontend
+	@exec $(BIN)/python -m vipo_site.demo
+
+setup: .venv/.runtime
+setup-dev: .venv/.dev frontend/node_modules/.stamp
+
+.venv/bin/pip:
+	@command -v $(PYTHON) >/dev/null || { echo "VIPO needs Python 3.11 (PyBullet has no wheel for later ones). Install it, or name it: make PYTHON=/path/to/python3.11"; exit 1; }
+	@echo "Making a Python environment in .venv"
+	@$(PYTHON) -m venv .venv
+
+.venv/.runtime: pyproject.toml constraints.txt | .venv/bin/pip
+	@echo "Installing the Python packages (about a minute the first time)"
+	@$(BIN)/pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable .
+	@touch $@
+
+.venv/.dev: pyproject.toml constraints.txt | .venv/bin/pip
+	@echo "Installing the Python packages for development and tests"
+	@$(BIN)/pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+	@touch .venv/.runtime $@
+
+frontend/node_modules/.stamp: frontend/package.json frontend/package-lock.json
+	@command -v npm >/dev/null || { echo "VIPO's pages are built with Node 20 and npm. Install them and try again."; exit 1; }
+	@echo "Installing the frontend's packages (about a minute the first time)"
+	@cd frontend && npm ci --no-audit --no-fund --loglevel=error
+	@touch $@
+
+frontend/dist/index.html: frontend/node_modules/.stamp $(FRONTEND_SOURCES)
+	@echo "Building the frontend"
+	@cd frontend && npx vite build --logLevel warn
+	@touch $@
+
+frontend: frontend/dist/index.html
+
+servers:
+	@sh scripts/install-test-servers.sh
+
+format: setup-dev
+	$(BIN)/ruff check --fix --quiet $(SOURCES) ; $(BIN)/ruff format --quiet $(SOURCES)
+	cd frontend && npx prettier --log-level warn --write src
+
+check: setup-dev
+	$(BIN)/ruff format --check $(SOURCES)
+	$(BIN)/ruff check $(SOURCES)
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	cd frontend && npm run --silent check && npm run --silent test
+	$(BIN)/python -m pytest -q tests/unit
+
+test: setup-dev servers frontend
+	cd frontend && npm run --silent check && npm run --silent test
+	$(BIN)/ruff format --check --quiet $(SOURCES) && $(BIN)/ruff check --quiet $(SOURCES) && $(BIN)/mypy && $(BIN)/lint-imports
+	$(BIN)/python -m pytest --tb=native tests/e2e
+	$(BIN)/python -m pytest --tb=native --ignore=tests/e2e tests
+
+openapi: setup-dev
+	$(BIN)/python manage.py openapi
+	cd frontend && npm run --silent api
+
+bench: setup-dev
+	$(BIN)/python -m bench
+
+clean:
+	rm -rf .venv frontend/node_modules frontend/dist var

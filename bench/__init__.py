@@ -1,0 +1,1 @@
+"""What is measured; each line that is printed is one JSON object."""

@@ -1,0 +1,22 @@
+"""Run every measurement, or those named: `python -m bench [language] [rehearsal] [traffic] [rooms] [start]`."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import sys
+
+NAMES = ("language", "rehearsal", "traffic", "rooms", "start")
+
+
+def main() -> None:
+    chosen = sys.argv[1:] or NAMES
+    for name in chosen:
+        if name not in NAMES:
+            sys.exit(f"There is no measurement {name!r}; choose from {', '.join(NAMES)}.")
+        for figure in importlib.import_module(f"bench.{name}").measure():
+            print(json.dumps({"bench": name, **figure}), flush=True)
+
+
+if __name__ == "__main__":
+    main()

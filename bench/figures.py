@@ -1,0 +1,28 @@
+"""How figures are taken: repeated, with the machine said beside them."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Sequence
+
+
+def figure(what: str, value: float, unit: str, **more: object) -> dict[str, object]:
+    """Return a figure as it is printed; `cores` are those that this process may use."""
+    return {"what": what, "figure": float(f"{value:.4g}"), "unit": unit, **more, "cores": len(os.sched_getaffinity(0))}
+
+
+def best_ms(work: Callable[[], object], repeats: int = 5) -> float:
+    """Return the time of the quickest of several repeats, which the rest of the machine disturbs least."""
+    times = []
+    for _ in range(repeats):
+        began = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - began)
+    return min(times) * 1000
+
+
+def share(values: Sequence[float], quantile: float) -> float:
+    """Return the value below which that share of the values lies; 0 without values."""
+    ordered = sorted(values)
+    return ordered[min(len(ordered) - 1, int(quantile * len(ordered)))] if ordered else 0.0

@@ -1,0 +1,206 @@
+"""The editor over HTTP: programs, their versions, the library. Documents are edited over the socket only."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Any
+from uuid import UUID
+
+from django.http import HttpRequest
+from ninja import Field, Router, Schema
+
+from editor import services
+from editor.shapes import Compiled, Definition, Document, Parameters
+from editor.views import LibraryView, ProgramView, VersionView
+from registry import services as registry
+from registry.access import NotAMember, require
+
+router = Router(tags=["editor"])
+
+
+class Author(Schema):
+    """Who wrote something."""
+
+    id: int
+    name: str
+    initials: str
+
+
+class ProgramShape(Schema):
+    """A program as lists show it."""
+
+    id: UUID
+    name: str
+    site: str
+    kinds: list[str]
+    edited_at: datetime
+    edited_by: Author | None
+    errors: int
+    warnings: int
+
+
+class ProgramName(Schema):
+    """A name for a program."""
+
+    name: str = Field(max_length=200)
+
+
+class VersionShape(Schema):
+    """A version without its document."""
+
+    id: UUID
+    number: int
+    author: Author | None
+    message: str
+    created_at: datetime
+    script: str
+
+
+class VersionMessage(Schema):
+    """What a version is about."""
+
+    message: str = Field("", max_length=300)
+
+
+class FunctionToSave(Schema):
+    """A function of a program that shall go into the library."""
+
+    program: UUID
+    function: str = Field(max_length=100)
+    name: str = Field(max_length=200)
+    description: str = Field("", max_length=500)
+
+
+class LibraryShape(Schema):
+    """A library function at one of its versions."""
+
+    id: UUID
+    site: str
+    name: str
+    description: str
+    version: int
+    author: Author | None
+    parameters: Parameters
+    used_in: int
+    updated_at: datetime
+    script: str
+    definition: Definition
+
+
+def _program(request: HttpRequest, program: UUID, role: str) -> ProgramView:
+    """Return a program if the asker has that role at its site; to strangers it does not exist."""
+    found = services.get_program(program_id=program)
+    _require(request, found.site, role)
+    return found
+
+
+def _require(request: HttpRequest, site: str, role: str) -> None:
+    """Strangers get the very answer that they get for what does not exist."""
+    try:
+        require(request.user, site, role)
+    except NotAMember as error:
+        raise services.NoSuchProgram("There is no such program. It may have been deleted.") from error
+
+
+@router.get("/sites/{slug}/programs", response=list[ProgramShape])
+def list_programs(request: HttpRequest, slug: str) -> list[ProgramView]:
+    """List a site's programs, the last edited first."""
+    require(request.user, slug, "viewer")
+    return list(services.list_programs(site=slug))
+
+
+@router.post("/sites/{slug}/programs", response={201: ProgramShape})
+def create_program(request: HttpRequest, slug: str, body: ProgramName) -> tuple[int, ProgramView]:
+    """Make an empty program."""
+    require(request.user, slug, "author")
+    return 201, services.create_program(site=slug, name=body.name, user=request.user)
+
+
+@router.get("/programs/{program}", response=ProgramShape)
+def show_program(request: HttpRequest, program: UUID) -> ProgramView:
+    """Show a program."""
+    return _program(request, program, "viewer")
+
+
+@router.patch("/programs/{program}", response=ProgramShape)
+def rename_program(request: HttpRequest, program: UUID, body: ProgramName) -> ProgramView:
+    """Give a program another name."""
+    _program(request, program, "author")
+    return services.rename_program(program_id=program, name=body.name, user=request.user)
+
+
+@router.delete("/programs/{program}", response={204: None})
+def delete_program(request: HttpRequest, program: UUID) -> tuple[int, None]:
+    """Delete a program with its versions."""
+    _program(request, program, "author")
+    services.delete_program(program_id=program)
+    return 204, None
+
+
+@router.get("/programs/{program}/document", response=Document)
+def show_document(request: HttpRequest, program: UUID) -> dict[str, Any]:
+    """Show a program's document as it is now."""
+    _program(request, program, "viewer")
+    return services.get_document(program_id=program)
+
+
+@router.get("/programs/{program}/compiled", response=Compiled)
+def show_compiled(request: HttpRequest, program: UUID) -> dict[str, Any]:
+    """Show a program compiled for its site, as both are now."""
+    _program(request, program, "viewer")
+    return services.get_compiled(program_id=program)
+
+
+@router.get("/programs/{program}/versions", response=list[VersionShape])
+def list_versions(request: HttpRequest, program: UUID) -> list[VersionView]:
+    """List a program's versions, the newest first."""
+    _program(request, program, "viewer")
+    return list(services.list_versions(program_id=program))
+
+
+@router.post("/programs/{program}/versions", response={201: VersionShape})
+def pin_version(request: HttpRequest, program: UUID, body: VersionMessage) -> tuple[int, VersionView]:
+    """Make the program as it is now a version."""
+    _program(request, program, "author")
+    return 201, services.pin_version(program_id=program, user=request.user, message=body.message)
+
+
+@router.get("/library", response=list[LibraryShape])
+def search_library(request: HttpRequest, q: str = "", site: str = "") -> list[LibraryView]:
+    """Search the functions of one site, or of all sites of which the asker is a member."""
+    if site:
+        require(request.user, site, "viewer")
+        return list(services.search_library(sites=[site], query=q))
+    mine: Any = request.user
+    sites = [each.slug for each in registry.list_sites(user=mine)]
+    return list(services.search_library(sites=sites, query=q))
+
+
+@router.post("/sites/{slug}/library", response={201: LibraryShape})
+def save_function(request: HttpRequest, slug: str, body: FunctionToSave) -> tuple[int, LibraryView]:
+    """Save a program's function into the library."""
+    require(request.user, slug, "author")
+    return 201, services.save_function(
+        site=slug,
+        program_id=body.program,
+        function=body.function,
+        name=body.name,
+        description=body.description,
+        user=request.user,
+    )
+
+
+@router.get("/library/{function}", response=LibraryShape)
+def show_function(request: HttpRequest, function: UUID) -> LibraryView:
+    """Show the newest version of a library function."""
+    found = services.get_function(function_id=function)
+    _require(request, found.site, "viewer")
+    return found
+
+
+@router.get("/library/{function}/versions/{number}", response=LibraryShape)
+def show_function_version(request: HttpRequest, function: UUID, number: int) -> LibraryView:
+    """Show a library function as it was saved under a number."""
+    found = services.get_function(function_id=function)
+    _require(request, found.site, "viewer")
+    return services.get_function(function_id=function, version=number)

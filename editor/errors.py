@@ -1,0 +1,25 @@
+"""The editor's refusals."""
+
+from __future__ import annotations
+
+from registry.errors import VipoError
+
+
+class EditorError(VipoError):
+    """A refusal of the editor."""
+
+    code = "editor"
+
+
+class NoSuchProgram(EditorError):
+    """The program, version or function does not exist, or the user has no part in its site; both look the same."""
+
+    code = "not_found"
+    status = 404
+
+
+class BadRequest(EditorError):
+    """What was asked for cannot be done as asked; the message says how it could."""
+
+    code = "bad_request"
+    status = 422

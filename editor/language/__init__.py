@@ -1,0 +1,37 @@
+"""The spatial language: document → tree → script → plan, and back; with the checks. Pure.
+
+`compile_document` is all that most callers need; `compiled_to_json` gives its form for browsers and the command line.
+"""
+
+from editor.language.compiled import Compiled, compile_document, compiled_to_json
+from editor.language.diagnostics import Diagnostic, Fix
+from editor.language.drawing import tree_to_document
+from editor.language.nodes import Tree
+from editor.language.parsing import Parsed, parse_script
+from editor.language.plan import Plan
+from editor.language.plan_json import UnreadablePlan, plan_from_json, plan_to_json
+from editor.language.surroundings import DeviceFacts, FloorFacts, PlaceFacts, Surroundings
+from editor.language.surroundings_json import UnreadableSite, surroundings_from_json, surroundings_to_json
+
+__all__ = [
+    "Compiled",
+    "DeviceFacts",
+    "Diagnostic",
+    "Fix",
+    "FloorFacts",
+    "Parsed",
+    "PlaceFacts",
+    "Plan",
+    "Surroundings",
+    "Tree",
+    "UnreadablePlan",
+    "UnreadableSite",
+    "compile_document",
+    "compiled_to_json",
+    "parse_script",
+    "plan_from_json",
+    "plan_to_json",
+    "surroundings_from_json",
+    "surroundings_to_json",
+    "tree_to_document",
+]

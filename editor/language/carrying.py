@@ -1,0 +1,207 @@
+"""What each robot carries, followed along all ways through the program.
+
+For every role and kind of object two numbers are kept: how many it carries at least and at most. Where ways meet
+the range widens; in a loop, and after a failure, what changed is not known any more and nothing is said of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from editor.language import nodes as n
+from editor.language.diagnostics import Problem
+from editor.language.plan import Constant, Expression, Variable
+from editor.language.values import is_number
+from editor.language.walking import walk
+
+ANY = (0, None)
+Range = tuple[int, int | None]
+"""At least, at most; None: nobody can tell."""
+Carried = Mapping[tuple[str, str], Range]
+"""(role, object) → how many; what is not in it is not carried."""
+MOST_CALLS = 500
+"""Function calls that are followed; beyond them nothing is known, which is better than slow."""
+DEEPEST_CALL = 12
+_EVERYTHING = "*"
+
+
+@dataclass(slots=True)
+class _Follower:
+    """The walk; `silent` while a loop is walked only to see what it changes."""
+
+    functions: Mapping[str, n.Function]
+    capacity: Callable[[str], int]
+    robot: Callable[[str], str]
+    found: list[tuple[Problem, int]] = field(default_factory=list)
+    silent: bool = False
+    calls: int = 0
+    depth: int = 0
+
+    def block(self, block: n.Block, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+        for node in block:
+            follow = _FOLLOW.get(type(node))
+            if follow is not None:
+                carried = follow(self, node, carried, values)
+        return carried
+
+    def tell(self, node: n.Pick | n.Drop, code: str, args: dict[str, str | int | float]) -> None:
+        if not self.silent:
+            problem = Problem(code, node.step, "quantity", {"robot": self.robot(node.role), **args})
+            self.found.append((problem, id(node)))
+
+
+def _known(expression: Expression, values: Mapping[str, Expression]) -> object:
+    """Return the value that an expression has here, None when it depends on the run."""
+    if isinstance(expression, Variable):
+        expression = values.get(expression.name, expression)
+    return expression.value if isinstance(expression, Constant) else None
+
+
+def _load(
+    node: n.Pick | n.Drop, carried: Carried, values: Mapping[str, Expression]
+) -> tuple[tuple[str, str], int] | None:
+    """Return what is loaded and how many, None when that depends on the run or is wrong anyway."""
+    thing, quantity = _known(node.object, values), _known(node.quantity, values)
+    if not isinstance(thing, str) or not is_number(quantity) or quantity <= 0 or quantity != int(quantity):
+        return None
+    return (node.role, thing), int(quantity)
+
+
+def _pick(follower: _Follower, node: n.Pick, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    load = _load(node, carried, values)
+    if load is None:
+        return _forget(carried, frozenset({node.role}))
+    key, quantity = load
+    capacity = follower.capacity(node.role)
+    if capacity and quantity > capacity:  # told already; what is really carried cannot be known
+        return _forget(carried, frozenset({node.role}))
+    mine = [(thing, count) for (role, thing), count in carried.items() if role == node.role and thing != _EVERYTHING]
+    least = sum(count[0] for _, count in mine)
+    most = None if any(count[1] is None for _, count in mine) else sum(count[1] or 0 for _, count in mine)
+    if capacity:
+        if least + quantity > capacity:
+            load_text = ", ".join(f"{count[0]} {thing}" for thing, count in sorted(mine) if count[0])
+            follower.tell(node, "carrying_too_much", {"carried": load_text, "capacity": capacity})
+        elif most is not None and most + quantity > capacity and (node.role, _EVERYTHING) not in carried:
+            follower.tell(node, "may_carry_too_much", {"capacity": capacity})
+    before = _count(carried, key)
+    after = (min(before[0] + quantity, capacity or quantity), None if before[1] is None else before[1] + quantity)
+    return {**carried, key: after}
+
+
+def _drop(follower: _Follower, node: n.Drop, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    load = _load(node, carried, values)
+    if load is None:
+        return _forget(carried, frozenset({node.role}))
+    key, quantity = load
+    before = _count(carried, key)
+    if before[1] is not None:
+        args: dict[str, str | int | float] = {"object": key[1], "quantity": quantity, "carried": before[1]}
+        if before[1] < quantity:
+            follower.tell(node, "drops_nothing", args)
+        elif before[0] < quantity:
+            follower.tell(node, "may_drop_nothing", args)
+    after = (max(before[0] - quantity, 0), None if before[1] is None else max(before[1] - quantity, 0))
+    return {**carried, key: after}
+
+
+def _if(follower: _Follower, node: n.If, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    return _either(follower.block(node.then, carried, values), follower.block(node.otherwise, carried, values))
+
+
+def _while(follower: _Follower, node: n.While, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    if follower.silent:
+        return _forget(carried, _roles(follower, node.body))
+    follower.silent = True
+    once = follower.block(node.body, carried, values)
+    follower.silent = False
+    steady = {key: count if _count(once, key) == count else ANY for key, count in carried.items()}
+    grown = {key: ANY for key, count in once.items() if key not in carried and count != (0, 0)}
+    entry = {**steady, **grown}
+    return _either(entry, follower.block(node.body, entry, values))
+
+
+def _try(follower: _Follower, node: n.Try, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    after = follower.block(node.body, carried, values)
+    caught = follower.block(node.catch, _forget(carried, _roles(follower, node.body)), values)
+    return _either(after, caught)
+
+
+def _parallel(follower: _Follower, node: n.Parallel, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    result = dict(carried)
+    for branch in node.branches:
+        after = follower.block(branch, carried, values)
+        result.update({key: count for key, count in after.items() if carried.get(key) != count})
+    return result
+
+
+def _call(follower: _Follower, node: n.Call, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    function = follower.functions.get(node.function)
+    if function is None:
+        return carried
+    if follower.calls >= MOST_CALLS or follower.depth >= DEEPEST_CALL:
+        return _forget(carried, frozenset(role for role, _ in carried) | _roles(follower, function.body))
+    given = {name: values.get(v.name, v) if isinstance(v, Variable) else v for name, v in node.arguments}
+    defaults = {p.name: Constant(p.default) for p in function.parameters if p.default is not None}
+    follower.calls += 1
+    follower.depth += 1
+    result = follower.block(function.body, carried, {**values, **defaults, **given})
+    follower.depth -= 1
+    return result
+
+
+def _roles(follower: _Follower, block: n.Block) -> frozenset[str]:
+    """Return the roles that may carry something else after the block; a call may change every one."""
+    roles = {node.role for node in walk(block) if isinstance(node, n.Pick | n.Drop)}
+    if any(isinstance(node, n.Call) for node in walk(block)):
+        bodies = (function.body for function in follower.functions.values())
+        roles |= {node.role for body in bodies for node in walk(body) if isinstance(node, n.Pick | n.Drop)}
+    return frozenset(roles)
+
+
+_FOLLOW: Mapping[type[n.Node], Callable[..., Carried]] = {
+    n.Pick: _pick,
+    n.Drop: _drop,
+    n.If: _if,
+    n.While: _while,
+    n.Try: _try,
+    n.Parallel: _parallel,
+    n.Call: _call,
+}
+
+
+def _count(carried: Carried, key: tuple[str, str]) -> Range:
+    """Return how many of an object a robot carries."""
+    return carried.get(key, ANY if (key[0], _EVERYTHING) in carried else (0, 0))
+
+
+def _forget(carried: Carried, roles: frozenset[str]) -> Carried:
+    """Return what is known when anything may have happened to these roles' loads."""
+    kept = {key: count for key, count in carried.items() if key[0] not in roles}
+    known = {key: ANY for key in carried if key[0] in roles}
+    return {**kept, **known, **{(role, _EVERYTHING): ANY for role in roles}}
+
+
+def _either(first: Carried, second: Carried) -> Carried:
+    """Return what holds after one or the other."""
+    if first is second:
+        return first
+    merged: dict[tuple[str, str], Range] = {}
+    for key in {**first, **second}:
+        a, b = _count(first, key), _count(second, key)
+        merged[key] = (min(a[0], b[0]), None if a[1] is None or b[1] is None else max(a[1], b[1]))
+    return merged
+
+
+def follow_loads(
+    tree: n.Tree, capacity: Callable[[str], int], robot: Callable[[str], str]
+) -> list[tuple[Problem, int]]:
+    """Return what is wrong with what robots carry, each with its node's identity.
+
+    `capacity` tells how many objects a role's robot holds (0: not known), `robot` what to call it.
+    """
+    functions = {function.method: function for function in tree.functions}
+    follower = _Follower(functions, capacity, robot)
+    follower.block(tree.body, {}, {})
+    return follower.found

@@ -1,0 +1,126 @@
+"""Checks of values: what is missing, of the wrong type or unit, or out of its range."""
+
+from __future__ import annotations
+
+from editor.language import nodes as n
+from editor.language.check_context import Context, amounts, plural, span
+from editor.language.check_devices import check_readings
+from editor.language.diagnostics import fix_value
+from editor.language.plan import Constant, Expression
+from editor.language.typing_of_values import TYPE_WORDS, Kind, Typing, plain_type, unit_word
+from editor.language.values import is_number, parts_of
+from registry.capability import ParameterSpec
+
+
+def has_missing(expression: Expression) -> bool:
+    """Tell whether the expression, or a part of it, is still to be entered."""
+    if isinstance(expression, Constant):
+        return expression.value is None
+    return any(isinstance(part, Constant) and part.value is None for part in parts_of(expression))
+
+
+def check_value(
+    context: Context, node: n.Node, value: Expression, field: str, wanted: Kind, subject: str
+) -> bool:  # fmt: skip
+    """Check what a value reads and of which type and unit it is; tell whether it is good."""
+    before = len(context.found)
+    if not isinstance(value, Constant):
+        check_readings(context, node, value, field)
+    typing = Typing(context.surroundings, context.variables, [])
+    kind = typing.kind_of(value)
+    for mismatch in typing.mismatches:
+        context.tell(node, mismatch.code, field, mismatch.args)
+    if kind.type and wanted.type and kind.type != plain_type(wanted.type):
+        details = {"subject": subject, "wanted": TYPE_WORDS[wanted.type], "given": TYPE_WORDS[kind.type]}
+        context.tell(node, "wrong_type", field, details)
+    elif kind.unit and wanted.unit and kind.unit != wanted.unit:
+        units = {"subject": subject, "wanted": unit_word(wanted.unit), "given": unit_word(kind.unit)}
+        context.tell(node, "wrong_unit", field, units)
+    return len(context.found) == before
+
+
+def check_condition(context: Context, node: n.Node, condition: Expression, field: str) -> None:
+    """Check a condition: it must be there, and give yes or no."""
+    if has_missing(condition):
+        context.tell(node, "missing_condition", field)
+    else:
+        check_value(context, node, condition, field, Kind("boolean"), "A condition")
+
+
+def check_argument(  # noqa: PLR0913 - one argument is checked in the light of all of these
+    context: Context,
+    node: n.Node,
+    parameter: ParameterSpec,
+    value: Expression,
+    method: str,
+    missing_code: str,
+    *,
+    typed: bool = True,
+) -> None:
+    """Check one argument of a method or a function against what is declared of it."""
+    field = f"args.{parameter.name}"
+    limits = span(parameter.minimum, parameter.maximum, unit_word(parameter.unit))
+    if has_missing(value):
+        if parameter.required or value != n.MISSING:
+            details = {"argument": parameter.name, "method": method, "function": method}
+            fix = None if parameter.minimum is None else fix_value(node.step, field, parameter.minimum)
+            context.tell(node, missing_code, field, {**details, "range": f": {limits}" if limits else ""}, fix)
+        return
+    wanted = Kind(parameter.type, parameter.unit) if typed else Kind()
+    if not check_value(context, node, value, field, wanted, parameter.name.capitalize()):
+        return
+    if isinstance(value, Constant):
+        _check_limits(context, node, parameter, value, field)
+
+
+def _check_limits(context: Context, node: n.Node, parameter: ParameterSpec, value: Constant, field: str) -> None:
+    given, subject = value.value, parameter.name.capitalize()
+    if parameter.options and given not in parameter.options:
+        context.tell(node, "not_an_option", field, {"subject": subject, "options": ", ".join(parameter.options)})
+    if not is_number(given):
+        return
+    nearest = given
+    if parameter.minimum is not None:
+        nearest = max(nearest, parameter.minimum)
+    if parameter.maximum is not None:
+        nearest = min(nearest, parameter.maximum)
+    if nearest != given:
+        limits = span(parameter.minimum, parameter.maximum, unit_word(parameter.unit))
+        fix = fix_value(node.step, field, int(nearest) if float(nearest).is_integer() else nearest)
+        context.tell(node, "out_of_range", field, {"subject": subject, "range": limits}, fix)
+
+
+def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
+    """Check how many of what is carried."""
+    _check_object(context, node)
+    capacity = context.capacity(node.role)
+    robot = context.robot_name(node.role)
+    if has_missing(node.quantity):
+        thing = node.object.value if isinstance(node.object, Constant) else None
+        details = {"things": plural(thing) if isinstance(thing, str) and thing else "objects"}
+        fix = fix_value(node.step, "quantity", 1)
+        context.tell(node, "missing_quantity", "quantity", {**details, "robot": robot, "range": amounts(capacity)}, fix)
+        return
+    if not check_value(context, node, node.quantity, "quantity", Kind("number"), "The quantity"):
+        return
+    quantity = node.quantity.value if isinstance(node.quantity, Constant) else None
+    if not is_number(quantity):
+        return
+    if quantity <= 0 or quantity != int(quantity):
+        context.tell(node, "quantity_not_positive", "quantity", {}, fix_value(node.step, "quantity", 1))
+    elif capacity and quantity > capacity:
+        fix = fix_value(node.step, "quantity", capacity)
+        context.tell(node, "quantity_above_capacity", "quantity", {"robot": robot, "range": amounts(capacity)}, fix)
+
+
+def _check_object(context: Context, node: n.Pick | n.Drop) -> None:
+    if not has_missing(node.object):
+        check_value(context, node, node.object, "object", Kind("text"), "The object")
+        return
+    facts = context.surroundings.devices.get(node.at.device or "")
+    if facts is None:
+        things = sorted({thing for f in context.surroundings.devices.values() for thing in f.description.gives})
+    else:
+        things = list(facts.description.gives if isinstance(node, n.Pick) else facts.description.takes)
+    fix = fix_value(node.step, "object", things[0]) if len(things) == 1 else None
+    context.tell(node, "missing_object", "object", {"options": " or ".join(things) or "there is nothing here"}, fix)

@@ -1,0 +1,208 @@
+"""The checks: what is wrong with a program, or odd about it; one small function for each construct."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from itertools import combinations
+
+from editor.language import nodes as n
+from editor.language.carrying import follow_loads
+from editor.language.check_context import Context
+from editor.language.check_devices import check_load_place, check_place, check_role, usable_device
+from editor.language.check_values import check_argument, check_condition, check_quantity, check_value, has_missing
+from editor.language.diagnostics import Fix, Problem
+from editor.language.plan import Constant
+from editor.language.reading import Reading
+from editor.language.surroundings import Surroundings
+from editor.language.typing_of_values import NUMBER, Kind, constant_value, is_measured, plain_type
+from editor.language.walking import functions_in_circles, needed_of_roles, roles_used, walk
+from registry.capability import ParameterSpec
+
+
+def check(reading: Reading, tree: n.Tree, surroundings: Surroundings) -> list[tuple[Problem, int]]:
+    """Return the problems of a program, each with the identity of its node (0: none); the order is always the same.
+
+    `tree` is the reading's tree with the moves that were put in.
+    """
+    context = Context(tree, surroundings)
+    found = context.found
+    found.extend((problem, 0) for problem in reading.problems)
+    already = {(problem.step, problem.field) for problem in reading.problems}
+    for block, parameters in _blocks(tree):
+        context.variables = {p.name: Kind(plain_type(p.type), p.unit) for p in parameters}
+        for node in walk(block):
+            CHECKS[type(node)](context, node)
+    context.found = [
+        (p, key) for p, key in found if not (p.code.startswith("missing") and (p.step, p.field) in already)
+    ]
+    _check_roles(context)
+    _check_circles(context)
+    context.found.extend(follow_loads(tree, context.capacity, context.robot_name))
+    _check_left_over(context, reading)
+    return context.found
+
+
+def _blocks(tree: n.Tree) -> list[tuple[n.Block, tuple[n.Parameter, ...]]]:
+    """Return the program's and the functions' blocks with the parameters that can be seen there."""
+    functions = [(function.body, (*tree.parameters, *function.parameters)) for function in tree.functions]
+    return [(tree.body, tree.parameters), *functions]
+
+
+def _move(context: Context, node: n.Move) -> None:
+    if not node.added:
+        check_place(context, node, node.to, "to", "missing_destination")
+
+
+def _pick(context: Context, node: n.Pick) -> None:
+    check_load_place(context, node, gives=True)
+    check_quantity(context, node)
+
+
+def _drop(context: Context, node: n.Drop) -> None:
+    check_load_place(context, node, gives=False)
+    if node.place_field != "target":  # a Pick-and-Drop says what it carries once, with its pick
+        check_quantity(context, node)
+
+
+def _operate(context: Context, node: n.Operate) -> None:
+    device = usable_device(context, node, node.device, "device", "missing_machine")
+    if device is None:
+        return
+    known = ", ".join(method.name for method in device.methods) or "nothing"
+    if not node.method:
+        fix = None
+        if len(device.methods) == 1:
+            only = device.methods[0].name
+            fix = Fix("choose", node.step, "method", only, {"value": only})
+        context.tell(node, "missing_method", "method", {"device": device.name, "options": known}, fix)
+        return
+    method = device.method(node.method)
+    if method is None:
+        details = {"device": device.name, "method": node.method, "options": known}
+        context.tell(node, "unknown_method", "method", details)
+        return
+    given = dict(node.arguments)
+    for parameter in method.parameters:
+        value = given.pop(parameter.name, n.MISSING)
+        check_argument(context, node, parameter, value, node.method, "missing_argument")
+    options = ", ".join(parameter.name for parameter in method.parameters) or "nothing"
+    for name in given:
+        details = {"method": node.method, "argument": name, "options": options}
+        fix = Fix("remove", node.step, f"args.{name}", None, {"value": name})
+        context.tell(node, "unknown_argument", f"args.{name}", details, fix)
+
+
+def _wait(context: Context, node: n.Wait) -> None:
+    if has_missing(node.seconds):
+        context.tell(node, "missing_seconds", "seconds")
+    else:
+        check_value(context, node, node.seconds, "seconds", Kind("number", "SEC"), "The time to wait")
+        _check_time(context, node, node.seconds, "seconds", "The time to wait")
+
+
+def _wait_until(context: Context, node: n.WaitUntil) -> None:
+    check_condition(context, node, node.condition, "until")
+    if node.timeout_s is not None:
+        check_value(context, node, node.timeout_s, "timeout_s", NUMBER, "The time limit")
+        _check_time(context, node, node.timeout_s, "timeout_s", "The time limit")
+
+
+def _check_time(context: Context, node: n.Node, value: object, field: str, subject: str) -> None:
+    if isinstance(value, Constant) and isinstance(value.value, int | float) and value.value < 0:
+        context.tell(node, "out_of_range", field, {"subject": subject, "range": "0 s or more"})
+
+
+def _if(context: Context, node: n.If) -> None:
+    check_condition(context, node, node.condition, "condition")
+    always = constant_value(node.condition)
+    if always is False:
+        context.tell(node, "never_runs", "condition")
+    elif always is True and node.otherwise:
+        context.tell(node, "always_true", "condition")
+
+
+def _while(context: Context, node: n.While) -> None:
+    check_condition(context, node, node.condition, "condition")
+    if has_missing(node.condition):
+        return
+    always = constant_value(node.condition)
+    if always is False:
+        context.tell(node, "never_runs", "condition")
+    elif not is_measured(node.condition):
+        context.tell(node, "may_never_end", "condition")
+
+
+def _try(context: Context, node: n.Try) -> None:
+    """A Try asks for nothing: no kinds mean any, and an empty catch is allowed."""
+
+
+def _parallel(context: Context, node: n.Parallel) -> None:
+    """Two branches cannot drive the same robot."""
+    drivers = [{context.robot_key(role): role for role in roles_used(b, context.tree)} for b in node.branches]
+    for (first, mine), (second, theirs) in combinations(enumerate(drivers), 2):
+        for key in sorted(mine.keys() & theirs.keys()):
+            details = {"first": chr(97 + first), "second": chr(97 + second), "robot": context.driver_name(theirs[key])}
+            context.tell(node, "shared_robot", "branches", details)
+
+
+def _call(context: Context, node: n.Call) -> None:
+    function = context.functions.get(node.function)
+    if function is None:
+        if not any(p.step == node.step and p.code == "unknown_function" for p, _ in context.found):
+            context.tell(node, "missing_function", "function")
+        return
+    given = dict(node.arguments)
+    for parameter in function.parameters:
+        value = given.get(parameter.name, n.MISSING)
+        kind = parameter.type if parameter.type in {"number", "text", "boolean", "object", "device", "place"} else ""
+        if value != n.MISSING or parameter.default is None:
+            spec = ParameterSpec(parameter.name, kind or "text", parameter.unit)  # type: ignore[arg-type]
+            name = function.name or function.method
+            check_argument(context, node, spec, value, name, "missing_function_argument", typed=bool(kind))
+
+
+CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
+    n.Move: _move,
+    n.Pick: _pick,
+    n.Drop: _drop,
+    n.Operate: _operate,
+    n.Wait: _wait,
+    n.WaitUntil: _wait_until,
+    n.If: _if,
+    n.While: _while,
+    n.Parallel: _parallel,
+    n.Try: _try,
+    n.Call: _call,
+}
+
+
+def _check_roles(context: Context) -> None:
+    """Check every robot at the first step that uses it."""
+    tree = context.tree
+    needed = needed_of_roles((tree.body, *(function.body for function in tree.functions)))
+    first: dict[str, n.Node] = {}
+    for block, _ in _blocks(tree):
+        for node in walk(block):
+            if isinstance(node, n.Move | n.Pick | n.Drop):
+                first.setdefault(node.role, node)
+    for role in tree.roles:
+        check_role(context, first[role.name], role, needed[role.name])
+
+
+def _check_circles(context: Context) -> None:
+    circular = functions_in_circles(context.tree)
+    for function in context.tree.functions if circular else ():
+        if function.method in circular:
+            for node in walk(function.body):
+                if isinstance(node, n.Call) and node.function in circular:
+                    context.tell(node, "calls_itself", "function", {"function": function.name or function.method})
+
+
+def _check_left_over(context: Context, reading: Reading) -> None:
+    outline = reading.outline
+    if not context.tree.body:
+        context.found.append((Problem("empty_program"), 0))
+    for step in outline.drafts:
+        context.found.append((Problem("too_deep" if step in outline.too_deep else "draft", step, "place"), 0))
+    for step in outline.unknown:
+        context.found.append((Problem("unknown_kind", step, "kind"), 0))

@@ -1,0 +1,131 @@
+"""A document compiled: what the editor shows and what a run carries out, from one reading."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from editor.language.checking import check
+from editor.language.compiling import compile_tree
+from editor.language.diagnostics import Diagnostic, Fix, Problem, put_into_words
+from editor.language.nodes import Block, Tree, blocks_of
+from editor.language.nodes import Move as MoveNode
+from editor.language.numbering import number_steps
+from editor.language.plan import Plan
+from editor.language.positions import add_moves
+from editor.language.printing import Script, print_tree
+from editor.language.reading import read_document
+from editor.language.surroundings import Surroundings
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """A program's forms. `lines` has the step of each script line ("" for glue); `plan` is None while there are errors.
+
+    `numbers` and `order` follow the reading order; drafts stand last in `order` and have no number.
+    """
+
+    tree: Tree
+    script: str
+    lines: tuple[str, ...]
+    numbers: Mapping[str, str]
+    diagnostics: tuple[Diagnostic, ...]
+    plan: Plan | None
+    added_moves: tuple[str, ...]
+    order: tuple[str, ...]
+    depth: Mapping[str, int]
+
+
+def compile_document(document: object, surroundings: Surroundings) -> Compiled:
+    """Compile a document (plain JSON, format 1) for a site. Nothing in the document makes this raise."""
+    reading = read_document(document)
+    tree = add_moves(reading.tree, _standing(surroundings))
+    numbering = number_steps(tree)
+    numbers = numbering.numbers
+    script = print_tree(tree, surroundings, numbers)
+    found = check(reading, tree, surroundings)
+    diagnostics = _in_words(found, numbers, script)
+    faulty = any(diagnostic.severity == "error" for diagnostic in diagnostics)
+    plan = None if faulty else compile_tree(tree, surroundings, script.line_of)
+    outline = reading.outline
+    drafts = outline.with_inner((*outline.drafts, *outline.unknown))
+    order = (*numbers, *drafts)
+    depth = {**{step: numbering.depths[step] for step in numbers}, **drafts}
+    added = _added_moves(tree)
+    return Compiled(tree, script.text, script.lines, numbers, diagnostics, plan, added, order, depth)
+
+
+def _standing(surroundings: Surroundings) -> dict[str, str]:
+    return {
+        name: facts.standing_at for name, facts in surroundings.devices.items() if facts.standing_at is not None
+    }  # fmt: skip
+
+
+def _added_moves(tree: Tree) -> tuple[str, ...]:
+    found: dict[str, None] = {}
+    left: list[Block] = [tree.body, *(function.body for function in tree.functions)]
+    for block in left:
+        for node in block:
+            if isinstance(node, MoveNode):
+                if node.added:
+                    found[node.step] = None
+            else:
+                left.extend(inner for inner in blocks_of(node) if inner)
+    return tuple(found)
+
+
+def _in_words(
+    problems: list[tuple[Problem, int]], numbers: Mapping[str, str], script: Script
+) -> tuple[Diagnostic, ...]:
+    """Put problems into words, in reading order; each stands at its node's line, or at its step's first."""
+    if not problems:
+        return ()
+    places = {step: index for index, step in enumerate(numbers)}
+    first_lines: dict[str, int] = {}
+    for line, step in enumerate(script.lines, start=1):
+        first_lines.setdefault(step, line)
+    first_lines.pop("", None)
+    unique: dict[tuple[str, str, str], tuple[tuple[int, str, int], Diagnostic]] = {}
+    for index, (problem, node) in enumerate(problems):
+        shown: int | None = script.line_of.get(node) or first_lines.get(problem.step)
+        key = (places.get(problem.step, len(places)), problem.step, index)
+        unique.setdefault((problem.code, problem.step, problem.field), (key, put_into_words(problem, shown)))
+    return tuple(diagnostic for _, diagnostic in sorted(unique.values(), key=lambda pair: pair[0]))
+
+
+def compiled_to_json(compiled: Compiled, revision: int = 0) -> dict[str, object]:
+    """Return the form that goes to browsers, sockets and `vipo … --json`, as docs/architecture.md has it."""
+    return {
+        "revision": revision,
+        "script": compiled.script,
+        "lines": list(compiled.lines),
+        "numbers": dict(compiled.numbers),
+        "diagnostics": [diagnostic_to_json(diagnostic) for diagnostic in compiled.diagnostics],
+        "added_moves": list(compiled.added_moves),
+        "order": list(compiled.order),
+        "depth": dict(compiled.depth),
+    }
+
+
+def diagnostic_to_json(diagnostic: Diagnostic) -> dict[str, object]:
+    """Return a diagnostic as plain JSON."""
+    return {
+        "code": diagnostic.code,
+        "severity": diagnostic.severity,
+        "step": diagnostic.step,
+        "field": diagnostic.field,
+        "message": diagnostic.message,
+        "args": dict(diagnostic.args),
+        "line": diagnostic.line,
+        "fix": None if diagnostic.fix is None else _fix_to_json(diagnostic.fix),
+    }
+
+
+def _fix_to_json(fix: Fix) -> dict[str, object]:
+    return {
+        "label": fix.label,
+        "label_code": fix.label_code,
+        "step": fix.step,
+        "field": fix.field,
+        "value": fix.value,
+    }

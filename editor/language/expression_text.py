@@ -1,0 +1,88 @@
+"""Expressions as Python text, with no more brackets than Python needs."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from editor.language.plan import Constant, Expression, Operation, Reading, Variable
+from editor.language.values import FUNCTIONS
+from registry.capability import Scalar
+
+_STRENGTH = {"or": 1, "and": 2, "not": 3, "+": 5, "-": 5, "*": 6, "/": 6}
+_COMPARISON = 4
+_NEGATION = 7
+_ATOM = 9
+_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
+
+
+class Names(Protocol):
+    """What a printer knows of names."""
+
+    def variable(self, name: str) -> str:
+        """Return how a parameter is written."""
+
+    def reading(self, device: str, property_name: str) -> str:
+        """Return how a device's property is written."""
+
+
+def quote(text: str) -> str:
+    """Return a text as a Python string in double quotes; what cannot be seen is escaped."""
+    if text.isascii() and text.isalnum():
+        return f'"{text}"'
+    return f'"{"".join(map(_character, text))}"'
+
+
+def _character(character: str) -> str:
+    if character in _ESCAPES:
+        return _ESCAPES[character]
+    if character.isprintable():
+        return character
+    code = ord(character)
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+
+
+def scalar_text(value: Scalar) -> str:
+    """Return a single value as Python writes it."""
+    return quote(value) if isinstance(value, str) else repr(value)
+
+
+def write_expression(expression: Expression, names: Names) -> str:
+    """Return an expression as text; a missing value is None."""
+    return _write(expression, names, 0)
+
+
+def _write(expression: Expression, names: Names, around: int) -> str:
+    match expression:
+        case Constant(value=tuple() as values):
+            inside = ", ".join(map(scalar_text, values))
+            return f"({inside},)" if len(values) == 1 else f"({inside})"
+        case Constant(value=value):
+            return scalar_text(value)  # type: ignore[arg-type]  # lists are taken by the case above
+        case Variable(name=name):
+            return names.variable(name)
+        case Reading(device=Constant(value=device), property=name):
+            return names.reading(str(device), name)
+        case Reading(device=device, property=name):
+            return f"{_write(device, names, _ATOM)}.read({quote(name)})"
+        case Operation():
+            return _operation(expression, names, around)
+
+
+def _operation(expression: Operation, names: Names, around: int) -> str:
+    operator, arguments = expression.operator, expression.arguments
+    if operator in FUNCTIONS:
+        return f"{operator}({', '.join(_write(argument, names, 0) for argument in arguments)})"
+    if len(arguments) == 1:
+        return _unary(operator, arguments[0], names, around)
+    strength = _STRENGTH.get(operator, _COMPARISON)
+    first = strength + 1 if strength in {1, 2, _COMPARISON} else strength
+    written = [_write(arguments[0], names, first)]
+    written += [_write(argument, names, strength + 1) for argument in arguments[1:]]
+    text = f" {operator} ".join(written)
+    return f"({text})" if strength < around else text
+
+
+def _unary(operator: str, argument: Expression, names: Names, around: int) -> str:
+    strength = _STRENGTH["not"] if operator == "not" else _NEGATION
+    text = f"not {_write(argument, names, strength)}" if operator == "not" else f"-{_write(argument, names, strength)}"
+    return f"({text})" if strength < around else text

@@ -1,0 +1,83 @@
+"""The numbers that people see: 1, 1a, 1b.1, 4c; the same on the map, in the script and in the log.
+
+A step of the program has its place in the order. Inside a step each branch has a letter; the only step of a
+branch bears just the letter (4a), several are counted after it (6a.1, 6a.2). The steps of a function are
+counted behind the number of its first call (1b.1), or behind f1, f2 … while nobody calls it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from string import ascii_lowercase
+
+from editor.language.nodes import Block, Call, If, Node, Parallel, Tree, Try, While
+
+_PARTS = re.compile(r"[0-9]+|[a-z]")
+
+
+def letters_of(node: Node) -> Iterator[tuple[str, Block]]:
+    """Yield the branches of a node with their letters."""
+    match node:
+        case If(then=then, otherwise=otherwise):
+            yield from (("a", then), ("b", otherwise))
+        case While(body=body):
+            yield "a", body
+        case Try(body=body, catch=catch):
+            yield from (("a", body), ("c", catch))
+        case Parallel(branches=branches):
+            yield from zip(ascii_lowercase, branches, strict=False)
+
+
+@dataclass(slots=True)
+class Numbering:
+    """The number and the depth of every step, in reading order."""
+
+    numbers: dict[str, str] = field(default_factory=dict)
+    depths: dict[str, int] = field(default_factory=dict)
+    first_calls: dict[str, tuple[str, int]] = field(default_factory=dict)
+    """Function → the number and the depth of its first call."""
+
+    def block(self, block: Block, prefix: str, depth: int) -> None:
+        """Number the steps of a block; a step of several nodes counts once."""
+        count = 0
+        for node in block:
+            if node.step not in self.numbers:
+                count += 1
+                self.node(node, f"{prefix}{count}", depth)
+
+    def node(self, node: Node, number: str, depth: int) -> None:
+        """Number one step and what stands in it."""
+        self.numbers[node.step], self.depths[node.step] = number, depth
+        if isinstance(node, Call) and node.function:
+            self.first_calls.setdefault(node.function, (number, depth))
+        for letter, block in letters_of(node):
+            if block and block[0].step == block[-1].step:
+                self.node(block[0], f"{number}{letter}", depth + 1)
+            else:
+                self.block(block, f"{number}{letter}.", depth + 1)
+
+
+def number_steps(tree: Tree) -> Numbering:
+    """Return the numbers of a tree's steps; a function's steps stand behind its first call, or last of all."""
+    numbering = Numbering()
+    numbering.block(tree.body, "", 0)
+    uncalled = 0
+    for function in tree.functions:
+        number, depth = numbering.first_calls.get(function.method, ("", -1))
+        if not number:
+            uncalled += 1
+            number = f"f{uncalled}"
+        numbering.block(function.body, f"{number}.", depth + 1)
+    if tree.functions:
+        ordered = sorted(numbering.numbers.items(), key=lambda pair: _reading_key(pair[1]))
+        numbering.numbers = dict(ordered)
+    return numbering
+
+
+def _reading_key(number: str) -> list[tuple[int, str]]:
+    """Sort 2 before 10, 1b before 1b.1, and the functions that nobody calls last."""
+    parts = _PARTS.findall(number)
+    key = [(int(part), "") if part.isdigit() else (0, part) for part in parts]
+    return [(1 if parts[0] == "f" else 0, ""), *key]

@@ -1,0 +1,349 @@
+"""Script → tree: the closed subset of Python that the language prints, read by walking its `ast`.
+
+Nothing is ever executed. What is not part of the language is refused with line, column and what to write instead.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from string import ascii_lowercase
+
+from editor.language import nodes as n
+from editor.language.diagnostics import Diagnostic
+from editor.language.names import ROBOT_METHODS
+from editor.language.outline import DEEPEST_STEP
+from editor.language.parsing_bindings import parse_arguments, parse_parameters, parse_run
+from editor.language.parsing_expressions import (
+    Refused,
+    Scope,
+    attribute_of_self,
+    parse_expression,
+    parse_place,
+    parse_point,
+    parse_thing,
+    quoted,
+)
+from editor.language.plan import Expression, PlaceRef
+from editor.language.positions import settle_places
+from editor.language.printing import ERROR_CLASSES, member_name
+from editor.language.surroundings import Surroundings
+from editor.language.texts import TEXTS
+from editor.language.walking import in_reading_order
+
+LONGEST_SCRIPT = 2_000_000
+_KINDS = {name: kind for kind, name in ERROR_CLASSES.items()}
+_STATEMENTS = "Use the robots' move, pick and drop, machines' methods, wait, if, while, try, parallel and functions."
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """What a script means, or why it means nothing."""
+
+    tree: n.Tree | None
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+def parse_script(text: str, surroundings: Surroundings) -> Parsed:
+    """Return the tree of a script, or where it leaves the language; nothing in the text makes this raise."""
+    if len(text) > LONGEST_SCRIPT:
+        return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "The script is too long."}),))
+    try:
+        module = ast.parse(text)
+    except SyntaxError as error:
+        detail = {"detail": f"Python says: {error.msg}."}
+        return Parsed(None, (_diagnostic("not_python", error.lineno or 1, error.offset or 1, detail),))
+    except (ValueError, RecursionError, MemoryError):
+        return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "It is nested too deeply, or no text."}),))
+    try:
+        return _parse_module(module, surroundings)
+    except Refused as refusal:
+        return Parsed(None, (_refusal(refusal),))
+    except RecursionError:
+        return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "It is nested too deeply."}),))
+
+
+def _diagnostic(code: str, line: int, column: int, args: Mapping[str, str]) -> Diagnostic:
+    severity, text = TEXTS[code]
+    details: dict[str, str | int | float] = {"line": line, **args}
+    return Diagnostic(code, severity, text.format_map(details), args=details, line=line, column=column)
+
+
+def _refusal(refused: Refused) -> Diagnostic:
+    args = {"found": refused.found, "instead": refused.instead}
+    return _diagnostic("not_in_language", refused.line, refused.column, args)
+
+
+@dataclass(slots=True)
+class Parser:
+    """The methods of a task while they are read; refusals are gathered so that all are told at once."""
+
+    methods: Mapping[str, ast.FunctionDef]
+    scope: Scope
+    refusals: list[Refused] = field(default_factory=list)
+    functions: dict[str, n.Function] = field(default_factory=dict)
+    origins: dict[int, ast.AST] = field(default_factory=dict)
+    """The place in the script of each pick and drop, by identity."""
+    roles: set[str] = field(default_factory=set)
+    branches: set[str] = field(default_factory=set)
+    """The branch methods met so far; each belongs to one Parallel."""
+    depth: int = 0
+
+    def block(self, statements: list[ast.stmt]) -> n.Block:
+        """Return the nodes of some statements; those that are refused are noted and left out."""
+        if self.depth > DEEPEST_STEP:  # the innermost step may still have an empty branch
+            raise Refused(statements[0], "A step as deep as this", "Make a function of some of the steps.")
+        self.depth += 1
+        nodes = []
+        for statement in statements:
+            try:
+                node = self.statement(statement)
+            except Refused as refusal:
+                self.refusals.append(refusal)
+            else:
+                nodes.extend([] if node is None else [node])
+        self.depth -= 1
+        return tuple(nodes)
+
+    def statement(self, statement: ast.stmt) -> n.Node | None:
+        """Return the node of a statement; None for one that means nothing."""
+        match statement:
+            case ast.Pass() | ast.Expr(value=ast.Constant(value=str())):
+                return None
+            case ast.If(test=test, body=body, orelse=orelse):
+                return n.If(self.value(test), self.block(body), self.block(orelse))
+            case ast.While(test=test, body=body, orelse=[]):
+                return n.While(self.value(test), self.block(body))
+            case ast.Try():
+                return self._try(statement)
+            case ast.Expr(value=ast.Call(func=ast.Attribute()) as call):
+                return self._call(call)
+        raise Refused(statement, quoted(statement), _STATEMENTS)
+
+    def value(self, node: ast.expr) -> Expression:
+        """Return an expression."""
+        return parse_expression(node, self.scope)
+
+    def _try(self, statement: ast.Try) -> n.Node:
+        if len(statement.handlers) != 1 or statement.orelse or statement.finalbody:
+            raise Refused(
+                statement, "This form of try", "Write try: … except TaskError as problem: …, with one except."
+            )
+        handler = statement.handlers[0]
+        return n.Try(_kinds(handler), self.block(statement.body), self.block(handler.body))
+
+    def _call(self, call: ast.Call) -> n.Node:
+        """Return the node of `self.wait(…)`, `self.function(…)`, `self.robot.pick(…)` or `self.oven.cure(…)`."""
+        function = call.func
+        assert isinstance(function, ast.Attribute)
+        own = attribute_of_self(function)
+        if own is not None:
+            parse = _OWN_CALLS.get(own)
+            return self._function(own, call) if parse is None else parse(self, call)
+        robot = attribute_of_self(function.value)
+        if function.attr in ROBOT_METHODS and robot is not None:
+            binding = self.scope.bindings.get(robot)
+            if binding is None or binding.kind not in {"get", "any"}:
+                raise Refused(call, quoted(function.value), f'Give it in run: self.{robot} = ctx.any("pick", "drop").')
+            self.roles.add(robot)
+            node = _ROBOT_CALLS[function.attr](self, call, robot)
+            self.origins[id(node)] = call
+            return node
+        return self._operate(call, function)
+
+    def _operate(self, call: ast.Call, function: ast.Attribute) -> n.Node:
+        device = parse_thing(function.value, self.scope)
+        if function.attr == "operate":
+            return self._operate_by_name(call, device)
+        description = self.scope.description(device.device)
+        methods = () if description is None else description.methods
+        names = [method.name for method in methods]
+        method = next((m for m in methods if member_name(m.name, names) == function.attr), None)
+        if method is None:
+            known = ", ".join(filter(None, (member_name(name, names) for name in names))) or "nothing"
+            raise Refused(call, quoted(call), f"What it can do: {known}.")
+        parameters = [parameter.name for parameter in method.parameters]
+        return n.Operate(device, method.name, parse_arguments(call, parameters, self.scope))
+
+    def _operate_by_name(self, call: ast.Call, device: PlaceRef) -> n.Node:
+        match call.args:
+            case [ast.Constant(value=str() | None as name)] if not call.keywords:
+                return n.Operate(device, name or "")
+            case [ast.Constant(value=str() | None as name), ast.Dict(keys=keys, values=values)] if not call.keywords:
+                pairs = [(_text(key, call), self.value(value)) for key, value in zip(keys, values, strict=True)]
+                return n.Operate(device, name or "", _sorted_arguments(pairs))
+        raise Refused(call, quoted(call), 'Write self.oven.operate("curePaint", {"time": 10}).')
+
+    def _function(self, name: str, call: ast.Call) -> n.Node:
+        function = self.functions.get(name)
+        if function is None:
+            known = ", ".join(self.functions) or "none yet"
+            raise Refused(call, quoted(call), f"There is no such function. Functions of this task: {known}.")
+        parameters = [parameter.name for parameter in function.parameters]
+        return n.Call(name, parse_arguments(call, parameters, self.scope))
+
+
+def _sorted_arguments(pairs: list[tuple[str, Expression]]) -> n.Arguments:
+    return tuple(sorted((pair for pair in dict(pairs).items() if pair[1] != n.MISSING), key=lambda pair: pair[0]))
+
+
+def _text(node: ast.expr | None, call: ast.Call) -> str:
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    raise Refused(call, quoted(call), "Write the names of arguments as texts.")
+
+
+def _kinds(handler: ast.ExceptHandler) -> tuple[str, ...]:
+    classes = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
+    names = [node.id for node in classes if isinstance(node, ast.Name)]
+    if names == ["TaskError"] and len(classes) == 1:
+        return ()
+    if len(names) != len(classes) or not names or not set(names) <= _KINDS.keys():
+        raise Refused(handler, "What is caught here", f"Catch TaskError, or some of: {', '.join(_KINDS)}.")
+    caught = {_KINDS[name] for name in names}
+    return tuple(kind for kind in ERROR_CLASSES if kind in caught)
+
+
+def _wait(parser: Parser, call: ast.Call) -> n.Node:
+    named = {keyword.arg: keyword.value for keyword in call.keywords}
+    if len(call.args) == 1 and not named:
+        return n.Wait(parser.value(call.args[0]))
+    if call.args or "until" not in named or not named.keys() <= {"until", "timeout"}:
+        raise Refused(
+            call, quoted(call), "Write self.wait(60), or self.wait(until=self.oven.temperature < 40, timeout=600)."
+        )
+    timeout = parser.value(named["timeout"]) if "timeout" in named else n.MISSING
+    return n.WaitUntil(parser.value(named["until"]), None if timeout == n.MISSING else timeout)
+
+
+def _parallel(parser: Parser, call: ast.Call) -> n.Node:
+    names = [attribute_of_self(argument) for argument in call.args]
+    handed_on = all(isinstance(k.value, ast.Name) and k.value.id == k.arg for k in call.keywords)
+    if not names or len(names) > len(ascii_lowercase) or None in names or not handed_on:
+        raise Refused(
+            call, quoted(call), "Write self.parallel(self.branch_a, self.branch_b), a method for each branch."
+        )
+    branches = []
+    for name in names:
+        method = parser.methods.get(name or "")
+        if method is None or name in parser.branches or name in parser.functions or name in {"new_task", "run"}:
+            raise Refused(call, quoted(call), f"Each branch needs a method of its own; {name} is none.")
+        parser.branches.add(name or "")
+        branches.append(parser.block(method.body))
+    return n.Parallel(tuple(branches))
+
+
+def _missing_call(parser: Parser, call: ast.Call) -> n.Node:
+    if len(call.args) == 1 and isinstance(call.args[0], ast.Constant) and call.args[0].value is None:
+        return n.Call("")
+    raise Refused(call, quoted(call), "Call a function by its name: self.mix_paint(minutes=3).")
+
+
+_OWN_CALLS: Mapping[str, Callable[[Parser, ast.Call], n.Node]] = {
+    "wait": _wait,
+    "parallel": _parallel,
+    "call": _missing_call,
+}
+
+
+def _move(parser: Parser, call: ast.Call, role: str) -> n.Node:
+    route: tuple[n.Point, ...] = ()
+    match call:
+        case ast.Call(args=[to], keywords=[]):
+            pass
+        case ast.Call(args=[to], keywords=[ast.keyword(arg="via", value=ast.List(elts=points))]):
+            route = tuple(parse_point(point) for point in points)
+        case _:
+            raise Refused(call, quoted(call), "Write self.robot.move(self.oven.location).")
+    return n.Move(role, parse_place(to, parser.scope), route)
+
+
+def _load(kind: type[n.Pick] | type[n.Drop]) -> Callable[[Parser, ast.Call, str], n.Node]:
+    def parse(parser: Parser, call: ast.Call, role: str) -> n.Node:
+        if len(call.args) == 1 and not call.keywords and isinstance(call.args[0], ast.Dict):
+            keys = [key.value if isinstance(key, ast.Constant) else None for key in call.args[0].keys]
+            if sorted(map(str, keys)) == ["object", "value"]:
+                values = dict(zip(keys, call.args[0].values, strict=True))
+                return kind(role, n.NOWHERE, parser.value(values["object"]), parser.value(values["value"]))
+        raise Refused(call, quoted(call), 'Write self.robot.pick({"value": 1, "object": "box"}).')
+
+    return parse
+
+
+_ROBOT_CALLS: Mapping[str, Callable[[Parser, ast.Call, str], n.Node]] = {
+    "move": _move,
+    "pick": _load(n.Pick),
+    "drop": _load(n.Drop),
+}
+
+
+def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
+    methods = _methods(module)
+    for needed in ("new_task", "run"):
+        if needed not in methods:
+            raise Refused(module, "A task without this method", f"Write def {needed}(self…) in class Task.")
+    scope = Scope(surroundings)
+    parse_run(methods["run"], scope)
+    parser = Parser(methods, scope)
+    branch_names = set(_branch_names(module))
+    for name, method in methods.items():
+        if name not in branch_names and name not in {"new_task", "run"}:
+            parser.functions[name] = n.Function(name, parse_parameters(method), (), "", name)
+    body = parser.block(methods["new_task"].body)
+    for name, function in list(parser.functions.items()):
+        scope.locals = frozenset(parameter.name for parameter in function.parameters)
+        inner = parser.block(methods[name].body)
+        parser.functions[name] = n.Function(name, function.parameters, inner, "", name)
+    roles, parameters = _roles_and_parameters(parser)
+    tree = in_reading_order(n.Tree(body, tuple(parser.functions.values()), roles, parameters))
+    settled, homeless = settle_places(tree)
+    for node in homeless:
+        where = parser.origins[id(node)]
+        parser.refusals.append(
+            Refused(where, "A pick or drop at an unknown place", f"Put self.{node.role}.move(…) before it.")
+        )
+    if parser.refusals:
+        ordered = sorted(parser.refusals, key=lambda refused: (refused.line, refused.column))
+        return Parsed(None, tuple(_refusal(refused) for refused in ordered))
+    return Parsed(settled)
+
+
+def _roles_and_parameters(parser: Parser) -> tuple[tuple[n.Role, ...], tuple[n.Parameter, ...]]:
+    bindings = parser.scope.bindings.items()
+    roles = tuple(
+        n.Role(name, b.id if b.kind == "get" else None, b.can, b.at, name)
+        for name, b in bindings
+        if name in parser.roles
+    )
+    return roles, tuple(n.Parameter(name, b.default) for name, b in bindings if b.kind == "parameter")
+
+
+def _branch_names(module: ast.Module) -> Iterator[str]:
+    """Yield the methods that some `self.parallel(…)` names as branches."""
+    for node in ast.walk(module):
+        if isinstance(node, ast.Call) and attribute_of_self(node.func) == "parallel":
+            for argument in node.args:
+                name = attribute_of_self(argument)
+                if name is not None:
+                    yield name
+
+
+def _methods(module: ast.Module) -> dict[str, ast.FunctionDef]:
+    match module.body:
+        case [ast.ClassDef(name="Task", body=body, bases=[] | [ast.Name(id="object")], keywords=[], decorator_list=[])]:
+            pass
+        case _:
+            first = module.body[0] if module.body else module
+            raise Refused(
+                first, "A script without class Task", "Begin with class Task(object): and put everything in it."
+            )
+    methods: dict[str, ast.FunctionDef] = {}
+    for statement in body:
+        if isinstance(statement, ast.FunctionDef) and not statement.decorator_list:
+            if statement.name in methods:
+                raise Refused(statement, f"A second method {statement.name}", "Give it another name.")
+            methods[statement.name] = statement
+        elif not (isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)):
+            raise Refused(statement, quoted(statement), "In the class there are only methods.")
+    return methods

@@ -1,0 +1,99 @@
+"""The parts of a script around its steps: what `run` gives to the task, parameters and arguments of methods."""
+
+from __future__ import annotations
+
+import ast
+
+from editor.language import nodes as n
+from editor.language.parsing_expressions import (
+    Binding,
+    Refused,
+    Scope,
+    attribute_of_self,
+    parse_expression,
+    parse_scalar,
+    quoted,
+)
+from editor.language.plan import Expression
+
+
+def parse_run(method: ast.FunctionDef, scope: Scope) -> None:
+    """Read `run(self, ctx)` into the scope's bindings.
+
+    Raises:
+        Refused: it does anything but give robots, devices, places and parameters, and call new_task.
+    """
+    if [argument.arg for argument in method.args.args] != ["self", "ctx"]:
+        raise Refused(method, "This run", "Write def run(self, ctx):.")
+    for statement in method.body:
+        match statement:
+            case ast.Expr(value=ast.Call(func=function, args=[], keywords=[])) if (
+                attribute_of_self(function) == "new_task"
+            ):
+                continue
+            case ast.Expr(value=ast.Constant(value=str())):
+                continue
+            case ast.Assign(targets=[target], value=ast.Call() as call):
+                name = attribute_of_self(target)
+                if name is not None:
+                    scope.bindings[name] = _binding(call, name)
+                    continue
+        raise Refused(
+            statement, quoted(statement), 'In run, write self.oven = ctx.get("curingOven01") and self.new_task().'
+        )
+
+
+def _binding(call: ast.Call, name: str) -> Binding:
+    function = call.func
+    if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Name) and function.value.id == "ctx":
+        texts = [parse_scalar(argument) for argument in call.args]
+        named = {keyword.arg: parse_scalar(keyword.value) for keyword in call.keywords}
+        match function.attr, texts, named:
+            case "get", [str() as device], {**rest} if device and not rest:
+                return Binding("get", device)
+            case "get", [str() as device], {"at": str() as at, **rest} if device and at and not rest:
+                return Binding("get", device, at=at)
+            case "place", [str() as place], {**rest} if place and not rest:
+                return Binding("place", place)
+            case "any", _, {**rest} if not rest and all(isinstance(text, str) and text for text in texts):
+                return Binding("any", can=tuple(dict.fromkeys(str(text) for text in texts)))
+            case "parameter", [str() as given, *default], {**rest} if given == name and len(default) <= 1 and not rest:
+                return Binding("parameter", default=default[0] if default else None)
+    raise Refused(
+        call, quoted(call), 'Use ctx.get("robot01"), ctx.any("pick", "drop"), ctx.place("dock1") or ctx.parameter(…).'
+    )
+
+
+def parse_parameters(method: ast.FunctionDef) -> tuple[n.Parameter, ...]:
+    """Return the parameters of a function's method.
+
+    Raises:
+        Refused: they are of a form that the language does not have.
+    """
+    a = method.args
+    if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or not a.args or a.args[0].arg != "self":
+        raise Refused(method, "This form of parameters", f"Write def {method.name}(self, minutes):.")
+    names = [argument.arg for argument in a.args[1:]]
+    defaults = [None] * (len(names) - len(a.defaults)) + [parse_scalar(default) for default in a.defaults]
+    return tuple(n.Parameter(name, default) for name, default in zip(names, defaults, strict=True))
+
+
+def parse_arguments(call: ast.Call, parameters: list[str], scope: Scope) -> n.Arguments:
+    """Return a call's arguments by name, sorted; those still to be entered (None) are left out.
+
+    Raises:
+        Refused: there are too many, one is given twice, or one has an unknown name.
+    """
+    takes = f"It takes: {', '.join(parameters) or 'nothing'}."
+    if len(call.args) > len(parameters):
+        raise Refused(call, quoted(call), takes)
+    given: dict[str, Expression] = {}
+    pairs = [
+        *zip(parameters, call.args, strict=False),
+        *((keyword.arg or "", keyword.value) for keyword in call.keywords),
+    ]
+    for name, value in pairs:
+        if name not in parameters or name in given:
+            raise Refused(call, quoted(call), takes)
+        given[name] = parse_expression(value, scope)
+    return tuple(sorted((item for item in given.items() if item[1] != n.MISSING), key=lambda item: item[0]))

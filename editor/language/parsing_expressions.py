@@ -1,0 +1,242 @@
+"""Python expressions → expressions of the language, by walking their `ast`; anything else is refused."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from editor.language.names import snake_case
+from editor.language.nodes import MISSING, NOWHERE, Point
+from editor.language.plan import Constant, Expression, PlaceRef, Reading, Variable
+from editor.language.printing import member_name
+from editor.language.surroundings import Surroundings
+from editor.language.values import DEEPEST_EXPRESSION, FUNCTIONS, is_number, operation, plain
+from registry.capability import Description, Scalar
+
+_BINARY: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
+_COMPARE: Mapping[type[ast.cmpop], str] = {
+    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
+    ast.In: "in", ast.NotIn: "not in",
+}  # fmt: skip
+
+
+class Refused(Exception):
+    """A piece of Python that the language does not have; `instead` says what to write."""
+
+    def __init__(self, node: ast.AST, found: str, instead: str) -> None:
+        super().__init__(found)
+        self.line, self.column = getattr(node, "lineno", 1), getattr(node, "col_offset", 0) + 1
+        self.found, self.instead = found, instead
+
+
+@dataclass(frozen=True, slots=True)
+class Binding:
+    """What `run` gives to an attribute of the task."""
+
+    kind: Literal["get", "any", "place", "parameter"]
+    id: str = ""
+    can: tuple[str, ...] = ()
+    at: str | None = None
+    default: Scalar = None
+
+
+@dataclass(slots=True)
+class Scope:
+    """The names that can be used, and the site."""
+
+    surroundings: Surroundings
+    bindings: dict[str, Binding] = field(default_factory=dict)
+    locals: frozenset[str] = frozenset()
+
+    def description(self, device_id: str | None) -> Description | None:
+        """Return a device's description, if the site has the device."""
+        facts = self.surroundings.devices.get(device_id or "")
+        return None if facts is None else facts.description
+
+
+def quoted(node: ast.AST) -> str:
+    """Return a piece of the script for a message, shortened."""
+    text = ast.unparse(node).splitlines()[0]
+    return f"“{text[:60]}…”" if len(text) > 60 else f"“{text}”"
+
+
+def attribute_of_self(node: ast.AST) -> str | None:
+    """Return x of `self.x`."""
+    if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "self":
+        return node.attr
+    return None
+
+
+def parse_expression(node: ast.expr, scope: Scope, depth: int = 0) -> Expression:
+    """Return the expression that a piece of Python stands for; None is a value still to be entered.
+
+    Raises:
+        Refused: it is not part of the language.
+    """
+    if depth > DEEPEST_EXPRESSION + 1:
+        raise Refused(node, "An expression as deep as this", "Write it in several steps.")
+    parse = _PARSERS.get(type(node))
+    if parse is None:
+        raise Refused(node, quoted(node), "Use readings of devices, parameters, numbers, texts and comparisons.")
+    return parse(node, scope, depth + 1)
+
+
+def parse_scalar(node: ast.expr) -> Scalar:
+    """Return a value that is written out.
+
+    Raises:
+        Refused: it is anything else.
+    """
+    minus = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub)
+    inner = node.operand if isinstance(node, ast.UnaryOp) and minus else node
+    if not isinstance(inner, ast.Constant) or (minus and not is_number(inner.value)):
+        raise Refused(node, quoted(node), "Write a number, a text, True or False here.")
+    value = inner.value
+    if value is not None and (isinstance(value, bytes | complex) or value is Ellipsis or plain(value) is None):
+        raise Refused(node, quoted(node), "Write a number below 10¹⁵, a text, True or False here.")
+    scalar = plain(value)
+    return -scalar if minus and is_number(scalar) else scalar
+
+
+def _constant(node: ast.Constant, scope: Scope, depth: int) -> Expression:
+    scalar = parse_scalar(node)
+    return MISSING if scalar is None else Constant(scalar)
+
+
+def _list(node: ast.Tuple | ast.List, scope: Scope, depth: int) -> Expression:
+    scalars = tuple(parse_scalar(item) for item in node.elts)
+    if not scalars or None in scalars:
+        raise Refused(node, quoted(node), "Write at least one value between the brackets.")
+    return Constant(scalars)
+
+
+def _name(node: ast.Name, scope: Scope, depth: int) -> Expression:
+    if node.id not in scope.locals:
+        raise Refused(
+            node, quoted(node), "Use a parameter of this function, or a reading such as self.oven.temperature."
+        )
+    return Variable(node.id)
+
+
+def _attribute(node: ast.Attribute, scope: Scope, depth: int) -> Expression:
+    name = attribute_of_self(node)
+    if name is not None:
+        binding = scope.bindings.get(name)
+        if binding is None or binding.kind != "parameter":
+            raise Refused(node, quoted(node), f"Write what is read of it, for example self.{name}.temperature.")
+        return Variable(name)
+    device = parse_thing(node.value, scope)
+    description = scope.description(device.device)
+    names = [] if description is None else [spec.name for spec in description.properties]
+    found = next((n for n in names if snake_case(n) == node.attr and member_name(n, names)), None)
+    if found is None:
+        options = ", ".join(filter(None, (member_name(n, names) for n in names))) or "nothing"
+        raise Refused(node, quoted(node), f"What can be read here: {options}.")
+    return Reading(Constant(device.device), found)
+
+
+def _call(node: ast.Call, scope: Scope, depth: int) -> Expression:
+    function = node.func
+    if isinstance(function, ast.Name) and function.id in FUNCTIONS and not node.keywords:
+        if len(node.args) != FUNCTIONS[function.id]:
+            raise Refused(node, quoted(node), f"{function.id} takes {FUNCTIONS[function.id]} value(s).")
+        return operation(function.id, tuple(parse_expression(argument, scope, depth) for argument in node.args))
+    if isinstance(function, ast.Attribute) and function.attr == "read" and len(node.args) == 1:
+        device, name = parse_thing(function.value, scope), parse_scalar(node.args[0])
+        if isinstance(name, str) and name and device.device is not None:
+            return Reading(Constant(device.device), name)
+        if isinstance(name, str) and name and device.value is not None:
+            return Reading(device.value, name)
+    raise Refused(node, quoted(node), f"In expressions only these can be called: {', '.join(FUNCTIONS)}.")
+
+
+def _bool_operation(node: ast.BoolOp, scope: Scope, depth: int) -> Expression:
+    name = "and" if isinstance(node.op, ast.And) else "or"
+    return operation(name, tuple(parse_expression(value, scope, depth) for value in node.values))
+
+
+def _unary_operation(node: ast.UnaryOp, scope: Scope, depth: int) -> Expression:
+    if not isinstance(node.op, ast.Not | ast.USub):
+        raise Refused(node, quoted(node), "Use “not” or “-”.")
+    argument = parse_expression(node.operand, scope, depth)
+    return operation("not" if isinstance(node.op, ast.Not) else "-", (argument,))
+
+
+def _binary_operation(node: ast.BinOp, scope: Scope, depth: int) -> Expression:
+    name = _BINARY.get(type(node.op))
+    if name is None:
+        raise Refused(node, quoted(node), "Use +, -, * or /.")
+    return operation(name, (parse_expression(node.left, scope, depth), parse_expression(node.right, scope, depth)))
+
+
+def _comparison(node: ast.Compare, scope: Scope, depth: int) -> Expression:
+    name = _COMPARE.get(type(node.ops[0]))
+    if name is None or len(node.ops) != 1:
+        raise Refused(node, quoted(node), "Compare two values at a time, and join comparisons with “and”.")
+    left = parse_expression(node.left, scope, depth)
+    return operation(name, (left, parse_expression(node.comparators[0], scope, depth)))
+
+
+_PARSERS: Mapping[type[ast.expr], Callable[..., Expression]] = {
+    ast.Constant: _constant,
+    ast.Tuple: _list,
+    ast.List: _list,
+    ast.Name: _name,
+    ast.Attribute: _attribute,
+    ast.Call: _call,
+    ast.BoolOp: _bool_operation,
+    ast.UnaryOp: _unary_operation,
+    ast.BinOp: _binary_operation,
+    ast.Compare: _comparison,
+}
+
+
+def parse_thing(node: ast.expr, scope: Scope) -> PlaceRef:
+    """Return the device or place that `self.oven`, a parameter, a point or None stands for.
+
+    Raises:
+        Refused: it stands for something else.
+    """
+    name = attribute_of_self(node)
+    binding = scope.bindings.get(name) if name is not None else None
+    if binding is not None and binding.kind == "get":
+        return PlaceRef(device=binding.id)
+    if binding is not None and binding.kind == "place":
+        return PlaceRef(place=binding.id)
+    if binding is not None and binding.kind == "parameter":
+        return PlaceRef(value=Variable(name or ""))
+    if isinstance(node, ast.Name) and node.id in scope.locals:
+        return PlaceRef(value=Variable(node.id))
+    if isinstance(node, ast.Constant) and node.value is None:
+        return NOWHERE
+    if isinstance(node, ast.Tuple):
+        return PlaceRef(point=parse_point(node))
+    raise Refused(node, quoted(node), 'Give it in run: self.oven = ctx.get("curingOven01").')
+
+
+def parse_point(node: ast.expr) -> Point:
+    """Return a point in metres that is written as (x, y).
+
+    Raises:
+        Refused: it is written otherwise.
+    """
+    if isinstance(node, ast.Tuple) and len(node.elts) == 2:
+        x, y = parse_scalar(node.elts[0]), parse_scalar(node.elts[1])
+        if is_number(x) and is_number(y):
+            return (x, y)
+    raise Refused(node, quoted(node), "Write a point as (x, y) in metres.")
+
+
+def parse_place(node: ast.expr, scope: Scope) -> PlaceRef:
+    """Return where a robot goes: `self.oven.location`, a point, or None.
+
+    Raises:
+        Refused: it is something else.
+    """
+    if isinstance(node, ast.Attribute) and node.attr == "location":
+        return parse_thing(node.value, scope)
+    if isinstance(node, ast.Tuple) or (isinstance(node, ast.Constant) and node.value is None):
+        return parse_thing(node, scope)
+    raise Refused(node, quoted(node), "Write where it goes as self.oven.location, or as a point (x, y).")

@@ -1,0 +1,312 @@
+"""Tree → script: Python text in the paper's shape; one small function for each construct."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from editor.language.expression_text import quote, scalar_text, write_expression
+from editor.language.names import RESERVED_ATTRIBUTES, RESERVED_MEMBERS, snake_case, unique_name
+from editor.language.nodes import (
+    Block,
+    Call,
+    Drop,
+    If,
+    Move,
+    Node,
+    Operate,
+    Parallel,
+    Parameter,
+    Pick,
+    Point,
+    Role,
+    Tree,
+    Try,
+    Wait,
+    WaitUntil,
+    While,
+)
+from editor.language.numbering import letters_of
+from editor.language.plan import Expression, PlaceRef
+from editor.language.surroundings import Surroundings
+
+ERROR_CLASSES: Mapping[str, str] = {
+    "refused": "Refused",
+    "failed": "Failed",
+    "timed_out": "TimedOut",
+    "offline": "Offline",
+    "blocked": "Blocked",
+    "cancelled": "Cancelled",
+}
+_INDENTS = tuple("    " * depth for depth in range(80))
+
+
+@dataclass(frozen=True, slots=True)
+class Script:
+    """A printed script: each line's step (empty for glue) and the line of each node, by the node's identity."""
+
+    text: str
+    lines: tuple[str, ...]
+    line_of: Mapping[int, int]
+
+
+@dataclass(slots=True)
+class Printer:
+    """The text so far, and the names that devices and places have in it."""
+
+    tree: Tree
+    surroundings: Surroundings
+    numbers: Mapping[str, str]
+    taken: set[str]
+    texts: list[str] = field(default_factory=list)
+    steps: list[str] = field(default_factory=list)
+    line_of: dict[int, int] = field(default_factory=dict)
+    attributes: dict[PlaceRef | str, str] = field(default_factory=dict)
+    """Devices (by id) and places, with their names in the script, in the order of first use."""
+    locals: tuple[str, ...] = ()
+    """The parameters of the method being printed."""
+    branches: list[tuple[str, Block]] = field(default_factory=list)
+    """Methods of parallel branches that are still to be printed."""
+    method_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
+    property_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
+
+    def line(self, depth: int, text: str, step: str = "") -> None:
+        """Add a line."""
+        self.texts.append(_INDENTS[depth] + text)
+        self.steps.append(step)
+
+    def block(self, block: Block, depth: int) -> None:
+        """Print a block; an empty one says so."""
+        for node in block:
+            self.line_of[id(node)] = len(self.texts) + 1
+            PRINTERS[type(node)](self, node, depth)
+        if not block:
+            self.line(depth, "pass")
+
+    def device(self, device_id: str) -> str:
+        """Return the attribute of a device, giving it one at its first use."""
+        known = self.attributes.get(device_id)
+        if known is None:
+            facts = self.surroundings.devices.get(device_id)
+            known = self._new_attribute(device_id, facts.description.name if facts else device_id)
+        return known
+
+    def named_place(self, place: PlaceRef) -> str:
+        """Return the attribute of a named place, giving it one at its first use."""
+        known = self.attributes.get(place)
+        if known is None:
+            facts = self.surroundings.places.get(place.place or "")
+            known = self._new_attribute(place, facts.name if facts else place.place or "")
+        return known
+
+    def _new_attribute(self, key: PlaceRef | str, name: str) -> str:
+        attribute = unique_name(name, self.taken)
+        self.taken.add(attribute)
+        self.attributes[key] = f"self.{attribute}"
+        return self.attributes[key]
+
+    def variable(self, name: str) -> str:
+        """Return a parameter as it is written here: the method's own, or the program's."""
+        return name if name in self.locals else f"self.{name}"
+
+    def reading(self, device: str, property_name: str) -> str:
+        """Return how a device's property is written."""
+        key = (device, property_name)
+        if key not in self.property_names:
+            facts = self.surroundings.devices.get(device)
+            known = [p.name for p in facts.description.properties] if facts else []
+            self.property_names[key] = member_name(property_name, known)
+        member = self.property_names[key]
+        attribute = self.device(device)
+        return f"{attribute}.{member}" if member else f"{attribute}.read({quote(property_name)})"
+
+    def value(self, expression: Expression) -> str:
+        """Return an expression as text."""
+        return write_expression(expression, self)
+
+    def place(self, place: PlaceRef) -> str:
+        """Return where a robot goes as text."""
+        if place.device is not None:
+            return f"{self.device(place.device)}.location"
+        if place.place is not None:
+            return f"{self.named_place(place)}.location"
+        if place.point is not None:
+            return _point(place.point)
+        return "None" if place.value is None else f"{self.value(place.value)}.location"
+
+
+def member_name(wanted: str, known: list[str]) -> str | None:
+    """Return the script name of a method or property; None where it would not be clear which one is meant."""
+    name = snake_case(wanted)
+    alike = [other for other in known if snake_case(other) == name]
+    return name if alike == [wanted] and name not in RESERVED_MEMBERS else None
+
+
+def _point(point: Point) -> str:
+    return f"({scalar_text(point[0])}, {scalar_text(point[1])})"
+
+
+def _move(printer: Printer, node: Move, depth: int) -> None:
+    via = f", via=[{', '.join(map(_point, node.route))}]" if node.route else ""
+    printer.line(depth, f"self.{node.role}.move({printer.place(node.to)}{via})", node.step)
+
+
+def _pick(printer: Printer, node: Pick, depth: int) -> None:
+    printer.line(depth, f"self.{node.role}.pick({_load(printer, node)})", node.step)
+
+
+def _drop(printer: Printer, node: Drop, depth: int) -> None:
+    printer.line(depth, f"self.{node.role}.drop({_load(printer, node)})", node.step)
+
+
+def _load(printer: Printer, node: Pick | Drop) -> str:
+    return f'{{"value": {printer.value(node.quantity)}, "object": {printer.value(node.object)}}}'
+
+
+def _operate(printer: Printer, node: Operate, depth: int) -> None:
+    device = node.device
+    if device.device is not None:
+        target = printer.device(device.device)
+    elif device.value is not None:
+        target = printer.value(device.value)
+    else:
+        target = "None" if device == PlaceRef() else printer.place(device).removesuffix(".location")
+    printer.line(depth, f"{target}.{_order(printer, node)}", node.step)
+
+
+def _order(printer: Printer, node: Operate) -> str:
+    """Return `cure_paint(10)`, or the long form where the device's description does not say enough."""
+    given = dict(node.arguments)
+    facts = printer.surroundings.devices.get(node.device.device or "")
+    method = facts.description.method(node.method) if facts else None
+    if facts is not None and method is not None and given.keys() <= {p.name for p in method.parameters}:
+        key = (facts.description.id, node.method)
+        if key not in printer.method_names:
+            printer.method_names[key] = member_name(node.method, [m.name for m in facts.description.methods])
+        member = printer.method_names[key]
+        if member:
+            ordered = [given.get(parameter.name) for parameter in method.parameters]
+            while ordered and ordered[-1] is None and not method.parameters[len(ordered) - 1].required:
+                ordered.pop()
+            values = ("None" if value is None else printer.value(value) for value in ordered)
+            return f"{member}({', '.join(values)})"
+    name = quote(node.method) if node.method else "None"
+    arguments = ", ".join(f"{quote(key)}: {printer.value(value)}" for key, value in node.arguments)
+    return f"operate({name}, {{{arguments}}})" if arguments else f"operate({name})"
+
+
+def _wait(printer: Printer, node: Wait, depth: int) -> None:
+    printer.line(depth, f"self.wait({printer.value(node.seconds)})", node.step)
+
+
+def _wait_until(printer: Printer, node: WaitUntil, depth: int) -> None:
+    timeout = "" if node.timeout_s is None else f", timeout={printer.value(node.timeout_s)}"
+    printer.line(depth, f"self.wait(until={printer.value(node.condition)}{timeout})", node.step)
+
+
+def _if(printer: Printer, node: If, depth: int) -> None:
+    printer.line(depth, f"if {printer.value(node.condition)}:", node.step)
+    printer.block(node.then, depth + 1)
+    if node.otherwise:
+        printer.line(depth, "else:", node.step)
+        printer.block(node.otherwise, depth + 1)
+
+
+def _while(printer: Printer, node: While, depth: int) -> None:
+    printer.line(depth, f"while {printer.value(node.condition)}:", node.step)
+    printer.block(node.body, depth + 1)
+
+
+def _parallel(printer: Printer, node: Parallel, depth: int) -> None:
+    number = printer.numbers[node.step].replace(".", "_")
+    names = [(f"branch_{number}{letter}", block) for letter, block in letters_of(node)]
+    printer.branches.extend(names)
+    references = [f"self.{name}" for name, _ in names]
+    handed_on = [f"{name}={name}" for name in printer.locals]
+    printer.line(depth, f"self.parallel({', '.join([*references, *handed_on])})", node.step)
+
+
+def _try(printer: Printer, node: Try, depth: int) -> None:
+    printer.line(depth, "try:", node.step)
+    printer.block(node.body, depth + 1)
+    classes = [ERROR_CLASSES[kind] for kind in node.kinds] or ["TaskError"]
+    caught = classes[0] if len(classes) == 1 else f"({', '.join(classes)})"
+    printer.line(depth, f"except {caught} as problem:", node.step)
+    printer.block(node.catch, depth + 1)
+
+
+def _call(printer: Printer, node: Call, depth: int) -> None:
+    arguments = ", ".join(f"{name}={printer.value(value)}" for name, value in node.arguments)
+    text = f"self.{node.function}({arguments})" if node.function else "self.call(None)"
+    printer.line(depth, text, node.step)
+
+
+PRINTERS: Mapping[type[Node], Callable[..., None]] = {
+    Move: _move,
+    Pick: _pick,
+    Drop: _drop,
+    Operate: _operate,
+    Wait: _wait,
+    WaitUntil: _wait_until,
+    If: _if,
+    While: _while,
+    Parallel: _parallel,
+    Try: _try,
+    Call: _call,
+}
+
+
+def print_tree(tree: Tree, surroundings: Surroundings, numbers: Mapping[str, str]) -> Script:
+    """Return the script of a tree whose steps have these numbers."""
+    names = {role.name for role in tree.roles} | {function.method for function in tree.functions}
+    taken = RESERVED_ATTRIBUTES | names | {parameter.name for parameter in tree.parameters}
+    printer = Printer(tree, surroundings, numbers, set(taken))
+    printer.line(0, "class Task(object):")
+    _print_method(printer, "new_task", (), tree.body)
+    for function in tree.functions:
+        _print_method(printer, function.method, function.parameters, function.body)
+    _print_run(printer)
+    return Script("\n".join(printer.texts) + "\n", tuple(printer.steps), printer.line_of)
+
+
+def _print_method(printer: Printer, name: str, parameters: tuple[Parameter, ...], body: Block) -> None:
+    """Print a method, and behind it those of the parallel branches in it."""
+    given = _signature(parameters)
+    printer.locals = tuple(parameter.name for parameter in parameters)
+    left: list[tuple[str, list[str], Block]] = [(name, given, body)]
+    while left:
+        method, arguments, block = left.pop()
+        printer.line(1, f"def {method}({', '.join(['self', *arguments])}):")
+        printer.branches = []
+        printer.block(block, 2)
+        printer.line(0, "")
+        left.extend((branch, list(printer.locals), inner) for branch, inner in reversed(printer.branches))
+
+
+def _signature(parameters: tuple[Parameter, ...]) -> list[str]:
+    """Python wants a default behind every parameter that follows one with a default; None says that it has none."""
+    written: list[str] = []
+    for parameter in parameters:
+        bare = parameter.default is None and not (written and "=" in written[-1])
+        written.append(parameter.name if bare else f"{parameter.name}={scalar_text(parameter.default)}")
+    return written
+
+
+def _print_run(printer: Printer) -> None:
+    printer.line(1, "def run(self, ctx):")
+    for parameter in printer.tree.parameters:
+        default = "" if parameter.default is None else f", {scalar_text(parameter.default)}"
+        printer.line(2, f"self.{parameter.name} = ctx.parameter({quote(parameter.name)}{default})")
+    for role in printer.tree.roles:
+        printer.line(2, f"self.{role.name} = {_binding(role)}")
+    for key, attribute in printer.attributes.items():
+        get = f"ctx.get({quote(key)})" if isinstance(key, str) else f"ctx.place({quote(key.place or '')})"
+        printer.line(2, f"{attribute} = {get}")
+    printer.line(2, "self.new_task()")
+
+
+def _binding(role: Role) -> str:
+    if role.device is None:
+        return f"ctx.any({', '.join(map(quote, role.can))})"
+    at = "" if role.at is None else f", at={quote(role.at)}"
+    return f"ctx.get({quote(role.device)}{at})"

@@ -1,0 +1,301 @@
+"""Document → tree: what people drew, read into typed nodes; one small function for each kind of step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from editor.language.diagnostics import Fix, Problem
+from editor.language.names import RESERVED_ATTRIBUTES, local_name, unique_name
+from editor.language.nodes import (
+    MISSING,
+    NOWHERE,
+    Block,
+    Call,
+    Drop,
+    Function,
+    If,
+    Move,
+    Node,
+    Operate,
+    Parallel,
+    Parameter,
+    Pick,
+    Point,
+    Role,
+    Tree,
+    Try,
+    Wait,
+    WaitUntil,
+    While,
+)
+from editor.language.outline import PROGRAM, Outline, Params, make_outline, mapping
+from editor.language.plan import Constant, Expression, PlaceRef
+from editor.language.values import UnknownParameter, plain, read_place, read_point, read_value
+from editor.language.walking import in_reading_order
+
+DEFAULT_ROLE = "robot"
+FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A document as it was read: the tree without added moves, and what could not be read."""
+
+    tree: Tree
+    outline: Outline
+    problems: tuple[Problem, ...]
+
+
+@dataclass(slots=True)
+class _Reader:
+    """What is known while reading: names given so far, and the problems met."""
+
+    outline: Outline
+    roles: dict[str, Role]
+    functions: dict[str, Function]
+    """By id, still without their bodies."""
+    argument_names: dict[str, dict[str, str]]
+    globals: Mapping[str, str]
+    names: Mapping[str, str] = field(default_factory=dict)
+    """The parameters that can be seen in the block being read."""
+    problems: list[Problem] = field(default_factory=list)
+
+    def value(self, step: str, params: Params, name: str, field_name: str = "") -> Expression:
+        """Return the expression in a parameter; what does not exist reads as missing, and is told."""
+        value = params.get(name)
+        if value is None:
+            return MISSING
+        try:
+            return read_value(value, self.names)
+        except UnknownParameter as error:
+            return self._unknown(step, field_name or name, error)
+
+    def place(self, step: str, params: Params, name: str) -> PlaceRef:
+        """Return the place in a parameter; what does not exist reads as missing, and is told."""
+        try:
+            return read_place(params.get(name), self.names)
+        except UnknownParameter as error:
+            self._unknown(step, name, error)
+            return NOWHERE
+
+    def _unknown(self, step: str, field_name: str, error: UnknownParameter) -> Expression:
+        self.problems.append(Problem("unknown_parameter", step, field_name, {"parameter": str(error)}))
+        return MISSING
+
+    def role(self, step: str, params: Params) -> str:
+        """Return the script name of the step's robot."""
+        wanted = params.get("role")
+        name = wanted if isinstance(wanted, str) and wanted else DEFAULT_ROLE
+        if name not in self.roles:
+            fix = Fix("choose", step, "role", DEFAULT_ROLE, {"value": self.roles[DEFAULT_ROLE].name})
+            self.problems.append(Problem("unknown_role", step, "role", {"role": name}, fix))
+            name = DEFAULT_ROLE
+        return self.roles[name].name
+
+    def block(self, parent: str, branch: str) -> Block:
+        """Return the nodes of one branch."""
+        nodes: list[Node] = []
+        outline = self.outline
+        for step in outline.children.get((parent, branch), ()):
+            nodes.extend(READERS[outline.kinds[step]](self, step, outline.params[step]))
+        return tuple(nodes)
+
+
+Reads = Callable[[_Reader, str, Params], tuple[Node, ...]]
+
+
+def _move(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (Move(reader.role(step, params), reader.place(step, params, "to"), _route(params.get("route")), step),)
+
+
+def _pick(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (Pick(reader.role(step, params), reader.place(step, params, "at"), *_load(reader, step, params), step),)
+
+
+def _drop(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (Drop(reader.role(step, params), reader.place(step, params, "at"), *_load(reader, step, params), step),)
+
+
+def _pick_and_drop(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    role, (thing, quantity) = reader.role(step, params), _load(reader, step, params)
+    source, target = reader.place(step, params, "source"), reader.place(step, params, "target")
+    route = _route(params.get("route"))
+    return (
+        Pick(role, source, thing, quantity, step, "source"),
+        Drop(role, target, thing, quantity, step, "target", route),
+    )
+
+
+def _load(reader: _Reader, step: str, params: Params) -> tuple[Expression, Expression]:
+    return reader.value(step, params, "object"), reader.value(step, params, "quantity")
+
+
+def _route(value: object) -> tuple[Point, ...]:
+    points = [read_point(point) for point in value] if isinstance(value, list | tuple) else []
+    return tuple(point for point in points if point is not None)
+
+
+def _operate(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    method = params.get("method")
+    arguments = _arguments(reader, step, params)
+    return (
+        Operate(reader.place(step, params, "device"), method if isinstance(method, str) else "", arguments, step),
+    )  # fmt: skip
+
+
+def _arguments(reader: _Reader, step: str, params: Params) -> tuple[tuple[str, Expression], ...]:
+    given = mapping(params.get("args"))
+    read = ((name, reader.value(step, given, name, f"args.{name}")) for name in sorted(given, key=str))
+    return tuple((str(name), value) for name, value in read if value is not MISSING and value != MISSING)
+
+
+def _wait(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    if params.get("until") is None:
+        return (Wait(reader.value(step, params, "seconds"), step),)
+    timeout = reader.value(step, params, "timeout_s")
+    return (WaitUntil(reader.value(step, params, "until"), None if timeout == MISSING else timeout, step),)
+
+
+def _if(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    condition = reader.value(step, params, "condition")
+    return (If(condition, reader.block(step, "then"), reader.block(step, "else"), step),)
+
+
+def _while(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (While(reader.value(step, params, "condition"), reader.block(step, "body"), step),)
+
+
+def _parallel(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (Parallel(tuple(reader.block(step, name) for name in reader.outline.branches(step)), step),)
+
+
+def _try(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    named = params.get("kinds")
+    wanted = named if isinstance(named, list | tuple) else ()
+    kinds = tuple(kind for kind in FAILURE_KINDS if kind in wanted)
+    return (Try(kinds, reader.block(step, "body"), reader.block(step, "catch"), step),)
+
+
+def _call(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    wanted = params.get("function")
+    function = reader.functions.get(wanted) if isinstance(wanted, str) else None
+    if function is None:
+        if wanted is not None:
+            reader.problems.append(Problem("unknown_function", step, "function"))
+        return (Call("", (), step),)
+    names = reader.argument_names[function.id]
+    given = mapping(params.get("args"))
+    arguments: list[tuple[str, Expression]] = []
+    for name in sorted(given, key=str):
+        value = _call_argument(reader, step, given, name)
+        if value != MISSING and name in names:
+            arguments.append((names[name], value))
+        elif name not in names:
+            options = ", ".join(names) or "nothing"
+            details = {"method": function.name, "argument": str(name), "options": options}
+            reader.problems.append(Problem("unknown_argument", step, f"args.{name}", details))
+    return (Call(function.method, tuple(sorted(arguments, key=lambda pair: pair[0])), step),)
+
+
+def _call_argument(reader: _Reader, step: str, given: Params, name: str) -> Expression:
+    """An argument may be a Place, too: a device's or a named place's id is then the value."""
+    value = given.get(name)
+    if isinstance(value, Mapping):
+        place = value.get("device", value.get("place"))
+        if isinstance(place, str) and place:
+            return Constant(place)
+    return reader.value(step, given, name, f"args.{name}")
+
+
+READERS: Mapping[str, Reads] = {
+    "move": _move,
+    "pick": _pick,
+    "drop": _drop,
+    "pick_and_drop": _pick_and_drop,
+    "operate": _operate,
+    "wait": _wait,
+    "if": _if,
+    "while": _while,
+    "parallel": _parallel,
+    "try": _try,
+    "call": _call,
+}
+
+
+def read_document(document: object) -> Reading:
+    """Read a document (plain JSON, format 1); nothing in it makes this raise."""
+    whole = mapping(document)
+    outline = make_outline(whole)
+    parameters, global_names = _read_parameters(_by_id(whole.get("parameters")).items(), local=False)
+    taken = RESERVED_ATTRIBUTES | {parameter.name for parameter in parameters}
+    roles = _read_roles(_by_id(whole.get("roles")), taken)
+    taken |= {role.name for role in roles.values()}
+    functions, argument_names = _read_functions(_by_id(whole.get("functions")), taken)
+    reader = _Reader(outline, roles, functions, argument_names, global_names, global_names)
+    body = reader.block(PROGRAM, "body")
+    with_bodies: dict[str, Function] = {}
+    for function in functions.values():
+        reader.names = {**global_names, **argument_names[function.id]}
+        block = reader.block(function.id, "body") if function.id not in outline.kinds else ()
+        with_bodies[function.method] = Function(
+            function.method, function.parameters, block, function.id, function.name
+        )  # fmt: skip
+    tree = in_reading_order(Tree(body, tuple(with_bodies.values()), tuple(roles.values()), parameters))
+    return Reading(tree, outline, tuple(reader.problems))
+
+
+def _by_id(value: object) -> dict[str, Mapping[str, object]]:
+    return {name: mapping(item) for name, item in sorted(mapping(value).items(), key=lambda pair: str(pair[0])) if name}
+
+
+def _read_parameters(
+    given: Iterable[tuple[str, Mapping[str, object]]], *, local: bool
+) -> tuple[tuple[Parameter, ...], dict[str, str]]:
+    """Return the parameters, and their names in the document with those in the script."""
+    parameters: list[Parameter] = []
+    names: dict[str, str] = {}
+    for key, item in given:
+        wanted = _text(item.get("name")) or key
+        if wanted and wanted not in names:
+            taken = set(names.values()) | (set() if local else RESERVED_ATTRIBUTES)
+            names[wanted] = local_name(wanted, taken)
+            default, kind, unit = plain(item.get("default")), _text(item.get("type")), _text(item.get("unit"))
+            parameters.append(Parameter(names[wanted], default, kind, unit))
+    return tuple(parameters), names
+
+
+def _read_roles(given: Mapping[str, Mapping[str, object]], taken: Iterable[str]) -> dict[str, Role]:
+    roles: dict[str, Role] = {}
+    names = set(taken)
+    for key, item in {DEFAULT_ROLE: given.get(DEFAULT_ROLE, {}), **given}.items():
+        wanted = _text(item.get("name")) if key != DEFAULT_ROLE else DEFAULT_ROLE
+        name = unique_name(wanted or key, names)
+        names.add(name)
+        device, can = item.get("device"), item.get("can")
+        listed = can if isinstance(can, list | tuple) else ()
+        methods = tuple(dict.fromkeys(method for method in listed if isinstance(method, str) and method))
+        bound = device if isinstance(device, str) and device else None
+        roles[key] = Role(name, bound, () if bound else methods, None, key)
+    return roles
+
+
+def _read_functions(
+    given: Mapping[str, Mapping[str, object]], taken: Iterable[str]
+) -> tuple[dict[str, Function], dict[str, dict[str, str]]]:
+    functions: dict[str, Function] = {}
+    argument_names: dict[str, dict[str, str]] = {}
+    used = set(taken)
+    for key, item in given.items():
+        name = _text(item.get("name")) or key
+        method = unique_name(name, used)
+        used.add(method)
+        listed = item.get("parameters")
+        items = [("", mapping(entry)) for entry in listed] if isinstance(listed, list | tuple) else []
+        parameters, argument_names[key] = _read_parameters(items, local=True)
+        functions[key] = Function(method, parameters, (), key, name)
+    return functions, argument_names
+
+
+def _text(value: object) -> str:
+    return value if isinstance(value, str) else ""

@@ -1,0 +1,122 @@
+"""Programs, what was typed into their shared documents, their versions, and the library of functions."""
+
+from __future__ import annotations
+
+import uuid
+
+from django.conf import settings
+from django.db import models
+
+
+class Program(models.Model):
+    """A program of a site; its content is the shared document, kept as updates and snapshots."""
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
+    site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="programs")
+    name = models.CharField(max_length=120)
+    created_at = models.DateTimeField(auto_now_add=True)
+    edited_at = models.DateTimeField()
+    edited_by = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+    last_seq = models.BigIntegerField(default=0)
+    last_version = models.PositiveIntegerField(default=0)
+    kinds = models.JSONField(default=list)
+    errors = models.PositiveIntegerField(default=0)
+    warnings = models.PositiveIntegerField(default=0)
+    checked_against = models.CharField(max_length=64, blank=True)
+
+    class Meta:
+        """Listed by site, the last edited first."""
+
+        indexes = [models.Index(fields=["site", "-edited_at"])]
+
+
+class DocumentUpdate(models.Model):
+    """One change of a shared document, as its own document told it; `seq` counts up within the program."""
+
+    program = models.ForeignKey(Program, on_delete=models.CASCADE, related_name="updates")
+    seq = models.BigIntegerField()
+    author = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+    data = models.BinaryField()
+    at = models.DateTimeField(auto_now_add=True)
+
+    class Meta:
+        """Read in the order in which they were appended."""
+
+        constraints = [models.UniqueConstraint(fields=["program", "seq"], name="one_update_per_seq")]
+
+
+class Snapshot(models.Model):
+    """A whole shared document as one update, holding everything up to `seq`."""
+
+    program = models.ForeignKey(Program, on_delete=models.CASCADE, related_name="snapshots")
+    seq = models.BigIntegerField()
+    data = models.BinaryField()
+    at = models.DateTimeField(auto_now_add=True)
+
+    class Meta:
+        """The one with the highest `seq` holds."""
+
+        constraints = [models.UniqueConstraint(fields=["program", "seq"], name="one_snapshot_per_seq")]
+
+
+class Version(models.Model):
+    """A program as it was when it was pinned; never changed. What runs is always a version."""
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
+    program = models.ForeignKey(Program, on_delete=models.CASCADE, related_name="versions")
+    number = models.PositiveIntegerField()
+    author = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+    message = models.CharField(max_length=300, blank=True)
+    document = models.JSONField()
+    digest = models.CharField(max_length=64)
+    script = models.TextField()
+    created_at = models.DateTimeField(auto_now_add=True)
+
+    class Meta:
+        """Numbered from 1 within the program."""
+
+        constraints = [models.UniqueConstraint(fields=["program", "number"], name="one_version_per_number")]
+
+
+class LibraryFunction(models.Model):
+    """A function that a site's programs may bring in; its content is in its versions."""
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
+    site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="library")
+    name = models.CharField(max_length=120)
+    description = models.CharField(max_length=500, blank=True)
+    last_version = models.PositiveIntegerField(default=0)
+    updated_at = models.DateTimeField(auto_now=True)
+
+    class Meta:
+        """A name stands for one function at a site; saving under it again makes a new version."""
+
+        constraints = [models.UniqueConstraint(fields=["site", "name"], name="one_library_function_per_name")]
+
+
+class LibraryVersion(models.Model):
+    """A library function as it was saved; never changed."""
+
+    function = models.ForeignKey(LibraryFunction, on_delete=models.CASCADE, related_name="versions")
+    number = models.PositiveIntegerField()
+    author = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
+    definition = models.JSONField()
+    script = models.TextField()
+    created_at = models.DateTimeField(auto_now_add=True)
+
+    class Meta:
+        """Numbered from 1 within the function."""
+
+        constraints = [models.UniqueConstraint(fields=["function", "number"], name="one_library_version_per_number")]
+
+
+class LibraryUse(models.Model):
+    """That a program holds a library function, kept up to date when the program is compiled."""
+
+    function = models.ForeignKey(LibraryFunction, on_delete=models.CASCADE, related_name="uses")
+    program = models.ForeignKey(Program, on_delete=models.CASCADE, related_name="library_uses")
+
+    class Meta:
+        """Counted once for each program."""
+
+        constraints = [models.UniqueConstraint(fields=["function", "program"], name="one_use_per_program")]

@@ -1,0 +1,48 @@
+"""What the other apps may ask of the editor; everything else in this app is its own affair."""
+
+from editor.checking import build_surroundings
+from editor.errors import BadRequest, EditorError, NoSuchProgram
+from editor.library import get_function, save_function, search_library
+from editor.programs import (
+    compile_version,
+    compile_version_to_json,
+    create_program,
+    delete_program,
+    get_compiled,
+    get_document,
+    get_program,
+    get_version,
+    list_programs,
+    list_versions,
+    pin_version,
+    rename_program,
+)
+from editor.seeding import seed_programs
+from editor.views import AuthorView, LibraryView, ProgramView, VersionView
+
+__all__ = [
+    "AuthorView",
+    "BadRequest",
+    "EditorError",
+    "LibraryView",
+    "NoSuchProgram",
+    "ProgramView",
+    "VersionView",
+    "build_surroundings",
+    "compile_version",
+    "compile_version_to_json",
+    "create_program",
+    "delete_program",
+    "get_compiled",
+    "get_document",
+    "get_function",
+    "get_program",
+    "get_version",
+    "list_programs",
+    "list_versions",
+    "pin_version",
+    "rename_program",
+    "save_function",
+    "search_library",
+    "seed_programs",
+]

@@ -1,0 +1,133 @@
+"""The shapes of documents and compiled programs over HTTP. They are described, not checked: see `registry.shown`."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from ninja import Field, Schema
+
+from registry.shown import Shown
+
+Position = tuple[float, float]
+
+
+class DevicePlace(Schema):
+    """Where a device stands."""
+
+    device: str
+
+
+class NamedPlace(Schema):
+    """A named place of the map."""
+
+    place: str
+
+
+class PointPlace(Schema):
+    """A point of the map, metres."""
+
+    point: Position
+
+
+class StepShape(Schema):
+    """A step: `place` is parent, branch and order; without it the step is a draft. `pos` in metres."""
+
+    kind: str
+    place: tuple[str, str, str] | None = None
+    pos: Position | None = None
+    params: dict[str, Any]
+
+
+class ParameterDefinition(Schema):
+    """A parameter of a program or a function."""
+
+    name: str
+    type: str
+    unit: str
+    default: Any = None
+
+
+class LibrarySource(Schema):
+    """Where a function was copied from."""
+
+    library: str
+    version: int
+
+
+class FunctionShape(Schema):
+    """A function; its body is the steps whose parent is its id."""
+
+    name: str
+    parameters: list[ParameterDefinition]
+    source: LibrarySource | None = None
+
+
+class RoleShape(Schema):
+    """A role: bound to a robot, or to any that can do what is named."""
+
+    name: str = ""
+    device: str | None = None
+    can: list[str] | None = None
+
+
+class DocumentShape(Schema):
+    """A program's document, format 1; see docs/architecture.md."""
+
+    format: Literal[1]
+    start_pos: Position | None = None
+    steps: dict[str, StepShape]
+    functions: dict[str, FunctionShape]
+    roles: dict[str, RoleShape]
+    parameters: dict[str, ParameterDefinition]
+    zones: dict[str, Any]
+
+
+class FixShape(Schema):
+    """A change that mends a problem: `field` of the step becomes `value`."""
+
+    label: str
+    label_code: str
+    step: str
+    field: str
+    value: Any
+
+
+class DiagnosticShape(Schema):
+    """Something that is wrong with a step, or odd; `line` of the script counts from 1."""
+
+    code: str
+    severity: Literal["error", "warning"]
+    step: str
+    field: str
+    message: str
+    args: dict[str, Any]
+    line: int | None
+    fix: FixShape | None
+
+
+class CompiledShape(Schema):
+    """A compiled program; `lines` has the step of each line of the script, or an empty text."""
+
+    revision: int
+    script: str
+    lines: list[str]
+    numbers: dict[str, str]
+    diagnostics: list[DiagnosticShape]
+    added_moves: list[str]
+    order: list[str] = Field(description="Ids of steps in reading order, drafts last.")
+    depth: dict[str, int]
+
+
+class DefinitionShape(Schema):
+    """What a library function holds; `functions` are those that it calls."""
+
+    id: str = ""
+    function: FunctionShape
+    functions: dict[str, FunctionShape] = {}
+    steps: dict[str, StepShape]
+
+
+Document = Annotated[dict[str, Any], Shown(DocumentShape)]
+Compiled = Annotated[dict[str, Any], Shown(CompiledShape)]
+Definition = Annotated[dict[str, Any], Shown(DefinitionShape)]
+Parameters = Annotated[list[dict[str, Any]], Shown(list[ParameterDefinition])]

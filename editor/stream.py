@@ -1,0 +1,165 @@
+"""What the processes that hold the same room tell each other, in one order for all.
+
+Two implementations with one interface, chosen by `settings.VIPO_STREAM_URL`: in the process, and Redis Streams.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections import defaultdict, deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, Protocol
+
+from redis.asyncio import Redis
+from redis.exceptions import RedisError
+
+Kind = Literal["update", "awareness", "saved", "state", "full"]
+BEGINNING = "0"
+KEPT_ENTRIES = 10_000
+KEPT_SECONDS = 3600
+_READ_AT_ONCE = 500
+
+
+class StreamLost(ConnectionError):
+    """The other processes cannot be reached, so nothing may be changed here."""
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """What a process has to say about a room."""
+
+    kind: Kind
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A note in the stream: where it stands and which process wrote it."""
+
+    id: str
+    origin: str
+    note: Note
+
+
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """Entries in order; `gap` tells that some before them are gone, so the document must be fetched anew."""
+
+    entries: tuple[Entry, ...]
+    gap: bool = False
+
+
+class RoomStream(Protocol):
+    """The interface of both implementations. Every method may raise StreamLost."""
+
+    async def append(self, room: str, origin: str, notes: Sequence[Note]) -> None:
+        """Add notes at the end, in this order."""
+
+    async def read(self, room: str, after: str, wait_s: float) -> Batch:
+        """Return what stands after an id, waiting for it if there is nothing; empty when the time is up."""
+
+    async def close(self) -> None:
+        """Give back connections."""
+
+
+class MemoryStream:
+    """Within one process and one event loop."""
+
+    def __init__(self, kept: int = KEPT_ENTRIES) -> None:
+        self._rooms: dict[str, deque[Entry]] = defaultdict(lambda: deque(maxlen=kept))
+        self._last: dict[str, int] = defaultdict(int)
+        self._grown: dict[str, asyncio.Event] = defaultdict(asyncio.Event)
+
+    async def append(self, room: str, origin: str, notes: Sequence[Note]) -> None:
+        """See RoomStream."""
+        for note in notes:
+            self._last[room] += 1
+            self._rooms[room].append(Entry(str(self._last[room]), origin, note))
+        self._grown[room].set()
+        self._grown[room] = asyncio.Event()
+
+    async def read(self, room: str, after: str, wait_s: float) -> Batch:
+        """See RoomStream."""
+        if self._last[room] <= int(after):
+            try:
+                await asyncio.wait_for(self._grown[room].wait(), wait_s)
+            except TimeoutError:
+                return Batch(())
+        return self._after(room, int(after))
+
+    def _after(self, room: str, after: int) -> Batch:
+        missing = self._last[room] - after
+        kept = self._rooms[room]
+        entries = tuple(kept)[-missing:] if missing > 0 else ()
+        return Batch(entries, gap=after > 0 and missing > len(kept))
+
+    async def close(self) -> None:
+        """Nothing to give back."""
+
+
+class RedisStream:
+    """Between processes: one Redis Stream for each room."""
+
+    def __init__(self, url: str, kept: int = KEPT_ENTRIES) -> None:
+        self._redis: Any = Redis.from_url(url, socket_connect_timeout=3, socket_timeout=10)
+        self._kept = kept
+        self._at_once = min(_READ_AT_ONCE, kept)
+        self._doubtful: set[str] = set()
+
+    async def append(self, room: str, origin: str, notes: Sequence[Note]) -> None:
+        """See RoomStream."""
+        try:
+            async with self._redis.pipeline(transaction=True) as pipe:
+                for note in notes:
+                    fields = {"o": origin, "k": note.kind, "d": note.data}
+                    pipe.xadd(_key(room), fields, maxlen=self._kept, approximate=True)
+                pipe.expire(_key(room), KEPT_SECONDS)
+                await pipe.execute()
+        except (RedisError, OSError) as error:
+            raise StreamLost(f"Redis does not answer: {error}") from error
+
+    async def read(self, room: str, after: str, wait_s: float) -> Batch:
+        """See RoomStream."""
+        try:
+            found = await self._redis.xread({_key(room): after}, count=self._at_once, block=max(1, int(wait_s * 1000)))
+            entries = tuple(_entry(key, fields) for key, fields in (found[0][1] if found else ()))
+            look = after != BEGINNING and (len(entries) == self._at_once or room in self._doubtful)
+            gap = look and await self._is_trimmed_past(room, after)
+        except (RedisError, OSError) as error:
+            self._doubtful.add(room)
+            raise StreamLost(f"Redis does not answer: {error}") from error
+        self._doubtful.discard(room)
+        return Batch(entries, gap)
+
+    async def _is_trimmed_past(self, room: str, after: str) -> bool:
+        """Tell whether the entry after which we read is gone, and others after it perhaps too."""
+        oldest = await self._redis.xrange(_key(room), count=1)
+        return not oldest or _order(_text(oldest[0][0])) > _order(after)
+
+    async def close(self) -> None:
+        """Give back connections."""
+        await self._redis.aclose()
+
+
+def _key(room: str) -> str:
+    return f"vipo:room:{room}"
+
+
+def _text(value: bytes | str) -> str:
+    return value.decode() if isinstance(value, bytes) else value
+
+
+def _order(entry_id: str) -> tuple[int, int]:
+    milliseconds, _, number = entry_id.partition("-")
+    return int(milliseconds), int(number or 0)
+
+
+def _entry(key: bytes, fields: dict[bytes, bytes]) -> Entry:
+    kind: Any = fields[b"k"].decode()
+    return Entry(_text(key), fields[b"o"].decode(), Note(kind, fields[b"d"]))
+
+
+def make_stream(url: str) -> RoomStream:
+    """Return the implementation for a URL: `memory://` or `redis://…`."""
+    return MemoryStream() if url.startswith("memory:") else RedisStream(url)

@@ -1,0 +1,69 @@
+"""What the editor's services hand out: frozen, and free of the database."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+from uuid import UUID
+
+
+@dataclass(frozen=True, slots=True)
+class AuthorView:
+    """A person as the author of something."""
+
+    id: int
+    name: str
+    initials: str
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramView:
+    """A program as lists show it; `kinds` are the kinds of its steps, `site` is a slug."""
+
+    id: UUID
+    site: str
+    name: str
+    kinds: tuple[str, ...]
+    edited_at: datetime
+    edited_by: AuthorView | None
+    errors: int
+    warnings: int
+
+
+@dataclass(frozen=True, slots=True)
+class VersionView:
+    """A program as it was when it was pinned."""
+
+    id: UUID
+    program: UUID
+    site: str
+    number: int
+    author: AuthorView | None
+    message: str
+    document: Mapping[str, Any]
+    script: str
+    created_at: datetime
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryView:
+    """A library function, with one of its versions; `definition` is {function, functions, steps}."""
+
+    id: UUID
+    site: str
+    name: str
+    description: str
+    version: int
+    author: AuthorView | None
+    parameters: tuple[Mapping[str, Any], ...]
+    used_in: int
+    updated_at: datetime
+    script: str
+    definition: Mapping[str, Any]
+
+
+def view_author(user: Any) -> AuthorView | None:
+    """Return the view of a user's row, or None."""
+    return AuthorView(user.pk, user.display_name, user.initials) if user is not None else None

@@ -1,0 +1,147 @@
+"""Execution over HTTP: runs, rehearsals, the stop, routes for drawing."""
+
+from __future__ import annotations
+
+from typing import Any
+from uuid import UUID
+
+from django.http import HttpRequest
+from ninja import Router
+
+from execution import services
+from execution.errors import NotFound, NoWay
+from execution.programs import prepare, site_of_program
+from execution.shapes import (
+    AskRoute,
+    AskRoutes,
+    RehearsalShape,
+    RouteShape,
+    RunEventShape,
+    RunShape,
+    RunSummaryShape,
+    StartRehearsal,
+    StartRun,
+)
+from registry.access import NotAMember, require
+from registry.shapes import Stop
+
+router = Router(tags=["execution"])
+
+
+def _require(request: HttpRequest, site: str, role: str) -> None:
+    require(request.user, site, role)
+
+
+def _require_here(request: HttpRequest, site: str, role: str, what: str) -> None:
+    """Let members through who may; a stranger does not learn that the thing exists."""
+    try:
+        _require(request, site, role)
+    except NotAMember as error:
+        raise NotFound(f"There is no such {what}.") from error
+
+
+def _who(request: HttpRequest) -> str:
+    return str(getattr(request.user, "display_name", "") or request.user)
+
+
+@router.post("/programs/{uuid:program}/rehearsals", response=RehearsalShape)
+def start_rehearsal(request: HttpRequest, program: UUID, body: StartRehearsal | None = None) -> dict[str, Any]:
+    """Queue a rehearsal of a program as it is drawn now."""
+    _require_here(request, site_of_program(program_id=program), "operator", "program")
+    body = body or StartRehearsal()
+    prepared = prepare(program_id=program, user=request.user, parameters=body.parameters)
+    return services.start_rehearsal(prepared=prepared, by=_who(request), seed=body.seed, driver=body.driver)
+
+
+@router.get("/rehearsals/{uuid:rehearsal}", response=RehearsalShape)
+def get_rehearsal(request: HttpRequest, rehearsal: UUID) -> dict[str, Any]:
+    """Return a rehearsal with its result."""
+    site, view = services.get_rehearsal(rehearsal_id=rehearsal)
+    _require_here(request, site, "viewer", "rehearsal")
+    return view
+
+
+@router.post("/programs/{uuid:program}/runs", response=RunSummaryShape)
+def start_run(request: HttpRequest, program: UUID, body: StartRun | None = None) -> dict[str, Any]:
+    """Start a run of a program as it is drawn now."""
+    _require_here(request, site_of_program(program_id=program), "operator", "program")
+    body = body or StartRun()
+    prepared = prepare(program_id=program, user=request.user, parameters=body.parameters)
+    return services.start_run(prepared=prepared, by=_who(request))
+
+
+@router.get("/sites/{slug:site}/runs", response=list[RunSummaryShape])
+def list_runs(request: HttpRequest, site: str) -> list[dict[str, Any]]:
+    """Return the site's runs, the newest first."""
+    _require(request, site, "viewer")
+    return services.list_runs(site=site)
+
+
+@router.get("/runs/{uuid:run}", response=RunShape)
+def get_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
+    """Return a run with its document and compiled form."""
+    _require_here(request, services.site_of_run(run_id=run), "viewer", "run")
+    return services.get_run(run_id=run)
+
+
+@router.get("/runs/{uuid:run}/events", response=list[RunEventShape])
+def list_events(request: HttpRequest, run: UUID, after: int = 0) -> list[dict[str, Any]]:
+    """Return the run's journal after a line's number."""
+    _require_here(request, services.site_of_run(run_id=run), "viewer", "run")
+    return services.list_events(run_id=run, after=after)
+
+
+@router.post("/runs/{uuid:run}/pause", response=RunSummaryShape)
+def pause_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
+    """Pause a run."""
+    _require_here(request, services.site_of_run(run_id=run), "operator", "run")
+    return services.pause_run(run_id=run, by=_who(request))
+
+
+@router.post("/runs/{uuid:run}/resume", response=RunSummaryShape)
+def resume_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
+    """Resume a run."""
+    _require_here(request, services.site_of_run(run_id=run), "operator", "run")
+    return services.resume_run(run_id=run, by=_who(request))
+
+
+@router.post("/runs/{uuid:run}/cancel", response=RunSummaryShape)
+def cancel_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
+    """Cancel a run."""
+    _require_here(request, services.site_of_run(run_id=run), "operator", "run")
+    return services.cancel_run(run_id=run, by=_who(request))
+
+
+@router.post("/sites/{slug:site}/stop", response=Stop)
+def press_stop(request: HttpRequest, site: str) -> dict[str, Any]:
+    """Stop all devices of the site; anybody who may look may do this."""
+    _require(request, site, "viewer")
+    return _stop_to_json(services.press_stop(site=site, by=_who(request)))
+
+
+@router.post("/sites/{slug:site}/stop/reset", response=Stop)
+def reset_stop(request: HttpRequest, site: str) -> dict[str, Any]:
+    """End the stop; runs stay paused."""
+    _require(request, site, "operator")
+    return _stop_to_json(services.reset_stop(site=site, by=_who(request)))
+
+
+def _stop_to_json(stop: services.StopView) -> dict[str, Any]:
+    return {"active": stop.active, "by": stop.by, "at": stop.at.isoformat() if stop.at else None}
+
+
+@router.post("/sites/{slug:site}/route", response=RouteShape)
+def plan_route(request: HttpRequest, site: str, body: AskRoute) -> dict[str, Any]:
+    """Return the way that a robot would drive."""
+    _require(request, site, "viewer")
+    route = services.plan_routes(site=site, pairs=[(body.start, body.to)])[0]
+    if route is None:
+        raise NoWay("A robot finds no way there. Choose a place that is free and can be reached.")
+    return route
+
+
+@router.post("/sites/{slug:site}/routes", response=list[RouteShape | None])
+def plan_routes(request: HttpRequest, site: str, body: AskRoutes) -> list[dict[str, Any] | None]:
+    """Return many ways at once; null where there is none."""
+    _require(request, site, "viewer")
+    return services.plan_routes(site=site, pairs=[(pair.start, pair.to) for pair in body.pairs])

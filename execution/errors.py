@@ -1,0 +1,53 @@
+"""Refusals of execution.
+
+ExecutionError
+ ├── NotFound: no such run, rehearsal or program here
+ ├── NotReady: the program has errors and cannot be carried out
+ ├── NotPossibleNow: the run is over, the site is stopped
+ └── NoWay: there is no route
+"""
+
+from __future__ import annotations
+
+from registry.errors import VipoError
+
+
+class ExecutionError(VipoError):
+    """A refusal of execution."""
+
+    code = "execution"
+
+
+class NotFound(ExecutionError):
+    """It does not exist, or not for this person."""
+
+    code = "not_found"
+    status = 404
+
+
+class NotReady(ExecutionError):
+    """The program cannot be carried out as it is."""
+
+    code = "not_ready"
+    status = 422
+
+
+class NotPossibleNow(ExecutionError):
+    """It cannot be done in the state that things are in."""
+
+    code = "not_possible_now"
+    status = 409
+
+
+class StepConflict(ExecutionError):
+    """Somebody else has advanced the same row; nothing was written, the step is done anew."""
+
+    code = "step_conflict"
+    status = 409
+
+
+class NoWay(ExecutionError):
+    """No robot can drive there."""
+
+    code = "no_way"
+    status = 422

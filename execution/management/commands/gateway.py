@@ -1,0 +1,25 @@
+"""Run one gateway between MQTT and the database until SIGTERM or Ctrl-C."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from typing import Any
+
+from django.conf import settings
+from django.core.management.base import BaseCommand
+
+from execution.gateway import Gateway
+
+
+class Command(BaseCommand):
+    """`manage.py gateway`; start as many as the load needs."""
+
+    help = __doc__ or ""
+
+    def handle(self, *_args: Any, **_options: Any) -> None:
+        """Serve."""
+        stopping = threading.Event()
+        for number in (signal.SIGTERM, signal.SIGINT):
+            signal.signal(number, lambda *_: stopping.set())
+        Gateway(settings).run_forever(stopping)

@@ -1,0 +1,24 @@
+"""`manage.py ticker`: timers, lost hints, stale devices. Any number may run; one works."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from typing import Any
+
+from django.core.management.base import BaseCommand
+
+from execution.clockwork import run_ticker
+
+
+class Command(BaseCommand):
+    """Runs the ticker until it is told to stop."""
+
+    help = "Run the ticker: due timers, lost hints, stale devices."
+
+    def handle(self, *args: Any, **options: Any) -> None:
+        """Run until SIGTERM or SIGINT."""
+        stopping = threading.Event()
+        for number in (signal.SIGTERM, signal.SIGINT):
+            signal.signal(number, lambda *_: stopping.set())
+        run_ticker(stopping)

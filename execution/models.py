@@ -1,0 +1,223 @@
+"""What execution keeps: runs, their events and timers, commands, floors, the inbox between them, rehearsals, stops."""
+
+from __future__ import annotations
+
+import uuid
+
+from django.db import models
+
+
+class Run(models.Model):
+    """A program being carried out. It holds all it needs: the document, the plan and the machine's state."""
+
+    class Status(models.TextChoices):
+        """The life of a run."""
+
+        PENDING = "pending"
+        RUNNING = "running"
+        PAUSED = "paused"
+        FINISHED = "finished"
+        FAILED = "failed"
+        CANCELLED = "cancelled"
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4)
+    site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="runs")
+    number = models.PositiveIntegerField()
+    program = models.UUIDField(db_index=True)
+    program_name = models.CharField(max_length=200)
+    version = models.PositiveIntegerField(default=0)
+    status = models.CharField(max_length=10, choices=Status.choices, default=Status.PENDING)
+    reason = models.CharField(max_length=500, blank=True)
+    parameters = models.JSONField(default=dict)
+    document = models.JSONField(default=dict)
+    compiled = models.JSONField(default=dict)
+    plan = models.JSONField(default=dict)
+    state = models.JSONField(null=True)
+    epoch = models.PositiveIntegerField(default=0)
+    watches = models.BooleanField(default=False)
+    steps = models.JSONField(default=dict)
+    roles = models.JSONField(default=dict)
+    next_seq = models.PositiveIntegerField(default=1)
+    started_by = models.CharField(max_length=120, blank=True)
+    created_at = models.DateTimeField()
+    started_at = models.DateTimeField(null=True)
+    ended_at = models.DateTimeField(null=True)
+
+    class Meta:
+        """Runs are counted from 1 at each site."""
+
+        constraints = [models.UniqueConstraint(fields=["site", "number"], name="one_run_per_number")]
+        indexes = [models.Index(fields=["status"])]
+
+    def __str__(self) -> str:
+        return f"run {self.number}"
+
+
+class RunEvent(models.Model):
+    """One line of a run's journal."""
+
+    run = models.ForeignKey(Run, on_delete=models.CASCADE, related_name="events")
+    seq = models.PositiveIntegerField()
+    at = models.DateTimeField()
+    t_s = models.FloatField()
+    kind = models.CharField(max_length=20)
+    step = models.CharField(max_length=64, blank=True)
+    device = models.CharField(max_length=64, blank=True)
+    robot = models.CharField(max_length=64, blank=True)
+    text = models.CharField(max_length=500)
+    code = models.CharField(max_length=40, blank=True)
+    args = models.JSONField(default=dict)
+
+    class Meta:
+        """In the order in which they were written."""
+
+        constraints = [models.UniqueConstraint(fields=["run", "seq"], name="one_run_event_per_seq")]
+
+    def __str__(self) -> str:
+        return self.text
+
+
+class Timer(models.Model):
+    """Something that a run waits for until `due_at`."""
+
+    run = models.ForeignKey(Run, on_delete=models.CASCADE, related_name="timers")
+    timer = models.PositiveIntegerField()
+    due_at = models.DateTimeField(db_index=True)
+
+    class Meta:
+        """A timer is set once."""
+
+        constraints = [models.UniqueConstraint(fields=["run", "timer"], name="one_timer_per_run")]
+
+    def __str__(self) -> str:
+        return f"{self.run_id} timer {self.timer}"
+
+
+class Command(models.Model):
+    """A command to a device: written with the state that decided it, sent until it is answered."""
+
+    class Status(models.TextChoices):
+        """The life of a command."""
+
+        PENDING = "pending"
+        SENT = "sent"
+        ACCEPTED = "accepted"
+        RUNNING = "running"
+        DONE = "done"
+        FAILED = "failed"
+        REJECTED = "rejected"
+        CANCELLED = "cancelled"
+        TIMED_OUT = "timed_out"
+
+    OPEN = (Status.PENDING, Status.SENT, Status.ACCEPTED, Status.RUNNING)
+
+    id = models.UUIDField(primary_key=True)
+    site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="commands")
+    position = models.BigIntegerField()
+    device = models.CharField(max_length=64)
+    method = models.CharField(max_length=64)
+    arguments = models.JSONField(default=dict)
+    run = models.UUIDField(null=True, db_index=True)
+    step = models.CharField(max_length=64, blank=True)
+    piece = models.BooleanField(default=False)
+    status = models.CharField(max_length=10, choices=Status.choices, default=Status.PENDING)
+    why = models.CharField(max_length=500, blank=True)
+    fence = models.PositiveIntegerField(default=0)
+    tries = models.PositiveIntegerField(default=0)
+    ttl_s = models.FloatField(default=60.0)
+    send_after = models.DateTimeField()
+    created_at = models.DateTimeField()
+    sent_at = models.DateTimeField(null=True)
+    ended_at = models.DateTimeField(null=True)
+
+    class Meta:
+        """The outbox is read by what is to be sent next."""
+
+        indexes = [models.Index(fields=["status", "send_after"]), models.Index(fields=["device", "status"])]
+
+    def __str__(self) -> str:
+        return f"{self.method} to {self.device}"
+
+
+class FloorState(models.Model):
+    """The floor of a site between two events."""
+
+    site = models.OneToOneField("registry.Site", on_delete=models.CASCADE, related_name="floor_state")
+    namespace = models.UUIDField(default=uuid.uuid4)
+    state = models.JSONField(null=True)
+    epoch = models.PositiveIntegerField(default=0)
+    active = models.BooleanField(default=False)
+    commands = models.BigIntegerField(default=0)
+
+    def __str__(self) -> str:
+        return f"floor of {self.site_id}"
+
+
+class InboxEvent(models.Model):
+    """Something that a run or a floor is to take in. `key` is its identity: the same event is never taken in twice."""
+
+    target = models.CharField(max_length=80)
+    key = models.CharField(max_length=160, unique=True)
+    payload = models.JSONField()
+    created_at = models.DateTimeField()
+    taken_at = models.DateTimeField(null=True)
+
+    class Meta:
+        """Read by target, in order, what is not taken in."""
+
+        indexes = [models.Index(fields=["target", "taken_at", "id"]), models.Index(fields=["taken_at", "created_at"])]
+
+    def __str__(self) -> str:
+        return self.key
+
+
+class Rehearsal(models.Model):
+    """A program tried out in a pretend world."""
+
+    class Status(models.TextChoices):
+        """The life of a rehearsal."""
+
+        QUEUED = "queued"
+        RUNNING = "running"
+        DONE = "done"
+        FAILED = "failed"
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4)
+    site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="rehearsals")
+    program = models.UUIDField(db_index=True)
+    status = models.CharField(max_length=10, choices=Status.choices, default=Status.QUEUED)
+    progress = models.FloatField(default=0.0)
+    job = models.JSONField(default=dict)
+    document = models.JSONField(default=dict)
+    compiled = models.JSONField(default=dict)
+    result = models.JSONField(null=True)
+    reason = models.CharField(max_length=500, blank=True)
+    started_by = models.CharField(max_length=120, blank=True)
+    created_at = models.DateTimeField()
+    beat_at = models.DateTimeField(null=True)
+
+    def __str__(self) -> str:
+        return f"rehearsal of {self.program}"
+
+
+class SiteStop(models.Model):
+    """The latched stop of a site."""
+
+    site = models.OneToOneField("registry.Site", on_delete=models.CASCADE, related_name="stop_latch")
+    active = models.BooleanField(default=False)
+    by = models.CharField(max_length=120, blank=True)
+    at = models.DateTimeField(null=True)
+
+    def __str__(self) -> str:
+        return f"stop of {self.site_id}"
+
+
+class Lease(models.Model):
+    """Who does a job that only one process may do, and until when."""
+
+    name = models.CharField(primary_key=True, max_length=40)
+    holder = models.CharField(max_length=80)
+    until = models.DateTimeField()
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.holder}"

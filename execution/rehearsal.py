@@ -1,0 +1,220 @@
+"""A rehearsal: run machine, floor and a pretend world in lockstep, in virtual time.
+
+See `execution.rehearsal_job` for the process of its own that physics wants.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from editor.language import compile_document
+from editor.language.plan import Plan, RoleBinding
+from editor.language.surroundings import PlaceFacts
+from execution import machine
+from execution import run_messages as r
+from execution.expressions import watched_properties
+from execution.program_site import read_site
+from execution.recording import Recorder
+from execution.traffic import floor
+from execution.traffic import messages as m
+from execution.traffic.layout import Layout, make_layout
+from registry.capability import Scalar
+from simulation.services import DriverName, make_world
+from simulation.world import Ack, PropertyChanged, Scene, World, WorldEvent
+
+NAMESPACE = "6f1d7a52-6a0c-4d4e-9a5f-0d6b8f3f7c11"
+"""Rehearsals name their commands from this, so that the same input gives the same bytes."""
+RUN = "rehearsal"
+DRIVING_S = 0.05
+THINKING_S = 0.1
+"""How often traffic looks at poses while robots drive."""
+RESTING_S = 0.5
+LIMIT_S = 4 * 3600.0
+ACTION_LIMIT = 200_000
+PROGRESS_EVERY_S = 5.0
+Progress = Callable[[float], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """How a rehearsal is done: the driver of the robots, the program's parameters, and the longest it may take (s)."""
+
+    driver: DriverName = "physics"
+    parameters: Mapping[str, Scalar] = field(default_factory=dict)
+    limit_s: float = LIMIT_S
+
+
+def rehearse(
+    plan: Plan,
+    scene: Scene,
+    *,
+    places: Iterable[PlaceFacts] = (),
+    conditions: Conditions | None = None,
+    on_progress: Progress | None = None,
+) -> dict[str, Any]:
+    """Carry the plan out in a world made from the scene; returns the result of docs/architecture.md.
+
+    The scene's seed decides all chance. What goes wrong is in `errors`; a program that does not end is stopped after
+    `conditions.limit_s` of virtual time.
+    """
+    conditions = conditions or Conditions()
+    world = make_world(scene, conditions.driver)
+    try:
+        layout = make_layout(scene.grid, scene.devices, places)
+        return _Rehearsal(plan, layout, world, conditions.limit_s, on_progress).run(conditions.parameters)
+    finally:
+        world.close()
+
+
+class _Rehearsal:
+    """One rehearsal under way."""
+
+    def __init__(self, plan: Plan, layout: Layout, world: World, limit_s: float, on_progress: Progress | None) -> None:
+        self.plan, self.layout, self.world, self.limit_s = plan, layout, world, limit_s
+        self.recorder = Recorder(layout, world.readings())
+        self.watched = watched_properties(plan)
+        self.floor = floor.start(layout, NAMESPACE)
+        self.run_events: list[r.Event] = []
+        self.floor_events: list[m.Event] = []
+        self.timers: list[tuple[float, int]] = []
+        self.dropped_timers: set[int] = set()
+        self.finished: r.Finished | None = None
+        self.actions = 0
+        self.on_progress = on_progress or (lambda share: None)
+        self.steps = {instruction.step for instruction in plan.instructions if instruction.step} or {""}
+        self.left: set[str] = set()
+
+    def run(self, parameters: Mapping[str, Scalar]) -> dict[str, Any]:
+        facts = {(d, n): v for d, values in self.world.readings().items() for n, v in values.items()}
+        self._report_poses()
+        self.state, actions = machine.start(self.plan, parameters, facts)
+        self._do_run(actions)
+        self._settle()
+        self.recorder.look(0.0, 0.0, self.world.robots(), self.world.busy())
+        thought_at = told_at = 0.0
+        while self.finished is None:
+            happened = self._advance()
+            now = self.world.time_s
+            if happened or now - thought_at >= THINKING_S - 1e-9:
+                self._report_poses()
+                self._settle()
+                thought_at = now
+            if now - told_at >= PROGRESS_EVERY_S:
+                told_at = now
+                self.on_progress(round(0.99 * len(self.left) / len(self.steps), 3))
+            self._check_limits(now)
+        self.on_progress(1.0)
+        return self.recorder.result(self.world.time_s, ok=self.finished.status == "finished")
+
+    def _advance(self) -> bool:
+        """Let time pass as far as nothing is missed by it; tell whether something happened."""
+        now = self.world.time_s
+        driving = any(sent.device in self.floor.robots for sent in self.floor.sent.values())
+        dt_s = DRIVING_S if driving else RESTING_S
+        if self.timers:
+            dt_s = min(dt_s, max(DRIVING_S, self.timers[0][0] - now))
+        events = self.world.advance(dt_s)
+        self.recorder.look(self.world.time_s, dt_s, self.world.robots(), self.world.busy())
+        happened = [self._take(event) for event in events]
+        while self.timers and self.timers[0][0] <= self.world.time_s + 1e-9:
+            _, timer = heapq.heappop(self.timers)
+            if timer not in self.dropped_timers:
+                self.run_events.append(r.TimerFired(timer))
+                happened.append(True)
+        return any(happened)
+
+    def _take(self, event: WorldEvent) -> bool:
+        self.recorder.note_world(event)
+        match event:
+            case Ack(command=command, status=status, why=why, result=result):
+                self.floor_events.append(m.CommandAnswered(command, status, why, result))
+                return True
+            case PropertyChanged(device=device, name=name, value=value) if name in self.watched:
+                self.run_events.append(r.Facts({(device, name): value}))
+                return True
+        return False
+
+    def _report_poses(self) -> None:
+        for name, robot in self.world.robots().items():
+            self.floor_events.append(m.RobotMoved(name, robot.pose.x, robot.pose.y, robot.pose.theta))
+
+    def _settle(self) -> None:
+        """Hand events to and fro between the run and the floor until both are content."""
+        self._step_floor()
+        while self.run_events and self.finished is None:
+            events, self.run_events = self.run_events, []
+            for event in events:
+                self.state, actions = machine.step(self.plan, self.state, event)
+                self._do_run(actions)
+            if self.floor_events:
+                self._step_floor()
+
+    def _step_floor(self) -> None:
+        events, self.floor_events = self.floor_events, []
+        now = self.world.time_s
+        self.floor, actions = floor.step(self.layout, self.floor, events, now)
+        for action in actions:
+            self.recorder.note_floor(now, action)
+            if isinstance(action, m.SendCommand):
+                self.world.command(action.device, action.method, action.arguments, action.id)
+            elif isinstance(action, m.MissionOver) and action.kind:
+                self.run_events.append(r.MissionFailed(action.mission, action.kind, action.why))
+            elif isinstance(action, m.MissionOver):
+                self.run_events.append(r.MissionDone(action.mission, action.result))
+
+    def _do_run(self, actions: tuple[r.Action, ...]) -> None:
+        now = self.world.time_s
+        self.actions += len(actions)
+        for action in actions:
+            self.recorder.note_run(now, action)
+            match action:
+                case r.Ask(mission=mission, order=order):
+                    role = self.plan.roles.get(order.role, RoleBinding(order.role))
+                    asked = m.MissionAsked(RUN, mission, order, role.device or "", role.can, "this rehearsal")
+                    self.floor_events.append(asked)
+                case r.Cancel(mission=mission):
+                    self.floor_events.append(m.MissionCancelled(RUN, mission))
+                case r.SetTimer(timer=timer, seconds=seconds):
+                    heapq.heappush(self.timers, (now + seconds, timer))
+                case r.CancelTimer(timer=timer):
+                    self.dropped_timers.add(timer)
+                case r.StepLeft(step=step):
+                    self.left.add(step)
+                case r.Finished():
+                    self._finish(now, action)
+
+    def _finish(self, now: float, action: r.Finished) -> None:
+        self.finished = action
+        if action.status == "failed" and not self.recorder.errors:
+            self.recorder.error(now, "", "failed", action.reason)
+
+    def _check_limits(self, now: float) -> None:
+        """Stop what would go on for ever."""
+        if self.finished is None and now >= self.limit_s:
+            why = f"The program was stopped after {self.limit_s / 3600:g} h of simulated time; it may never end."
+        elif self.finished is None and self.actions > ACTION_LIMIT:
+            why = f"The program was stopped after {ACTION_LIMIT} actions; it may never end."
+        else:
+            return
+        self.recorder.error(now, "", "timed_out", why)
+        self.finished = r.Finished("failed", why)
+
+
+def rehearse_program(
+    document: object, site: Mapping[str, Any], seed: int = 0, driver: DriverName = "physics"
+) -> dict[str, Any]:
+    """Rehearse a document in the site of a program file (see docs/cli.md); for the command line.
+
+    Raises:
+        ValueError: the program has errors; check it first.
+        UnreadableSite, BadMap: the site cannot be used.
+    """
+    surroundings, scene, places = read_site(site, seed)
+    compiled = compile_document(document, surroundings)
+    if compiled.plan is None:
+        errors = [d.message for d in compiled.diagnostics if d.severity == "error"]
+        raise ValueError(f"The program has errors and cannot be rehearsed. {errors[0] if errors else ''}".strip())
+    return rehearse(compiled.plan, scene, places=places, conditions=Conditions(driver))

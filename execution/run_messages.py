@@ -1,0 +1,126 @@
+"""What the run machine is told (events) and what it wants done (actions); pure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from execution.mission import Mission
+from registry.capability import Scalar
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """Readings have changed: values by (device id, property)."""
+
+    values: Mapping[tuple[str, str], Scalar]
+
+
+@dataclass(frozen=True, slots=True)
+class MissionDone:
+    """A mission that was asked for is over."""
+
+    mission: int
+    result: Mapping[str, Scalar] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class MissionFailed:
+    """A mission failed; `kind` is one of `execution.mission.FAILURE_KINDS`."""
+
+    mission: int
+    kind: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class TimerFired:
+    """A timer that was set is due."""
+
+    timer: int
+
+
+@dataclass(frozen=True, slots=True)
+class PauseAsked:
+    """Ask for nothing new until resumed; what is under way settles."""
+
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Resumed:
+    """Go on."""
+
+
+@dataclass(frozen=True, slots=True)
+class CancelAsked:
+    """End the run."""
+
+    reason: str = ""
+
+
+Event = Facts | MissionDone | MissionFailed | TimerFired | PauseAsked | Resumed | CancelAsked
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """Ask the floor for a mission."""
+
+    mission: int
+    order: Mission
+
+
+@dataclass(frozen=True, slots=True)
+class Cancel:
+    """The mission is not wanted any more; no answer is awaited."""
+
+    mission: int
+
+
+@dataclass(frozen=True, slots=True)
+class SetTimer:
+    """Send TimerFired in so many seconds."""
+
+    timer: int
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class CancelTimer:
+    """The timer is not needed any more."""
+
+    timer: int
+
+
+@dataclass(frozen=True, slots=True)
+class StepEntered:
+    """A step of the program begins."""
+
+    step: str
+
+
+@dataclass(frozen=True, slots=True)
+class StepLeft:
+    """A step of the program is done."""
+
+    step: str
+
+
+@dataclass(frozen=True, slots=True)
+class StepFailed:
+    """A step of the program was not done."""
+
+    step: str
+    kind: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class Finished:
+    """The run is over: finished, failed or cancelled, with the reason."""
+
+    status: str
+    reason: str
+
+
+Action = Ask | Cancel | SetTimer | CancelTimer | StepEntered | StepLeft | StepFailed | Finished

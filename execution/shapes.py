@@ -1,0 +1,227 @@
+"""The shapes of execution's HTTP answers and requests; `execution.views` makes the answers."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from ninja import Field, Schema
+
+from editor.shapes import Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
+from registry.shown import Shown
+
+RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cancelled"]
+StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]
+Scalar = bool | int | float | str
+
+
+class StartRun(Schema):
+    """Parameters of a run; what is left out has its default."""
+
+    parameters: dict[str, Any] = {}
+
+
+class StartRehearsal(Schema):
+    """How a rehearsal is done: with `physics`, or `kinematic` and quicker."""
+
+    parameters: dict[str, Any] = {}
+    seed: int = 0
+    driver: str = "physics"
+
+
+End = Annotated[Any, Shown(Position | DevicePlace | NamedPlace | PointPlace)]
+
+
+class AskRoute(Schema):
+    """Two ends of a way: `[x, y]` or a Place; in JSON the first is called `from`."""
+
+    start: End = Field(alias="from")
+    to: End
+
+
+class AskRoutes(Schema):
+    """Many ways at once."""
+
+    pairs: list[AskRoute] = Field(max_length=500)
+
+
+class RouteShape(Schema):
+    """The way a robot would drive, in metres, and about how many seconds it takes."""
+
+    path: list[Position]
+    length_m: float
+    seconds: int
+
+
+class RunProgram(Schema):
+    """Which program; its name is as it was when it was started."""
+
+    id: str
+    name: str
+
+
+class RunStepShape(Schema):
+    """How far a step of a run is; `wait` says what it waits for, `count` how often it has begun."""
+
+    status: StepStatus
+    started_at: str | None
+    ended_at: str | None
+    robot: str | None
+    wait: str | None
+    count: int
+
+
+class RunSummaryShape(Schema):
+    """A run as lists and live messages have it; times are ISO 8601."""
+
+    id: str
+    number: int
+    program: RunProgram
+    site: str
+    version: int
+    status: RunStatus
+    reason: str
+    created_at: str
+    started_at: str | None
+    ended_at: str | None
+    started_by: str
+    steps: dict[str, RunStepShape]
+    roles: dict[str, str]
+
+
+class RunShape(RunSummaryShape):
+    """A run with the program as it was when it was started."""
+
+    document: Document
+    compiled: Compiled
+
+
+class RunEventShape(Schema):
+    """One line of a run's journal; `t_s` counts from the run's start."""
+
+    seq: int
+    at: str
+    t_s: float
+    kind: str
+    step: str
+    device: str
+    robot: str
+    text: str
+    code: str
+    args: dict[str, Any]
+
+
+class RehearsalError(Schema):
+    """Something that the real run would meet, too."""
+
+    t: float
+    step: str
+    kind: str
+    message: str
+
+
+class RobotFigures(Schema):
+    """What a robot did, and its charge at the end (%)."""
+
+    distance_m: float
+    busy_s: float
+    wait_s: float
+    battery: float
+
+
+class MachineFigures(Schema):
+    """What a machine did."""
+
+    busy_s: float
+
+
+class Encounter(Schema):
+    """Two bodies that came too near, or touched."""
+
+    t: float
+    a: str
+    b: str
+    distance_m: float
+    x: float
+    y: float
+
+
+class WaitShape(Schema):
+    """A robot that had to wait, and why."""
+
+    t: float
+    duration_s: float
+    robot: str
+    reason: str
+
+
+class RehearsedStep(Schema):
+    """One time that a step was carried out."""
+
+    step: str
+    count: int
+    robot: str
+    device: str
+    started_s: float
+    ended_s: float | None
+    status: StepStatus
+
+
+class Frames(Schema):
+    """Where each robot was, every `dt_s`: x, y, theta."""
+
+    dt_s: float
+    robots: dict[str, list[tuple[float, float, float]]]
+
+
+class PlannedWay(Schema):
+    """A way that a robot set out on."""
+
+    t: float
+    robot: str
+    path: list[Position]
+
+
+class LogLine(Schema):
+    """A line of what happened."""
+
+    t: float
+    step: str
+    device: str
+    text: str
+
+
+class RehearsalResultShape(Schema):
+    """What a rehearsal found: figures, and the whole course of it."""
+
+    ok: bool
+    duration_s: float
+    errors: list[RehearsalError]
+    robots: dict[str, RobotFigures]
+    machines: dict[str, MachineFigures]
+    near_misses: list[Encounter]
+    collisions: list[Encounter]
+    waits: list[WaitShape]
+    steps: list[RehearsedStep]
+    frames: Frames
+    carrying: dict[str, list[tuple[float, dict[str, int]]]]
+    machine_states: dict[str, list[tuple[float, bool]]]
+    properties: dict[str, list[tuple[float, str, Scalar | None]]]
+    routes: list[PlannedWay]
+    log: list[LogLine]
+
+
+RehearsalResult = Annotated[dict[str, Any] | None, Shown(RehearsalResultShape | None)]
+
+
+class RehearsalShape(Schema):
+    """A rehearsal with its result, once there is one; `progress` goes from 0 to 1."""
+
+    id: str
+    program: str
+    status: Literal["queued", "running", "done", "failed"]
+    progress: float
+    reason: str
+    result: RehearsalResult
+    document: Document
+    compiled: Compiled
+    created_at: str

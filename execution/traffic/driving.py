@@ -1,0 +1,195 @@
+"""How a robot drives: where it is on its way, which cells it holds, which piece of way it gets next."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import hypot
+
+from execution.traffic.floor_state import Robot, Sent
+from execution.traffic.lattice import Point
+from execution.traffic.layout import Node
+from execution.traffic.messages import WayPlanned
+from execution.traffic.routes import drawn
+from execution.traffic.turn import Turn
+
+AHEAD = 4
+"""Nodes that a robot may be released ahead of where it is."""
+EXTEND_AT = 2
+"""With so many nodes left it gets the next piece, so that it drives on without stopping."""
+LAST_NODES = 5
+"""The end of the way to a machine, entered only by the robot that the machine serves."""
+CLEAR_OF_M = 0.44
+"""A cell is given back when the robot's middle is this far from the cell's: two radii and a margin."""
+LOST_M = 0.4
+
+
+def place(turn: Turn, robot: Robot, *, keep_way: bool = False) -> Robot:
+    """Put a robot that stands still onto the node it stands at, and let it hold that node's cells.
+
+    Cells that somebody else holds already are left to them: two robots never hold one.
+    """
+    node = _nearest_node(turn, robot)
+    others = {cell for other in turn.robots.values() if other.id != robot.id for cell in other.held}
+    held = tuple(sorted(set(turn.layout.needed(node)) - others))
+    return turn.put(robot, way=(node,), passed=0, released=0, held=held)
+
+
+def _nearest_node(turn: Turn, robot: Robot) -> Node:
+    layout, here = turn.layout, (robot.x, robot.y)
+    spots = {**layout.places, **layout.stations}
+    near = [(hypot(s.x - here[0], s.y - here[1]), s.id) for s in spots.values()]
+    best = min(near, default=(9.0, ""))
+    if best[0] < 0.2:
+        return best[1]
+    cells = [cell for cell in layout.lattice.cells_within(here, 3.0) if cell in layout.lattice.links]
+    if cells and hypot(layout.point(cells[0])[0] - here[0], layout.point(cells[0])[1] - here[1]) < 0.12:
+        return cells[0]
+    return f"@{here[0]:.3f},{here[1]:.3f}" if _can_stand(turn, here) else (cells or [min(layout.lattice.links)])[0]
+
+
+def _can_stand(turn: Turn, point: Point) -> bool:
+    ground, lattice = turn.layout.ground, turn.layout.lattice
+    room_m = ground.radius_m + 0.02
+    near = (c for c in lattice.cells_within(point, 1.2) if c in lattice.links)
+    return ground.room_m(point) >= room_m and any(ground.is_passable(lattice.centre(c), point, room_m) for c in near)
+
+
+def take_pose(turn: Turn, robot: Robot, x: float, y: float, theta: float) -> None:
+    """Take in where a robot is: pass nodes, give back cells behind it."""
+    if not robot.way:
+        place(turn, turn.put(robot, x=x, y=y, theta=theta))
+        return
+    robot = turn.put(robot, x=x, y=y, theta=theta)
+    if turn.is_driving(robot):
+        passed = _passed(turn, robot)
+        if passed > robot.passed:
+            robot = turn.put(robot, passed=passed, progress_at=turn.now)
+        release_behind(turn, robot)
+        return
+    at = turn.layout.point(turn.node(robot))
+    if hypot(at[0] - x, at[1] - y) > LOST_M and not turn.is_acting(robot):
+        place(turn, robot)
+
+
+def _passed(turn: Turn, robot: Robot) -> int:
+    """Return the last node of the released way that lies behind the robot, by projection on the way."""
+    points = [turn.layout.point(node) for node in robot.way[robot.passed : robot.released + 1]]
+    best, index = 9.0, robot.passed
+    for i, (a, b) in enumerate(pairwise(points)):
+        span = hypot(b[0] - a[0], b[1] - a[1]) or 1e-9
+        share = ((robot.x - a[0]) * (b[0] - a[0]) + (robot.y - a[1]) * (b[1] - a[1])) / span**2
+        share = min(1.0, max(0.0, share))
+        off = hypot(a[0] + share * (b[0] - a[0]) - robot.x, a[1] + share * (b[1] - a[1]) - robot.y)
+        if off < best - 0.02:
+            best, index = off, robot.passed + i + (1 if (1 - share) * span < 0.02 else 0)
+    return index
+
+
+def release_behind(turn: Turn, robot: Robot) -> None:
+    """Give back the cells that the robot has left behind far enough."""
+    layout = turn.layout
+    kept = {cell for node in robot.way[robot.passed : robot.released + 1] for cell in layout.needed(node)}
+    for cell in set(robot.held) - kept:
+        x, y = layout.lattice.centre(cell)
+        if hypot(x - robot.x, y - robot.y) < CLEAR_OF_M:
+            kept.add(cell)
+    held = tuple(sorted(kept & set(robot.held)))
+    if held != robot.held:
+        turn.put(robot, held=held)
+
+
+def end_piece(turn: Turn, robot: Robot, sent: Sent) -> None:
+    """A piece of way is done: the robot has reached its end."""
+    robot = turn.put(robot, passed=max(robot.passed, min(sent.upto, robot.released)), progress_at=turn.now)
+    release_behind(turn, robot)
+    robot = turn.robots[robot.id]
+    if not turn.is_driving(robot) and robot.passed == robot.released:
+        x, y = turn.layout.point(turn.node(robot))
+        robot = turn.put(robot, x=x, y=y) if hypot(robot.x - x, robot.y - y) > 0.1 else robot
+        release_behind(turn, robot)
+        if len(robot.way) == robot.passed + 1:
+            turn.put(turn.robots[robot.id], way=robot.way[-1:], passed=0, released=0, evading="", idle_since=turn.now)
+
+
+def set_way(turn: Turn, robot: Robot, way: tuple[Node, ...], evading: str = "") -> Robot:
+    """Give a robot a new way from where it stands or will stop; only for one that has no piece under way."""
+    turn.actions.append(WayPlanned(robot.id, robot.run if not evading else "", drawn(turn.layout, way)))
+    return turn.put(robot, way=way, passed=0, released=0, evading=evading, blocked_since=None, progress_at=turn.now)
+
+
+def cut_way(turn: Turn, robot: Robot) -> Robot:
+    """Let the robot go no farther than what is released to it."""
+    if not turn.is_driving(robot):
+        robot = turn.put(robot, way=(turn.node(robot),), passed=0, released=0, idle_since=turn.now)
+    return turn.put(robot, way=robot.way[: robot.released + 1], evading="", blocked_since=None)
+
+
+def drive(turn: Turn, robot: Robot) -> None:
+    """Reserve the next cells of a robot's way, as many as are free, and send it there."""
+    left = robot.released - robot.passed
+    if left > EXTEND_AT or robot.released + 1 >= len(robot.way) or not _may_drive(turn, robot):
+        return
+    end = robot.released
+    held = set(robot.held)
+    holders = turn.holders()
+    while end + 1 < len(robot.way) and end + 1 - robot.passed <= AHEAD and may_enter(turn, robot, end + 1):
+        needed = turn.layout.needed(robot.way[end + 1])
+        if any(holders.get(cell, robot.id) != robot.id for cell in needed):
+            break
+        held |= needed
+        end += 1
+    if end == robot.released:
+        if not turn.is_driving(robot) and robot.blocked_since is None:
+            turn.put(robot, blocked_since=turn.now)
+        return
+    if not turn.is_driving(robot):
+        turn.put(robot, progress_at=turn.now)
+    nodes = robot.way[robot.released + 1 : end + 1]
+    robot = turn.put(turn.robots[robot.id], held=tuple(sorted(held)), released=end, blocked_since=None)
+    _send_piece(turn, robot, nodes)
+
+
+def _may_drive(turn: Turn, robot: Robot) -> bool:
+    if turn.stopped or not robot.online or turn.is_acting(robot):
+        return False
+    return bool(robot.evading) or not (robot.yields_to or robot.run in turn.paused)
+
+
+def may_enter(turn: Turn, robot: Robot, index: int) -> bool:
+    """Tell whether the robot may go to that node as far as machines are concerned."""
+    goal = robot.way[-1]
+    if not isinstance(goal, str) or goal not in turn.layout.stations or index < len(robot.way) - LAST_NODES:
+        return True
+    return turn.stations.get(goal) == robot.id
+
+
+def _send_piece(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> None:
+    points = [list(turn.layout.point(node)) for node in nodes]
+    arguments: dict[str, object] = {"path": [[round(x, 4), round(y, 4)] for x, y in points]}
+    last = nodes[-1]
+    theta = turn.layout.spot(last).theta if isinstance(last, str) and robot.released == len(robot.way) - 1 else None
+    if theta is not None:
+        arguments["theta"] = round(theta, 4)
+    job = None if robot.evading else turn.job_of(robot)
+    run, step = (job.run, job.order.step) if job else ("", "")
+    turn.send(Sent("", robot.id, run, upto=robot.released), "move", arguments, step)
+
+
+def drop_pieces(turn: Turn, robot: Robot, *, cancel: bool) -> None:
+    """Forget the pieces of way that a robot has; with `cancel` it is told so."""
+    for sent in turn.pieces(robot):
+        if cancel:
+            turn.tell(sent, "cancel")
+        del turn.sent[sent.id]
+
+
+def keep_stations(turn: Turn) -> None:
+    """Give machines back that their robot neither stands at nor is on its way to."""
+    for machine, holder in list(turn.stations.items()):
+        robot = turn.robots[holder]
+        x, y = turn.layout.point(machine)
+        near = hypot(x - robot.x, y - robot.y) < CLEAR_OF_M
+        job = turn.job_of(robot)
+        wanted = job is not None and job.order.target.id == machine
+        if not (near or wanted or machine in robot.way[robot.passed :]):
+            del turn.stations[machine]

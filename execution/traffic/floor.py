@@ -1,0 +1,257 @@
+"""The floor of a site: its state and what happened in, the new state and what is to be done out; pure.
+
+Rules, in docs/execution.md at length: each cell has one robot, a robot drives only over cells that it holds, a machine
+serves one robot and carries out one call at a time, a role keeps its robot until the run ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from execution.traffic import messages as m
+from execution.traffic.driving import cut_way, drive, drop_pieces, end_piece, keep_stations, place, take_pose
+from execution.traffic.evading import resolve, send_home
+from execution.traffic.floor_state import FloorState, Job, Robot, Sent, from_json, to_json
+from execution.traffic.layout import Layout
+from execution.traffic.serving import ABSENCE_S, bind_roles, serve
+from execution.traffic.turn import Turn
+
+__all__ = ["from_json", "start", "step", "to_json"]
+
+GAP_S = 5.0
+"""A floor with something under way is looked at every half second; a longer gap means that the server was away."""
+STUCK_S = 60.0
+"""How long a robot may take for a piece of way without getting on."""
+KINDS = {"FAILED": "failed", "REJECTED": "refused", "CANCELED": "cancelled"}
+
+
+def start(layout: Layout, namespace: str) -> FloorState:
+    """Return the floor before anything is known of it; `namespace` is a UUID from which command ids are made."""
+    robots = {
+        device.id: Robot(device.id, device.pose.x, device.pose.y, device.pose.theta)
+        for device in layout.devices.values()
+        if device.kind == "robot"
+    }
+    return FloorState(namespace=namespace, robots=robots)
+
+
+def step(
+    layout: Layout, state: FloorState, events: Sequence[m.Event], now: float
+) -> tuple[FloorState, tuple[m.Action, ...]]:
+    """Take in what happened, in order, at the time `now` (s), and decide once."""
+    turn = Turn(layout, _without_gap(state, now), now)
+    _know_robots(turn)
+    for event in events:
+        _take(turn, event)
+    _check_limits(turn)
+    keep_stations(turn)
+    bind_roles(turn)
+    serve(turn)
+    _drive_all(turn)
+    resolve(turn)
+    send_home(turn)
+    _drive_all(turn)
+    serve(turn)
+    turn.announce_waits()
+    return turn.close()
+
+
+def _without_gap(state: FloorState, now: float) -> FloorState:
+    """Return the state as if the time had not passed in which nobody looked at the floor.
+
+    When the server was away nothing could be heard of devices either: no grace or limit runs out meanwhile.
+    """
+    gap = now - state.now
+    if gap < GAP_S or not state.now:
+        return state
+    robots = {
+        robot.id: replace(
+            robot,
+            yields_since=robot.yields_since + gap,
+            idle_since=robot.idle_since + gap,
+            progress_at=robot.progress_at + gap,
+            blocked_since=None if robot.blocked_since is None else robot.blocked_since + gap,
+        )
+        for robot in state.robots.values()
+    }
+    sent = {key: replace(item, at=item.at + gap) for key, item in state.sent.items()}
+    jobs = tuple(j if j.absent_since is None else replace(j, absent_since=j.absent_since + gap) for j in state.jobs)
+    offline = {device: since + gap for device, since in state.offline.items()}
+    return replace(state, robots=robots, sent=sent, jobs=jobs, offline=offline)
+
+
+def _drive_all(turn: Turn) -> None:
+    for robot in list(turn.robots.values()):
+        if robot.way:
+            drive(turn, turn.robots[robot.id])
+
+
+def _know_robots(turn: Turn) -> None:
+    """Take in robots that were approved since."""
+    for device in turn.layout.devices.values():
+        if device.kind == "robot" and device.id not in turn.robots:
+            turn.robots[device.id] = Robot(device.id, device.pose.x, device.pose.y, online=False)
+
+
+def _take(turn: Turn, event: m.Event) -> None:
+    match event:
+        case m.MissionAsked():
+            _take_mission(turn, event)
+        case m.MissionCancelled(run=run, mission=mission):
+            if job := turn.jobs.get((run, mission)):
+                _drop(turn, job)
+        case m.RunPaused() | m.RunResumed() | m.RunOver() | m.StopPressed() | m.StopReset():
+            _take_order(turn, event)
+        case _:
+            _take_report(turn, event)
+
+
+def _take_report(turn: Turn, event: m.Event) -> None:
+    """Take in what devices say."""
+    match event:
+        case m.RobotMoved(robot=robot, x=x, y=y, theta=theta):
+            if robot in turn.robots:
+                take_pose(turn, turn.robots[robot], x, y, theta)
+        case m.CommandAnswered():
+            _take_answer(turn, event)
+        case m.DeviceOnline(device=device):
+            _take_online(turn, device)
+        case m.DeviceOffline(device=device):
+            turn.offline.setdefault(device, turn.now)
+            if robot_state := turn.robots.get(device):
+                turn.put(robot_state, online=False)
+
+
+def _take_order(turn: Turn, event: m.Event) -> None:
+    """Take in what people want of runs and of the whole site."""
+    match event:
+        case m.RunPaused(run=run):
+            turn.paused.add(run)
+        case m.RunResumed(run=run):
+            turn.paused.discard(run)
+            _resume(turn, run)
+        case m.RunOver(run=run):
+            _end_run(turn, run)
+        case m.StopPressed():
+            turn.stopped = True
+            for sent in turn.sent.values():
+                turn.tell(sent, "pause")
+            turn.sent = {key: replace(sent, held_up=True) for key, sent in turn.sent.items()}
+        case m.StopReset():
+            turn.stopped = False
+            _resume(turn, "")
+
+
+def _take_mission(turn: Turn, event: m.MissionAsked) -> None:
+    if (event.run, event.mission) in turn.jobs:
+        return
+    turn.next_seq += 1
+    job = Job(event.run, event.mission, turn.next_seq, event.order, event.wants, event.can, event.run_name)
+    turn.jobs[event.run, event.mission] = job
+    turn.names[event.run] = event.run_name
+
+
+def _take_online(turn: Turn, device: str) -> None:
+    turn.offline.pop(device, None)
+    robot = turn.robots.get(device)
+    if robot is not None and not robot.online:
+        robot = turn.put(robot, online=True, progress_at=turn.now)
+        if robot.way and not turn.is_driving(robot):
+            place(turn, robot)
+
+
+def _take_answer(turn: Turn, event: m.CommandAnswered) -> None:
+    sent = turn.sent.get(event.command)
+    if sent is None or event.status not in {"DONE", *KINDS}:
+        return
+    del turn.sent[sent.id]
+    kind = KINDS.get(event.status, "")
+    why = event.why or (f"{turn.name(sent.device)} did not do it." if kind else "")
+    if sent.upto < 0:
+        _end_act(turn, sent, kind, why, event)
+    elif kind:
+        _fail_drive(turn, turn.robots[sent.device], kind, why)
+    else:
+        end_piece(turn, turn.robots[sent.device], sent)
+
+
+def _end_act(turn: Turn, sent: Sent, kind: str, why: str, event: m.CommandAnswered | None) -> None:
+    """A device is done with a mission's command, or will not be."""
+    if sent.device not in turn.robots:
+        turn.calls.pop(sent.device, None)
+    rested = turn.robots.get(turn.stations.get(sent.device, sent.device))
+    if rested is not None:
+        turn.put(rested, idle_since=turn.now)
+    if job := turn.jobs.get((sent.run, sent.mission)):
+        turn.finish(job, kind, why, event.result if event else None)
+
+
+def _fail_drive(turn: Turn, robot: Robot, kind: str, why: str) -> None:
+    """A robot does not drive on: it stays where it is, and its errand fails."""
+    drop_pieces(turn, robot, cancel=True)
+    job = None if robot.evading else turn.job_of(robot)
+    robot = turn.put(robot, evading="", yields_to="", blocked_since=None, idle_since=turn.now)
+    if robot.online:
+        place(turn, robot)
+    else:
+        turn.put(robot, way=(turn.node(robot),), passed=0, released=0)
+    if job is not None:
+        turn.finish(job, kind, why)
+
+
+def _drop(turn: Turn, job: Job) -> None:
+    """Forget a mission; what a machine does for it is called off, a robot settles at the end of what it may drive."""
+    del turn.jobs[job.run, job.mission]
+    sent = turn.sent.get(job.command)
+    if sent is not None and sent.device not in turn.robots:
+        turn.tell(sent, "cancel")
+    robot = turn.robots.get(job.robot)
+    if robot is not None and robot.way and not robot.evading and turn.job_of(robot) is None:
+        cut_way(turn, robot)
+
+
+def _resume(turn: Turn, run: str) -> None:
+    """Let the commands go on that a stop has held up; their time begins anew."""
+    for sent in list(turn.sent.values()):
+        if sent.held_up and sent.run == run and not turn.stopped:
+            turn.tell(sent, "resume")
+            turn.sent[sent.id] = replace(sent, held_up=False, at=turn.now)
+            if robot := turn.robots.get(sent.device):
+                turn.put(robot, progress_at=turn.now)
+
+
+def _end_run(turn: Turn, run: str) -> None:
+    for job in [job for job in turn.jobs.values() if job.run == run]:
+        _drop(turn, job)
+    for sent in [sent for sent in turn.sent.values() if sent.run == run and sent.held_up]:
+        turn.tell(sent, "cancel")
+    turn.roles = {key: robot for key, robot in turn.roles.items() if key.rpartition("/")[0] != run}
+    for robot in [robot for robot in turn.robots.values() if robot.run == run]:
+        turn.put(robot, run="", yields_to="", idle_since=turn.now)
+    turn.names.pop(run, None)
+    turn.paused.discard(run)
+
+
+def _check_limits(turn: Turn) -> None:
+    """Give up commands whose device has gone or does not get on."""
+    for sent in list(turn.sent.values()):
+        if sent.id not in turn.sent or sent.held_up:
+            continue
+        away = turn.now - turn.offline.get(sent.device, turn.now) >= ABSENCE_S
+        robot = turn.robots.get(sent.device)
+        since = robot.progress_at if robot is not None and sent.upto >= 0 else sent.at
+        late = turn.now - since >= (STUCK_S if sent.upto >= 0 else sent.limit_s)
+        if away:
+            _give_up(turn, sent, "offline", f"{turn.name(sent.device)} went offline and did not come back.")
+        elif late:
+            _give_up(turn, sent, "timed_out", f"{turn.name(sent.device)} took too long.")
+
+
+def _give_up(turn: Turn, sent: Sent, kind: str, why: str) -> None:
+    if sent.upto >= 0:
+        _fail_drive(turn, turn.robots[sent.device], kind, why)
+        return
+    turn.tell(sent, "cancel")
+    del turn.sent[sent.id]
+    _end_act(turn, sent, kind, why, None)

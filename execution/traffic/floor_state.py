@@ -1,0 +1,134 @@
+"""The state of a site's floor between two events; plain JSON when it is stored."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+from typing import Any
+
+from execution.mission import Mission, mission_from_json, mission_to_json
+from execution.traffic.layout import Node
+from execution.traffic.messages import Reason
+
+STATE_FORMAT = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """A robot on the floor. `way` leads from `way[passed]`, where it is or was last, to its goal.
+
+    It may drive up to `way[released]`; `held` are the cells that nobody else may enter. At rest the way has one node.
+    """
+
+    id: str
+    x: float
+    y: float
+    theta: float = 0.0
+    way: tuple[Node, ...] = ()
+    passed: int = 0
+    released: int = 0
+    held: tuple[int, ...] = ()
+    online: bool = True
+    run: str = ""
+    evading: str = ""
+    """The robot that it makes room for, or `home`: not on its own errand."""
+    yields_to: str = ""
+    yields_since: float = 0.0
+    blocked_since: float | None = None
+    idle_since: float = 0.0
+    progress_at: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """A mission on the floor; `command` is set while a device carries it out."""
+
+    run: str
+    mission: int
+    seq: int
+    order: Mission
+    wants: str = ""
+    can: tuple[str, ...] = ()
+    run_name: str = ""
+    robot: str = ""
+    command: str = ""
+    arrived: bool = False
+    wait: Reason | None = None
+    absent_since: float | None = None
+    """Since when a device that is needed has been away."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """A command under way: a robot's piece of way ends at way index `upto`; else it carries out a job."""
+
+    id: str
+    device: str
+    run: str = ""
+    mission: int = -1
+    upto: int = -1
+    at: float = 0.0
+    limit_s: float = 0.0
+    held_up: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class FloorState:
+    """All that traffic knows. `namespace` makes the command ids of this floor its own."""
+
+    namespace: str
+    now: float = 0.0
+    next_seq: int = 1
+    stopped: bool = False
+    robots: Mapping[str, Robot] = field(default_factory=dict)
+    jobs: tuple[Job, ...] = ()
+    sent: Mapping[str, Sent] = field(default_factory=dict)
+    calls: Mapping[str, str] = field(default_factory=dict)
+    """By machine: the run whose call it carries out."""
+    stations: Mapping[str, str] = field(default_factory=dict)
+    """By machine: the robot that it serves."""
+    roles: Mapping[str, str] = field(default_factory=dict)
+    """By `run/role`: the robot that it has found."""
+    names: Mapping[str, str] = field(default_factory=dict)
+    """What people call the runs."""
+    paused: tuple[str, ...] = ()
+    offline: Mapping[str, float] = field(default_factory=dict)
+    """By device: since when it has been away."""
+
+
+def to_json(state: FloorState) -> dict[str, Any]:
+    """Return the state as plain JSON."""
+    jobs = [{**asdict(job), "order": mission_to_json(job.order)} for job in state.jobs]
+    whole = {f.name: getattr(state, f.name) for f in fields(state)}
+    return {
+        **whole,
+        "format": STATE_FORMAT,
+        "robots": [asdict(robot) for robot in state.robots.values()],
+        "jobs": jobs,
+        "sent": [asdict(sent) for sent in state.sent.values()],
+        "calls": dict(state.calls),
+        "stations": dict(state.stations),
+        "roles": dict(state.roles),
+        "names": dict(state.names),
+        "offline": dict(state.offline),
+    }
+
+
+def from_json(data: Mapping[str, Any]) -> FloorState:
+    """Read what `to_json` wrote."""
+    if data["format"] != STATE_FORMAT:
+        raise ValueError(f"A floor's state of format {data['format']} cannot be read; this reads {STATE_FORMAT}.")
+    robots = [Robot(**{**r, "way": tuple(r["way"]), "held": tuple(r["held"])}) for r in data["robots"]]
+    sent = [Sent(**item) for item in data["sent"]]
+    more = {
+        "robots": {robot.id: robot for robot in robots},
+        "jobs": tuple(_job(item) for item in data["jobs"]),
+        "sent": {item.id: item for item in sent},
+        "paused": tuple(data["paused"]),
+    }
+    return FloorState(**{**{k: v for k, v in data.items() if k != "format"}, **more})
+
+
+def _job(data: Mapping[str, Any]) -> Job:
+    reason = Reason(**data["wait"]) if data["wait"] else None
+    return Job(**{**data, "order": mission_from_json(data["order"]), "can": tuple(data["can"]), "wait": reason})

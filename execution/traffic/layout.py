@@ -1,0 +1,133 @@
+"""A site as traffic sees it: the lattice, and the spots where robots stop (stations, docks, named places, points)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from editor.language.surroundings import PlaceFacts
+from execution.mission import Target
+from execution.traffic.lattice import Ground, Lattice, Point, make_lattice
+from registry.capability import Description
+from registry.floor import Grid, stations
+
+BODY_M = 0.6
+"""A robot off the lattice keeps others off all cells this near; see docs/execution.md for the sum."""
+REACH_M = 1.2
+DEFAULT_RADIUS_M = 0.18
+Node = int | str
+"""A cell by its number, or a spot by its id."""
+
+
+class NoSuchSpot(Exception):
+    """A target cannot be stood at; the message says why, in a sentence for a person."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A place to stop: reached straight from the middle of `cell`; whoever stands there holds all cells of `body`."""
+
+    id: str
+    x: float
+    y: float
+    theta: float | None
+    cell: int
+    body: frozenset[int]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """All that does not change while robots drive. `stations` and `places` are by device and place id."""
+
+    ground: Ground
+    lattice: Lattice
+    devices: Mapping[str, Description]
+    stations: Mapping[str, Spot]
+    places: Mapping[str, Spot]
+    docks: tuple[str, ...]
+    names: Mapping[str, str]
+    points: dict[str, Spot] = field(default_factory=dict)
+
+    def name(self, thing: str) -> str:
+        """Return what people call a device or a place."""
+        return self.names.get(thing, thing)
+
+    def spot(self, spot: str) -> Spot:
+        """Return a spot by its id: a device's, a place's, or `@x,y` for a point."""
+        if spot in self.stations:
+            return self.stations[spot]
+        if spot in self.places:
+            return self.places[spot]
+        if spot not in self.points:
+            x, y = (float(part) for part in spot.removeprefix("@").split(","))
+            self.points[spot] = _attach(self.ground, self.lattice, spot, (x, y), None)
+        return self.points[spot]
+
+    def spot_for(self, target: Target) -> Spot:
+        """Return the spot where a robot stands for a target.
+
+        Raises:
+            NoSuchSpot: the target is unknown or nothing can stand there.
+        """
+        if target.point is not None:
+            return self.spot(f"@{target.point[0]:.3f},{target.point[1]:.3f}")
+        if target.id in self.stations or target.id in self.places:
+            return self.spot(target.id)
+        if target.id in self.devices:
+            raise NoSuchSpot(f"No robot can stand at {self.name(target.id)}; there is no free side that it can reach.")
+        raise NoSuchSpot(f"There is no device or place called “{target.id}” on this site.")
+
+    def point(self, node: Node) -> Point:
+        """Return where a node is, in metres."""
+        if isinstance(node, int):
+            return self.lattice.centre(node)
+        spot = self.spot(node)
+        return (spot.x, spot.y)
+
+    def cell(self, node: Node) -> int:
+        """Return the cell of a node, or from which it is reached."""
+        return node if isinstance(node, int) else self.spot(node).cell
+
+    def needed(self, node: Node) -> frozenset[int]:
+        """Return the cells that whoever stands at the node must hold."""
+        return frozenset((node,)) if isinstance(node, int) else self.spot(node).body
+
+
+def make_layout(grid: Grid, devices: Iterable[Description], places: Iterable[PlaceFacts] = ()) -> Layout:
+    """Work out the layout of a site from its map, its approved devices and its named places."""
+    devices = list(devices)
+    radius_m = max((d.radius_m for d in devices if d.kind == "robot"), default=0.0) or DEFAULT_RADIUS_M
+    ground = Ground(grid, devices, radius_m)
+    lattice = make_lattice(ground)
+    names = {d.id: d.name for d in devices} | {p.id: p.name for p in places}
+    found: dict[str, Spot] = {}
+    for device, pose in stations(grid, devices, radius_m).items():
+        _put(found, ground, lattice, device, (pose.x, pose.y), pose.theta)
+    named: dict[str, Spot] = {}
+    for place in places:
+        _put(named, ground, lattice, place.id, (place.x, place.y), place.theta if place.kind == "dock" else None)
+    docks = tuple(p.id for p in places if p.kind == "dock" and p.id in named)
+    by_id = {d.id: d for d in devices}
+    return Layout(ground, lattice, by_id, found, named, docks, names)
+
+
+def _put(
+    spots: dict[str, Spot], ground: Ground, lattice: Lattice, name: str, point: Point, theta: float | None
+) -> None:
+    """Add a spot if a robot can stand there; one that cannot be reached is found out when it is asked for."""
+    try:
+        spots[name] = _attach(ground, lattice, name, point, theta)
+    except NoSuchSpot:
+        return
+
+
+def _attach(ground: Ground, lattice: Lattice, name: str, point: Point, theta: float | None) -> Spot:
+    """Join a point to the lattice by the nearest cell from which one can drive straight to it."""
+    room_m = ground.radius_m + 0.02
+    if ground.room_m(point) < room_m:
+        raise NoSuchSpot(f"A robot cannot stand at ({point[0]:.2f}, {point[1]:.2f}); choose a place with more room.")
+    for cell in lattice.cells_within(point, REACH_M):
+        if cell in lattice.links and ground.is_passable(lattice.centre(cell), point, room_m):
+            body = frozenset((cell, *lattice.cells_within(point, BODY_M)))
+            return Spot(name, point[0], point[1], theta, cell, body)
+    raise NoSuchSpot(f"No robot can reach ({point[0]:.2f}, {point[1]:.2f}).")

@@ -1,0 +1,170 @@
+"""What the floor is told (events) and what it wants done (actions)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from execution.mission import Mission
+from registry.capability import Scalar
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """Why something waits: a code with arguments for translation, and the sentence in English."""
+
+    code: str
+    text: str
+    args: Mapping[str, Scalar] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class MissionAsked:
+    """A run asks for a mission. `wants` names the device of the role, or `can` what its robot must be able to do."""
+
+    run: str
+    mission: int
+    order: Mission
+    wants: str = ""
+    can: tuple[str, ...] = ()
+    run_name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class MissionCancelled:
+    """A run does not want the mission any more; a robot settles at the next safe point."""
+
+    run: str
+    mission: int
+
+
+@dataclass(frozen=True, slots=True)
+class RobotMoved:
+    """A robot says where it is: metres and radians in the map's frame."""
+
+    robot: str
+    x: float
+    y: float
+    theta: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class CommandAnswered:
+    """A device answers a command: ACCEPTED, RUNNING, DONE, FAILED, REJECTED or CANCELED."""
+
+    command: str
+    status: str
+    why: str = ""
+    result: Mapping[str, Scalar] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceOnline:
+    """A device is there."""
+
+    device: str
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceOffline:
+    """A device has gone."""
+
+    device: str
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    """Time has passed."""
+
+
+@dataclass(frozen=True, slots=True)
+class StopPressed:
+    """Everything stops where it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class StopReset:
+    """The stop is over; runs stay paused until they are resumed by hand."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunPaused:
+    """Nothing new is begun for the run; its robots stop at the end of what is released."""
+
+    run: str
+
+
+@dataclass(frozen=True, slots=True)
+class RunResumed:
+    """The run goes on."""
+
+    run: str
+
+
+@dataclass(frozen=True, slots=True)
+class RunOver:
+    """The run has ended: its missions are dropped and its robots are free."""
+
+    run: str
+
+
+Event = (
+    MissionAsked | MissionCancelled | RobotMoved | CommandAnswered | DeviceOnline | DeviceOffline
+    | Tick | StopPressed | StopReset | RunPaused | RunResumed | RunOver
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class SendCommand:
+    """Send a device a command. `run` and `step` are for the log; pieces of a way have `piece` set."""
+
+    id: str
+    device: str
+    method: str
+    arguments: Mapping[str, object]
+    run: str = ""
+    step: str = ""
+    piece: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class MissionOver:
+    """A mission is done (`kind` is empty) or has failed, with the kind of failure and the reason."""
+
+    run: str
+    mission: int
+    kind: str = ""
+    why: str = ""
+    result: Mapping[str, Scalar] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class RoleBound:
+    """A role has found its robot and keeps it until the run ends."""
+
+    run: str
+    role: str
+    robot: str
+
+
+@dataclass(frozen=True, slots=True)
+class WaitChanged:
+    """What a mission waits for has changed; None: it goes on."""
+
+    run: str
+    mission: int
+    step: str
+    robot: str
+    reason: Reason | None
+
+
+@dataclass(frozen=True, slots=True)
+class WayPlanned:
+    """A robot has a new way, as a drawn line in metres."""
+
+    robot: str
+    run: str
+    path: tuple[tuple[float, float], ...]
+
+
+Action = SendCommand | MissionOver | RoleBound | WaitChanged | WayPlanned

@@ -1,0 +1,138 @@
+"""One event being worked out on the floor: a copy of the state that changes, and the actions so far."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+from uuid import UUID, uuid5
+
+from execution.traffic.floor_state import FloorState, Job, Robot, Sent
+from execution.traffic.layout import Layout, Node
+from execution.traffic.messages import Action, MissionOver, Reason, SendCommand, WaitChanged
+
+
+class Turn:
+    """The floor while one event is taken in; `close` gives the new state and what is to be done."""
+
+    def __init__(self, layout: Layout, state: FloorState, now: float) -> None:
+        self.layout = layout
+        self.before = state
+        self.now = now
+        self.next_seq = state.next_seq
+        self.stopped = state.stopped
+        self.robots = dict(state.robots)
+        self.jobs = {(job.run, job.mission): job for job in state.jobs}
+        self.sent = dict(state.sent)
+        self.calls = dict(state.calls)
+        self.stations = dict(state.stations)
+        self.paused = set(state.paused)
+        self.offline = dict(state.offline)
+        self.roles = dict(state.roles)
+        self.names = dict(state.names)
+        self.waits: dict[tuple[str, int], Reason] = {}
+        self.actions: list[Action] = []
+
+    def close(self) -> tuple[FloorState, tuple[Action, ...]]:
+        """Return the new state and the actions."""
+        state = FloorState(
+            namespace=self.before.namespace,
+            now=self.now,
+            next_seq=self.next_seq,
+            stopped=self.stopped,
+            robots=self.robots,
+            jobs=tuple(self.jobs.values()),
+            sent=self.sent,
+            calls=self.calls,
+            stations=self.stations,
+            paused=tuple(sorted(self.paused)),
+            offline=self.offline,
+            roles=self.roles,
+            names=self.names,
+        )
+        return state, tuple(self.actions)
+
+    def put(self, robot: Robot, **changes: Any) -> Robot:
+        """Change a robot."""
+        self.robots[robot.id] = replace(robot, **changes)
+        return self.robots[robot.id]
+
+    def put_job(self, job: Job, **changes: Any) -> Job:
+        """Change a job."""
+        self.jobs[job.run, job.mission] = replace(job, **changes)
+        return self.jobs[job.run, job.mission]
+
+    def send(self, sent: Sent, method: str, arguments: Mapping[str, object], step: str = "") -> str:
+        """Send a command and remember it until it is answered; its id is taken from the sequence."""
+        command = self.new_command_id()
+        self.sent[command] = replace(sent, id=command, at=self.now)
+        piece = sent.upto >= 0
+        self.actions.append(SendCommand(command, sent.device, method, arguments, sent.run, step, piece))
+        return command
+
+    def tell(self, sent: Sent, method: str) -> None:
+        """Pause, resume or cancel a command that is under way; the answer is the command's own."""
+        arguments = {"command": sent.id}
+        self.actions.append(SendCommand(self.new_command_id(), sent.device, method, arguments, sent.run))
+
+    def new_command_id(self) -> str:
+        """Return the next id: the same history gives the same ids."""
+        self.next_seq += 1
+        return str(uuid5(UUID(self.before.namespace), str(self.next_seq)))
+
+    def finish(self, job: Job, kind: str = "", why: str = "", result: Mapping[str, Any] | None = None) -> None:
+        """End a job and tell its run."""
+        del self.jobs[job.run, job.mission]
+        self.actions.append(MissionOver(job.run, job.mission, kind, why, result or {}))
+
+    def wait(self, job: Job, code: str, text: str, **arguments: str | float) -> None:
+        """Say what a job waits for."""
+        self.waits[job.run, job.mission] = Reason(code, text, arguments)
+
+    def announce_waits(self) -> None:
+        """Tell the runs whose missions now wait for something else."""
+        for key, job in self.jobs.items():
+            reason = self.waits.get(key)
+            if reason != job.wait:
+                self.jobs[key] = replace(job, wait=reason)
+                self.actions.append(WaitChanged(job.run, job.mission, job.order.step, job.robot, reason))
+
+    def name(self, thing: str) -> str:
+        """Return what people call a device or a place."""
+        return self.layout.name(thing)
+
+    def node(self, robot: Robot) -> Node:
+        """Return the node that a robot is at or passed last."""
+        return robot.way[robot.passed]
+
+    def pieces(self, robot: Robot) -> list[Sent]:
+        """Return the pieces of way that a robot is driving, in order."""
+        return [sent for sent in self.sent.values() if sent.device == robot.id and sent.upto >= 0]
+
+    def is_driving(self, robot: Robot) -> bool:
+        """Tell whether a robot has pieces of way under way."""
+        return bool(self.pieces(robot))
+
+    def is_acting(self, robot: Robot) -> bool:
+        """Tell whether a robot picks, drops or does something else that it should not be disturbed in."""
+        return any(sent.device == robot.id and sent.upto < 0 for sent in self.sent.values())
+
+    def job_of(self, robot: Robot) -> Job | None:
+        """Return the oldest job that a robot is at."""
+        mine = [job for job in self.jobs.values() if job.robot == robot.id]
+        return min(mine, key=lambda job: job.seq) if mine else None
+
+    def is_idle(self, robot: Robot) -> bool:
+        """Tell whether a robot stands with nothing to do."""
+        free = len(robot.way) == robot.passed + 1 and not self.is_driving(robot) and not self.is_acting(robot)
+        return free and self.job_of(robot) is None
+
+    def holders(self) -> dict[int, str]:
+        """Return who holds each cell."""
+        return {cell: robot.id for robot in self.robots.values() for cell in robot.held}
+
+    def in_order(self) -> Iterator[Job]:
+        """Go through the jobs, the oldest first; jobs that end on the way are left out."""
+        for key in sorted(self.jobs, key=lambda key: self.jobs[key].seq):
+            if key in self.jobs:
+                yield self.jobs[key]

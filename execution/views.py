@@ -1,0 +1,57 @@
+"""Runs, events and rehearsals as JSON, in the shapes of docs/architecture.md."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from execution.models import Rehearsal, Run, RunEvent
+
+
+def run_to_json(run: Run) -> dict[str, Any]:
+    """Return a run without its document."""
+    return {
+        "id": str(run.id),
+        "number": run.number,
+        "program": {"id": str(run.program), "name": run.program_name},
+        "site": run.site.slug,
+        "version": run.version,
+        "status": run.status,
+        "reason": run.reason,
+        "created_at": run.created_at.isoformat(),
+        "started_at": run.started_at.isoformat() if run.started_at else None,
+        "ended_at": run.ended_at.isoformat() if run.ended_at else None,
+        "started_by": run.started_by,
+        "steps": run.steps,
+        "roles": run.roles,
+    }
+
+
+def event_to_json(event: RunEvent) -> dict[str, Any]:
+    """Return a line of the journal."""
+    return {
+        "seq": event.seq,
+        "at": event.at.isoformat(),
+        "t_s": event.t_s,
+        "kind": event.kind,
+        "step": event.step,
+        "device": event.device,
+        "robot": event.robot,
+        "text": event.text,
+        "code": event.code,
+        "args": event.args,
+    }
+
+
+def rehearsal_to_json(rehearsal: Rehearsal) -> dict[str, Any]:
+    """Return a rehearsal with its result, if there is one."""
+    return {
+        "id": str(rehearsal.id),
+        "program": str(rehearsal.program),
+        "status": rehearsal.status,
+        "progress": rehearsal.progress,
+        "reason": rehearsal.reason,
+        "result": rehearsal.result,
+        "document": rehearsal.document,
+        "compiled": rehearsal.compiled,
+        "created_at": rehearsal.created_at.isoformat(),
+    }

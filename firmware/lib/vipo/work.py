@@ -1,0 +1,37 @@
+"""A piece of work that takes time and can be held, let go on, and cancelled."""
+
+import asyncio
+
+from vipo.portable import ticks_diff, ticks_ms
+
+STEP_S = 0.1
+
+
+class Cancelled(Exception):
+    """Somebody asked for the end of this work."""
+
+
+class Work:
+    """The command that is carried out now; `speed` makes a second of the process shorter than one of the clock."""
+
+    def __init__(self, command, speed, is_stopped):
+        self.command = command
+        self.speed = speed
+        self.paused = False
+        self.cancelled = False
+        self._is_stopped = is_stopped
+
+    async def spend(self, seconds, progress=None):
+        """Let `seconds` of work pass; `progress(fraction, elapsed_s)` is called on the way and at the end."""
+        elapsed, last = 0.0, ticks_ms()
+        while elapsed < seconds:
+            await asyncio.sleep(min(STEP_S, max(0.001, (seconds - elapsed) / self.speed)))
+            now = ticks_ms()
+            step, last = ticks_diff(now, last) / 1000 * self.speed, now
+            if self.cancelled:
+                raise Cancelled
+            if self.paused or self._is_stopped():
+                continue
+            elapsed = min(seconds, elapsed + step)
+            if progress:
+                progress(elapsed / seconds, step)

@@ -1,0 +1,31 @@
+"""Run the firmware as a process of a computer: micropython unix_main.py CONFIG.json (or python3 …)."""
+
+import asyncio
+import sys
+
+sys.path.insert(0, (__file__.rsplit("/", 1)[0] if "/" in __file__ else ".") + "/lib")
+
+from vipo.drivers import NoSuchDriver  # noqa: E402 - the path comes first
+from vipo.panel import ConsolePanel  # noqa: E402
+from vipo.start import BadConfiguration, make_device, read_configuration  # noqa: E402
+
+
+def main():
+    """Run until killed; the broker then sends the will."""
+    if len(sys.argv) != 2:
+        print("usage: unix_main.py CONFIG.json")
+        sys.exit(2)
+    try:
+        configuration = read_configuration(sys.argv[1])
+        stream = open(configuration["log"], "w") if configuration.get("log") else sys.stdout
+        device = make_device(configuration, ConsolePanel(stream))
+    except (BadConfiguration, NoSuchDriver, OSError) as error:
+        print(error)
+        sys.exit(2)
+    try:
+        asyncio.run(device.run())
+    except KeyboardInterrupt:
+        pass
+
+
+main()

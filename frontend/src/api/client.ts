@@ -1,0 +1,84 @@
+/** Calls to the server: JSON in and out, refusals as ApiProblem. */
+import i18next from "i18next";
+
+export interface FieldProblem {
+  field: string;
+  message: string;
+}
+
+/** A refusal; `detail` is a sentence for people. Status 0: the server did not answer. */
+export class ApiProblem extends Error {
+  constructor(
+    readonly status: number,
+    readonly code: string,
+    readonly detail: string,
+    readonly fields: readonly FieldProblem[] = [],
+  ) {
+    super(detail);
+    this.name = "ApiProblem";
+  }
+}
+
+interface ProblemBody {
+  code?: string;
+  detail?: string;
+  fields?: FieldProblem[];
+}
+
+let token = "";
+
+/** Keep the token that `/me` gave, for when the cookie cannot be read. */
+export function rememberCsrf(csrf: string): void {
+  token = csrf;
+}
+
+function csrfToken(): string {
+  const cookie = document.cookie.split("; ").find((each) => each.startsWith("csrftoken="));
+  return cookie ? decodeURIComponent(cookie.slice("csrftoken=".length)) : token;
+}
+
+async function send(method: string, path: string, body?: BodyInit, type?: string): Promise<Response> {
+  const headers = new Headers({ Accept: "application/json" });
+  if (type) headers.set("Content-Type", type);
+  if (method !== "GET") headers.set("X-CSRFToken", csrfToken());
+  let response: Response;
+  try {
+    response = await fetch(`/api${path}`, { method, headers, body, credentials: "same-origin" });
+  } catch {
+    throw new ApiProblem(0, "offline", i18next.t("shell.problem.offline"));
+  }
+  if (!response.ok) throw await problemOf(response);
+  return response;
+}
+
+async function problemOf(response: Response): Promise<ApiProblem> {
+  const body = await response.json().then(asProblem, () => ({}) as ProblemBody);
+  const detail = body.detail ?? i18next.t("shell.problem.unexpected", { status: response.status });
+  return new ApiProblem(response.status, body.code ?? "unexpected", detail, body.fields);
+}
+
+function asProblem(body: unknown): ProblemBody {
+  return typeof body === "object" && body !== null ? body : {};
+}
+
+async function receive<T>(response: Response): Promise<T> {
+  if (response.status === 204) return undefined as T;
+  const text = await response.text();
+  return (text ? JSON.parse(text) : undefined) as T;
+}
+
+async function sendJson<T>(method: string, path: string, body?: unknown): Promise<T> {
+  const payload = body === undefined ? undefined : JSON.stringify(body);
+  return receive<T>(await send(method, path, payload, payload && "application/json"));
+}
+
+/** Paths begin after `/api`. Every call throws ApiProblem on a refusal. */
+export const api = {
+  get: <T>(path: string) => sendJson<T>("GET", path),
+  post: <T = void>(path: string, body?: unknown) => sendJson<T>("POST", path, body),
+  patch: <T = void>(path: string, body: unknown) => sendJson<T>("PATCH", path, body),
+  delete: <T = void>(path: string) => sendJson<T>("DELETE", path),
+  upload: async <T>(path: string, form: FormData) => receive<T>(await send("POST", path, form)),
+  text: async (path: string) => (await send("GET", path)).text(),
+  bytes: async (path: string) => new Uint8Array(await (await send("GET", path)).arrayBuffer()),
+};

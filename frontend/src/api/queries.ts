@@ -1,0 +1,133 @@
+/** What screens read from the server, kept by TanStack Query; the live socket writes into the same caches. */
+import { QueryClient, skipToken, useQuery } from "@tanstack/react-query";
+import { api, ApiProblem, rememberCsrf } from "./client";
+import type {
+  Compiled,
+  Device,
+  LibraryFunction,
+  Me,
+  Program,
+  ProgramDocument,
+  Rehearsal,
+  Run,
+  RunEvent,
+  RunSummary,
+  Site,
+  SiteMap,
+  SiteMapInfo,
+} from "./types";
+
+/** The names of the caches. */
+export const keys = {
+  me: ["me"] as const,
+  sites: ["sites"] as const,
+  site: (slug: string) => ["site", slug] as const,
+  map: (slug: string) => ["map", slug] as const,
+  devices: (slug: string) => ["devices", slug] as const,
+  deviceEvents: (slug: string, id: string) => ["device-events", slug, id] as const,
+  rdf: (slug: string, id: string, format: string) => ["rdf", slug, id, format] as const,
+  programs: (slug: string) => ["programs", slug] as const,
+  program: (id: string) => ["program", id] as const,
+  document: (id: string) => ["document", id] as const,
+  compiled: (id: string) => ["compiled", id] as const,
+  runs: (slug: string) => ["runs", slug] as const,
+  run: (id: string) => ["run", id] as const,
+  runEvents: (id: string) => ["run-events", id] as const,
+  library: (q: string) => ["library", q] as const,
+  libraryFunction: (id: string) => ["library-function", id] as const,
+  rehearsal: (id: string) => ["rehearsal", id] as const,
+};
+
+/** A refusal is an answer: only silence and a busy server are worth another try. */
+function retry(failures: number, error: Error): boolean {
+  const again = error instanceof ApiProblem && (error.status === 0 || error.status >= 502);
+  return again && failures < 3;
+}
+
+export function makeQueryClient(): QueryClient {
+  return new QueryClient({ defaultOptions: { queries: { retry, staleTime: 30_000, refetchOnWindowFocus: false } } });
+}
+
+async function getMe(): Promise<Me> {
+  const me = await api.get<Me>("/me");
+  rememberCsrf(me.csrf);
+  return me;
+}
+
+async function getMap(slug: string): Promise<SiteMap> {
+  const [info, cells] = await Promise.all([
+    api.get<SiteMapInfo>(`/sites/${slug}/map`),
+    api.bytes(`/sites/${slug}/map/cells`),
+  ]);
+  return { ...info, cells };
+}
+
+/** A query that waits until its subject is known. */
+function useGet<T>(key: readonly unknown[], path: string | null) {
+  return useQuery({ queryKey: key, queryFn: path === null ? skipToken : () => api.get<T>(path) });
+}
+
+type Maybe = string | undefined;
+const at = (id: Maybe, path: (id: string) => string) => (id ? path(encodeURIComponent(id)) : null);
+
+export const useMe = () => useQuery({ queryKey: keys.me, queryFn: getMe, staleTime: Infinity });
+export const useSites = () => useGet<Site[]>(keys.sites, "/sites");
+export const useSite = (slug: Maybe) =>
+  useGet<Site>(
+    keys.site(slug ?? ""),
+    at(slug, (s) => `/sites/${s}`),
+  );
+export const useSiteMap = (slug: Maybe) =>
+  useQuery({ queryKey: keys.map(slug ?? ""), queryFn: slug ? () => getMap(slug) : skipToken, staleTime: Infinity });
+export const useDevices = (slug: Maybe) =>
+  useGet<Device[]>(
+    keys.devices(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/devices`),
+  );
+export const usePrograms = (slug: Maybe) =>
+  useGet<Program[]>(
+    keys.programs(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/programs`),
+  );
+export const useProgram = (id: Maybe) =>
+  useGet<Program>(
+    keys.program(id ?? ""),
+    at(id, (p) => `/programs/${p}`),
+  );
+export const useProgramDocument = (id: Maybe) =>
+  useGet<ProgramDocument>(
+    keys.document(id ?? ""),
+    at(id, (p) => `/programs/${p}/document`),
+  );
+export const useCompiled = (id: Maybe) =>
+  useGet<Compiled>(
+    keys.compiled(id ?? ""),
+    at(id, (p) => `/programs/${p}/compiled`),
+  );
+export const useRuns = (slug: Maybe) =>
+  useGet<RunSummary[]>(
+    keys.runs(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/runs`),
+  );
+export const useRun = (id: Maybe) =>
+  useGet<Run>(
+    keys.run(id ?? ""),
+    at(id, (r) => `/runs/${r}`),
+  );
+export const useRunEvents = (id: Maybe) =>
+  useGet<RunEvent[]>(
+    keys.runEvents(id ?? ""),
+    at(id, (r) => `/runs/${r}/events`),
+  );
+export const useLibrary = (q: string) =>
+  useGet<LibraryFunction[]>(keys.library(q), `/library?q=${encodeURIComponent(q)}`);
+export const useLibraryFunction = (id: Maybe) =>
+  useGet<LibraryFunction>(
+    keys.libraryFunction(id ?? ""),
+    at(id, (f) => `/library/${f}`),
+  );
+export const useRehearsal = (id: Maybe) =>
+  useGet<Rehearsal>(
+    keys.rehearsal(id ?? ""),
+    at(id, (r) => `/rehearsals/${r}`),
+  );

@@ -1,0 +1,105 @@
+/** Who is signed in, what they may do here, and how the screen looks to them. */
+import { Menu } from "@mantine/core";
+import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { Check, Languages, LogOut, Monitor, Moon, Sun, type LucideIcon } from "lucide-react";
+import { useTranslation } from "react-i18next";
+import { useNavigate } from "react-router-dom";
+import { api } from "@/api/client";
+import { useMe } from "@/api/queries";
+import type { Role, User } from "@/api/types";
+import { Avatar } from "@/design/Avatar";
+import { IconButton } from "@/design/IconButton";
+import { chooseLanguage, LANGUAGES } from "@/i18n";
+import styles from "./sidebar.module.css";
+import { chooseTheme, useTheme, useThemeChoice, type ThemeChoice } from "./theme";
+
+const THEMES: readonly [ThemeChoice, LucideIcon][] = [
+  ["light", Sun],
+  ["dark", Moon],
+  ["system", Monitor],
+];
+
+function ThemeMenu() {
+  const { t } = useTranslation();
+  const choice = useThemeChoice();
+  const Shown = useTheme() === "dark" ? Moon : Sun;
+  return (
+    <Menu width={170} position="top-end">
+      <Menu.Target>
+        <IconButton label={t("shell.theme.choose")}>
+          <Shown size={17} aria-hidden="true" />
+        </IconButton>
+      </Menu.Target>
+      <Menu.Dropdown>
+        {THEMES.map(([name, Icon]) => (
+          <Menu.Item
+            key={name}
+            leftSection={<Icon size={15} />}
+            rightSection={name === choice ? <Check size={15} /> : null}
+            onClick={() => chooseTheme(name)}
+          >
+            {t(`shell.theme.${name}`)}
+          </Menu.Item>
+        ))}
+      </Menu.Dropdown>
+    </Menu>
+  );
+}
+
+function useSignOut() {
+  const queries = useQueryClient();
+  const navigate = useNavigate();
+  return useMutation({
+    mutationFn: () => api.post("/sign-out"),
+    onSettled: async () => {
+      await navigate("/sign-in");
+      queries.clear();
+    },
+  });
+}
+
+function AccountMenu({ user, role }: { user: User; role: Role | undefined }) {
+  const { t, i18n } = useTranslation();
+  const signOut = useSignOut();
+  return (
+    <Menu width={220} position="top-start">
+      <Menu.Target>
+        <button type="button" className={styles.account}>
+          <Avatar name={user.name} initials={user.initials} size={26} />
+          <span className={styles.switchText}>
+            <strong>{user.name}</strong>
+            <small>{role ? t(`shell.role.${role}`) : user.email}</small>
+          </span>
+          <span className="visually-hidden">{t("shell.account.menu")}</span>
+        </button>
+      </Menu.Target>
+      <Menu.Dropdown>
+        <Menu.Label>{user.email}</Menu.Label>
+        {LANGUAGES.map((language) => (
+          <Menu.Item
+            key={language}
+            leftSection={<Languages size={15} />}
+            rightSection={i18n.language === language ? <Check size={15} /> : null}
+            onClick={() => chooseLanguage(language)}
+          >
+            {t(`shell.language.${language}`)}
+          </Menu.Item>
+        ))}
+        <Menu.Divider />
+        <Menu.Item leftSection={<LogOut size={15} />} onClick={() => signOut.mutate()}>
+          {t("shell.account.signOut")}
+        </Menu.Item>
+      </Menu.Dropdown>
+    </Menu>
+  );
+}
+
+export function AccountBar({ role }: { role: Role | undefined }) {
+  const user = useMe().data?.user;
+  return (
+    <div className={styles.foot}>
+      {user ? <AccountMenu user={user} role={role} /> : null}
+      <ThemeMenu />
+    </div>
+  );
+}

@@ -1,0 +1,31 @@
+/** Everything that every screen needs around it. */
+import { MantineProvider } from "@mantine/core";
+import { Notifications } from "@mantine/notifications";
+import { QueryClientProvider } from "@tanstack/react-query";
+import { useEffect, useMemo } from "react";
+import { useTranslation } from "react-i18next";
+import { RouterProvider } from "react-router-dom";
+import { makeQueryClient } from "@/api/queries";
+import { makeTheme, variablesResolver } from "@/design/theme";
+import { makeRouter } from "./router";
+import { useTheme } from "./theme";
+
+// Outside of the tree: state of a tree that suspends before its first commit is thrown away.
+const queries = makeQueryClient();
+const router = makeRouter();
+
+export function App() {
+  const { t } = useTranslation();
+  const scheme = useTheme();
+  const close = t("pages.close");
+  const theme = useMemo(() => makeTheme(close), [close]);
+  useEffect(() => document.documentElement.setAttribute("data-theme", scheme), [scheme]);
+  return (
+    <QueryClientProvider client={queries}>
+      <MantineProvider theme={theme} cssVariablesResolver={variablesResolver} forceColorScheme={scheme}>
+        <Notifications position="bottom-right" />
+        <RouterProvider router={router} />
+      </MantineProvider>
+    </QueryClientProvider>
+  );
+}

@@ -1,0 +1,76 @@
+/** The side bar of the management pages: site, pages, account. */
+import { History, LayoutGrid, Library, Map, Cpu, Workflow, type LucideIcon } from "lucide-react";
+import { useTranslation } from "react-i18next";
+import { Link, NavLink } from "react-router-dom";
+import { usePrograms } from "@/api/queries";
+import { Chip } from "@/design/Chip";
+import { Logo } from "@/design/Logo";
+import { AccountBar } from "./AccountBar";
+import { useCurrentSite } from "./currentSite";
+import { JumpButton } from "./JumpButton";
+import { SiteSwitch } from "./SiteSwitch";
+import styles from "./sidebar.module.css";
+
+interface EntryProps {
+  to: string;
+  icon: LucideIcon;
+  label: string;
+  count?: number;
+  news?: string;
+  end?: boolean;
+}
+
+function Entry({ to, icon: Icon, label, count, news, end }: EntryProps) {
+  return (
+    <li>
+      <NavLink to={to} end={end} className={styles.entry} title={label}>
+        <Icon size={18} strokeWidth={1.75} aria-hidden="true" />
+        <span className={styles.word}>{label}</span>
+        {count !== undefined ? <span className={styles.count}>{count}</span> : null}
+        {news ? <Chip tone="pend">{news}</Chip> : null}
+      </NavLink>
+    </li>
+  );
+}
+
+function SiteEntries({ slug, pending }: { slug: string; pending: number }) {
+  const { t } = useTranslation();
+  const programs = usePrograms(slug).data?.length;
+  const at = (page: string) => `/sites/${slug}/${page}`;
+  return (
+    <>
+      <Entry to={at("programs")} icon={Workflow} label={t("shell.nav.programs")} count={programs} />
+      <Entry
+        to={at("devices")}
+        icon={Cpu}
+        label={t("shell.nav.devices")}
+        news={pending > 0 ? t("shell.nav.new", { count: pending }) : undefined}
+      />
+      <Entry to={at("library")} icon={Library} label={t("shell.nav.library")} />
+      <Entry to={at("runs")} icon={History} label={t("shell.nav.runs")} />
+      <Entry to={at("map")} icon={Map} label={t("shell.nav.map")} />
+    </>
+  );
+}
+
+export function SideBar() {
+  const { t } = useTranslation();
+  const { slug, site, sites } = useCurrentSite();
+  return (
+    <aside className={styles.side}>
+      <Link to="/" className={styles.brand} aria-label={t("shell.brandHome")}>
+        <Logo size={26} />
+        <span className={styles.word}>VIPO</span>
+      </Link>
+      <SiteSwitch site={site} sites={sites} />
+      <JumpButton slug={slug} />
+      <nav aria-label={t("shell.nav.pages")}>
+        <ul className={styles.entries}>
+          <Entry to="/" end icon={LayoutGrid} label={t("shell.nav.home")} />
+          {slug ? <SiteEntries slug={slug} pending={site?.pending ?? 0} /> : null}
+        </ul>
+      </nav>
+      <AccountBar role={site?.role} />
+    </aside>
+  );
+}

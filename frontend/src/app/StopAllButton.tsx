@@ -1,0 +1,49 @@
+/** Stop all: acts at once, holds for everybody, says who pressed it. Needed in every bar of a site. */
+import { Tooltip } from "@mantine/core";
+import { OctagonX } from "lucide-react";
+import { useCallback, useState } from "react";
+import { useTranslation } from "react-i18next";
+import { useSite } from "@/api/queries";
+import { useStopAll, useStopKey } from "./stop";
+import { StopDialog } from "./StopDialog";
+import styles from "./stop.module.css";
+
+export function StopAllButton({ slug }: { slug: string }) {
+  const { t } = useTranslation();
+  const site = useSite(slug).data;
+  const { press, reset } = useStopAll(slug);
+  const active = site?.stop.active ?? false;
+  const at = site?.stop.at ?? "";
+  const [closedAt, setClosedAt] = useState<string | null>(null);
+  const send = press.mutate;
+  const pressStop = useCallback(() => (active ? setClosedAt(null) : send()), [active, send]);
+  useStopKey(pressStop);
+  return (
+    <>
+      <Tooltip label={active ? t("shell.stop.showWhy") : t("shell.stop.hint")}>
+        <button
+          type="button"
+          className={styles.stop}
+          data-active={active || undefined}
+          aria-keyshortcuts="Control+Shift+."
+          onClick={pressStop}
+        >
+          <OctagonX size={16} strokeWidth={2.2} aria-hidden="true" />
+          <span>{active ? t("shell.stop.stopped") : t("shell.stop.all")}</span>
+        </button>
+      </Tooltip>
+      <span className="visually-hidden" role="alert">
+        {active ? t("shell.stop.pressed", { who: site?.stop.by ?? t("shell.stop.somebody") }) : ""}
+      </span>
+      {site ? (
+        <StopDialog
+          site={site}
+          opened={active && closedAt !== at}
+          busy={reset.isPending}
+          onReset={() => reset.mutate()}
+          onClose={() => setClosedAt(at)}
+        />
+      ) : null}
+    </>
+  );
+}

@@ -1,0 +1,19 @@
+/** The site that the side bar is about: the address's, else the one that was last looked at, else the first. */
+import { useEffect } from "react";
+import { useParams } from "react-router-dom";
+import { useSite, useSites } from "@/api/queries";
+import type { Site } from "@/api/types";
+
+const KEPT_AS = "vipo.site";
+
+export function useCurrentSite(): { slug: string | undefined; site: Site | undefined; sites: Site[] } {
+  const named = useParams().slug;
+  const sites = useSites().data ?? [];
+  const kept = localStorage.getItem(KEPT_AS);
+  const slug = named ?? (sites.find((each) => each.slug === kept) ?? sites[0])?.slug;
+  const site = useSite(slug).data ?? sites.find((each) => each.slug === slug);
+  useEffect(() => {
+    if (slug) localStorage.setItem(KEPT_AS, slug);
+  }, [slug]);
+  return { slug, site, sites };
+}

@@ -1,0 +1,66 @@
+/** Which address shows which screen. A screen is loaded when it is first needed. */
+import { lazy, Suspense, type ComponentType } from "react";
+import { createBrowserRouter, Navigate, type RouteObject } from "react-router-dom";
+import { RequireUser, Waiting } from "./RequireUser";
+import { RouteProblem } from "./RouteProblem";
+
+type Screens = Record<string, () => Promise<Record<string, ComponentType>>>;
+
+const screens: Screens = import.meta.glob<Record<string, ComponentType>>([
+  "../pages/*Page.tsx",
+  "../editor/EditorScreen.tsx",
+  "../run/RunScreen.tsx",
+  "../simulation/SimulationScreen.tsx",
+]);
+
+const ROUTES: readonly [path: string, file: string][] = [
+  ["/", "pages/HomePage"],
+  ["/sites/new", "pages/NewSitePage"],
+  ["/sites/:slug/devices/:id?", "pages/DevicesPage"],
+  ["/sites/:slug/programs", "pages/ProgramsPage"],
+  ["/sites/:slug/library/:id?", "pages/LibraryPage"],
+  ["/sites/:slug/runs", "pages/RunsPage"],
+  ["/sites/:slug/map", "pages/MapPage"],
+  ["/programs/:id", "editor/EditorScreen"],
+  ["/programs/:id/simulate/:rehearsal?", "simulation/SimulationScreen"],
+  ["/runs/:id", "run/RunScreen"],
+];
+
+/** The route of a screen; none while the screen's file does not exist. */
+function route(path: string, file: string): RouteObject[] {
+  const load = screens[`../${file}.tsx`];
+  const name = file.slice(file.lastIndexOf("/") + 1);
+  if (!load) return [];
+  const Screen = lazy(async () => ({ default: pick(await load(), name) }));
+  return [
+    {
+      path,
+      element: (
+        <Suspense fallback={<Waiting />}>
+          <Screen />
+        </Suspense>
+      ),
+    },
+  ];
+}
+
+function pick(module: Record<string, ComponentType>, name: string): ComponentType {
+  const screen = module[name];
+  if (!screen) throw new Error(`The module of ${name} does not export it.`);
+  return screen;
+}
+
+export function makeRouter() {
+  return createBrowserRouter([
+    { errorElement: <RouteProblem />, children: route("/sign-in", "pages/SignInPage") },
+    {
+      element: <RequireUser />,
+      errorElement: <RouteProblem />,
+      children: [
+        ...ROUTES.flatMap(([path, file]) => route(path, file)),
+        { path: "/sites/:slug", element: <Navigate to="devices" replace /> },
+        { path: "*", element: <RouteProblem /> },
+      ],
+    },
+  ]);
+}

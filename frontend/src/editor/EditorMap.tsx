@@ -1,0 +1,147 @@
+/** The map of the editor: what presses, drags and keys on it mean for the program. */
+import { useCallback, useMemo } from "react";
+import { liveRobots } from "@/live/robots";
+import { isRobot } from "@/map/device";
+import type { Insets, Point } from "@/map/projection";
+import { toPixels } from "@/map/projection";
+import type { NodeLooks } from "./canvas/buildNodes";
+import { MapControls } from "./canvas/MapControls";
+import { MapStage, type StagePress } from "./canvas/MapStage";
+import type { Light } from "./canvas/MachineNode";
+import { chipLabel } from "./scene/announce";
+import { frameAt } from "./scene/frames";
+import type { SiteDevice } from "./scene/surroundings";
+import { useOpenProgram } from "./state/context";
+import { goInto, useDrawing } from "./state/drawing";
+import { moveChips } from "./state/moving";
+import { cursorShower, othersOn } from "./state/presence";
+import { askOf, stepBack, suits, type Gesture } from "./state/tool";
+import { say, select, toggleSelected, useUi } from "./state/ui";
+import { joinSteps } from "./model/gestures";
+import { Cursors } from "./parts/Cursors";
+import { DevicePalette } from "./parts/DevicePalette";
+import { LoadAsk } from "./parts/LoadAsk";
+import { PreviewLine } from "./parts/PreviewLine";
+
+export function EditorMap({ insets, fitInsets }: { insets: Insets; fitInsets: Insets }) {
+  const open = useOpenProgram();
+  const { plan, devices, scene, shared, t, document, apply, canEdit } = open;
+  const gesture = useUi((ui) => ui.gesture);
+  const into = useUi((ui) => ui.into);
+  const looks = useLooks(gesture);
+  const drawing = useDrawing(open, gesture);
+  const showCursor = useMemo(() => cursorShower(shared), [shared]);
+  const pressStep = useCallback((step: string, add: boolean) => (add ? toggleSelected(step) : select([step])), []);
+  const back = () => useUi.setState({ gesture: stepBack(gesture), fieldPick: null });
+  const join = (from: string, to: string) => {
+    const decision = joinSteps(document, from, to);
+    if ("edits" in decision) apply(decision.edits);
+    else say(t(`refused.${decision.refused}`));
+  };
+  const pressDevice = (device: string) => {
+    const { fieldPick } = useUi.getState();
+    if (fieldPick) {
+      fieldPick.choose(device);
+      useUi.setState({ fieldPick: null });
+    } else if (askOf(gesture) === "nothing") select([]);
+    // The source's own press ends here too: it began on the way down, so that it can be dragged from.
+    else if (device !== gesture.source) drawing.takeDevice(device);
+  };
+  const pressResting = (press: StagePress) => {
+    const frame = frameAt(scene.frames, toPixels(press.at));
+    select(frame ? [frame.id] : []);
+    if (frame && canEdit) goInto(open, frame);
+  };
+  const pressFloor = (press: StagePress) => {
+    const ask = askOf(gesture);
+    if (ask === "floor" || ask === "goal") drawing.takeFloor(press.at);
+    else if (ask === "nothing") pressResting(press);
+    else back();
+  };
+  return (
+    <MapStage
+      plan={plan}
+      devices={devices}
+      scene={scene}
+      looks={looks}
+      robots={liveRobots}
+      insets={fitInsets}
+      label={t("map_label")}
+      mode={gesture.tool === "pan" ? "pan" : gesture.tool === "select" ? "select" : "draw"}
+      lines={{
+        chosenLink: into?.link ?? null,
+        onSelectLink: canEdit
+          ? (link) => useUi.setState({ into: { branch: link.into, link: link.id, word: link.word ?? t("then") } })
+          : undefined,
+      }}
+      onStep={pressStep}
+      onEditStep={(step) => {
+        select([step]);
+        toggleHull(document.steps[step]?.params.function);
+      }}
+      onDevice={pressDevice}
+      onDeviceDown={drawing.dragFrom}
+      onDeviceUp={drawing.dragTo}
+      onFloor={pressFloor}
+      onBack={back}
+      onMove={(moved: readonly { id: string; at: Point }[]) => moveChips(open, moved)}
+      onSelectMany={select}
+      onJoin={join}
+      onPointer={(at) => {
+        showCursor(at);
+        drawing.pointer.set({ ...toPixels(at), zoom: 1 });
+      }}
+      plane={<PreviewLine from={drawing.from} route={drawing.preview} pointer={drawing.pointer} />}
+    >
+      <Cursors shared={shared} />
+      <DevicePalette onChoose={pressDevice} />
+      {drawing.askAt ? <LoadAsk at={drawing.askAt} loads={drawing.loads} onChoose={drawing.takeLoad} /> : null}
+      <MapControls plan={plan} scene={scene} insets={insets} mini />
+    </MapStage>
+  );
+}
+
+/** A call opened or closed: its function's body shown on the map or not. */
+function toggleHull(functionId: unknown): void {
+  if (typeof functionId !== "string") return;
+  useUi.setState(({ collapsed }) => {
+    const next = new Set(collapsed);
+    if (!next.delete(functionId)) next.add(functionId);
+    return { collapsed: next };
+  });
+}
+
+function useLooks(gesture: Gesture): NodeLooks {
+  const { people, t, speaker, surroundings, canEdit } = useOpenProgram();
+  const selected = useUi((ui) => ui.selected);
+  const fresh = useUi((ui) => ui.fresh);
+  const fieldPick = useUi((ui) => ui.fieldPick);
+  return useMemo<NodeLooks>(() => {
+    const source = gesture.source ? surroundings.devices.get(gesture.source) : undefined;
+    return {
+      selected: new Set(selected),
+      stateOf: () => null,
+      othersOn: othersOn(people),
+      lightOf: (device) => lightOf(device, gesture, source, fieldPick !== null),
+      captionOf: (device) => captionOf(device, gesture, t),
+      noteOf: (chip) => (chip.movesAdded && chip.id === fresh ? t("move_added") : null),
+      labelOf: (chip) => chipLabel(chip, speaker),
+      startLabel: t("start"),
+      editable: canEdit && gesture.tool !== "pan",
+    };
+  }, [selected, fresh, fieldPick, people, gesture, t, speaker, surroundings, canEdit]);
+}
+
+function lightOf(device: SiteDevice, gesture: Gesture, source: SiteDevice | undefined, anyMachine: boolean): Light {
+  if (device.id === gesture.source || device.id === gesture.target) return "chosen";
+  if (anyMachine) return isRobot(device) ? null : "suitable";
+  const ask = askOf(gesture);
+  if (ask !== "source" && ask !== "target" && ask !== "device") return null;
+  return suits(gesture, device, source) ? "suitable" : "dim";
+}
+
+function captionOf(device: SiteDevice, gesture: Gesture, t: (key: string) => string): string | null {
+  if (gesture.tool === "select") return null;
+  if (device.id === gesture.source) return t("caption.source");
+  return device.id === gesture.target ? t("caption.target") : null;
+}

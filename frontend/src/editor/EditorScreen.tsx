@@ -1,0 +1,122 @@
+/** The editor: a program drawn on its map, by several people at once. */
+import { useEffect, useMemo, useState, useSyncExternalStore } from "react";
+import { useParams } from "react-router-dom";
+import { useCompiled, useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/queries";
+import type { Device, Program, Site, User } from "@/api/types";
+import { useSiteLive } from "@/live/site";
+import { useEditorText, useScene } from "./canvas/useScene";
+import { EditorWorkspace } from "./EditorWorkspace";
+import type { Edit } from "./model/edits";
+import { SharedProgram } from "./model/shared";
+import { useQuietDevices } from "./state/quietDevices";
+import { ProgramContext, type OpenProgram } from "./state/context";
+import { usePeople, useShowSelection } from "./state/presence";
+import { resetUi, useUi } from "./state/ui";
+import classes from "./editor.module.css";
+
+export function EditorScreen() {
+  const { id } = useParams();
+  const t = useEditorText();
+  const program = useProgram(id);
+  const slug = program.data?.site;
+  const site = useSite(slug);
+  const devices = useDevices(slug);
+  const me = useMe();
+  useSiteLive(slug);
+  const canEdit = site.data?.role === "author" || site.data?.role === "admin";
+  const shared = useShared(id, site.data !== undefined, canEdit);
+  const failed = program.error ?? site.error ?? devices.error;
+  if (failed) return <p className={classes.wait}>{failed.message}</p>;
+  if (!program.data || !site.data || !devices.data || !shared) return <p className={classes.wait}>{t("opening")}</p>;
+  return (
+    <Loaded
+      program={program.data}
+      site={site.data}
+      devices={devices.data}
+      shared={shared}
+      canEdit={canEdit}
+      user={me.data?.user ?? null}
+    />
+  );
+}
+
+/** The shared document for as long as this program is on the screen. */
+function useShared(id: string | undefined, ready: boolean, canEdit: boolean): SharedProgram | null {
+  const [shared, setShared] = useState<SharedProgram | null>(null);
+  useEffect(() => {
+    if (!id || !ready) return;
+    resetUi();
+    const opened = new SharedProgram(id, socketAddress(), !canEdit);
+    setShared(opened);
+    return () => {
+      setShared(null);
+      opened.close();
+    };
+  }, [id, ready, canEdit]);
+  return shared;
+}
+
+/** y-websocket puts the program's id behind it. */
+function socketAddress(): string {
+  return `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws/program`;
+}
+
+interface LoadedProps {
+  program: Program;
+  site: Site;
+  devices: Device[];
+  shared: SharedProgram;
+  canEdit: boolean;
+  user: User | null;
+}
+
+function Loaded({ program, site, devices: live, shared, canEdit, user }: LoadedProps) {
+  const map = useSiteMap(site.has_map ? site.slug : undefined);
+  const compiled = useCompiled(program.id).data ?? null;
+  const document = useSyncExternalStore(shared.subscribe, shared.getDocument);
+  const devices = useQuietDevices(live);
+  const collapsed = useUi((ui) => ui.collapsed);
+  const plan = map.data ?? null;
+  const parts = useScene({
+    site: site.slug,
+    mapVersion: plan?.version,
+    document,
+    compiled,
+    devices,
+    places: plan?.places,
+    collapsed,
+  });
+  const people = usePeople(shared);
+  useShowSelection(
+    shared,
+    useMemo(() => (user ? { ...user } : undefined), [user]),
+  );
+  const open = useMemo<OpenProgram>(() => {
+    const { scene, surroundings, t } = parts;
+    return {
+      program,
+      site,
+      plan,
+      devices,
+      shared,
+      document,
+      compiled,
+      diagnostics: compiled?.diagnostics ?? [],
+      scene,
+      surroundings,
+      speaker: { document, surroundings, t },
+      t,
+      people,
+      canEdit,
+      canRun: site.role !== "viewer",
+      apply: (edits: readonly Edit[]) => {
+        if (canEdit) shared.apply(edits);
+      },
+    };
+  }, [program, site, plan, devices, shared, document, compiled, parts, people, canEdit]);
+  return (
+    <ProgramContext value={open}>
+      <EditorWorkspace />
+    </ProgramContext>
+  );
+}

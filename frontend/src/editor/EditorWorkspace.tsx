@@ -1,0 +1,59 @@
+/** Where things stand on the editor's screen. */
+import type { CSSProperties } from "react";
+import { useMemo } from "react";
+import { useMediaQuery } from "@mantine/hooks";
+import type { Insets } from "@/map/projection";
+import { EditorMap } from "./EditorMap";
+import { EditorTop } from "./EditorTop";
+import classes from "./editor.module.css";
+import { Inspector } from "./inspector/Inspector";
+import { Drawer } from "./parts/Drawer";
+import { FunctionDialog } from "./parts/FunctionDialog";
+import { HelpSentence } from "./parts/HelpSentence";
+import { LibraryDialog } from "./parts/LibraryDialog";
+import { EmptyProgram, Toast } from "./parts/Overlays";
+import { RunDialog } from "./parts/RunDialog";
+import { SaveFunctionDialog } from "./parts/SaveFunctionDialog";
+import { ShortcutsDialog } from "./parts/ShortcutsDialog";
+import { ToolRail } from "./parts/ToolRail";
+import { useShortcuts } from "./state/shortcuts";
+import { useUi } from "./state/ui";
+
+const FITTED: Insets = { left: 100, right: 336, top: 34, bottom: 300 };
+
+export function EditorWorkspace() {
+  useShortcuts();
+  const small = useMediaQuery("(max-width: 1179px)") ?? false;
+  const drawerOpen = useUi((ui) => ui.drawer.open);
+  const selected = useUi((ui) => ui.selected.length > 0);
+  const inspector = useUi((ui) => ui.inspector) && selected;
+  const insets = useMemo<Insets>(
+    () =>
+      small
+        ? { left: 40, right: 16, top: 36, bottom: drawerOpen ? 420 : 148 }
+        : { left: 100, right: inspector ? 336 : 12, top: 34, bottom: drawerOpen ? 300 : 62 },
+    [small, inspector, drawerOpen],
+  );
+  // The floor is fitted as if all panels were open: a selected step must not cover the machines.
+  const fitInsets = useMemo<Insets>(() => (small ? insets : { ...FITTED }), [small, insets]);
+  const style = { "--free-right": `${insets.right}px`, "--free-bottom": `${insets.bottom}px` } as CSSProperties;
+  return (
+    <div className={classes.screen}>
+      <EditorTop />
+      <main className={classes.floor} style={style} data-small={small || undefined}>
+        <EditorMap insets={insets} fitInsets={fitInsets} />
+        <ToolRail />
+        <EmptyProgram />
+        <HelpSentence />
+        <Toast />
+        {inspector ? <Inspector /> : null}
+        <Drawer small={small} />
+      </main>
+      <RunDialog />
+      <FunctionDialog />
+      <LibraryDialog />
+      <SaveFunctionDialog />
+      <ShortcutsDialog />
+    </div>
+  );
+}

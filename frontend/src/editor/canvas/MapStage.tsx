@@ -1,0 +1,220 @@
+/** The map with a program on it: floor, lines, machines, chips, robots. What a press means is the caller's. */
+import {
+  ConnectionMode,
+  ReactFlow,
+  ReactFlowProvider,
+  SelectionMode,
+  useReactFlow,
+  ViewportPortal,
+  type Node,
+  type OnConnectEnd,
+} from "@xyflow/react";
+import "@xyflow/react/dist/style.css";
+import {
+  useCallback,
+  useEffect,
+  useMemo,
+  useRef,
+  useState,
+  type ReactNode,
+  type MouseEvent,
+  type PointerEvent,
+} from "react";
+import { FloorCanvas } from "@/map/FloorCanvas";
+import { planBox, type FloorPlan } from "@/map/floor";
+import { knownBox } from "@/map/floor";
+import { fitViewport, toMetres, type Insets, type Point } from "@/map/projection";
+import { RobotLayer } from "@/map/RobotLayer";
+import type { RobotSource } from "@/map/robots";
+import { ViewportCell } from "@/map/viewport";
+import { useSize } from "@/map/useSize";
+import type { SiteDevice } from "../scene/surroundings";
+import type { Scene } from "../scene/scene";
+import { buildNodes, DEVICE_PREFIX, START_ID, type NodeLooks } from "./buildNodes";
+import { Drawing, type DrawingProps } from "./Drawing";
+import { JoinLine } from "./JoinLine";
+import { nodeTypes, type StageNode } from "./nodes";
+import classes from "./stage.module.css";
+import { StageContext, type StageHandle } from "./stageContext";
+import { useMovingNodes } from "./useMovingNodes";
+
+export interface StagePress {
+  readonly at: Point;
+  readonly add: boolean;
+}
+
+export interface MapStageProps {
+  plan: FloorPlan | null;
+  devices: readonly SiteDevice[];
+  scene: Scene;
+  looks: NodeLooks;
+  robots?: RobotSource;
+  trails?: boolean;
+  insets: Insets;
+  label: string;
+  mode: "select" | "pan" | "draw";
+  lines?: Pick<DrawingProps, "onSelectLink" | "chosenLink">;
+  onStep?: (step: string, add: boolean) => void;
+  onEditStep?: (step: string) => void;
+  onDevice?: (device: string, press: StagePress) => void;
+  onDeviceDown?: (device: string) => void;
+  onDeviceUp?: (device: string) => void;
+  onFloor?: (press: StagePress) => void;
+  onBack?: () => void;
+  onMove?: (moved: readonly { id: string; at: Point }[]) => void;
+  onMoveStart?: (at: Point) => void;
+  onSelectMany?: (steps: readonly string[]) => void;
+  onJoin?: (from: string, to: string) => void;
+  onPointer?: (at: Point) => void;
+  /** More in the map's plane (drawing pixels). */
+  plane?: ReactNode;
+  /** More over the map, not moving with it. */
+  children?: ReactNode;
+}
+
+export function MapStage(props: MapStageProps) {
+  return (
+    <ReactFlowProvider>
+      <Stage {...props} />
+    </ReactFlowProvider>
+  );
+}
+
+function Stage(props: MapStageProps) {
+  const { plan, devices, scene, looks, mode, insets } = props;
+  const flow = useReactFlow();
+  const [element, size] = useSize<HTMLDivElement>();
+  const [viewport] = useState(() => new ViewportCell());
+  const [lod, setLod] = useState<"full" | "icon" | "dot">("full");
+  const built = useMemo(() => buildNodes(scene, devices, looks, plan?.places), [scene, devices, looks, plan]);
+  const moving = useMovingNodes(built, props.onMove, props.onSelectMany);
+  const fit = useCallback(
+    (animate: boolean) => {
+      if (!plan || size.width === 0) return;
+      const view = fitViewport(knownBox(plan), size.width, size.height, insets, 1.6);
+      void flow.setViewport(view, { duration: animate ? 280 : 0 });
+    },
+    [flow, plan, size.width, size.height, insets],
+  );
+  useFitOnce(fit, plan, size.width > 0);
+  const handle = useMemo<StageHandle>(
+    () => ({ viewport, pane: size, fit: () => fit(true), flow }),
+    [viewport, size, fit, flow],
+  );
+  const press = (event: MouseEvent | PointerEvent): StagePress => ({
+    at: toMetres(flow.screenToFlowPosition({ x: event.clientX, y: event.clientY })),
+    add: event.shiftKey,
+  });
+  const onJoinEnd: OnConnectEnd = (_event, state) => {
+    if (state.fromNode && state.toNode) props.onJoin?.(state.fromNode.id, state.toNode.id);
+  };
+  return (
+    <div
+      ref={element}
+      className={classes.stage}
+      data-lod={lod}
+      data-tool={mode}
+      role="application"
+      aria-label={props.label}
+      onPointerMove={props.onPointer ? (event) => props.onPointer?.(press(event).at) : undefined}
+      onPointerUp={(event) => {
+        const device = deviceUnder(event);
+        if (device) props.onDeviceUp?.(device);
+      }}
+      onPointerDown={(event) => {
+        const device = deviceUnder(event);
+        if (device && event.button === 0) props.onDeviceDown?.(device);
+      }}
+    >
+      <FloorCanvas plan={plan} viewport={viewport} />
+      <ReactFlow<StageNode>
+        nodes={moving.nodes}
+        edges={NO_EDGES}
+        nodeTypes={nodeTypes}
+        onNodesChange={moving.onNodesChange}
+        onNodeDragStop={moving.onDragStop}
+        onSelectionDragStop={moving.onSelectionDragStop}
+        onSelectionEnd={moving.onSelectionEnd}
+        onNodeClick={(event, node) => clickNode(props, node, press(event))}
+        onNodeDoubleClick={(_event, node) => node.type === "step" && props.onEditStep?.(node.id)}
+        onPaneClick={(event) => props.onFloor?.(press(event))}
+        onPaneContextMenu={(event) => {
+          event.preventDefault();
+          props.onBack?.();
+        }}
+        onConnectEnd={onJoinEnd}
+        connectionLineComponent={JoinLine}
+        connectionMode={ConnectionMode.Loose}
+        connectionRadius={24}
+        onMove={(_event, view) => {
+          viewport.set(view);
+          setLod(view.zoom < 0.35 ? "dot" : view.zoom < 0.6 ? "icon" : "full");
+        }}
+        onInit={() => viewport.set(flow.getViewport())}
+        selectionOnDrag={mode === "select" && looks.editable}
+        selectionMode={SelectionMode.Full}
+        panOnDrag={mode === "pan" || !looks.editable ? true : [1]}
+        panActivationKeyCode="Space"
+        selectionKeyCode={null}
+        multiSelectionKeyCode="Shift"
+        deleteKeyCode={null}
+        disableKeyboardA11y
+        nodesDraggable={looks.editable && mode !== "draw"}
+        nodesConnectable={looks.editable}
+        zoomOnDoubleClick={false}
+        minZoom={0.2}
+        maxZoom={3}
+        onlyRenderVisibleElements
+        nodeDragThreshold={3}
+        translateExtent={plan ? extentOf(plan) : undefined}
+        proOptions={{ hideAttribution: true }}
+      >
+        <ViewportPortal>
+          <Drawing
+            scene={scene}
+            selected={looks.selected}
+            stateOf={looks.stateOf}
+            onSelectStep={props.onStep}
+            {...props.lines}
+          />
+          {props.plane}
+        </ViewportPortal>
+      </ReactFlow>
+      {props.robots ? <RobotLayer source={props.robots} viewport={viewport} trails={props.trails ?? false} /> : null}
+      <StageContext value={handle}>{props.children}</StageContext>
+    </div>
+  );
+}
+
+const NO_EDGES: never[] = [];
+
+/** The map is brought into the free area when it is first there, and stays where people move it. */
+function useFitOnce(fit: (animate: boolean) => void, plan: FloorPlan | null, ready: boolean): void {
+  const fitted = useRef<FloorPlan | null>(null);
+  useEffect(() => {
+    if (!plan || !ready || fitted.current === plan) return;
+    fitted.current = plan;
+    fit(false);
+  }, [fit, plan, ready]);
+}
+
+function extentOf(plan: FloorPlan): [[number, number], [number, number]] {
+  const box = planBox(plan);
+  const margin = 1200;
+  return [
+    [box.left - margin, box.top - margin],
+    [box.right + margin, box.bottom + margin],
+  ];
+}
+
+function clickNode(props: MapStageProps, node: Node, press: StagePress): void {
+  if (node.id.startsWith(DEVICE_PREFIX)) props.onDevice?.(node.id.slice(DEVICE_PREFIX.length), press);
+  else if (node.id !== START_ID) props.onStep?.(node.id, press.add);
+}
+
+/** The machine whose node an event happened on. */
+function deviceUnder(event: PointerEvent): string | null {
+  const under = document.elementFromPoint(event.clientX, event.clientY);
+  const id = under?.closest(".react-flow__node")?.getAttribute("data-id");
+  return id?.startsWith(DEVICE_PREFIX) ? id.slice(DEVICE_PREFIX.length) : null;
+}

@@ -1,0 +1,129 @@
+/** A step on the map: number badge, icon, short text; its shape says what it is. */
+import { Box } from "lucide-react";
+import { memo, type CSSProperties } from "react";
+import { OctagonMark, TickMark } from "@/map/StatusMark";
+import { VipoIcon } from "@/map/VipoIcon";
+import type { Chip } from "../scene/chips";
+import type { TextPart } from "../scene/words";
+import classes from "./stage.module.css";
+
+export type StepState = "planned" | "running" | "done" | "failed" | "skipped" | null;
+
+/** Somebody else who has the step selected. */
+export interface OtherPerson {
+  readonly name: string;
+  readonly initials: string;
+  readonly colour: string;
+}
+
+export interface StepChipProps {
+  chip: Chip;
+  selected: boolean;
+  state: StepState;
+  other: OtherPerson | null;
+  /** "Move added for you", where it is to be said. */
+  note: string | null;
+}
+
+export const StepChip = memo(function StepChip({ chip, selected, state, other, note }: StepChipProps) {
+  const style = { "--own": `var(--${chip.family})`, "--own-soft": `var(--${chip.family}-soft)` } as CSSProperties;
+  return (
+    <div
+      className={classes.chip}
+      style={{ ...style, width: chip.width, height: chip.height, ...otherStyle(other) }}
+      data-shape={chip.shape}
+      data-tag={chip.shape === "diamond" ? chip.tagSide : undefined}
+      data-selected={selected || undefined}
+      data-problem={chip.problem ?? undefined}
+      data-state={state ?? undefined}
+      data-draft={chip.draft || undefined}
+      data-inner={chip.inner || undefined}
+    >
+      {chip.shape === "diamond" ? <Diamond chip={chip} /> : <Face chip={chip} />}
+      <Corner chip={chip} state={state} />
+      {other ? <span className={classes.flag}>{other.initials}</span> : null}
+      {note ? (
+        <span className={classes.note}>
+          <VipoIcon name="move" size={12} />
+          {note}
+        </span>
+      ) : null}
+    </div>
+  );
+});
+
+function otherStyle(other: OtherPerson | null): CSSProperties {
+  return other ? ({ "--other": other.colour } as CSSProperties) : {};
+}
+
+function Face({ chip }: { chip: Chip }) {
+  return (
+    <>
+      <span className={classes.face}>
+        {chip.number ? <span className={classes.badge}>{chip.number}</span> : null}
+        <span className={classes.icon}>
+          {chip.kind === "pick_and_drop" ? <Box size={15} strokeWidth={2} /> : <VipoIcon name={chip.icon} size={15} />}
+        </span>
+        <Parts parts={chip.parts} />
+      </span>
+      {chip.condition ? (
+        <span className={classes.tag}>
+          <Parts parts={chip.condition} />
+        </span>
+      ) : null}
+    </>
+  );
+}
+
+function Diamond({ chip }: { chip: Chip }) {
+  return (
+    <>
+      <span className={classes.diamond} aria-hidden="true" />
+      <span className={classes.diamondWord}>
+        <Parts parts={chip.parts} />
+      </span>
+      {chip.number ? <span className={classes.badge}>{chip.number}</span> : null}
+      {chip.condition ? (
+        <span className={classes.tag}>
+          <Parts parts={chip.condition} />
+        </span>
+      ) : null}
+    </>
+  );
+}
+
+function Parts({ parts }: { parts: readonly TextPart[] }) {
+  return (
+    <span className={classes.text}>
+      {parts.map((part, index) => (
+        <span key={index} data-tone={part.tone}>
+          {part.text}
+        </span>
+      ))}
+    </span>
+  );
+}
+
+/** The badge on the corner: what state the step is in, told by its shape. */
+function Corner({ chip, state }: { chip: Chip; state: StepState }) {
+  const mark = cornerMark(chip, state);
+  if (!mark) return null;
+  return (
+    <svg className={classes.corner} width={20} height={20} viewBox="-10 -10 20 20" aria-hidden="true">
+      {mark}
+    </svg>
+  );
+}
+
+function cornerMark(chip: Chip, state: StepState) {
+  if (state === "failed" || (state === null && chip.problem === "error")) return <OctagonMark />;
+  if (state === "done") return <TickMark colour="var(--done)" />;
+  if (state === "running")
+    return (
+      <g fill="none" strokeWidth={3}>
+        <circle r={6.5} fill="var(--panel)" stroke="var(--busy-soft)" />
+        <circle r={6.5} stroke="var(--busy)" strokeDasharray="26 41" className={classes.turning} />
+      </g>
+    );
+  return null;
+}

@@ -1,0 +1,179 @@
+/** A condition built as property, comparison, value; several joined by "and" or "or". */
+import { Button, SegmentedControl, Select } from "@mantine/core";
+import { Plus, X } from "lucide-react";
+import { IconButton } from "@/design/IconButton";
+import { useLiveStore } from "@/live/store";
+import { useOpenProgram } from "../state/context";
+import { joinComparisons, splitComparisons, type Comparison } from "../model/conditions";
+import type { Value } from "../model/types";
+import { withUnit } from "../scene/words";
+import { useFieldProblems, FieldFrame, ValueField } from "./fields";
+import classes from "./inspector.module.css";
+import { useStepEditor } from "./stepEditor";
+
+const SIGNS = [
+  { value: "==", label: "=" },
+  { value: "!=", label: "≠" },
+  { value: "<", label: "<" },
+  { value: "<=", label: "≤" },
+  { value: ">", label: ">" },
+  { value: ">=", label: "≥" },
+];
+
+export function ConditionForm({ field }: { field: string }) {
+  const { t } = useOpenProgram();
+  const { step, set, disabled } = useStepEditor();
+  const problems = useFieldProblems(field);
+  const { joiner, comparisons } = splitComparisons((step.params[field] ?? null) as Value);
+  const store = (next: readonly Comparison[], by: "and" | "or" = joiner) => set(field, joinComparisons(next, by));
+  const rows = comparisons.length > 0 ? comparisons : [{ left: null, sign: "==", right: null }];
+  return (
+    <div className={classes.field}>
+      <span className={classes.legend}>{t("condition.label")}</span>
+      {rows.map((row, index) => (
+        <Row
+          key={index}
+          row={row}
+          field={field}
+          first={index === 0}
+          onChange={(next) => store(rows.map((each, at) => (at === index ? next : each)))}
+          onRemove={rows.length > 1 ? () => store(rows.filter((_, at) => at !== index)) : undefined}
+        />
+      ))}
+      {rows.length > 1 ? (
+        <SegmentedControl
+          className={classes.between}
+          size="xs"
+          value={joiner}
+          disabled={disabled}
+          onChange={(next) => store(rows, next as "and" | "or")}
+          data={[
+            { value: "and", label: t("condition.and") },
+            { value: "or", label: t("condition.or") },
+          ]}
+        />
+      ) : null}
+      {problems.length > 0 ? <p className={classes.problem}>{problems.join(" ")}</p> : null}
+      <Button
+        variant="subtle"
+        size="xs"
+        className={classes.between}
+        leftSection={<Plus size={14} aria-hidden="true" />}
+        disabled={disabled}
+        onClick={() => store([...rows, { left: null, sign: "==", right: null }])}
+      >
+        {t("condition.add")}
+      </Button>
+    </div>
+  );
+}
+
+function Row({
+  row,
+  field,
+  first,
+  onChange,
+  onRemove,
+}: {
+  row: Comparison;
+  field: string;
+  first: boolean;
+  onChange: (row: Comparison) => void;
+  onRemove?: () => void;
+}) {
+  const { t, devices } = useOpenProgram();
+  const { disabled, parameters } = useStepEditor();
+  const property = propertyOf(row.left);
+  const device = devices.find((each) => each.id === property?.device);
+  const facts = device?.properties.find((each) => each.name === property?.name);
+  const groups = [
+    ...devices
+      .filter((each) => each.properties.length > 0 && each.lifecycle !== "pending")
+      .map((each) => ({
+        group: each.name,
+        items: each.properties.map((one) => ({ value: `${each.id}\n${one.name}`, label: one.name })),
+      })),
+    { group: t("field.parameters"), items: parameters.map((one) => ({ value: `\n${one.name}`, label: one.name })) },
+  ].filter((group) => group.items.length > 0);
+  return (
+    <div className={classes.comparison}>
+      <FieldFrame label={t("condition.property")} field={`${field}.left`} problems={[]}>
+        {({ control }) => (
+          <div className={classes.row}>
+            <Select
+              id={control}
+              className={classes.grow}
+              data={groups}
+              value={keyOf(row.left)}
+              onChange={(next) => onChange({ ...row, left: leftFrom(next) })}
+              placeholder={t("condition.choose_property")}
+              searchable
+              disabled={disabled}
+            />
+            {onRemove ? (
+              <IconButton label={t("condition.remove")} onClick={onRemove} disabled={disabled}>
+                <X size={15} aria-hidden="true" />
+              </IconButton>
+            ) : null}
+          </div>
+        )}
+      </FieldFrame>
+      {device && property ? (
+        <Now device={device.id} name={property.name} unit={facts?.unit ?? ""} label={device.name} />
+      ) : null}
+      <div className={classes.pair}>
+        <FieldFrame label={t("condition.comparison")} field={`${field}.sign`} problems={[]}>
+          {({ control }) => (
+            <Select
+              id={control}
+              data={SIGNS}
+              value={row.sign}
+              onChange={(next) => onChange({ ...row, sign: next ?? "==" })}
+              allowDeselect={false}
+              disabled={disabled}
+            />
+          )}
+        </FieldFrame>
+        <ValueField
+          label={t("condition.value")}
+          field={first ? `${field}.right` : `${field}.other`}
+          type={
+            typeof facts?.value === "string" || facts?.type === "text" || facts?.type === "string" ? "text" : "number"
+          }
+          unit={facts?.unit}
+          value={row.right}
+          onChange={(right) => onChange({ ...row, right })}
+        />
+      </div>
+    </div>
+  );
+}
+
+/** The current reading, straight from the live store. */
+function Now({ device, name, unit, label }: { device: string; name: string; unit: string; label: string }) {
+  const { t } = useOpenProgram();
+  const value = useLiveStore((live) => {
+    const found = live.deviceById[device]?.properties.find((each) => each.name === name)?.value;
+    return typeof found === "number" ? Math.round(found * 10) / 10 : (found ?? null);
+  });
+  if (value === null) return null;
+  return <p className={classes.now}>{t("condition.now", { device: label, value: withUnit(String(value), unit) })}</p>;
+}
+
+function propertyOf(left: Value): { device: string; name: string } | null {
+  if (typeof left !== "object" || left === null || !("property" in left)) return null;
+  const [device, name] = left.property;
+  return typeof device === "string" ? { device, name } : null;
+}
+
+function keyOf(left: Value): string | null {
+  const property = propertyOf(left);
+  if (property) return `${property.device}\n${property.name}`;
+  return typeof left === "object" && left !== null && "param" in left ? `\n${left.param}` : null;
+}
+
+function leftFrom(key: string | null): Value {
+  if (key === null) return null;
+  const [device = "", name = ""] = key.split("\n");
+  return device ? { property: [device, name] } : { param: name };
+}

@@ -1,0 +1,199 @@
+/** The inspector: the selected step's values, each with its problems under it. */
+import { CircleAlert, Copy, Trash2, X } from "lucide-react";
+import { useMemo } from "react";
+import { Button } from "@mantine/core";
+import { Avatar } from "@/design/Avatar";
+import { IconButton } from "@/design/IconButton";
+import { VipoIcon } from "@/map/VipoIcon";
+import { kindOf } from "../scene/kinds";
+import { functionOf } from "../scene/routing";
+import { duplicateSelected, removeSelected } from "../state/actions";
+import { useOpenProgram } from "../state/context";
+import { say, select, useUi } from "../state/ui";
+import { CallForm } from "./CallForm";
+import { ConditionForm } from "./ConditionForm";
+import { LoadForm } from "./LoadForm";
+import { OperateForm } from "./OperateForm";
+import { MoveForm, ParallelForm, TryForm, WaitForm } from "./smallForms";
+import classes from "./inspector.module.css";
+import { StepEditorContext, useStepEditor, type StepEditor } from "./stepEditor";
+
+export function Inspector() {
+  const { document } = useOpenProgram();
+  const selected = useUi((ui) => ui.selected);
+  const id = selected.at(-1);
+  const step = id ? document.steps[id] : undefined;
+  if (selected.length > 1) return <Several count={selected.length} />;
+  return id && step ? <One key={id} id={id} /> : null;
+}
+
+function One({ id }: { id: string }) {
+  const { document, apply, canEdit, shared } = useOpenProgram();
+  const step = document.steps[id];
+  const editor = useMemo<StepEditor | null>(() => {
+    if (!step) return null;
+    const scope = functionOf(document, id);
+    return {
+      id,
+      step,
+      parameters: scope ? (document.functions[scope]?.parameters ?? []) : [],
+      disabled: !canEdit,
+      set: (name, value) => apply([{ do: "set_param", id, name, value }]),
+      showEditing: (editing) => shared.awareness.setLocalStateField("editing", editing ? id : null),
+    };
+  }, [document, id, step, canEdit, apply, shared]);
+  if (!editor) return null;
+  return (
+    <StepEditorContext value={editor}>
+      <StepPanel />
+    </StepEditorContext>
+  );
+}
+
+function StepPanel() {
+  const { t, compiled, document } = useOpenProgram();
+  const { id, step } = useStepEditor();
+  const kind = kindOf(step.kind);
+  const number = compiled?.numbers[id];
+  const parent = step.place ? document.steps[step.place[0]] : undefined;
+  const where = parent ? t("inspector.inside", { kind: t(`kind.${parent.kind}`) }) : "";
+  return (
+    <aside className={classes.panel} aria-label={t("inspector.label")}>
+      <header className={classes.head}>
+        <span
+          className={classes.icon}
+          style={{ color: `var(--${kind.family})`, background: `var(--${kind.family}-soft)` }}
+        >
+          <VipoIcon name={kind.icon} size={20} />
+        </span>
+        <span className={classes.title}>
+          <h2>{t(`kind.${step.kind}`)}</h2>
+          <span>{step.place ? `${t("inspector.step", { number: number ?? "…" })}${where}` : t("steps.draft")}</span>
+        </span>
+        <IconButton label={t("inspector.close")} onClick={() => useUi.setState({ inspector: false })}>
+          <X size={17} aria-hidden="true" />
+        </IconButton>
+      </header>
+      <div className={classes.body}>
+        <Summary />
+        <Editing />
+        <Form kind={step.kind} />
+      </div>
+      <Footer />
+    </aside>
+  );
+}
+
+function Form({ kind }: { kind: string }) {
+  switch (kind) {
+    case "pick_and_drop":
+    case "pick":
+    case "drop":
+      return <LoadForm />;
+    case "move":
+      return <MoveForm />;
+    case "operate":
+      return <OperateForm />;
+    case "wait":
+      return <WaitForm />;
+    case "if":
+    case "while":
+      return <ConditionForm field="condition" />;
+    case "parallel":
+      return <ParallelForm />;
+    case "try":
+      return <TryForm />;
+    case "call":
+      return <CallForm />;
+    default:
+      return null;
+  }
+}
+
+/** "1 field needs a value". */
+function Summary() {
+  const { diagnostics, t } = useOpenProgram();
+  const { id } = useStepEditor();
+  const errors = diagnostics.filter((each) => each.step === id && each.severity === "error");
+  if (errors.length === 0) return null;
+  return (
+    <div className={classes.summary} role="status">
+      <CircleAlert size={16} aria-hidden="true" />
+      <span>
+        <strong>{t("inspector.problems", { count: errors.length })}</strong>
+        {t("inspector.then_run")}
+      </span>
+    </div>
+  );
+}
+
+/** Who else is in this step now; nobody is locked out. */
+function Editing() {
+  const { people, t } = useOpenProgram();
+  const { id } = useStepEditor();
+  const others = people.filter((person) => !person.me && (person.editing === id || person.selection.includes(id)));
+  return others.map((person) => (
+    <p key={person.client} className={classes.other}>
+      <Avatar name={person.name} initials={person.initials} colour={person.colour} size={20} />
+      {t(person.editing === id ? "inspector.edits_too" : "inspector.looks_too", { name: person.name })}
+    </p>
+  ));
+}
+
+function Footer() {
+  const { t, canEdit, document, apply, people } = useOpenProgram();
+  const me = people.find((person) => person.me);
+  return (
+    <footer className={classes.foot}>
+      {me ? <Avatar name={me.name} initials={me.initials} colour={me.colour} size={22} /> : null}
+      <span>{t(canEdit ? "inspector.you_edit" : "inspector.you_look")}</span>
+      {canEdit ? (
+        <>
+          <IconButton label={t("duplicate")} onClick={() => duplicateSelected(document, apply)}>
+            <Copy size={16} aria-hidden="true" />
+          </IconButton>
+          <IconButton
+            label={t("delete")}
+            className={classes.delete}
+            onClick={() => say(t("removed", { count: removeSelected(document, apply) }), true)}
+          >
+            <Trash2 size={16} aria-hidden="true" />
+          </IconButton>
+        </>
+      ) : null}
+    </footer>
+  );
+}
+
+function Several({ count }: { count: number }) {
+  const { t, canEdit, document, apply } = useOpenProgram();
+  return (
+    <aside className={classes.panel} aria-label={t("inspector.label")}>
+      <header className={classes.head}>
+        <span className={classes.title}>
+          <h2>{t("inspector.several", { count })}</h2>
+        </span>
+        <IconButton label={t("inspector.close")} onClick={() => select([])}>
+          <X size={17} aria-hidden="true" />
+        </IconButton>
+      </header>
+      {canEdit ? (
+        <div className={classes.body}>
+          <Button variant="default" onClick={() => useUi.setState({ dialog: "function" })}>
+            {t("inspector.make_function")}
+          </Button>
+          <Button variant="default" onClick={() => duplicateSelected(document, apply)}>
+            {t("duplicate")}
+          </Button>
+          <Button
+            variant="default"
+            c="var(--error)"
+            onClick={() => say(t("removed", { count: removeSelected(document, apply) }), true)}
+          >
+            {t("delete")}
+          </Button>
+        </div>
+      ) : null}
+    </aside>
+  );
+}

@@ -1,0 +1,183 @@
+/** The program that several people edit: Yjs, its server, its copy in the browser, undo and presence. */
+import * as decoding from "lib0/decoding";
+import { IndexeddbPersistence } from "y-indexeddb";
+import { WebsocketProvider } from "y-websocket";
+import * as Y from "yjs";
+import type { Edit } from "./edits";
+import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
+import type { ProgramDocument, Step } from "./types";
+
+/** The server's own message: a number, and the state vector of what is in the database. */
+const MESSAGE_SAVED = 100;
+
+export type Connection = "connecting" | "live" | "reconnecting" | "refused";
+
+export interface Saving {
+  readonly connection: Connection;
+  /** Our own edits that the server has not yet called saved. */
+  readonly unsaved: boolean;
+  /** Everything is here: from the server, or from the browser's copy. */
+  readonly loaded: boolean;
+  readonly closedWith: number | null;
+}
+
+type Listener = () => void;
+
+/** One open program. Call `close` when its screen goes. */
+export class SharedProgram {
+  readonly doc = new Y.Doc();
+  readonly undo: Y.UndoManager;
+  readonly provider: WebsocketProvider;
+  readonly #copy: IndexeddbPersistence;
+  readonly #origin = Symbol("this person");
+  readonly #listeners = new Set<Listener>();
+  readonly #savingListeners = new Set<Listener>();
+  #document: ProgramDocument;
+  #saving: Saving = { connection: "connecting", unsaved: false, loaded: false, closedWith: null };
+  #changed = new Map<string, Set<string>>();
+
+  constructor(program: string, serverUrl: string, readOnly: boolean) {
+    this.#document = readDocument(this.doc);
+    const roots = ROOTS.map((name) => this.doc.getMap(name));
+    this.undo = new Y.UndoManager(roots, { trackedOrigins: new Set([this.#origin]), captureTimeout: 0 });
+    ROOTS.forEach((name, index) => roots[index]?.observeDeep((events) => this.#note(name, events)));
+    this.doc.on("afterTransaction", () => this.#publish());
+    this.doc.on("update", (_update, origin) => this.#noteUnsaved(origin));
+    this.#copy = new IndexeddbPersistence(`vipo-program-${program}`, this.doc);
+    this.#copy.on("synced", () => this.#setSaving({ loaded: this.#saving.loaded || this.doc.store.clients.size > 0 }));
+    this.provider = new WebsocketProvider(serverUrl, program, this.doc, { disableBc: readOnly });
+    this.#listenToServer();
+  }
+
+  get awareness(): WebsocketProvider["awareness"] {
+    return this.provider.awareness;
+  }
+
+  readonly getDocument = (): ProgramDocument => this.#document;
+  readonly getSaving = (): Saving => this.#saving;
+
+  readonly subscribe = (listener: Listener): (() => void) => {
+    this.#listeners.add(listener);
+    return () => this.#listeners.delete(listener);
+  };
+
+  readonly subscribeSaving = (listener: Listener): (() => void) => {
+    this.#savingListeners.add(listener);
+    return () => this.#savingListeners.delete(listener);
+  };
+
+  /** One gesture: one transaction, one entry in the undo list. */
+  apply(edits: readonly Edit[]): void {
+    if (edits.length === 0) return;
+    this.undo.stopCapturing();
+    this.doc.transact(() => {
+      for (const edit of edits) applyToDoc(this.doc, edit);
+    }, this.#origin);
+    this.undo.stopCapturing();
+  }
+
+  close(): void {
+    this.provider.destroy();
+    this.undo.destroy();
+    void this.#copy.destroy();
+    this.doc.destroy();
+  }
+
+  #note(root: string, events: readonly Y.YEvent<Y.AbstractType<unknown>>[]): void {
+    const ids = this.#changed.get(root) ?? new Set();
+    for (const id of changedBy(root, events)) ids.add(id);
+    this.#changed.set(root, ids);
+  }
+
+  #publish(): void {
+    if (this.#changed.size === 0) return;
+    this.#document = rereadDocument(this.doc, this.#document, this.#changed);
+    this.#changed = new Map();
+    for (const listener of this.#listeners) listener();
+  }
+
+  #noteUnsaved(origin: unknown): void {
+    if (origin === this.#origin || origin === this.undo) this.#setSaving({ unsaved: true });
+  }
+
+  #listenToServer(): void {
+    const { provider } = this;
+    provider.messageHandlers[MESSAGE_SAVED] = (_encoder, decoder) => {
+      decoding.readVarUint(decoder);
+      const saved = Y.decodeStateVector(decoding.readVarUint8Array(decoder));
+      if (this.#holds(saved)) this.#setSaving({ unsaved: false });
+    };
+    provider.on("status", ({ status }) => {
+      if (status === "connected") this.#setSaving({ connection: "live" });
+      if (status === "disconnected" && this.#saving.connection !== "refused")
+        this.#setSaving({ connection: "reconnecting" });
+    });
+    provider.on("sync", (synced) => {
+      if (synced) this.#setSaving({ loaded: true });
+    });
+    provider.on("connection-close", (event) => {
+      if (event && event.code >= 4400 && event.code < 4500)
+        this.#setSaving({ connection: "refused", closedWith: event.code });
+    });
+  }
+
+  /** Whether everything that we know of is in the database. */
+  #holds(saved: Map<number, number>): boolean {
+    const known = Y.decodeStateVector(Y.encodeStateVector(this.doc));
+    return [...known].every(([client, clock]) => (saved.get(client) ?? 0) >= clock);
+  }
+
+  #setSaving(change: Partial<Saving>): void {
+    this.#saving = { ...this.#saving, ...change };
+    for (const listener of this.#savingListeners) listener();
+  }
+}
+
+function applyToDoc(doc: Y.Doc, edit: Edit): void {
+  const steps = doc.getMap<Y.Map<unknown>>("steps");
+  switch (edit.do) {
+    case "add_step":
+      steps.set(edit.id, sharedStep(edit.step));
+      return;
+    case "remove_step":
+      steps.delete(edit.id);
+      return;
+    case "set_place":
+      steps.get(edit.id)?.set("place", edit.place);
+      return;
+    case "set_pos":
+      steps.get(edit.id)?.set("pos", edit.pos);
+      return;
+    case "set_param":
+      setOrDelete(paramsOf(steps.get(edit.id)), edit.name, edit.value);
+      return;
+    case "set_function":
+      setOrDelete(doc.getMap("functions"), edit.id, edit.value);
+      return;
+    case "set_role":
+      setOrDelete(doc.getMap("roles"), edit.id, edit.value);
+      return;
+    case "set_start":
+      doc.getMap("meta").set("start_pos", edit.pos);
+  }
+}
+
+function sharedStep(step: Step): Y.Map<unknown> {
+  const shared = new Y.Map<unknown>();
+  shared.set("kind", step.kind);
+  shared.set("place", step.place ?? null);
+  shared.set("pos", step.pos ?? null);
+  shared.set("params", new Y.Map(Object.entries(step.params)));
+  return shared;
+}
+
+function paramsOf(step: Y.Map<unknown> | undefined): Y.Map<unknown> | null {
+  const params = step?.get("params");
+  return params instanceof Y.Map ? params : null;
+}
+
+function setOrDelete(map: Y.Map<unknown> | null, name: string, value: unknown): void {
+  if (!map) return;
+  if (value === null || value === undefined) map.delete(name);
+  else map.set(name, value);
+}

@@ -1,0 +1,84 @@
+/** The drawer at the bottom: script, problems, steps. */
+import { Copy, FileCode2, ListTree, OctagonAlert, PanelBottomClose, PanelBottomOpen } from "lucide-react";
+import type { ReactNode } from "react";
+import { IconButton } from "@/design/IconButton";
+import { useOpenProgram } from "../state/context";
+import { say, showTab, useUi, type DrawerTab } from "../state/ui";
+import classes from "./drawer.module.css";
+import { ProblemsPanel } from "./ProblemsPanel";
+import { ScriptPanel } from "./ScriptPanel";
+import { StepsPanel } from "./StepsPanel";
+
+export function Drawer({ small }: { small: boolean }) {
+  const { t, compiled, diagnostics } = useOpenProgram();
+  const drawer = useUi((ui) => ui.drawer);
+  const toggle = () => useUi.setState({ drawer: { ...drawer, open: !drawer.open } });
+  const copy = () => void navigator.clipboard.writeText(compiled?.script ?? "").then(() => say(t("script.copied")));
+  const both = !small && drawer.tab === "script";
+  return (
+    <section className={classes.drawer} data-open={drawer.open || undefined} aria-label={t("drawer.label")}>
+      <div className={classes.bar}>
+        <div role="tablist" aria-label={t("drawer.label")} className={classes.tabs}>
+          <Tab tab="script" icon={<FileCode2 size={15} aria-hidden="true" />} label={t("drawer.script")} />
+          <Tab
+            tab="problems"
+            icon={<OctagonAlert size={15} aria-hidden="true" />}
+            label={t("drawer.problems")}
+            count={diagnostics.length}
+          />
+          <Tab tab="steps" icon={<ListTree size={15} aria-hidden="true" />} label={t("drawer.steps")} />
+        </div>
+        <div className={classes.actions}>
+          {drawer.open && drawer.tab === "script" ? (
+            <IconButton label={t("script.copy")} onClick={copy}>
+              <Copy size={15} aria-hidden="true" />
+            </IconButton>
+          ) : null}
+          <IconButton
+            label={t(drawer.open ? "drawer.hide" : "drawer.show")}
+            aria-expanded={drawer.open}
+            onClick={toggle}
+          >
+            {drawer.open ? (
+              <PanelBottomClose size={16} aria-hidden="true" />
+            ) : (
+              <PanelBottomOpen size={16} aria-hidden="true" />
+            )}
+          </IconButton>
+        </div>
+      </div>
+      {drawer.open ? (
+        <div className={classes.body} role="tabpanel" id="drawer-panel" aria-labelledby={`drawer-tab-${drawer.tab}`}>
+          {drawer.tab === "script" ? <ScriptPanel /> : null}
+          {drawer.tab === "problems" ? <ProblemsPanel /> : null}
+          {drawer.tab === "steps" ? <StepsPanel /> : null}
+          {both ? (
+            <div className={classes.beside}>
+              <ProblemsPanel titled />
+            </div>
+          ) : null}
+        </div>
+      ) : null}
+    </section>
+  );
+}
+
+function Tab({ tab, icon, label, count = 0 }: { tab: DrawerTab; icon: ReactNode; label: string; count?: number }) {
+  const drawer = useUi((ui) => ui.drawer);
+  const chosen = drawer.tab === tab && drawer.open;
+  return (
+    <button
+      type="button"
+      role="tab"
+      id={`drawer-tab-${tab}`}
+      aria-selected={chosen}
+      aria-controls={chosen ? "drawer-panel" : undefined}
+      className={classes.tab}
+      onClick={() => showTab(tab)}
+    >
+      {icon}
+      {label}
+      {count > 0 ? <span className={classes.count}>{count}</span> : null}
+    </button>
+  );
+}

@@ -1,0 +1,26 @@
+/** One sentence at a time: what to do next with the tool in hand. */
+import { useOpenProgram } from "../state/context";
+import { askOf } from "../state/tool";
+import { useUi } from "../state/ui";
+import classes from "./float.module.css";
+
+export function HelpSentence() {
+  const { t } = useOpenProgram();
+  const gesture = useUi((ui) => ui.gesture);
+  const into = useUi((ui) => ui.into);
+  const pick = useUi((ui) => ui.fieldPick);
+  const ask = askOf(gesture);
+  const text = pick
+    ? t("help.field")
+    : ask === "nothing" || ask === "load" || ask === "function"
+      ? into
+        ? t("help.into", { branch: into.word })
+        : null
+      : t(`help.${ask === "target" && gesture.tool === "drop" ? "drop_target" : ask}`);
+  if (!text) return null;
+  return (
+    <output className={classes.help} aria-live="polite">
+      {text}
+    </output>
+  );
+}

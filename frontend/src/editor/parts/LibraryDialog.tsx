@@ -1,0 +1,109 @@
+/** The library's functions, to be brought into this program and called at once. */
+import { Modal, TextInput } from "@mantine/core";
+import { useDebouncedValue } from "@mantine/hooks";
+import { useEffect, useState } from "react";
+import { useSearchParams } from "react-router-dom";
+import { api } from "@/api/client";
+import { useLibrary, useLibraryFunction } from "@/api/queries";
+import type { LibraryFunction } from "@/api/types";
+import { applyEdits } from "../model/edits";
+import { addStep } from "../model/gestures";
+import { alreadyImported, importFunction, type CutOut } from "../model/library";
+import { branchNow, makeId } from "../state/actions";
+import { freeSpot } from "../state/freeSpot";
+import { useOpenProgram } from "../state/context";
+import { say, select, useUi } from "../state/ui";
+import classes from "./dialogs.module.css";
+
+/** `?import=<id>` in the address: the library page sent somebody here with one of its functions. */
+function useAsked(canEdit: boolean) {
+  const [address, setAddress] = useSearchParams();
+  const asked = canEdit ? address.get("import") : null;
+  useEffect(() => {
+    if (asked) useUi.setState({ dialog: "library" });
+  }, [asked]);
+  const answered = () => {
+    if (!address.has("import")) return;
+    address.delete("import");
+    setAddress(address, { replace: true });
+  };
+  return { asked, answered };
+}
+
+export function LibraryDialog() {
+  const { t, canEdit } = useOpenProgram();
+  const { asked, answered } = useAsked(canEdit);
+  const opened = useUi((ui) => ui.dialog === "library");
+  const close = () => {
+    useUi.setState({ dialog: null });
+    answered();
+  };
+  return (
+    <Modal opened={opened} onClose={close} title={t("library.title")} size="lg">
+      {opened ? <Search asked={asked} onDone={close} /> : null}
+    </Modal>
+  );
+}
+
+/** What fits the typed words; until something is typed, only the function that was asked for, if any. */
+function useFound(query: string, asked: string | null) {
+  const found = useLibrary(query);
+  const one = useLibraryFunction(asked ?? undefined);
+  return asked && !query && one.data ? { error: null, data: [one.data] } : found;
+}
+
+function Search({ asked, onDone }: { asked: string | null; onDone: () => void }) {
+  const open = useOpenProgram();
+  const { t } = open;
+  const [text, setText] = useState("");
+  const [query] = useDebouncedValue(text, 200);
+  const found = useFound(query, asked);
+  const choose = async (entry: LibraryFunction) => {
+    try {
+      const full = entry.definition ? entry : await api.get<LibraryFunction>(`/library/${entry.id}`);
+      bringIn(open, full);
+      onDone();
+    } catch (problem) {
+      say(problem instanceof Error ? problem.message : t("library.failed"));
+    }
+  };
+  return (
+    <div className={classes.content}>
+      <TextInput
+        label={t("library.search")}
+        value={text}
+        data-autofocus
+        onChange={(event) => setText(event.currentTarget.value)}
+      />
+      {found.error ? <p className={classes.problem}>{found.error.message}</p> : null}
+      {found.data?.length === 0 ? <p>{t("library.none")}</p> : null}
+      <ul className={classes.functions}>
+        {(found.data ?? []).map((entry) => (
+          <li key={entry.id}>
+            <button type="button" className={classes.function} onClick={() => void choose(entry)}>
+              <strong>{`${entry.name} v${entry.version}`}</strong>
+              <span>{entry.description || entry.parameters.map((each) => each.name).join(", ")}</span>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+/** One entry to undo: the definition, its steps and the call. */
+function bringIn(open: ReturnType<typeof useOpenProgram>, entry: LibraryFunction): void {
+  const { document, apply, t } = open;
+  const known = alreadyImported(document, entry.id, entry.version);
+  const source = { library: entry.id, version: entry.version };
+  const fresh = known ? null : importFunction(entry.definition as unknown as CutOut, source, makeId);
+  const functionId = known ?? fresh?.functionId ?? "";
+  const before = fresh?.edits ?? [];
+  const callId = makeId();
+  const after = applyEdits(document, before);
+  const params = { function: functionId, args: {} };
+  const call = addStep(after, branchNow(document), { id: callId, kind: "call", pos: freeSpot(open), params });
+  apply([...before, ...call]);
+  select([callId]);
+  say(t("library.imported", { name: entry.name }), true);
+}

@@ -1,0 +1,79 @@
+/** A function of this program saved to the site's library, for other programs and people. */
+import { Button, Modal, Textarea, TextInput } from "@mantine/core";
+import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { useEffect, useState } from "react";
+import { api } from "@/api/client";
+import type { LibraryFunction } from "@/api/types";
+import { useOpenProgram } from "../state/context";
+import { say, useUi } from "../state/ui";
+import classes from "./dialogs.module.css";
+
+export function SaveFunctionDialog() {
+  const { t } = useOpenProgram();
+  const opened = useUi((ui) => ui.dialog === "save_function");
+  const functionId = useUi((ui) => ui.dialogFunction);
+  const close = () => useUi.setState({ dialog: null, dialogFunction: null });
+  return (
+    <Modal opened={opened} onClose={close} title={t("save.title")}>
+      {functionId ? <Form functionId={functionId} onDone={close} /> : null}
+    </Modal>
+  );
+}
+
+function Form({ functionId, onDone }: { functionId: string; onDone: () => void }) {
+  const { t, program, site, document } = useOpenProgram();
+  const queries = useQueryClient();
+  const known = document.functions[functionId]?.name ?? "";
+  const [name, setName] = useState(known);
+  const [description, setDescription] = useState("");
+  useEffect(() => setName(known), [known]);
+  const save = useMutation({
+    mutationFn: () =>
+      api.post<LibraryFunction>(`/sites/${site.slug}/library`, {
+        program: program.id,
+        function: functionId,
+        name: name.trim(),
+        description: description.trim(),
+      }),
+    onSuccess: (saved) => {
+      void queries.invalidateQueries({ queryKey: ["library"] });
+      say(t("save.done", { name: saved.name, version: saved.version }));
+      onDone();
+    },
+  });
+  return (
+    <form
+      className={classes.content}
+      onSubmit={(event) => {
+        event.preventDefault();
+        save.mutate();
+      }}
+    >
+      <TextInput
+        label={t("save.name")}
+        value={name}
+        data-autofocus
+        onChange={(event) => setName(event.currentTarget.value)}
+      />
+      <Textarea
+        label={t("save.description")}
+        placeholder={t("save.example")}
+        value={description}
+        onChange={(event) => setDescription(event.currentTarget.value)}
+      />
+      {save.error ? (
+        <p className={classes.problem} role="alert">
+          {save.error.message}
+        </p>
+      ) : null}
+      <div className={classes.buttons}>
+        <Button variant="default" onClick={onDone}>
+          {t("cancel")}
+        </Button>
+        <Button type="submit" loading={save.isPending} disabled={!name.trim()}>
+          {t("save.action")}
+        </Button>
+      </div>
+    </form>
+  );
+}

@@ -1,0 +1,38 @@
+/** The list of keys. */
+import { Modal } from "@mantine/core";
+import { KINDS } from "../scene/kinds";
+import { useOpenProgram } from "../state/context";
+import { useUi } from "../state/ui";
+import classes from "./dialogs.module.css";
+
+const KEYS: readonly [string, string][] = [
+  ["V · H", "select"],
+  ["Ctrl+Z · Ctrl+Shift+Z", "undo"],
+  ["Ctrl+C · X · V · D", "copy"],
+  ["Ctrl+A", "all"],
+  ["Ctrl+G", "function"],
+  ["← → ↑ ↓", "neighbour"],
+  ["Alt+← → ↑ ↓", "nudge"],
+  ["Delete", "delete"],
+  ["F8 · Shift+F8", "problem"],
+  ["Ctrl+J", "drawer"],
+  ["Ctrl+Enter", "run"],
+  ["Ctrl+Shift+.", "stop"],
+  ["Esc", "back"],
+];
+
+export function ShortcutsDialog() {
+  const { t } = useOpenProgram();
+  const opened = useUi((ui) => ui.dialog === "shortcuts");
+  return (
+    <Modal opened={opened} onClose={() => useUi.setState({ dialog: null })} title={t("keys.title")}>
+      <dl className={classes.keys}>
+        {KINDS.map((kind) => [
+          <dt key={`${kind.kind}-key`}>{kind.key}</dt>,
+          <dd key={kind.kind}>{t(`kind.${kind.kind}`)}</dd>,
+        ])}
+        {KEYS.map(([key, what]) => [<dt key={`${what}-key`}>{key}</dt>, <dd key={what}>{t(`keys.${what}`)}</dd>])}
+      </dl>
+    </Modal>
+  );
+}

@@ -1,0 +1,91 @@
+/** The program as a list: everything that the map shows, by keyboard. */
+import { useRef, type KeyboardEvent } from "react";
+import { VipoIcon } from "@/map/VipoIcon";
+import { chipLabel } from "../scene/announce";
+import type { Chip } from "../scene/chips";
+import { branchWord } from "../scene/links";
+import { placeName } from "../scene/words";
+import type { Place } from "../model/types";
+import { useOpenProgram } from "../state/context";
+import { shiftInOrder } from "../state/shortcuts";
+import { select, toggleSelected, useUi } from "../state/ui";
+import classes from "./drawer.module.css";
+
+export function StepsPanel() {
+  const open = useOpenProgram();
+  const { scene, document, t } = open;
+  const selected = useUi((ui) => ui.selected);
+  const list = useRef<HTMLUListElement>(null);
+  const rows = [...scene.tree.reading, ...scene.tree.drafts].flatMap((id) => scene.chips.get(id) ?? []);
+  const current = selected.at(-1) ?? rows[0]?.id;
+  const go = (id: string | undefined) => {
+    if (!id) return;
+    select([id]);
+    list.current?.querySelector<HTMLElement>(`[data-step="${id}"]`)?.focus();
+  };
+  const press = (event: KeyboardEvent, chip: Chip, index: number) => {
+    if (event.altKey && event.shiftKey && (event.key === "ArrowUp" || event.key === "ArrowDown"))
+      shiftInOrder(open, chip.id, event.key === "ArrowUp" ? -1 : 1);
+    else if (event.key === "ArrowDown") go(rows[index + 1]?.id);
+    else if (event.key === "ArrowUp") go(rows[index - 1]?.id);
+    else if (event.key === "Enter" || event.key === " ") select([chip.id]);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  if (rows.length === 0) return <p className={classes.nothing}>{t("steps.none")}</p>;
+  return (
+    <ul className={classes.steps} role="tree" aria-label={t("drawer.steps")} aria-multiselectable ref={list}>
+      {rows.map((chip, index) => (
+        <li
+          key={chip.id}
+          data-step={chip.id}
+          className={classes.step}
+          role="treeitem"
+          aria-level={scene.tree.depth(chip.id) + 1}
+          aria-selected={selected.includes(chip.id)}
+          aria-label={chipLabel(chip, open.speaker)}
+          tabIndex={chip.id === current ? 0 : -1}
+          style={{ paddingLeft: 8 + scene.tree.depth(chip.id) * 22 }}
+          onClick={(event) => (event.shiftKey ? toggleSelected(chip.id) : select([chip.id]))}
+          onKeyDown={(event) => press(event, chip, index)}
+        >
+          <span className={classes.number}>{chip.number || "–"}</span>
+          <span style={{ color: `var(--${chip.family})`, display: "inline-flex" }}>
+            <VipoIcon name={chip.icon} size={16} />
+          </span>
+          <BranchName step={chip.id} />
+          <span>
+            {t(`kind.${chip.kind}`)}
+            {": "}
+            {(chip.condition ?? chip.parts).map((part, at) => (
+              <span key={at} className={part.tone === "missing" ? classes.missing : undefined}>
+                {`${part.text} `}
+              </span>
+            ))}
+            <Where step={chip.id} />
+          </span>
+          {document.steps[chip.id]?.place ? null : <span className={classes.branch}>{t("steps.draft")}</span>}
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function BranchName({ step }: { step: string }) {
+  const { document, t } = useOpenProgram();
+  const place = document.steps[step]?.place;
+  const kind = place ? document.steps[place[0]]?.kind : undefined;
+  if (!place || !kind || place[1] === "body") return null;
+  return <span className={classes.branch}>{branchWord(place[1], kind, t)}</span>;
+}
+
+function Where({ step: id }: { step: string }) {
+  const { document, speaker, t } = useOpenProgram();
+  const step = document.steps[id];
+  const name = (field: string) => placeName(step?.params[field] as Place, speaker) ?? "?";
+  if (step?.kind === "pick_and_drop")
+    return <>{t("announce.from_to", { source: name("source"), target: name("target") })}</>;
+  if (step?.kind === "operate") return <>{t("announce.at", { place: name("device") })}</>;
+  return step?.kind === "pick" || step?.kind === "drop" ? <>{t("announce.at", { place: name("at") })}</> : null;
+}

@@ -1,0 +1,23 @@
+/** A step in one sentence, for screen readers and lists. */
+import type { Chip } from "./chips";
+import { placeName, plainText, type Speaker } from "./words";
+import type { Place } from "../model/types";
+
+/** "4a, Pick-and-Drop, 1 × box from Painting Machine to Curing Oven, 1 error". */
+export function chipLabel(chip: Chip, speaker: Speaker): string {
+  const { t } = speaker;
+  const step = speaker.document.steps[chip.id];
+  const name = (field: string) => placeName(step?.params[field] as Place, speaker) ?? "?";
+  const text = chip.condition ? plainText(chip.condition) : plainText(chip.parts);
+  const where =
+    chip.kind === "pick_and_drop"
+      ? t("announce.from_to", { source: name("source"), target: name("target") })
+      : chip.kind === "pick" || chip.kind === "drop"
+        ? t("announce.at", { place: name("at") })
+        : chip.kind === "operate"
+          ? t("announce.at", { place: name("device") })
+          : "";
+  const problem = chip.problem ? t(`announce.${chip.problem}`) : "";
+  const what = `${t(`kind.${chip.kind}`)}, ${text}${where ? ` ${where}` : ""}`;
+  return [chip.number, what, problem].filter(Boolean).join(", ");
+}

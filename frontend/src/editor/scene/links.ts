@@ -1,0 +1,160 @@
+/** Dotted links: what comes next, and the branches with their words. */
+import type { Box } from "@/map/projection";
+import type { PixelPoint } from "@/map/routePath";
+import type { ProgramDocument } from "../model/types";
+import { branchesOf, PROGRAM, type BranchRef, type ProgramTree } from "../model/tree";
+import type { Chip } from "./chips";
+import type { Frame } from "./frames";
+import { boxAt, elbow, elbowSideways } from "./geometry";
+import { endOf, functionOf, startOf } from "./routing";
+import type { Surroundings } from "./surroundings";
+import type { Translate } from "./words";
+
+export interface Link {
+  readonly id: string;
+  readonly points: readonly PixelPoint[];
+  /** What the arrow says; null for a plain "then". */
+  readonly word: string | null;
+  readonly tone: "then" | "branch" | "catch";
+  /** Where a step that is dropped on the link goes. */
+  readonly into: BranchRef;
+  readonly after: string | null;
+  /** The step that the link leads to; null for the stub of an empty branch. */
+  readonly to: string | null;
+  readonly from: string | null;
+}
+
+export interface LinkInput {
+  readonly document: ProgramDocument;
+  readonly tree: ProgramTree;
+  readonly chips: ReadonlyMap<string, Chip>;
+  readonly frames: ReadonlyMap<string, Frame>;
+  readonly start: PixelPoint;
+  readonly surroundings: Surroundings;
+  readonly t: Translate;
+}
+
+export function linksOf(input: LinkInput): Link[] {
+  const { document, tree, chips } = input;
+  const links = [startLink(input), ...thenLinks(input, PROGRAM)];
+  for (const id of Object.keys(document.functions)) links.push(...thenLinks(input, { parent: id, branch: "body" }));
+  for (const id of chips.keys()) {
+    const step = document.steps[id];
+    for (const branch of step ? branchesOf(step) : []) {
+      const into = { parent: id, branch };
+      links.push(branchLink(input, into, tree.children(id, branch)[0] ?? null), ...thenLinks(input, into));
+    }
+  }
+  return links.filter((link) => link !== null);
+}
+
+function startLink(input: LinkInput): Link | null {
+  const first = input.tree.children(PROGRAM.parent, PROGRAM.branch)[0];
+  const box = first ? (firstPlace(input, first) ?? boxOf(input, first)) : null;
+  if (!first || !box) return null;
+  return {
+    id: "start",
+    points: elbow(boxAt(input.start, 78, 30), box),
+    word: null,
+    tone: "branch",
+    into: PROGRAM,
+    after: null,
+    to: first,
+    from: null,
+  };
+}
+
+/** A program that begins at a machine is entered there: source, chip, target. */
+function firstPlace({ document, surroundings }: LinkInput, first: string): Box | null {
+  const step = document.steps[first];
+  return step ? (startOf(step, document, surroundings, null)?.box ?? null) : null;
+}
+
+/** A step that begins where the one before it ends follows without an arrow: its number says so. */
+function thenLinks(input: LinkInput, into: BranchRef): (Link | null)[] {
+  const ids = input.tree.children(into.parent, into.branch);
+  const frame = input.frames.get(into.parent);
+  return ids.slice(1).map((to, index) => {
+    const from = ids[index] ?? "";
+    const [a, b] = [boxOf(input, from), boxOf(input, to)];
+    const together = into.branch === "body" && frame?.holds.has(from) && frame.holds.has(to);
+    if (!a || !b || together || isContinuous(input, from, to)) return null;
+    return { id: `${from}>${to}`, points: elbow(a, b), word: null, tone: "then", into, after: from, to, from };
+  });
+}
+
+function isContinuous({ document, surroundings }: LinkInput, from: string, to: string): boolean {
+  const [a, b] = [document.steps[from], document.steps[to]];
+  if (!a || !b) return false;
+  const scope = functionOf(document, from);
+  const end = endOf(a, document, surroundings, scope);
+  const start = b.kind === "move" ? end : startOf(b, document, surroundings, scope);
+  return end !== null && start !== null && end.at.x === start.at.x && end.at.y === start.at.y;
+}
+
+function branchLink(input: LinkInput, into: BranchRef, first: string | null): Link | null {
+  const { document, frames, t } = input;
+  const from = boxOf(input, into.parent);
+  const kind = document.steps[into.parent]?.kind ?? "";
+  const framed = kind === "while" || kind === "try";
+  if (!from || (framed && into.branch === "body" && (!first || frames.get(into.parent)?.holds.has(first)))) return null;
+  const target = first ? boxOf(input, first) : null;
+  const tone = into.branch === "catch" ? "catch" : "branch";
+  const points = target ? branchWay(input, into, from, target) : stub(from, into.branch);
+  return {
+    id: `${into.parent}/${into.branch}`,
+    points,
+    word: branchWord(into.branch, kind, t),
+    tone,
+    into,
+    after: null,
+    to: first,
+    from: into.parent,
+  };
+}
+
+/** The branches of one step leave it at different points: the second one sideways, parallel ones spread. */
+function branchWay(input: LinkInput, into: BranchRef, from: Box, target: Box): PixelPoint[] {
+  if (into.branch === "else") return elbowSideways(from, target);
+  const step = input.document.steps[into.parent];
+  if (step?.kind !== "parallel") return elbow(from, target);
+  const branches = branchesOf(step);
+  const width = (from.right - from.left) / branches.length;
+  const left = from.left + width * branches.indexOf(into.branch);
+  return elbow({ ...from, left, right: left + width }, target);
+}
+
+export function branchWord(branch: string, kind: string, t: Translate): string {
+  return kind === "parallel" ? branch : t(`branch.${branch}`);
+}
+
+/** An empty branch: a short way out at its usual side. */
+function stub(box: Box, branch: string): PixelPoint[] {
+  const across = (box.left + box.right) / 2;
+  const down = (box.top + box.bottom) / 2;
+  if (branch === "else")
+    return [
+      { x: across, y: box.top },
+      { x: across, y: box.top - 44 },
+    ];
+  if (branch === "then")
+    return [
+      { x: across, y: box.bottom },
+      { x: across, y: box.bottom + 44 },
+    ];
+  if (branch === "catch")
+    return [
+      { x: across, y: box.bottom },
+      { x: across, y: box.bottom + 40 },
+    ];
+  const side = branch === "a" ? -1 : 1;
+  const edge = side < 0 ? box.left : box.right;
+  return [
+    { x: edge, y: down },
+    { x: edge + side * 48, y: down },
+  ];
+}
+
+function boxOf(input: LinkInput, id: string): Box | null {
+  return input.frames.get(id)?.box ?? input.chips.get(id)?.box ?? null;
+}

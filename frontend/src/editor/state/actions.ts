@@ -1,0 +1,69 @@
+/** What the toolbar, the keys and the menus do; each is one gesture and one entry to undo. */
+import type { Edit, Position } from "../model/edits";
+import { addStep, branchForNew, clip, deleteSteps, paste, type NewStep } from "../model/gestures";
+import type { BranchRef } from "../model/tree";
+import type { ProgramDocument } from "../model/types";
+import { finish } from "./tool";
+import { select, useUi } from "./ui";
+
+export type Apply = (edits: readonly Edit[]) => void;
+
+/** Short enough to read in a file, long enough never to meet another. */
+export function makeId(): string {
+  return crypto.randomUUID().replaceAll("-", "").slice(0, 12);
+}
+
+/** The branch that a new step goes into. */
+export function branchNow(document: ProgramDocument): BranchRef {
+  const { into, selected } = useUi.getState();
+  return into?.branch ?? branchForNew(document, selected.at(-1) ?? null);
+}
+
+/** Make a step, select it, and put the tool away unless it is locked. */
+export function createStep(document: ProgramDocument, apply: Apply, fresh: Omit<NewStep, "id">): string {
+  const id = makeId();
+  apply(addStep(document, branchNow(document), { ...fresh, id }));
+  useUi.setState((ui) => ({ gesture: finish(ui.gesture) }));
+  select([id]);
+  useUi.setState({ fresh: id, inspector: true });
+  return id;
+}
+
+export function removeSelected(document: ProgramDocument, apply: Apply): number {
+  const edits = deleteSteps(document, useUi.getState().selected);
+  if (edits.length === 0) return 0;
+  apply(edits);
+  select([]);
+  return edits.length;
+}
+
+export function copySelected(document: ProgramDocument): void {
+  const { selected } = useUi.getState();
+  if (selected.length > 0) useUi.setState({ clipboard: clip(document, selected) });
+}
+
+export function pasteCopied(document: ProgramDocument, apply: Apply): void {
+  const { clipboard } = useUi.getState();
+  if (!clipboard) return;
+  const { edits, added } = paste(document, clipboard, branchNow(document), makeId);
+  apply(edits);
+  select(added);
+}
+
+export function duplicateSelected(document: ProgramDocument, apply: Apply): void {
+  const { selected } = useUi.getState();
+  if (selected.length === 0) return;
+  const { edits, added } = paste(document, clip(document, selected), branchNow(document), makeId);
+  apply(edits);
+  select(added);
+}
+
+export function nudgeSelected(document: ProgramDocument, apply: Apply, by: Position): void {
+  const edits = useUi.getState().selected.flatMap((id): Edit[] => {
+    const pos = document.steps[id]?.pos;
+    if (!pos) return [];
+    const moved = (axis: 0 | 1) => Math.round((pos[axis] + by[axis]) * 100) / 100;
+    return [{ do: "set_pos", id, pos: [moved(0), moved(1)] }];
+  });
+  apply(edits);
+}

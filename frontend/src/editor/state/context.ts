@@ -1,0 +1,39 @@
+/** The open program for all parts of the editor's screen. */
+import { createContext, use } from "react";
+import type { Device, Program, Site } from "@/api/types";
+import type { FloorPlan } from "@/map/floor";
+import type { Edit } from "../model/edits";
+import type { SharedProgram } from "../model/shared";
+import type { Compiled, Diagnostic, ProgramDocument } from "../model/types";
+import type { Scene } from "../scene/scene";
+import type { Surroundings } from "../scene/surroundings";
+import type { Speaker, Translate } from "../scene/words";
+import type { Person } from "./presence";
+
+export interface OpenProgram {
+  readonly program: Program;
+  readonly site: Site;
+  readonly plan: FloorPlan | null;
+  readonly devices: readonly Device[];
+  readonly shared: SharedProgram;
+  readonly document: ProgramDocument;
+  readonly compiled: Compiled | null;
+  readonly diagnostics: readonly Diagnostic[];
+  readonly scene: Scene;
+  readonly surroundings: Surroundings;
+  readonly speaker: Speaker;
+  readonly t: Translate;
+  readonly people: readonly Person[];
+  /** Viewers and operators look; authors and admins draw. */
+  readonly canEdit: boolean;
+  readonly canRun: boolean;
+  readonly apply: (edits: readonly Edit[]) => void;
+}
+
+export const ProgramContext = createContext<OpenProgram | null>(null);
+
+export function useOpenProgram(): OpenProgram {
+  const open = use(ProgramContext);
+  if (!open) throw new Error("This part belongs inside an open program.");
+  return open;
+}

@@ -1,0 +1,80 @@
+/** What is on one person's screen: selection, tool, open panels. Never part of the document. */
+import { create } from "zustand";
+import type { BranchRef } from "../model/tree";
+import type { Clipping } from "../model/gestures";
+import { RESTING, type Gesture } from "./tool";
+
+export type DrawerTab = "script" | "problems" | "steps";
+export type Dialog = "run" | "function" | "library" | "save_function" | "shortcuts" | null;
+
+/** A field of the inspector that waits for a press on a device. */
+export interface FieldPick {
+  readonly field: string;
+  readonly choose: (device: string) => void;
+}
+
+export interface EditorUi {
+  gesture: Gesture;
+  selected: readonly string[];
+  /** The branch that the next step goes into, where it is not the selected step's. */
+  into: { readonly branch: BranchRef; readonly link: string; readonly word: string } | null;
+  /** The step made last, until something else is selected. */
+  fresh: string | null;
+  drawer: { readonly open: boolean; readonly tab: DrawerTab };
+  inspector: boolean;
+  dialog: Dialog;
+  /** The function that "save_function" is about. */
+  dialogFunction: string | null;
+  fieldPick: FieldPick | null;
+  clipboard: Clipping | null;
+  collapsed: ReadonlySet<string>;
+  toast: { readonly text: string; readonly undo: boolean; readonly at: number } | null;
+}
+
+const START: EditorUi = {
+  gesture: RESTING,
+  selected: [],
+  into: null,
+  fresh: null,
+  drawer: { open: true, tab: "script" },
+  inspector: true,
+  dialog: null,
+  dialogFunction: null,
+  fieldPick: null,
+  clipboard: null,
+  collapsed: new Set(),
+  toast: null,
+};
+
+/** Small screens begin with the map alone. */
+const ROOMY = typeof matchMedia !== "function" || matchMedia("(min-width: 1180px)").matches;
+
+export const useUi = create<EditorUi>(() => ({ ...START, drawer: { ...START.drawer, open: ROOMY } }));
+
+/** Another program: nothing selected, nothing in hand; what was copied stays. */
+export function resetUi(): void {
+  const { clipboard, drawer } = useUi.getState();
+  useUi.setState({ ...START, clipboard, drawer });
+}
+
+export function select(ids: readonly string[]): void {
+  useUi.setState((ui) => ({
+    selected: ids,
+    fresh: ui.fresh !== null && ids.includes(ui.fresh) ? ui.fresh : null,
+    into: null,
+    inspector: ids.length > 0 || ui.inspector,
+  }));
+}
+
+export function toggleSelected(id: string): void {
+  const { selected } = useUi.getState();
+  select(selected.includes(id) ? selected.filter((each) => each !== id) : [...selected, id]);
+}
+
+export function showTab(tab: DrawerTab): void {
+  useUi.setState({ drawer: { open: true, tab } });
+}
+
+export function say(text: string, undo = false): void {
+  useUi.setState({ toast: { text, undo, at: Date.now() } });
+}

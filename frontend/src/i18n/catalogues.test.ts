@@ -1,0 +1,70 @@
+/** The languages say the same things, and every text that the screens ask for is there. */
+import { expect, test } from "vitest";
+import { gatherAreas } from ".";
+
+type Texts = Record<string, string>;
+const files = import.meta.glob<Record<string, unknown>>("./{en,de}/*.json", { eager: true, import: "default" });
+const sources = import.meta.glob<string>(["../**/*.{ts,tsx}", "!../**/*.test.ts"], {
+  eager: true,
+  query: "?raw",
+  import: "default",
+});
+
+/** `{"shell.stop.all": "Stop all", …}`. */
+function flatten(texts: Record<string, unknown>, before = ""): Texts {
+  const flat: Texts = {};
+  for (const [key, value] of Object.entries(texts)) {
+    if (typeof value === "string") flat[before + key] = value;
+    else Object.assign(flat, flatten(value as Record<string, unknown>, `${before}${key}.`));
+  }
+  return flat;
+}
+
+const gathered = gatherAreas(files);
+const [en, de] = [flatten(gathered.en ?? {}), flatten(gathered.de ?? {})];
+const holes = (text: string) =>
+  [...new Set(text.match(/\{\{\s*\w+/g) ?? [])].map((each) => each.replace(/\W/g, "")).sort();
+const PLURAL = /_(zero|one|two|few|many|other)$/;
+
+test("both languages have the same areas", () => {
+  expect(Object.keys(gathered.de ?? {}).sort()).toEqual(Object.keys(gathered.en ?? {}).sort());
+  expect(Object.keys(gathered.en ?? {})).toEqual(expect.arrayContaining(["editor", "pages", "run", "shell"]));
+});
+
+test("both languages have the same texts, plural forms too", () => {
+  expect(Object.keys(de).sort()).toEqual(Object.keys(en).sort());
+});
+
+test("each text has the same places for values in both languages", () => {
+  const different = Object.keys(en).filter((key) => holes(en[key] ?? "").join() !== holes(de[key] ?? "").join());
+  expect(different).toEqual([]);
+});
+
+test("no text is empty", () => {
+  const empty = (texts: Texts) => Object.keys(texts).filter((key) => !texts[key]?.trim());
+  expect([empty(en), empty(de)]).toEqual([[], []]);
+});
+
+test("where there is one plural form, the languages' other forms are there", () => {
+  const stems = [...new Set(Object.keys(en).filter((key) => PLURAL.test(key)))].map((key) => key.replace(PLURAL, ""));
+  const missing = [...new Set(stems)].filter((stem) => !(`${stem}_one` in en && `${stem}_other` in en));
+  expect(missing).toEqual([]);
+});
+
+/** Literal keys given to a `t` of the whole catalogue; the editor's own `t` begins within its area. */
+function askedFor(): { file: string; key: string }[] {
+  return Object.entries(sources).flatMap(([file, text]) =>
+    [...text.replace(/\/\*[\s\S]*?\*\//g, "").matchAll(/\bt\(\s*["']([\w.-]+)["']/g)].map((match) => ({
+      file,
+      key: match[1] ?? "",
+    })),
+  );
+}
+
+test("every text that the source asks for by name exists", () => {
+  const areas = Object.keys(gathered.en ?? {});
+  const known = (key: string) => key in en || `${key}_other` in en;
+  const missing = askedFor().filter(({ key }) => !known(key) && !areas.some((area) => known(`${area}.${key}`)));
+  expect(missing).toEqual([]);
+  expect(askedFor().length).toBeGreaterThan(200);
+});

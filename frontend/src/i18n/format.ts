@@ -1,0 +1,65 @@
+/** Numbers, spans and times in the language of the screen; units after a thin space. */
+import i18next from "i18next";
+
+const THIN = "\u202f";
+const STEPS: readonly [Intl.RelativeTimeFormatUnit, number][] = [
+  ["second", 60],
+  ["minute", 60],
+  ["hour", 24],
+  ["day", 7],
+  ["week", 4.3],
+  ["month", 12],
+  ["year", Infinity],
+];
+
+export function formatNumber(value: number, digits = 0): string {
+  return new Intl.NumberFormat(i18next.language, {
+    minimumFractionDigits: digits,
+    maximumFractionDigits: digits,
+  }).format(value);
+}
+
+/** `62 °C`. */
+export function withUnit(value: string, unit: string): string {
+  return unit ? `${value}${THIN}${unit}` : value;
+}
+
+/** `1 min 6 s` out of seconds. */
+export function formatSpan(seconds: number): string {
+  const whole = Math.max(0, Math.round(seconds));
+  const [hours, minutes, rest] = [Math.floor(whole / 3600), Math.floor((whole % 3600) / 60), whole % 60];
+  if (hours > 0) return `${withUnit(String(hours), "h")} ${withUnit(String(minutes), "min")}`;
+  if (minutes > 0) return `${withUnit(String(minutes), "min")} ${withUnit(String(rest), "s")}`;
+  return withUnit(String(rest), "s");
+}
+
+/** `12:18` out of seconds, `1:02:18` from an hour on. */
+export function formatClock(seconds: number): string {
+  const whole = Math.max(0, Math.floor(seconds));
+  const [hours, minutes, rest] = [Math.floor(whole / 3600), Math.floor((whole % 3600) / 60), whole % 60];
+  const two = (part: number) => String(part).padStart(2, "0");
+  return hours > 0 ? `${hours}:${two(minutes)}:${two(rest)}` : `${minutes}:${two(rest)}`;
+}
+
+/** `2 hours ago`; `now` in milliseconds since 1970. What just happened is never ahead, even where `now` is a bit old. */
+export function formatAgo(iso: string, now: number): string {
+  let amount = Math.min(0, new Date(iso).getTime() - now) / 1000;
+  const words = new Intl.RelativeTimeFormat(i18next.language, { numeric: "auto" });
+  for (const [unit, size] of STEPS) {
+    if (Math.abs(amount) < size) return words.format(Math.round(amount), unit);
+    amount /= size;
+  }
+  return words.format(Math.round(amount), "year");
+}
+
+/** Seconds since a moment, `0.4 s` below a minute, else `2 min`; for "last seen". */
+export function formatAge(iso: string, now: number): string {
+  const seconds = Math.max(0, (now - new Date(iso).getTime()) / 1000);
+  if (seconds < 10) return withUnit(formatNumber(seconds, 1), "s");
+  return formatSpan(seconds < 60 ? seconds : Math.round(seconds / 60) * 60).replace(new RegExp(` 0${THIN}s$`), "");
+}
+
+/** Date and time of day, for logs and details. */
+export function formatMoment(iso: string): string {
+  return new Intl.DateTimeFormat(i18next.language, { dateStyle: "medium", timeStyle: "short" }).format(new Date(iso));
+}

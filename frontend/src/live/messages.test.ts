@@ -1,0 +1,57 @@
+import { expect, test } from "vitest";
+import type { Device, RunEvent, RunSummary } from "@/api/types";
+import { applyChanges, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
+
+const mixer = { id: "mixer", name: "Paint Mixer", status: "idle", doing: "", carrying: {} } as unknown as Device;
+const robot = { id: "robot", name: "TurtleBot", status: "busy", doing: "", carrying: { box: 1 } } as unknown as Device;
+
+test("a device that nobody has seen yet is shown at once", () => {
+  expect(isUrgent(undefined, { id: "mixer" })).toBe(true);
+});
+
+test("a new status or load is shown at once, a pose may wait", () => {
+  expect(isUrgent(mixer, { id: "mixer", status: "busy" })).toBe(true);
+  expect(isUrgent(robot, { id: "robot", carrying: {} })).toBe(true);
+  expect(isUrgent(robot, { id: "robot", location: { x: 1, y: 2, z: 0, theta: 0 } })).toBe(false);
+});
+
+test("saying the same status again is no news", () => {
+  expect(isUrgent(robot, { id: "robot", status: "busy", carrying: { box: 1 } })).toBe(false);
+});
+
+test("of two changes the later one wins where both speak", () => {
+  const first = { id: "mixer", status: "busy", doing: "mixPaint" } as const;
+  expect(joinChanges(first, { id: "mixer", status: "idle" })).toEqual({
+    id: "mixer",
+    status: "idle",
+    doing: "mixPaint",
+  });
+  expect(joinChanges(undefined, first)).toBe(first);
+});
+
+test("changes reach their devices, strangers are named, others stay the same objects", () => {
+  const changes = new Map([
+    ["mixer", { id: "mixer", doing: "mixPaint" }],
+    ["new", { id: "new" }],
+  ]);
+  const { devices, strangers } = applyChanges([mixer, robot], changes);
+  expect(devices[0]).toEqual({ ...mixer, doing: "mixPaint" });
+  expect(devices[1]).toBe(robot);
+  expect(strangers).toEqual(["new"]);
+});
+
+const run = (id: string, number: number, status = "running") => ({ id, number, status }) as unknown as RunSummary;
+
+test("a run takes its place by number and is never there twice", () => {
+  const runs = [run("b", 2), run("a", 1)];
+  expect(applyRun(runs, run("c", 3)).map((each) => each.id)).toEqual(["c", "b", "a"]);
+  expect(applyRun(runs, run("a", 1, "finished")).map((each) => each.status)).toEqual(["running", "finished"]);
+});
+
+const event = (seq: number) => ({ seq }) as unknown as RunEvent;
+
+test("an event that comes late is put in order, one that comes twice is left out", () => {
+  const events = [event(1), event(3)];
+  expect(applyRunEvent(events, event(2)).map((each) => each.seq)).toEqual([1, 2, 3]);
+  expect(applyRunEvent(events, event(3))).toBe(events);
+});

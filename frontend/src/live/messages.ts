@@ -1,0 +1,56 @@
+/** What `/ws/site/<slug>` says, and how a device changes by it; pure. */
+import type { Compiled, Device, RehearsalStatus, RobotTraffic, RunEvent, RunSummary, SiteStop } from "@/api/types";
+
+export type DeviceChange = Partial<Device> & { id: string };
+
+export type LiveMessage =
+  | { type: "hello"; site: string }
+  | { type: "device"; device: DeviceChange }
+  | { type: "device_removed"; id: string }
+  | ({ type: "compiled"; program: string } & Compiled)
+  | { type: "run"; run: RunSummary }
+  | { type: "run_event"; run: string; event: RunEvent }
+  | { type: "rehearsal"; id: string; status: RehearsalStatus; progress: number }
+  | ({ type: "stop" } & SiteStop)
+  | { type: "traffic"; robots: Record<string, RobotTraffic> }
+  | { type: "programs" };
+
+/** Changes that people must see at once; the rest (poses, readings) may be gathered. */
+const URGENT: readonly (keyof Device)[] = ["status", "doing", "lifecycle", "carrying", "name", "done"];
+
+export function isUrgent(before: Device | undefined, change: DeviceChange): boolean {
+  if (!before) return true;
+  return URGENT.some((key) => key in change && JSON.stringify(change[key]) !== JSON.stringify(before[key]));
+}
+
+/** Two changes of one device as one. */
+export function joinChanges(first: DeviceChange | undefined, second: DeviceChange): DeviceChange {
+  return first ? { ...first, ...second } : second;
+}
+
+/** Put changes into a list of devices; a change of a device that is not there is left out and named. */
+export function applyChanges(
+  devices: readonly Device[],
+  changes: ReadonlyMap<string, DeviceChange>,
+): { devices: Device[]; strangers: string[] } {
+  const known = new Set(devices.map((device) => device.id));
+  return {
+    devices: devices.map((device) => {
+      const change = changes.get(device.id);
+      return change ? { ...device, ...change } : device;
+    }),
+    strangers: [...changes.keys()].filter((id) => !known.has(id)),
+  };
+}
+
+/** Put a run into a list, newest first. */
+export function applyRun(runs: readonly RunSummary[], run: RunSummary): RunSummary[] {
+  const rest = runs.filter((each) => each.id !== run.id);
+  return [...rest, run].sort((a, b) => b.number - a.number);
+}
+
+/** Add an event to a run's journal unless it is there already; by its number. */
+export function applyRunEvent(events: readonly RunEvent[], event: RunEvent): readonly RunEvent[] {
+  if (events.some((each) => each.seq === event.seq)) return events;
+  return [...events, event].sort((a, b) => a.seq - b.seq);
+}

@@ -1,0 +1,31 @@
+/** The live robots of a site as the map's robot layer asks for them, once a frame. */
+import { statusOf } from "@/map/device";
+import { interpolatePose, type RobotSource, type RobotView } from "@/map/robots";
+import { poseOf } from "./readings";
+import { useLiveStore } from "./store";
+
+/** Reads the live store as it is at each frame; nothing subscribes. */
+export const liveRobots: RobotSource = (now) => {
+  const { deviceById, traffic } = useLiveStore.getState();
+  const views: RobotView[] = [];
+  for (const device of Object.values(deviceById)) {
+    if (device.kind !== "robot") continue;
+    const pair = poseOf(device.id);
+    const pose = pair ? interpolatePose(pair.previous, pair.current, now) : device.location;
+    const way = traffic[device.id];
+    views.push({
+      id: device.id,
+      name: device.name,
+      status: statusOf(device),
+      note: device.doing || undefined,
+      carrying: Object.values(device.carrying).some((count) => count > 0),
+      x: pose.x,
+      y: pose.y,
+      theta: pose.theta,
+      route: way?.route,
+      reserved: way?.reserved,
+      wait: way?.wait ?? null,
+    });
+  }
+  return views;
+};

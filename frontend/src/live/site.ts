@@ -1,0 +1,95 @@
+/** The live view of one site: a socket shared by all who look, kept while anybody does. */
+import { useQueryClient, type QueryClient } from "@tanstack/react-query";
+import { useEffect } from "react";
+import { keys } from "@/api/queries";
+import type { Device, Site } from "@/api/types";
+import { LiveConnection } from "./connection";
+import { SiteFeed } from "./feed";
+import type { LiveMessage } from "./messages";
+import { forgetReadings, recordDevice } from "./readings";
+import { EMPTY, useLiveStore } from "./store";
+
+interface Session {
+  watchers: number;
+  end(): void;
+}
+
+const LINGER_MS = 2000;
+const sessions = new Map<string, Session>();
+
+/** Watch a site while the caller is on the screen; nothing happens while the slug is not known. */
+export function useSiteLive(slug: string | undefined): void {
+  const queries = useQueryClient();
+  useEffect(() => (slug ? watch(slug, queries) : undefined), [slug, queries]);
+}
+
+function watch(slug: string, queries: QueryClient): () => void {
+  const session = sessions.get(slug) ?? begin(slug, queries);
+  sessions.set(slug, session);
+  session.watchers += 1;
+  return () => {
+    session.watchers -= 1;
+    setTimeout(() => {
+      if (session.watchers > 0 || sessions.get(slug) !== session) return;
+      sessions.delete(slug);
+      session.end();
+    }, LINGER_MS);
+  };
+}
+
+function begin(slug: string, queries: QueryClient): Session {
+  if (useLiveStore.getState().site !== slug) {
+    forgetReadings();
+    useLiveStore.setState({ ...EMPTY, site: slug });
+  }
+  const feed = new SiteFeed(slug, queries);
+  const connection = new LiveConnection(socketAddress(slug), {
+    onMessage: (message) => feed.take(message as LiveMessage),
+    onState: (state) => setConnection(state),
+    onRefused: () => void queries.invalidateQueries({ queryKey: keys.me }),
+  });
+  const unfollow = followCaches(slug, queries);
+  return {
+    watchers: 0,
+    end() {
+      connection.close();
+      feed.end();
+      unfollow();
+    },
+  };
+}
+
+function socketAddress(slug: string): string {
+  const scheme = location.protocol === "https:" ? "wss" : "ws";
+  return `${scheme}://${location.host}/ws/site/${encodeURIComponent(slug)}`;
+}
+
+function setConnection(connection: "connecting" | "live" | "reconnecting"): void {
+  const before = useLiveStore.getState();
+  if (before.connection === connection) return;
+  const lostAt = connection === "reconnecting" ? (before.lostAt ?? Date.now()) : null;
+  useLiveStore.setState({ connection, lostAt });
+}
+
+/** What is fetched by HTTP goes into the live store too, so that it is complete from the first moment. */
+function followCaches(slug: string, queries: QueryClient): () => void {
+  copyDevices(queries.getQueryData<Device[]>(keys.devices(slug)));
+  copyStop(queries.getQueryData<Site>(keys.site(slug)));
+  return queries.getQueryCache().subscribe((event) => {
+    if (event.type !== "updated" || event.action.type !== "success") return;
+    const [name, of] = event.query.queryKey as [string, string];
+    if (of !== slug) return;
+    if (name === "devices") copyDevices(event.query.state.data as Device[]);
+    if (name === "site") copyStop(event.query.state.data as Site);
+  });
+}
+
+function copyDevices(devices: Device[] | undefined): void {
+  if (!devices) return;
+  for (const device of devices) recordDevice(device, performance.now());
+  useLiveStore.setState({ deviceById: Object.fromEntries(devices.map((device) => [device.id, device])) });
+}
+
+function copyStop(site: Site | undefined): void {
+  if (site) useLiveStore.setState({ stop: site.stop });
+}

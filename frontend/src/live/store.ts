@@ -1,0 +1,26 @@
+/** What changes often at the site that is being looked at; select narrowly. */
+import { create } from "zustand";
+import type { Device, RobotTraffic, SiteStop } from "@/api/types";
+
+export type Connection = "connecting" | "live" | "reconnecting";
+
+export interface LiveState {
+  site: string | null;
+  connection: Connection;
+  /** When the connection was lost, milliseconds since 1970; null while it stands. */
+  lostAt: number | null;
+  deviceById: Record<string, Device>;
+  traffic: Record<string, RobotTraffic>;
+  stop: SiteStop | null;
+}
+
+export const EMPTY: LiveState = {
+  site: null,
+  connection: "connecting",
+  lostAt: null,
+  deviceById: {},
+  traffic: {},
+  stop: null,
+};
+
+export const useLiveStore = create<LiveState>(() => EMPTY);

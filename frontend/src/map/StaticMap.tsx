@@ -1,0 +1,115 @@
+/** A small read-only map: floor, devices and, if given, routes. */
+import { useEffect, useMemo, useState, type ReactNode } from "react";
+import { DeviceGlyph } from "./DeviceToken";
+import type { MapDevice } from "./device";
+import { knownBox, type FloorPlan } from "./floor";
+import { FloorCanvas } from "./FloorCanvas";
+import type { FloorDetail } from "./floorPainter";
+import classes from "./map.module.css";
+import { fitViewport, toPixels, type Box, type Point, type Viewport } from "./projection";
+import { Route } from "./Route";
+import { useSize } from "./useSize";
+import { ViewportCell } from "./viewport";
+
+const QUIET: FloorDetail = { rulers: false, labels: false, grid: true };
+const NAMED: FloorDetail = { rulers: false, labels: true, grid: true };
+
+export interface StaticMapProps {
+  plan: FloorPlan | null;
+  devices?: readonly MapDevice[];
+  /** Metres. */
+  routes?: readonly (readonly Point[])[];
+  /** Show only this part (drawing pixels); the whole known floor when left out. */
+  focus?: Box;
+  selected?: string | null;
+  onSelect?: (device: string) => void;
+  /** Rooms' names and devices' names. */
+  named?: boolean;
+  label: string;
+  /** More to draw in drawing pixels, above the devices. */
+  children?: ReactNode;
+}
+
+export function StaticMap(props: StaticMapProps) {
+  const { plan, devices = [], routes = [], focus, named = false, label } = props;
+  const [element, { width, height }] = useSize<HTMLDivElement>();
+  const [cell] = useState(() => new ViewportCell());
+  const view = useMemo(() => staticView(plan, focus, width, height), [plan, focus, width, height]);
+  useEffect(() => cell.set(view), [cell, view]);
+  return (
+    <div ref={element} className={classes.static} role="group" aria-label={label}>
+      <FloorCanvas plan={plan} viewport={cell} detail={named ? NAMED : QUIET} />
+      <svg className={classes.still} aria-hidden={props.onSelect ? undefined : true}>
+        <g transform={`translate(${view.x} ${view.y}) scale(${view.zoom})`}>
+          {routes.map((route, index) => (
+            <Route key={index} points={route.map(toPixels)} />
+          ))}
+          {devices.map((device) => (
+            <StaticDevice key={device.id} device={device} {...props} named={named} />
+          ))}
+          {props.children}
+        </g>
+      </svg>
+    </div>
+  );
+}
+
+function staticView(plan: FloorPlan | null, focus: Box | undefined, width: number, height: number): Viewport {
+  if (!plan || width === 0) return { x: 0, y: 0, zoom: 1 };
+  const margin = Math.min(16, width / 20);
+  return fitViewport(focus ?? knownBox(plan), width, height, {
+    left: margin,
+    right: margin,
+    top: margin,
+    bottom: margin,
+  });
+}
+
+function StaticDevice({
+  device,
+  selected,
+  onSelect,
+  named,
+}: { device: MapDevice; named: boolean } & Pick<StaticMapProps, "selected" | "onSelect">) {
+  const at = toPixels([device.location.x, device.location.y]);
+  const chosen = selected === device.id;
+  const choose = onSelect ? () => onSelect(device.id) : undefined;
+  const label = named || chosen ? <DeviceName device={device} chosen={chosen} /> : null;
+  const body = (
+    <>
+      {chosen ? <circle r={28} fill="none" stroke="var(--brand)" strokeWidth={3} /> : null}
+      <DeviceGlyph device={device} plain />
+      {label}
+    </>
+  );
+  if (!choose) return <g transform={`translate(${at.x} ${at.y})`}>{body}</g>;
+  return (
+    <g
+      transform={`translate(${at.x} ${at.y})`}
+      className={classes.device}
+      role="button"
+      tabIndex={0}
+      aria-label={device.name}
+      aria-pressed={chosen}
+      onClick={choose}
+      onKeyDown={(event) => {
+        if (event.key === "Enter" || event.key === " ") choose();
+      }}
+    >
+      {body}
+    </g>
+  );
+}
+
+function DeviceName({ device, chosen }: { device: MapDevice; chosen: boolean }) {
+  return (
+    <text
+      className={classes.label}
+      y={48}
+      textAnchor="middle"
+      style={chosen ? { fill: "var(--brand-ink)", fontSize: 22 } : undefined}
+    >
+      {device.name}
+    </text>
+  );
+}

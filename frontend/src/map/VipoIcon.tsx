@@ -1,0 +1,34 @@
+/** VIPO's own icons (`icons/*.svg`), 24 px grid, drawn in the text's colour. */
+
+const sources = import.meta.glob<string>("../icons/*.svg", { query: "?raw", import: "default", eager: true });
+
+const bodies: Record<string, string> = Object.fromEntries(
+  Object.entries(sources).map(([path, source]) => [
+    path.replace(/^.*\/|\.svg$/g, ""),
+    source.replace(/^[\s\S]*?<svg[^>]*>|<\/svg>\s*$/g, ""),
+  ]),
+);
+
+export function hasVipoIcon(name: string): boolean {
+  return name in bodies;
+}
+
+/** Decoration only: whoever uses it gives the name in words beside it or in a label. */
+export function VipoIcon({ name, size = 18, x, y }: { name: string; size?: number; x?: number; y?: number }) {
+  return (
+    <svg
+      width={size}
+      height={size}
+      x={x}
+      y={y}
+      viewBox="0 0 24 24"
+      fill="none"
+      stroke="currentColor"
+      strokeWidth={size <= 15 ? 2 : 1.75}
+      strokeLinecap="round"
+      strokeLinejoin="round"
+      aria-hidden="true"
+      dangerouslySetInnerHTML={{ __html: bodies[name] ?? "" }}
+    />
+  );
+}

@@ -1,0 +1,34 @@
+import { expect, test } from "vitest";
+import { cellAt, cellBoxToPixels, knownBox, mergeCells, type FloorPlan } from "./floor";
+
+const plan: FloorPlan = {
+  version: 1,
+  width: 4,
+  height: 3,
+  resolution_m: 1,
+  origin: { x: 0, y: -3 },
+  places: [],
+  cells: Uint8Array.from([0, 0, 100, 255, 0, 0, 100, 255, 0, 0, 0, 255]),
+};
+
+test("equal runs of neighbouring rows become one box", () => {
+  expect(mergeCells(plan, (cell) => cell === 100)).toEqual([{ column: 2, row: 0, columns: 1, rows: 2 }]);
+  expect(mergeCells(plan, (cell) => cell === 0)).toEqual([
+    { column: 0, row: 0, columns: 2, rows: 2 },
+    { column: 0, row: 2, columns: 3, rows: 1 },
+  ]);
+});
+
+test("the bottom row stands lowest on the screen", () => {
+  const box = cellBoxToPixels(plan, { column: 0, row: 0, columns: 1, rows: 1 });
+  expect(box).toEqual({ left: 0, right: 46, top: 92, bottom: 138 });
+});
+
+test("unknown cells at the edge are not part of the known box", () => {
+  expect(knownBox(plan).right).toBe(138);
+});
+
+test("a point off the map is unknown", () => {
+  expect(cellAt(plan, [2.5, -2.5])).toBe(100);
+  expect(cellAt(plan, [9, 9])).toBe(255);
+});

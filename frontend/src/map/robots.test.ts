@@ -1,0 +1,31 @@
+import { expect, test } from "vitest";
+import { interpolatePose, Trails, turn, type RobotView } from "./robots";
+
+test("a robot is drawn between its last two poses", () => {
+  const pose = interpolatePose({ x: 0, y: 0, theta: 0, at: 0 }, { x: 1, y: 2, theta: 1, at: 100 }, 150);
+  expect(pose).toEqual({ x: 0.5, y: 1, theta: 0.5 });
+});
+
+test("a robot is never drawn beyond its newest pose", () => {
+  const pose = interpolatePose({ x: 0, y: 0, theta: 0, at: 0 }, { x: 1, y: 0, theta: 0, at: 100 }, 900);
+  expect(pose.x).toBe(1);
+});
+
+test("after a gap a robot jumps instead of gliding", () => {
+  const pose = interpolatePose({ x: 0, y: 0, theta: 0, at: 0 }, { x: 1, y: 0, theta: 0, at: 5000 }, 5001);
+  expect(pose.x).toBe(1);
+});
+
+test("a turn takes the short way round", () => {
+  expect(turn(3, -3)).toBeCloseTo(2 * Math.PI - 6);
+});
+
+test("a trail forgets what is older than 30 s and does not grow while the robot stands", () => {
+  const trails = new Trails();
+  const robot = { id: "r", name: "r", status: "idle", x: 0, y: 0, theta: 0 } as RobotView;
+  trails.add(robot, 0);
+  trails.add(robot, 100);
+  expect(trails.of("r", 100)).toHaveLength(1);
+  trails.add({ ...robot, x: 5 }, 31_000);
+  expect(trails.of("r", 31_000)).toEqual([{ x: 5, y: 0, fresh: 1 }]);
+});

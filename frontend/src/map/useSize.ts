@@ -1,0 +1,16 @@
+/** An element's size on the screen, renewed when it changes. */
+import { useEffect, useRef, useState, type RefObject } from "react";
+
+export function useSize<T extends Element>(): [RefObject<T | null>, { width: number; height: number }] {
+  const element = useRef<T>(null);
+  const [size, setSize] = useState({ width: 0, height: 0 });
+  useEffect(() => {
+    if (!element.current) return;
+    const observer = new ResizeObserver(([entry]) => {
+      if (entry) setSize({ width: entry.contentRect.width, height: entry.contentRect.height });
+    });
+    observer.observe(element.current);
+    return () => observer.disconnect();
+  }, []);
+  return [element, size];
+}

@@ -1,0 +1,79 @@
+/** The registry: where the devices are, who wants to join, what each can do. */
+import { Cpu } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import { useParams } from "react-router-dom";
+import { LoadProblem } from "@/app/LoadProblem";
+import { PageShell } from "@/app/PageShell";
+import { useDevices, useSite } from "@/api/queries";
+import type { Device, Site } from "@/api/types";
+import { Chip } from "@/design/Chip";
+import { EmptyState } from "@/design/EmptyState";
+import { Panel } from "@/design/Panel";
+import { StatusGlyph } from "@/design/StatusGlyph";
+import { DeviceDetail } from "./devices/DeviceDetail";
+import { DeviceFilters } from "./devices/DeviceFilters";
+import { DeviceTable } from "./devices/DeviceTable";
+import styles from "./devices/devices.module.css";
+import { filterDevices, NO_FILTER } from "./devices/filter";
+import { MapStrip } from "./devices/MapStrip";
+import { NothingFound } from "./NothingFound";
+import pages from "./pages.module.css";
+import { TableSkeleton } from "./TableSkeleton";
+
+function Registry({ site, devices, chosen }: { site: Site; devices: Device[]; chosen: string | undefined }) {
+  const { t } = useTranslation();
+  const [filter, setFilter] = useState(NO_FILTER);
+  const found = filterDevices(devices, filter);
+  return (
+    <div className={pages.stack}>
+      <MapStrip site={site} devices={devices} chosen={chosen} />
+      <div className={styles.toolbar}>
+        <DeviceFilters devices={devices} filter={filter} change={setFilter} />
+        {site.pending > 0 ? (
+          <span className={styles.waiting}>
+            <Chip tone="pend">
+              <StatusGlyph status="pending" size={13} />
+              {t("pages.devices.waiting", { count: site.pending })}
+            </Chip>
+          </span>
+        ) : null}
+      </div>
+      <Panel>
+        {devices.length === 0 ? (
+          <EmptyState icon={<Cpu size={20} />} title={t("pages.devices.none")} text={t("pages.devices.noneText")} />
+        ) : null}
+        {found.length > 0 ? <DeviceTable devices={found} slug={site.slug} chosen={chosen} /> : null}
+        {devices.length > 0 && found.length === 0 ? <NothingFound clear={() => setFilter(NO_FILTER)} /> : null}
+      </Panel>
+    </div>
+  );
+}
+
+export function DevicesPage() {
+  const { t } = useTranslation();
+  const { slug = "", id } = useParams();
+  const site = useSite(slug);
+  const devices = useDevices(slug);
+  const chosen = devices.data?.find((device) => device.id === id);
+  const problem = site.error ?? devices.error;
+  return (
+    <PageShell
+      title={t("shell.nav.devices")}
+      chips={
+        site.data ? (
+          <Chip>
+            {`${t("pages.home.machines", { count: site.data.machines })}, ${t("pages.home.robots", { count: site.data.robots })}`}
+          </Chip>
+        ) : null
+      }
+      detail={site.data && chosen ? <DeviceDetail key={chosen.id} site={site.data} device={chosen} /> : null}
+    >
+      {problem ? (
+        <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), devices.refetch()])} />
+      ) : null}
+      {!problem && (site.isPending || devices.isPending) ? <TableSkeleton rows={10} /> : null}
+      {site.data && devices.data ? <Registry site={site.data} devices={devices.data} chosen={chosen?.id} /> : null}
+    </PageShell>
+  );
+}

@@ -1,0 +1,132 @@
+/** The site's map, large, with what there is to know about it and its ROS files. */
+import { Button, Skeleton } from "@mantine/core";
+import { Download, MapPinned } from "lucide-react";
+import { useTranslation } from "react-i18next";
+import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
+import { LoadProblem } from "@/app/LoadProblem";
+import { PageShell } from "@/app/PageShell";
+import { useDevices, useSite, useSiteMap } from "@/api/queries";
+import type { Site, SiteMap } from "@/api/types";
+import { Chip } from "@/design/Chip";
+import { EmptyState } from "@/design/EmptyState";
+import { Panel } from "@/design/Panel";
+import { formatNumber, withUnit } from "@/i18n/format";
+import { StaticMap } from "@/map/StaticMap";
+import { freeArea, knownShare } from "./mapFacts";
+import styles from "./MapPage.module.css";
+
+function Facts({ map }: { map: SiteMap }) {
+  const { t } = useTranslation();
+  const metres = (value: number, digits = 1) => withUnit(formatNumber(value, digits), "m");
+  const facts: [string, string][] = [
+    ["size", `${metres(map.width * map.resolution_m)} × ${metres(map.height * map.resolution_m)}`],
+    ["free", withUnit(formatNumber(freeArea(map), 1), "m²")],
+    ["known", withUnit(formatNumber(knownShare(map) * 100), "%")],
+    ["resolution", withUnit(formatNumber(map.resolution_m * 100, 1), t("pages.map.perCell"))],
+    ["cells", `${formatNumber(map.width)} × ${formatNumber(map.height)}`],
+    ["origin", `${formatNumber(map.origin.x, 2)}, ${formatNumber(map.origin.y, 2)}`],
+  ];
+  return (
+    <dl className={styles.facts}>
+      {facts.map(([name, value]) => (
+        <div key={name}>
+          <dt>{t(`pages.map.fact.${name}`)}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}
+
+function Places({ map }: { map: SiteMap }) {
+  const { t } = useTranslation();
+  return (
+    <section aria-labelledby="places">
+      <h2 id="places">{t("pages.map.places")}</h2>
+      {map.places.length === 0 ? <p>{t("pages.map.noPlaces")}</p> : null}
+      <ul className={styles.places}>
+        {map.places.map((place) => (
+          <li key={place.id}>
+            <span>{place.name}</span>
+            <Chip>{t(`pages.map.kind.${place.kind}`, { defaultValue: place.kind })}</Chip>
+            <code>{`${formatNumber(place.x, 2)}, ${formatNumber(place.y, 2)}`}</code>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+function Downloads({ slug }: { slug: string }) {
+  const { t } = useTranslation();
+  return (
+    <>
+      {(["yaml", "pgm"] as const).map((form) => (
+        <Button
+          key={form}
+          component="a"
+          href={`/api/sites/${slug}/map.${form}`}
+          download
+          variant="default"
+          leftSection={<Download size={16} />}
+        >
+          {t(`pages.map.download.${form}`)}
+        </Button>
+      ))}
+    </>
+  );
+}
+
+function MapView({ site, map }: { site: Site; map: SiteMap }) {
+  const { t } = useTranslation();
+  const navigate = useNavigate();
+  const [query] = useSearchParams();
+  const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
+  return (
+    <div className={styles.page}>
+      <Panel className={styles.map}>
+        <StaticMap
+          plan={map}
+          devices={devices}
+          named
+          selected={query.get("device")}
+          onSelect={(id) => void navigate(`/sites/${site.slug}/devices/${id}`)}
+          label={t("pages.map.of", { site: site.name })}
+        />
+      </Panel>
+      <Panel className={styles.about}>
+        <h2>{t("pages.map.about")}</h2>
+        <Facts map={map} />
+        <Places map={map} />
+      </Panel>
+    </div>
+  );
+}
+
+export function MapPage() {
+  const { t } = useTranslation();
+  const { slug = "" } = useParams();
+  const site = useSite(slug);
+  const map = useSiteMap(site.data?.has_map ? slug : undefined);
+  const problem = site.error ?? map.error;
+  return (
+    <PageShell
+      title={t("shell.nav.map")}
+      chips={map.data ? <Chip>{t("pages.map.version", { version: map.data.version })}</Chip> : null}
+      actions={map.data ? <Downloads slug={slug} /> : null}
+    >
+      {problem ? <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), map.refetch()])} /> : null}
+      {!problem && !map.data && site.data?.has_map !== false ? <Skeleton height="100%" radius="lg" /> : null}
+      {site.data && map.data ? <MapView site={site.data} map={map.data} /> : null}
+      {site.data?.has_map === false ? (
+        <Panel>
+          <EmptyState icon={<MapPinned size={20} />} title={t("pages.map.none")} text={t("pages.map.noneText")}>
+            <Button component={Link} to="/sites/new">
+              {t("pages.newSite.upload")}
+            </Button>
+          </EmptyState>
+        </Panel>
+      ) : null}
+    </PageShell>
+  );
+}

@@ -1,0 +1,49 @@
+import { useQuery } from "@tanstack/react-query";
+import { Cpu } from "lucide-react";
+import { useTranslation } from "react-i18next";
+import { api } from "@/api/client";
+import { keys } from "@/api/queries";
+import type { DeviceEvent } from "@/api/types";
+import { Avatar } from "@/design/Avatar";
+import { Panel } from "@/design/Panel";
+import { formatMoment } from "@/i18n/format";
+import styles from "./detail.module.css";
+
+function Change({ event }: { event: DeviceEvent }) {
+  return (
+    <li>
+      {event.by ? (
+        <Avatar name={event.by} size={22} title={event.by} />
+      ) : (
+        <span className={styles.machineSign}>
+          <Cpu size={13} aria-hidden="true" />
+        </span>
+      )}
+      <span>
+        {event.by ? <b>{event.by} </b> : null}
+        {event.text}
+        <small>{formatMoment(event.at)}</small>
+      </span>
+    </li>
+  );
+}
+
+/** What happened to a device, newest first. */
+export function Changes({ slug, device, most }: { slug: string; device: string; most: number }) {
+  const { t } = useTranslation();
+  const path = `/sites/${slug}/devices/${encodeURIComponent(device)}/events`;
+  const events = useQuery({ queryKey: keys.deviceEvents(slug, device), queryFn: () => api.get<DeviceEvent[]>(path) });
+  return (
+    <Panel className={styles.changes}>
+      <div className={styles.cardHead}>
+        <h3>{t("pages.devices.changes")}</h3>
+      </div>
+      <ul>
+        {events.data?.slice(0, most).map((event, index) => (
+          <Change key={index} event={event} />
+        ))}
+      </ul>
+      {events.data?.length === 0 ? <p className={styles.none}>{t("pages.devices.noChanges")}</p> : null}
+    </Panel>
+  );
+}

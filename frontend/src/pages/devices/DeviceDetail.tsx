@@ -1,0 +1,150 @@
+/** Everything that is known about one device. */
+import { Menu, Tabs } from "@mantine/core";
+import { Crosshair, Ellipsis, Pencil, X } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import { Link, useNavigate } from "react-router-dom";
+import type { Device, Site } from "@/api/types";
+import { IconButton } from "@/design/IconButton";
+import { StatusBadge } from "@/design/StatusBadge";
+import { statusColour } from "@/design/StatusGlyph";
+import { formatAge } from "@/i18n/format";
+import { DeviceIcon } from "@/map/DeviceIcon";
+import { useNow } from "../useNow";
+import { Changes } from "./Changes";
+import { jobOf } from "./filter";
+import { LiveProperties } from "./LiveProperties";
+import { Methods } from "./Methods";
+import { RdfSource } from "./RdfSource";
+import { RenameDevice } from "./RenameDevice";
+import styles from "./detail.module.css";
+
+function Ring({ device }: { device: Device }) {
+  const job = jobOf(device);
+  const colour = statusColour(device.status);
+  return (
+    <span className={styles.ring}>
+      <svg viewBox="0 0 48 48" width={48} height={48} aria-hidden="true">
+        <circle
+          cx={24}
+          cy={24}
+          r={21.5}
+          fill="none"
+          stroke={colour}
+          strokeWidth={job === null ? 2 : 3.4}
+          opacity={job === null ? 1 : 0.25}
+        />
+        {job === null ? null : (
+          <circle
+            cx={24}
+            cy={24}
+            r={21.5}
+            fill="none"
+            stroke={colour}
+            strokeWidth={3.4}
+            pathLength={100}
+            strokeDasharray={`${job * 100} 100`}
+            transform="rotate(-90 24 24)"
+          />
+        )}
+      </svg>
+      <DeviceIcon deviceClass={device.device_class} size={22} />
+    </span>
+  );
+}
+
+function Heading({ device }: { device: Device }) {
+  const { t } = useTranslation();
+  const now = useNow(1000);
+  const word = t(`shell.status.${device.status}`);
+  return (
+    <div className={styles.heading}>
+      <h2>{device.name}</h2>
+      <p>
+        <StatusBadge status={device.status}>
+          {device.doing && device.status !== "pending" ? `${word}: ${device.doing}` : word}
+        </StatusBadge>
+        {device.last_seen_at ? (
+          <span>{t("pages.devices.seen", { age: formatAge(device.last_seen_at, now) })}</span>
+        ) : null}
+      </p>
+    </div>
+  );
+}
+
+function Overview({ site, device }: { site: Site; device: Device }) {
+  return (
+    <div className={styles.overview}>
+      {device.description ? <p>{device.description}</p> : null}
+      <LiveProperties device={device} />
+      <Methods device={device} />
+      <div className={styles.pair}>
+        <RdfSource slug={site.slug} device={device.id} />
+        <Changes slug={site.slug} device={device.id} most={6} />
+      </div>
+    </div>
+  );
+}
+
+function Actions({ site, device }: { site: Site; device: Device }) {
+  const { t } = useTranslation();
+  const navigate = useNavigate();
+  const [renaming, setRenaming] = useState(false);
+  return (
+    <div className={styles.actions}>
+      <IconButton
+        label={t("pages.devices.onMap")}
+        onClick={() => void navigate(`/sites/${site.slug}/map?device=${device.id}`)}
+      >
+        <Crosshair size={17} aria-hidden="true" />
+      </IconButton>
+      {site.role === "admin" ? (
+        <Menu position="bottom-end" width={180}>
+          <Menu.Target>
+            <IconButton label={t("pages.more")}>
+              <Ellipsis size={17} aria-hidden="true" />
+            </IconButton>
+          </Menu.Target>
+          <Menu.Dropdown>
+            <Menu.Item leftSection={<Pencil size={15} />} onClick={() => setRenaming(true)}>
+              {t("pages.devices.rename")}
+            </Menu.Item>
+          </Menu.Dropdown>
+        </Menu>
+      ) : null}
+      <Link to={`/sites/${site.slug}/devices`} aria-label={t("pages.close")} className={styles.close}>
+        <X size={18} aria-hidden="true" />
+      </Link>
+      {renaming ? <RenameDevice site={site} device={device} onClose={() => setRenaming(false)} /> : null}
+    </div>
+  );
+}
+
+export function DeviceDetail({ site, device }: { site: Site; device: Device }) {
+  const { t } = useTranslation();
+  return (
+    <aside className={styles.detail} aria-label={device.name}>
+      <header className={styles.head}>
+        <Ring device={device} />
+        <Heading device={device} />
+        <Actions site={site} device={device} />
+      </header>
+      <Tabs defaultValue="overview" className={styles.tabs} keepMounted={false}>
+        <Tabs.List>
+          <Tabs.Tab value="overview">{t("pages.devices.tab.overview")}</Tabs.Tab>
+          <Tabs.Tab value="rdf">{t("pages.devices.rdf")}</Tabs.Tab>
+          <Tabs.Tab value="history">{t("pages.devices.tab.history")}</Tabs.Tab>
+        </Tabs.List>
+        <Tabs.Panel value="overview">
+          <Overview site={site} device={device} />
+        </Tabs.Panel>
+        <Tabs.Panel value="rdf" className={styles.whole}>
+          <RdfSource slug={site.slug} device={device.id} />
+        </Tabs.Panel>
+        <Tabs.Panel value="history" className={styles.whole}>
+          <Changes slug={site.slug} device={device.id} most={200} />
+        </Tabs.Panel>
+      </Tabs>
+    </aside>
+  );
+}

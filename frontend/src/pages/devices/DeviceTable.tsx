@@ -1,0 +1,89 @@
+import { BatteryLow, BatteryMedium, BatteryFull } from "lucide-react";
+import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
+import type { Device } from "@/api/types";
+import { StatusBadge } from "@/design/StatusBadge";
+import { formatAge, formatNumber, withUnit } from "@/i18n/format";
+import { DeviceIcon } from "@/map/DeviceIcon";
+import pages from "../pages.module.css";
+import { useNow } from "../useNow";
+import { batteryOf } from "./filter";
+import styles from "./devices.module.css";
+
+function Battery({ device }: { device: Device }) {
+  const percent = batteryOf(device);
+  if (percent === null) return null;
+  const Icon = percent < 20 ? BatteryLow : percent < 70 ? BatteryMedium : BatteryFull;
+  return (
+    <span className={styles.battery} data-low={percent < 20 || undefined}>
+      <Icon size={17} aria-hidden="true" />
+      {withUnit(formatNumber(percent), "%")}
+    </span>
+  );
+}
+
+function Row({ device, slug, chosen, now }: { device: Device; slug: string; chosen: boolean; now: number }) {
+  const { t } = useTranslation();
+  const { x, y } = device.location;
+  return (
+    <tr data-status={device.status} aria-selected={chosen} className={styles.row}>
+      <td className={styles.name}>
+        <Link to={`/sites/${slug}/devices/${device.id}`} className={styles.device}>
+          <span className={styles.disc} data-status={device.status}>
+            <DeviceIcon deviceClass={device.device_class} size={17} />
+          </span>
+          <span>
+            <b title={device.name}>{device.name}</b>
+            <code>{device.id}</code>
+          </span>
+        </Link>
+      </td>
+      <td>
+        <StatusBadge status={device.status}>{t(`shell.status.${device.status}`)}</StatusBadge>
+      </td>
+      <td className={styles.doing} title={device.doing}>
+        {device.status === "pending" ? t("pages.devices.notTrusted") : device.doing || "–"}
+      </td>
+      <td>
+        <code className={styles.position}>{`${formatNumber(x, 2)}, ${formatNumber(y, 2)}`}</code>
+      </td>
+      <td>{device.last_seen_at ? formatAge(device.last_seen_at, now) : t("pages.devices.never")}</td>
+      <td className={styles.right}>
+        <Battery device={device} />
+      </td>
+    </tr>
+  );
+}
+
+export function DeviceTable({
+  devices,
+  slug,
+  chosen,
+}: {
+  devices: Device[];
+  slug: string;
+  chosen: string | undefined;
+}) {
+  const { t } = useTranslation();
+  const now = useNow(1000);
+  return (
+    <div className={pages.scroll}>
+      <table className={`${pages.table} ${styles.compact}`}>
+        <thead>
+          <tr>
+            {["device", "status", "doing", "position", "lastSeen", "battery"].map((column) => (
+              <th key={column} scope="col" className={column === "battery" ? styles.right : undefined}>
+                {t(`pages.devices.column.${column}`)}
+              </th>
+            ))}
+          </tr>
+        </thead>
+        <tbody>
+          {devices.map((device) => (
+            <Row key={device.id} device={device} slug={slug} chosen={device.id === chosen} now={now} />
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}

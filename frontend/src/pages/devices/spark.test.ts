@@ -1,0 +1,37 @@
+import { expect, test } from "vitest";
+import { sparkPath } from "./spark";
+
+const FRAME = { now: 1000, window_ms: 1000, width: 100, height: 30 };
+
+test("nothing is drawn without readings", () => {
+  expect(sparkPath([], FRAME)).toBeNull();
+});
+
+test("the highest reading lies at a tenth, the lowest at nine tenths, and the line goes on to now", () => {
+  const path = sparkPath(
+    [
+      { at: 0, value: 10 },
+      { at: 500, value: 20 },
+    ],
+    FRAME,
+  );
+  expect(path?.line).toBe("M0 27L50 3L100 3");
+  expect(path?.area).toBe("M0 27L50 3L100 3V30H0Z");
+  expect(path?.end).toEqual([100, 3]);
+});
+
+test("a steady value lies in the lower third", () => {
+  expect(sparkPath([{ at: 200, value: 5 }], FRAME)?.line).toBe("M20 21L100 21");
+});
+
+test("what was read before the window counts as its left edge", () => {
+  const path = sparkPath(
+    [
+      { at: -900, value: 0 },
+      { at: -400, value: 10 },
+      { at: 500, value: 20 },
+    ],
+    FRAME,
+  );
+  expect(path?.line).toBe("M0 27L50 3L100 3");
+});

@@ -1,0 +1,70 @@
+/** What is going on at the site at this moment. */
+import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
+import { useDevices, useRuns } from "@/api/queries";
+import type { Device, RunSummary } from "@/api/types";
+import { Panel } from "@/design/Panel";
+import { StatusBadge } from "@/design/StatusBadge";
+import { StatusGlyph } from "@/design/StatusGlyph";
+import { formatClock } from "@/i18n/format";
+import { isOpen, progressOfRun, secondsOfRun, statusOfRun } from "../runs";
+import { useNow } from "../useNow";
+import styles from "./home.module.css";
+
+const TELLING: readonly string[] = ["pending", "error", "warning", "busy", "waiting", "offline"];
+
+function OpenRun({ run }: { run: RunSummary }) {
+  const { t } = useTranslation();
+  const seconds = secondsOfRun(run, useNow(1000));
+  const { done, all } = progressOfRun(run);
+  return (
+    <Link to={`/runs/${run.id}`} className={styles.liveRun} data-status={run.status}>
+      <span className={styles.liveTitle}>
+        <StatusGlyph status={statusOfRun(run)} size={16} />
+        <b>{t("pages.runs.numberOf", { number: run.number, program: run.program.name })}</b>
+        <code>{seconds === null ? "" : formatClock(seconds)}</code>
+      </span>
+      <progress value={done} max={Math.max(1, all)} aria-label={t("pages.runs.steps", { done, all })} />
+      <span className={styles.liveFoot}>
+        <span>{run.reason || t("pages.runs.steps", { done, all })}</span>
+        <b>{t("pages.home.openMonitor")}</b>
+      </span>
+    </Link>
+  );
+}
+
+function DeviceLine({ device, slug }: { device: Device; slug: string }) {
+  const { t } = useTranslation();
+  return (
+    <li>
+      <Link to={`/sites/${slug}/devices/${device.id}`} className={styles.liveDevice}>
+        <b>{device.name}</b>
+        <StatusBadge status={device.status}>
+          {device.status === "pending" ? t("shell.status.pending") : device.doing || t(`shell.status.${device.status}`)}
+        </StatusBadge>
+      </Link>
+    </li>
+  );
+}
+
+export function LiveNow({ slug }: { slug: string }) {
+  const { t } = useTranslation();
+  const runs = (useRuns(slug).data ?? []).filter(isOpen);
+  const devices = (useDevices(slug).data ?? [])
+    .filter((device) => TELLING.includes(device.status))
+    .sort((a, b) => TELLING.indexOf(a.status) - TELLING.indexOf(b.status));
+  return (
+    <Panel className={styles.live} aria-labelledby="live-now">
+      <h2 id="live-now">{t("pages.home.liveNow")}</h2>
+      {runs.slice(0, 2).map((run) => (
+        <OpenRun key={run.id} run={run} />
+      ))}
+      {runs.length === 0 ? <p className={styles.quiet}>{t("pages.home.nothingRuns")}</p> : null}
+      <ul>
+        {devices.slice(0, runs.length > 0 ? 3 : 5).map((device) => (
+          <DeviceLine key={device.id} device={device} slug={slug} />
+        ))}
+      </ul>
+    </Panel>
+  );
+}

@@ -1,0 +1,53 @@
+import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
+import type { RunSummary } from "@/api/types";
+import { Panel } from "@/design/Panel";
+import { StatusGlyph } from "@/design/StatusGlyph";
+import { formatAgo, formatSpan } from "@/i18n/format";
+import { isOpen, progressOfRun, secondsOfRun, statusOfRun } from "../runs";
+import { useNow } from "../useNow";
+import styles from "./home.module.css";
+
+function RunLine({ run, now }: { run: RunSummary; now: number }) {
+  const { t } = useTranslation();
+  const seconds = secondsOfRun(run, now);
+  const { done, all } = progressOfRun(run);
+  const facts = [
+    t(`pages.runs.status.${run.status}`),
+    seconds === null ? "" : formatSpan(seconds),
+    all > 0 ? t("pages.runs.steps", { done, all }) : "",
+  ];
+  return (
+    <li>
+      <Link to={`/runs/${run.id}`} className={styles.recent}>
+        <StatusGlyph status={statusOfRun(run)} size={16} />
+        <span>
+          <b>{t("pages.runs.numberOf", { number: run.number, program: run.program.name })}</b>
+          <span>{run.status === "failed" && run.reason ? run.reason : facts.filter(Boolean).join(", ")}</span>
+        </span>
+        <small>{isOpen(run) ? t("pages.home.now") : run.ended_at ? formatAgo(run.ended_at, now) : ""}</small>
+      </Link>
+    </li>
+  );
+}
+
+export function RecentRuns({ slug, runs }: { slug: string; runs: readonly RunSummary[] }) {
+  const { t } = useTranslation();
+  const now = useNow();
+  return (
+    <Panel className={styles.recents} aria-labelledby="recent-runs">
+      <div className={styles.recentHead}>
+        <h2 id="recent-runs">{t("pages.home.recentRuns")}</h2>
+        {runs.length > 0 ? (
+          <Link to={`/sites/${slug}/runs`}>{t("pages.home.seeAll", { count: runs.length })}</Link>
+        ) : null}
+      </div>
+      <ul>
+        {runs.slice(0, 5).map((run) => (
+          <RunLine key={run.id} run={run} now={now} />
+        ))}
+      </ul>
+      {runs.length === 0 ? <p className={styles.quiet}>{t("pages.runs.noneText")}</p> : null}
+    </Panel>
+  );
+}

@@ -1,0 +1,29 @@
+/** A function where it happens: its machines and ways on the site's map. */
+import { skipToken, useQuery } from "@tanstack/react-query";
+import { useMemo } from "react";
+import { api } from "@/api/client";
+import { useDevices, useSiteMap } from "@/api/queries";
+import type { LibraryFunction, RouteAnswer } from "@/api/types";
+import { StaticMap } from "@/map/StaticMap";
+import { devicesIn, focusOn, waysIn } from "./picture";
+
+function useWays(slug: string, definition: LibraryFunction["definition"]) {
+  const pairs = useMemo(() => waysIn(definition), [definition]);
+  return useQuery({
+    queryKey: ["ways", slug, pairs],
+    queryFn: pairs.length > 0 ? () => api.post<(RouteAnswer | null)[]>(`/sites/${slug}/routes`, { pairs }) : skipToken,
+    staleTime: Infinity,
+    retry: false,
+  });
+}
+
+export function FunctionPicture({ slug, item }: { slug: string; item: LibraryFunction }) {
+  const map = useSiteMap(slug).data ?? null;
+  const devices = useDevices(slug).data ?? [];
+  const answers = useWays(slug, item.definition).data;
+  const ways = (answers ?? []).flatMap((answer) => (answer ? [answer.path] : []));
+  const used = devicesIn(item.definition);
+  const shown = devices.filter((device) => used.includes(device.id));
+  const focus = focusOn(shown, ways);
+  return <StaticMap plan={map} devices={shown} routes={ways} focus={focus} label={item.name} />;
+}

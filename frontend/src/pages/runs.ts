@@ -1,0 +1,43 @@
+/** A run in a list: how it stands, how far it is, how long it took. */
+import type { RunStatus, RunSummary } from "@/api/types";
+import type { StatusName } from "@/design/StatusGlyph";
+
+const STATUS: Readonly<Record<RunStatus, StatusName>> = {
+  pending: "idle",
+  running: "busy",
+  paused: "waiting",
+  finished: "done",
+  failed: "error",
+  cancelled: "offline",
+};
+
+export function statusOfRun(run: RunSummary): StatusName {
+  return STATUS[run.status] ?? "idle";
+}
+
+export function isOpen(run: RunSummary): boolean {
+  return run.status === "pending" || run.status === "running" || run.status === "paused";
+}
+
+/** Steps that have ended, and all that are known. */
+export function progressOfRun(run: RunSummary): { done: number; all: number } {
+  const steps = Object.values(run.steps ?? {});
+  return {
+    done: steps.filter((step) => step.status === "done" || step.status === "skipped").length,
+    all: steps.length,
+  };
+}
+
+/** Seconds from the start to the end, or to `now` (milliseconds since 1970); null before the start. */
+export function secondsOfRun(run: RunSummary, now: number): number | null {
+  if (!run.started_at) return null;
+  const end = run.ended_at ? new Date(run.ended_at).getTime() : now;
+  return Math.max(0, (end - new Date(run.started_at).getTime()) / 1000);
+}
+
+/** The newest run of each program. */
+export function lastRuns(runs: readonly RunSummary[]): Map<string, RunSummary> {
+  const last = new Map<string, RunSummary>();
+  for (const run of [...runs].sort((a, b) => a.number - b.number)) last.set(run.program.id, run);
+  return last;
+}

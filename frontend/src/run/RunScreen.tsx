@@ -1,0 +1,222 @@
+import { useQueryClient } from "@tanstack/react-query";
+import { ChartGantt, FileCode, SquareTerminal } from "lucide-react";
+import { useCallback, useEffect, useMemo, useState, type ReactNode } from "react";
+import { useTranslation } from "react-i18next";
+import { useParams } from "react-router-dom";
+import { ApiProblem } from "@/api/client";
+import { keys, useDevices, useRun, useRunEvents, useSite, useSiteMap } from "@/api/queries";
+import type { Device, Run, RunEvent, Site } from "@/api/types";
+import { Crumb, TopBar } from "@/app/TopBar";
+import { Chip } from "@/design/Chip";
+import { ProgramMap } from "@/editor/ProgramMap";
+import { liveRobots } from "@/live/robots";
+import { useSiteLive } from "@/live/site";
+import { RunActions, RunPill } from "./RunBar";
+import styles from "./RunScreen.module.css";
+import { ScriptLines } from "./ScriptLines";
+import { currentStep, stepLines } from "./stepList";
+import { Journal, StepsPanel } from "./StepsPanel";
+import { Timeline, TimelineLegend } from "./Timeline";
+import { useStepWords } from "./useStepWords";
+
+const NO_DEVICES: Device[] = [];
+const NO_EVENTS: RunEvent[] = [];
+const OVER = ["finished", "failed", "cancelled"];
+type Tab = "timeline" | "logs" | "script";
+const TABS: { tab: Tab; icon: ReactNode }[] = [
+  { tab: "timeline", icon: <ChartGantt size={15} aria-hidden /> },
+  { tab: "logs", icon: <SquareTerminal size={15} aria-hidden /> },
+  { tab: "script", icon: <FileCode size={15} aria-hidden /> },
+];
+
+/** The present moment, once a second while it matters. */
+function useNow(running: boolean): number {
+  const [now, setNow] = useState(Date.now);
+  useEffect(() => {
+    if (!running) return;
+    const timer = setInterval(() => setNow(Date.now()), 1000);
+    return () => clearInterval(timer);
+  }, [running]);
+  return now;
+}
+
+function elapsedSeconds(run: Run, now: number): number {
+  if (!run.started_at) return 0;
+  const end = run.ended_at ? Date.parse(run.ended_at) : now;
+  return Math.max(0, (end - Date.parse(run.started_at)) / 1000);
+}
+
+function Notes({ run, problem }: { run: Run; problem: string | null }) {
+  const { t } = useTranslation();
+  const tone = run.status === "failed" ? "error" : run.status === "finished" ? "done" : "warn";
+  return (
+    <div className={styles.notes}>
+      {problem && (
+        <p className={styles.note} data-tone="error" role="alert">
+          {problem}
+        </p>
+      )}
+      {run.status !== "running" && run.status !== "pending" && (
+        <p className={styles.note} data-tone={tone}>
+          <b>{t(`run.status.${run.status}`)}</b> {run.reason}
+        </p>
+      )}
+    </div>
+  );
+}
+
+interface LoadedProps {
+  run: Run;
+  site: Site | undefined;
+}
+
+function Drawer(props: { tab: Tab; onTab: (tab: Tab) => void; children: ReactNode }) {
+  const { t } = useTranslation();
+  return (
+    <section className={styles.drawer} aria-label={t("run.drawer")}>
+      <div className={styles.tabs}>
+        <div role="tablist" aria-label={t("run.drawer")}>
+          {TABS.map(({ tab, icon }) => (
+            <button
+              key={tab}
+              type="button"
+              role="tab"
+              id={`run-tab-${tab}`}
+              aria-selected={tab === props.tab}
+              aria-controls="run-tab-body"
+              onClick={() => props.onTab(tab)}
+            >
+              {icon} {t(`run.tab.${tab}`)}
+            </button>
+          ))}
+        </div>
+        {props.tab === "timeline" && <TimelineLegend />}
+      </div>
+      <div className={styles.tabBody} role="tabpanel" id="run-tab-body" aria-labelledby={`run-tab-${props.tab}`}>
+        {props.children}
+      </div>
+    </section>
+  );
+}
+
+function Loaded({ run, site }: LoadedProps) {
+  const { t } = useTranslation();
+  const queries = useQueryClient();
+  const devices = useDevices(run.site).data ?? NO_DEVICES;
+  const map = useSiteMap(run.site).data ?? null;
+  const events = useRunEvents(run.id).data ?? NO_EVENTS;
+  const over = OVER.includes(run.status);
+  const now = useNow(!over);
+  const [tab, setTab] = useState<Tab>("timeline");
+  const [selected, setSelected] = useState<string | null>(null);
+  const [problem, setProblem] = useState<string | null>(null);
+  const words = useStepWords(run.document, devices, map?.places);
+  const lines = useMemo(() => stepLines(run.compiled, run.steps), [run.compiled, run.steps]);
+  const lit = useMemo(
+    () => new Set(lines.filter((line) => line.started_at && !line.ended_at).map((line) => line.step)),
+    [lines],
+  );
+  const robotOf = useCallback(
+    (step: string) => run.roles[String(run.document.steps[step]?.params.role ?? "robot")],
+    [run.roles, run.document],
+  );
+  const elapsed_s = elapsedSeconds(run, now);
+  const numberOf = (step: string) => run.compiled.numbers[step] ?? "";
+  const nameOf = (id: string) => devices.find((device) => device.id === id)?.name ?? id;
+  return (
+    <div className={styles.screen}>
+      <TopBar
+        site={run.site}
+        crumbs={
+          <>
+            <Crumb to="/">{site?.name ?? ""}</Crumb>
+            <Crumb to={`/programs/${run.program.id}`}>{run.program.name}</Crumb>
+            <Crumb>{t("run.title", { number: run.number })}</Crumb>
+          </>
+        }
+        chips={
+          <span className={styles.chips}>
+            {run.version !== null && <Chip mono>v{run.version}</Chip>}
+            {site?.simulated && <Chip>{t("run.simulated")}</Chip>}
+          </span>
+        }
+        actions={
+          <RunActions
+            run={run}
+            allowed={site !== undefined && site.role !== "viewer"}
+            onProblem={setProblem}
+            onDone={() => void queries.invalidateQueries({ queryKey: keys.run(run.id) })}
+          />
+        }
+      >
+        <RunPill run={run} elapsed_s={elapsed_s} />
+      </TopBar>
+      <main className={styles.body}>
+        <section className={styles.map} aria-label={t("run.map")}>
+          <ProgramMap
+            site={run.site}
+            plan={map}
+            trails
+            controls
+            devices={devices}
+            document={run.document}
+            compiled={run.compiled}
+            statuses={run.steps}
+            robots={liveRobots}
+            selected={selected}
+            onSelect={setSelected}
+          />
+          <Notes run={run} problem={problem} />
+        </section>
+        <aside className={styles.side}>
+          <StepsPanel
+            lines={lines}
+            current={over ? null : currentStep(lines)}
+            now={now}
+            selected={selected}
+            titleOf={words.titleOf}
+            iconOf={words.iconOf}
+            nameOf={nameOf}
+            onSelect={setSelected}
+          />
+          <Journal events={events} numberOf={numberOf} label={t("run.journal")} />
+        </aside>
+        <Drawer tab={tab} onTab={setTab}>
+          {tab === "timeline" && (
+            <Timeline {...{ events, devices, elapsed_s, over, numberOf, robotOf }} onSelect={setSelected} />
+          )}
+          {tab === "logs" && <Journal events={events} numberOf={numberOf} label={t("run.tab.logs")} full />}
+          {tab === "script" && (
+            <ScriptLines
+              compiled={run.compiled}
+              lit={lit}
+              selected={selected}
+              label={t("run.tab.script")}
+              onSelect={setSelected}
+            />
+          )}
+        </Drawer>
+      </main>
+    </div>
+  );
+}
+
+/** A run, at any time: the program on the map with its steps lit, the robots live, the journal, the timeline. */
+export function RunScreen() {
+  const { t } = useTranslation();
+  const { id } = useParams();
+  const query = useRun(id);
+  const run = query.data;
+  const site = useSite(run?.site).data;
+  useSiteLive(run?.site);
+  if (run) return <Loaded key={run.id} run={run} site={site} />;
+  const refusal = query.error instanceof ApiProblem ? query.error.detail : null;
+  return (
+    <div className={styles.screen}>
+      <TopBar site={undefined} />
+      <main className={styles.loading} role={refusal ? "alert" : "status"}>
+        {refusal ?? t("run.loading")}
+      </main>
+    </div>
+  );
+}

@@ -1,0 +1,113 @@
+import { useMemo } from "react";
+import { useTranslation } from "react-i18next";
+import type { Device, RunEvent } from "@/api/types";
+import { DeviceIcon } from "@/map/DeviceIcon";
+import { clock, tickEvery } from "@/design/clock";
+import { type Bar, ganttOf, type RobotOf } from "./gantt";
+import styles from "./Timeline.module.css";
+
+interface TimelineProps {
+  events: readonly RunEvent[];
+  devices: readonly Device[];
+  elapsed_s: number;
+  over: boolean;
+  numberOf: (step: string) => string;
+  robotOf: RobotOf;
+  onSelect: (step: string) => void;
+}
+
+function kindOf(bar: Bar): string {
+  if (bar.kind === "wait") return "wait";
+  if (bar.failed) return "failed";
+  return bar.ended_s === null ? "running" : "done";
+}
+
+function BarButton({ bar, span_s, props }: { bar: Bar; span_s: number; props: TimelineProps }) {
+  const { t } = useTranslation();
+  const end = bar.ended_s ?? props.elapsed_s;
+  const kind = kindOf(bar);
+  const text = `${props.numberOf(bar.step)} ${t(`run.bar.${kind}`)}, ${clock(bar.started_s)}–${clock(end)}`;
+  return (
+    <button
+      type="button"
+      className={styles.bar}
+      data-kind={kind}
+      title={text}
+      aria-label={text}
+      style={{
+        left: `${(bar.started_s / span_s) * 100}%`,
+        width: `${(Math.max(end - bar.started_s, 0) / span_s) * 100}%`,
+      }}
+      onClick={() => props.onSelect(bar.step)}
+    >
+      {props.numberOf(bar.step)}
+    </button>
+  );
+}
+
+/** Who worked when: a row a device, robots first. */
+export function Timeline(props: TimelineProps) {
+  const { t } = useTranslation();
+  const { events, devices, elapsed_s, over, robotOf } = props;
+  const order = useMemo(
+    () => [...devices].sort((a, b) => a.kind.localeCompare(b.kind) * -1 || a.name.localeCompare(b.name)),
+    [devices],
+  );
+  const rows = useMemo(
+    () =>
+      ganttOf(
+        events,
+        order.map((device) => device.id),
+        robotOf,
+      ),
+    [events, order, robotOf],
+  );
+  const span_s = Math.max(10, elapsed_s * (over ? 1.02 : 1.15));
+  const every = tickEvery(span_s);
+  const ticks = Array.from({ length: Math.floor(span_s / every) + 1 }, (_, index) => index * every);
+  if (rows.length === 0) return <p className={styles.empty}>{t("run.noWorkYet")}</p>;
+  return (
+    <div className={styles.timeline}>
+      <div className={styles.scale} aria-hidden="true">
+        {ticks.map((tick) => (
+          <span key={tick} style={{ left: `${(tick / span_s) * 100}%` }}>
+            {clock(tick)}
+          </span>
+        ))}
+      </div>
+      {rows.map((row) => {
+        const device = devices.find((each) => each.id === row.device);
+        return (
+          <div key={row.device} className={styles.row}>
+            <span className={styles.name}>
+              <DeviceIcon deviceClass={device?.device_class ?? ""} size={16} /> {device?.name ?? row.device}
+            </span>
+            <div className={styles.lane}>
+              {ticks.map((tick) => (
+                <i key={tick} style={{ left: `${(tick / span_s) * 100}%` }} />
+              ))}
+              {row.bars.map((bar) => (
+                <BarButton key={`${bar.step}-${bar.kind}-${bar.started_s}`} bar={bar} span_s={span_s} props={props} />
+              ))}
+              {over ? null : <em style={{ left: `${(elapsed_s / span_s) * 100}%` }} />}
+            </div>
+          </div>
+        );
+      })}
+    </div>
+  );
+}
+
+/** What the bars' looks mean. */
+export function TimelineLegend() {
+  const { t } = useTranslation();
+  return (
+    <ul className={styles.legend}>
+      {["done", "running", "wait", "failed"].map((kind) => (
+        <li key={kind}>
+          <span className={styles.sample} data-kind={kind} aria-hidden="true" /> {t(`run.bar.${kind}`)}
+        </li>
+      ))}
+    </ul>
+  );
+}

@@ -1,0 +1,163 @@
+import { AlertOctagon, CircleCheck } from "lucide-react";
+import { useTranslation } from "react-i18next";
+import type { RehearsalResult } from "@/api/types";
+import styles from "./ResultPanel.module.css";
+import { clock } from "@/design/clock";
+
+interface ResultPanelProps {
+  result: RehearsalResult;
+  nameOf: (device: string) => string;
+  numberOf: (step: string) => string;
+  onJump: (t_s: number, step?: string) => void;
+}
+
+function Fact({ label, value, unit, note }: { label: string; value: string; unit: string; note?: string }) {
+  return (
+    <div className={styles.fact}>
+      <span className={styles.factLabel}>{label}</span>
+      <span className={styles.factValue}>
+        {value} <small>{unit}</small>
+      </span>
+      <span className={styles.factNote}>{note}</span>
+    </div>
+  );
+}
+
+function Facts({ result }: { result: RehearsalResult }) {
+  const { t } = useTranslation();
+  const robots = Object.values(result.robots).filter((robot) => robot.distance_m > 0.05);
+  const distance = robots.reduce((sum, robot) => sum + robot.distance_m, 0);
+  const waited = result.waits.reduce((sum, wait) => sum + wait.duration_s, 0);
+  const lowest = Math.min(...Object.values(result.robots).map((robot) => robot.battery));
+  return (
+    <div className={styles.facts}>
+      <Fact
+        label={t("simulation.time")}
+        value={clock(result.duration_s)}
+        unit={t("simulation.minutes")}
+        note={t("simulation.simulatedTimeNote")}
+      />
+      <Fact
+        label={t("simulation.distance")}
+        value={distance.toFixed(1)}
+        unit="m"
+        note={t("simulation.robotsDrove", { count: robots.length })}
+      />
+      <Fact
+        label={t("simulation.waits")}
+        value={String(result.waits.length)}
+        unit=""
+        note={t("simulation.secondsWaited", { seconds: Math.round(waited) })}
+      />
+      {Number.isFinite(lowest) && (
+        <Fact label={t("simulation.battery")} value={lowest.toFixed(0)} unit="%" note={t("simulation.lowestRobot")} />
+      )}
+    </div>
+  );
+}
+
+function Use({ id, busy_s, total_s, name }: { id: string; busy_s: number; total_s: number; name: string }) {
+  const share = total_s > 0 ? Math.min(busy_s / total_s, 1) : 0;
+  return (
+    <li className={styles.use} data-device={id}>
+      <span>{name}</span>
+      <span className={styles.track}>
+        <span style={{ width: `${share * 100}%` }} />
+      </span>
+      <span className={styles.percent}>{Math.round(share * 100)} %</span>
+    </li>
+  );
+}
+
+function Utilisation({ result, nameOf }: ResultPanelProps) {
+  const { t } = useTranslation();
+  const used = [...Object.entries(result.robots), ...Object.entries(result.machines)].filter(
+    ([, use]) => use.busy_s >= 0.005 * result.duration_s,
+  );
+  return (
+    <div>
+      <h3 className={styles.heading}>{t("simulation.utilisation")}</h3>
+      <ul className={styles.list}>
+        {used.map(([id, use]) => (
+          <Use key={id} id={id} busy_s={use.busy_s} total_s={result.duration_s} name={nameOf(id)} />
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+function Events({ result, nameOf, numberOf, onJump }: ResultPanelProps) {
+  const { t } = useTranslation();
+  return (
+    <div>
+      <h3 className={styles.heading}>{t(result.errors.length > 0 ? "simulation.problems" : "simulation.waits")}</h3>
+      <ul className={styles.list}>
+        {result.errors.map((error) => (
+          <li key={`${error.t}-${error.step}`}>
+            <button
+              type="button"
+              className={`${styles.event} ${styles.bad}`}
+              onClick={() => onJump(error.t, error.step)}
+            >
+              <b>
+                {clock(error.t)} · {numberOf(error.step)}
+              </b>
+              {error.message}
+            </button>
+          </li>
+        ))}
+        {[...result.collisions, ...result.near_misses].map((contact) => (
+          <li key={`${contact.t}-${contact.a}-${contact.b}`}>
+            <button type="button" className={`${styles.event} ${styles.bad}`} onClick={() => onJump(contact.t)}>
+              <b>{clock(contact.t)}</b>
+              {t("simulation.near", {
+                a: nameOf(contact.a),
+                b: nameOf(contact.b),
+                cm: Math.round(contact.distance_m * 100),
+              })}
+            </button>
+          </li>
+        ))}
+        {result.waits.map((wait, index) => (
+          <li key={`${wait.t}-${wait.robot}`}>
+            <button type="button" className={styles.event} onClick={() => onJump(wait.t)}>
+              <span className={styles.pin}>{index + 1}</span>
+              <span>
+                <b>{nameOf(wait.robot)}</b> {clock(wait.t)}, {Math.round(wait.duration_s)} s
+                <br />
+                {wait.reason}
+              </span>
+            </button>
+          </li>
+        ))}
+        {result.waits.length + result.errors.length + result.collisions.length + result.near_misses.length === 0 && (
+          <li className={styles.none}>{t("simulation.noWaits")}</li>
+        )}
+      </ul>
+    </div>
+  );
+}
+
+/** What the rehearsal says: does it finish, how long it takes, who is used how much, who waits for whom. */
+export function ResultPanel(props: ResultPanelProps) {
+  const { t } = useTranslation();
+  const { result } = props;
+  return (
+    <section className={styles.panel} aria-label={t("simulation.result")}>
+      <header className={styles.header}>
+        <h2>{t("simulation.result")}</h2>
+        <span className={result.ok ? styles.good : styles.failed} role="status">
+          {result.ok ? <CircleCheck size={14} aria-hidden /> : <AlertOctagon size={14} aria-hidden />}
+          {result.ok
+            ? t("simulation.finishes")
+            : t("simulation.stopsWithErrors", { count: Math.max(1, result.errors.length) })}
+        </span>
+      </header>
+      <Facts result={result} />
+      <div className={styles.columns}>
+        <Utilisation {...props} />
+        <Events {...props} />
+      </div>
+    </section>
+  );
+}

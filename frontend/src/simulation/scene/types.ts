@@ -1,0 +1,29 @@
+import type { FloorPlan } from "@/map/floor";
+import type { Frames } from "../frames";
+
+export type SceneMap = FloorPlan;
+
+export interface SceneDevice {
+  id: string;
+  name: string;
+  kind: "machine" | "robot";
+  device_class: string;
+  location: { x: number; y: number; theta: number };
+  size: { x: number; y: number; z: number };
+  radius_m: number;
+}
+
+/** What the recording says of the moments in it. */
+export interface SceneRecording {
+  frames: Frames;
+  carrying: Record<string, [number, Record<string, number>][]>;
+  machine_states: Record<string, [number, boolean][]>;
+  routes: { t: number; robot: string; path: [number, number][] }[];
+}
+
+/** The moment that is shown, changed many times a second without drawing React anew. */
+export interface Moment {
+  t_s: number;
+}
+
+export type CameraMode = "orbit" | "top" | "follow";

@@ -1,0 +1,224 @@
+"""The registry over HTTP: signing in, sites, maps and devices."""
+
+from __future__ import annotations
+
+import gzip
+import json
+from pathlib import Path
+from typing import Any
+
+from django.conf import settings
+from django.contrib.auth import login, logout
+from django.http import HttpRequest, HttpResponse
+from django.middleware.csrf import get_token
+from django.utils import timezone
+from ninja import File, Form, Router
+from ninja.errors import HttpError
+from ninja.files import UploadedFile
+from ninja.utils import check_csrf
+
+from registry import people, services
+from registry.access import require
+from registry.capability import Pose
+from registry.models import User
+from registry.ontology import write_description
+from registry.rdf_text import CONTENT_TYPES
+from registry.ros_map import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap, write_pgm, write_yaml
+from registry.shapes import DeviceEdit, DeviceEventShape, DeviceShape, MapShape, Me, SignIn, SiteShape
+from registry.views import device_to_json, site_to_json
+
+router = Router(tags=["registry"])
+
+
+def _sends(*content_types: str) -> dict[str, Any]:
+    """Say in the OpenAPI file that a call answers with something else than JSON."""
+    return {"responses": {200: {"content": {name: {"schema": {"type": "string"}} for name in content_types}}}}
+
+
+def signed_in(request: HttpRequest) -> User:
+    """Return who asks; the API lets nobody else through."""
+    assert isinstance(request.user, User)
+    return request.user
+
+
+@router.get("/me", response=Me, auth=None)
+def show_me(request: HttpRequest) -> dict[str, Any]:
+    """Say who is signed in; strangers get the token that signing in needs."""
+    user = request.user
+    person = None
+    if isinstance(user, User):
+        person = {"id": user.pk, "name": user.display_name, "initials": user.initials, "email": user.email}
+    return {"user": person, "csrf": get_token(request), "demo_accounts": _demo_accounts()}
+
+
+def _demo_accounts() -> list[dict[str, str]]:
+    path = Path(settings.VIPO_STATE_DIR) / "demo-accounts.json"
+    if not settings.VIPO_DEMO or not path.exists():
+        return []
+    accounts: list[dict[str, str]] = json.loads(path.read_text())
+    return accounts
+
+
+@router.post("/sign-in", response=Me, auth=None)
+def sign_in(request: HttpRequest, body: SignIn) -> dict[str, Any]:
+    """Begin a session."""
+    if check_csrf(request):
+        raise HttpError(403, "The page is out of date. Reload it and sign in again.")
+    address = request.META.get("REMOTE_ADDR", "")
+    user = people.check_sign_in(email=body.email, password=body.password, address=address, now=timezone.now())
+    login(request, user)
+    return show_me(request)
+
+
+@router.post("/sign-out", response=Me)
+def sign_out(request: HttpRequest) -> dict[str, Any]:
+    """End the session."""
+    logout(request)
+    return show_me(request)
+
+
+@router.get("/sites", response=list[SiteShape])
+def list_sites(request: HttpRequest) -> list[dict[str, Any]]:
+    """List the sites where the asker is a member."""
+    return [site_to_json(site) for site in services.list_sites(user=signed_in(request))]
+
+
+@router.post("/sites", response={201: SiteShape})
+def upload_site(
+    request: HttpRequest,
+    name: Form[str],
+    yaml: File[UploadedFile],
+    image: File[UploadedFile | None] = None,
+) -> dict[str, Any]:
+    """Make a site from a ROS map; the asker becomes its admin."""
+    site = services.create_site_from_map(
+        name=name,
+        yaml=_read_upload(yaml, MAX_YAML_BYTES, "The .yaml file"),
+        image=_read_upload(image, MAX_IMAGE_BYTES, "The map's image") if image else None,
+        admin=signed_in(request),
+    )
+    return site_to_json(site)
+
+
+def _read_upload(file: UploadedFile, most: int, what: str) -> bytes:
+    if (file.size or 0) > most:
+        raise BadMap(f"{what} has {file.size} bytes; {most} is the most. Choose the map's own files.")
+    return bytes(file.read())
+
+
+@router.get("/sites/{slug}", response=SiteShape)
+def show_site(request: HttpRequest, slug: str) -> dict[str, Any]:
+    """Show a site."""
+    access = require(signed_in(request), slug, "viewer")
+    return site_to_json(services.get_site(site=slug, role=access.role))
+
+
+@router.get("/sites/{slug}/map", response=MapShape)
+def show_map(request: HttpRequest, slug: str) -> dict[str, Any]:
+    """Show a site's map without its cells."""
+    require(signed_in(request), slug, "viewer")
+    found = services.get_map(site=slug)
+    grid = found.grid
+    return {
+        "version": found.version,
+        "width": grid.width,
+        "height": grid.height,
+        "resolution_m": grid.resolution_m,
+        "origin": {"x": grid.origin_x_m, "y": grid.origin_y_m, "yaw": 0.0},
+        "places": services.list_places(site=slug),
+        "walls": services.get_walls(grid),
+    }
+
+
+@router.get("/sites/{slug}/map/cells", openapi_extra=_sends("application/octet-stream"))
+def show_cells(request: HttpRequest, slug: str) -> HttpResponse:
+    """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown."""
+    require(signed_in(request), slug, "viewer")
+    found = services.get_map(site=slug)
+    tag = f'"{slug}-{found.version}"'
+    if request.headers.get("If-None-Match") == tag:
+        return HttpResponse(status=304)
+    response = HttpResponse(gzip.compress(found.grid.cells, 5, mtime=0), content_type="application/octet-stream")
+    response["Content-Encoding"] = "gzip"
+    response["ETag"] = tag
+    response["Cache-Control"] = "private, no-cache"
+    return response
+
+
+@router.get("/sites/{slug}/map.yaml", openapi_extra=_sends("application/yaml"))
+def download_yaml(request: HttpRequest, slug: str) -> HttpResponse:
+    """Send the map's header in the ROS form."""
+    require(signed_in(request), slug, "viewer")
+    body = write_yaml(services.get_map(site=slug).grid, f"{slug}.pgm")
+    return _download(body, f"{slug}.yaml", "application/yaml")
+
+
+@router.get("/sites/{slug}/map.pgm", openapi_extra=_sends("image/x-portable-graymap"))
+def download_pgm(request: HttpRequest, slug: str) -> HttpResponse:
+    """Send the map's image in the ROS form."""
+    require(signed_in(request), slug, "viewer")
+    return _download(write_pgm(services.get_map(site=slug).grid), f"{slug}.pgm", "image/x-portable-graymap")
+
+
+def _download(body: bytes, name: str, content_type: str) -> HttpResponse:
+    response = HttpResponse(body, content_type=content_type)
+    response["Content-Disposition"] = f'attachment; filename="{name}"'
+    return response
+
+
+@router.get("/sites/{slug}/devices", response=list[DeviceShape])
+def list_devices(request: HttpRequest, slug: str) -> list[dict[str, Any]]:
+    """List a site's devices, also those that wait for approval."""
+    require(signed_in(request), slug, "viewer")
+    return [device_to_json(device) for device in services.list_devices(site=slug)]
+
+
+@router.get("/sites/{slug}/devices/{device_id}", response=DeviceShape)
+def show_device(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
+    """Show a device."""
+    require(signed_in(request), slug, "viewer")
+    return device_to_json(services.get_device(site=slug, device_id=device_id))
+
+
+@router.get("/sites/{slug}/devices/{device_id}/events", response=list[DeviceEventShape])
+def show_history(request: HttpRequest, slug: str, device_id: str) -> list[dict[str, Any]]:
+    """Show what happened to a device, newest first."""
+    require(signed_in(request), slug, "viewer")
+    events = services.list_device_events(site=slug, device_id=device_id)
+    return [{"at": e.at.isoformat(), "kind": e.kind, "text": e.text, "by": e.by} for e in events]
+
+
+@router.get("/sites/{slug}/devices/{device_id}/rdf", openapi_extra=_sends(*CONTENT_TYPES.values()))
+def show_rdf(request: HttpRequest, slug: str, device_id: str, format: str = "turtle") -> HttpResponse:
+    """Send a device's description as `turtle`, `nt` or `json-ld`."""
+    require(signed_in(request), slug, "viewer")
+    text = write_description(services.get_device(site=slug, device_id=device_id).canonical, format)
+    return HttpResponse(text, content_type=f"{CONTENT_TYPES[format]}; charset=utf-8")
+
+
+@router.post("/sites/{slug}/devices/{device_id}/approve", response=DeviceShape)
+def approve(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
+    """Let a pending device take part."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return device_to_json(services.approve_device(site=slug, device_id=device_id, by=user, at=timezone.now()))
+
+
+@router.post("/sites/{slug}/devices/{device_id}/reject", response=DeviceShape)
+def reject(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
+    """Turn a pending device away."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return device_to_json(services.reject_device(site=slug, device_id=device_id, by=user, at=timezone.now()))
+
+
+@router.patch("/sites/{slug}/devices/{device_id}", response=DeviceShape)
+def edit(request: HttpRequest, slug: str, device_id: str, body: DeviceEdit) -> dict[str, Any]:
+    """Rename a device, or say where it stands."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    pose = Pose(**body.location.dict()) if body.location else None
+    device = services.update_device(
+        site=slug, device_id=device_id, name=body.name, pose=pose, by=user, at=timezone.now()
+    )
+    return device_to_json(device)

@@ -1,0 +1,354 @@
+"""How devices join and leave: what they say of themselves, and what people decide about them.
+
+Every function may run at the same time as itself in another process: rows are locked or changed by conditional
+updates, and what is older than what is known is ignored by (boot, seq).
+"""
+
+from __future__ import annotations
+
+import hmac
+from dataclasses import asdict, dataclass
+from datetime import datetime, timedelta
+
+from django.conf import settings
+from django.db import transaction
+from django.utils import timezone
+
+from registry.capability import Description, DeviceState, Pose, description_from_json, description_to_json
+from registry.errors import RegistryError
+from registry.live import publish
+from registry.models import Device, DeviceEvent, Site, User
+from registry.ontology import canonical_hash, read_description, source_hash
+from registry.rdf_text import detect_content_type
+from registry.sites import find_site, secret_hash
+from registry.views import DeviceEventView, DeviceView, changed_fields, view_of
+from registry.wire import is_device_id, parse_presence, parse_state
+
+STALE_AFTER = timedelta(seconds=45)
+"""A device speaks at least every 30 s (docs/protocol.md); its last will usually tells long before this."""
+MOST_EVENTS = 200
+MOST_READINGS = 128
+PROBLEM_EVERY = timedelta(seconds=10)
+RESERVED_IDS = frozenset({"server"})
+
+
+class NoSuchDevice(RegistryError):
+    """No device of that id at that site."""
+
+    code = "no_such_device"
+    status = 404
+
+
+class NotPending(RegistryError):
+    """A decision about a device that does not wait for one."""
+
+    code = "not_pending"
+    status = 409
+
+
+class BadDevice(RegistryError):
+    """A device's id, name or place that cannot be."""
+
+    code = "bad_device"
+    status = 422
+
+
+@dataclass(frozen=True, slots=True)
+class Principal:
+    """Who a connection is: `is_newcomer` when it came in with the site's join key only."""
+
+    device_id: str
+    is_newcomer: bool
+
+
+def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> DeviceView:
+    """Take in what a device says of itself; an unknown one becomes pending. Raises BadDescription, BadDevice."""
+    digest = source_hash(payload)
+    known = Device.objects.filter(pk=device_id, source_hash=digest, description__isnull=False).select_related("site")
+    if known.update(last_seen_at=at):
+        device = known.get()
+        return view_of(device, device.site.slug)
+    description = read_description(payload, device_id=device_id)
+    with transaction.atomic():
+        device = _lock_or_make(device_id, description.site, at)
+        before = view_of(device, device.site.slug) if device.description else None
+        _describe(device, description, payload, digest, at)
+        after = view_of(device, device.site.slug)
+        _announce(before, after)
+    return after
+
+
+def _lock_or_make(device_id: str, said_site: str, at: datetime) -> Device:
+    """Return the device's locked row; a new one stands at the site it names, else at the default one."""
+    if not is_device_id(device_id) or device_id in RESERVED_IDS:
+        raise BadDevice("A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server'.")
+    device = Device.objects.select_for_update(of=("self",)).select_related("site").filter(pk=device_id).first()
+    if device is None:
+        Device.objects.get_or_create(pk=device_id, defaults={"site": _site_for(said_site), "first_seen_at": at})
+        device = Device.objects.select_for_update(of=("self",)).select_related("site").get(pk=device_id)
+    elif device.lifecycle == Device.Lifecycle.PENDING and not device.description and said_site != device.site.slug:
+        device.site = _site_for(said_site)
+    return device
+
+
+def _site_for(slug: str) -> Site:
+    site = Site.objects.filter(slug=slug).first() or Site.objects.filter(slug=settings.VIPO_DEFAULT_SITE).first()
+    if site is None:
+        raise BadDevice(f"There is no site {slug[:64]!r} that the device could join, and no default site.")
+    return site
+
+
+def _describe(device: Device, description: Description, payload: bytes, digest: str, at: datetime) -> None:
+    """Write the description into the row and its history; called under the row's lock."""
+    text = _difference(description_from_json(device.description) if device.description else None, description)
+    device.description = description_to_json(description)
+    device.description_hash = canonical_hash(description)
+    device.source, device.source_hash, device.source_type = payload, digest, detect_content_type(payload)
+    device.first_seen_at = device.first_seen_at or at
+    device.last_seen_at = at
+    device.save()
+    if text:
+        _write_event(device, at, "described", text)
+
+
+def _difference(before: Description | None, after: Description) -> str:
+    """Say in words what changed; empty when the meaning is the same."""
+    if before is None:
+        return f"Described itself for the first time: {after.name}, {after.device_class or after.kind}"
+    words = [
+        *_differing_names("method", [m.name for m in before.methods], [m.name for m in after.methods]),
+        *_differing_names("property", [p.name for p in before.properties], [p.name for p in after.properties]),
+    ]
+    if before.name != after.name:
+        words.append(f"calls itself {after.name}")
+    if before.pose != after.pose:
+        words.append(f"says it stands at {after.pose.x:.2f}, {after.pose.y:.2f}")
+    if not words and before != after:
+        words.append("changed its description")
+    told = "; ".join(words)[:300]
+    return told[:1].upper() + told[1:]
+
+
+def _differing_names(what: str, before: list[str], after: list[str]) -> list[str]:
+    added, gone = [n for n in after if n not in before], [n for n in before if n not in after]
+    return [f"added {what} {n}" for n in added] + [f"removed {what} {n}" for n in gone]
+
+
+def ingest_presence(*, device_id: str, payload: bytes, at: datetime) -> DeviceView | None:
+    """Take in that a device came or went; None when it changed nothing (a stale will) or nobody described it yet."""
+    said = parse_presence(payload)
+    with transaction.atomic():
+        device = _lock_or_make(device_id, "", at)
+        if said.boot < device.presence_boot:
+            return None
+        before = view_of(device, device.site.slug) if device.description else None
+        came_or_went = device.online != said.online
+        device.online, device.presence_boot, device.last_seen_at = said.online, said.boot, at
+        device.save(update_fields=["site", "online", "presence_boot", "last_seen_at"])
+        if came_or_went:
+            _write_event(device, at, "online" if said.online else "offline", "Came online" if said.online else "Left")
+        if before is None:
+            return None
+        after = view_of(device, device.site.slug)
+        _announce(before, after)
+    return after
+
+
+def ingest_state(*, device_id: str, payload: bytes, at: datetime, retained: bool = False) -> DeviceView | None:
+    """Take in a device's state; None when it is old, a replay, or of a device that nobody knows.
+
+    A retained message tells how the device was, not that it is there now.
+    """
+    said = parse_state(payload)
+    with transaction.atomic():
+        device = Device.objects.select_for_update(of=("self",)).select_related("site").filter(pk=device_id).first()
+        if device is None or (said.boot, said.seq) <= (device.boot, device.seq):
+            return None
+        before = view_of(device, device.site.slug) if device.description else None
+        _take_state(device, said, at, alive=not retained and said.boot >= device.presence_boot)
+        if before is None:
+            return None
+        after = view_of(device, device.site.slug)
+        _announce(before, after)
+    return after
+
+
+def _take_state(device: Device, said: DeviceState, at: datetime, *, alive: bool) -> None:
+    device.boot, device.seq, device.done, device.command = said.boot, said.seq, said.done, said.command
+    known = {**device.properties, **said.properties}
+    device.properties = known if len(known) <= MOST_READINGS else dict(said.properties)
+    device.pose = asdict(said.pose) if said.pose else device.pose
+    device.online = device.online or alive
+    device.last_seen_at = at
+    fields = ["boot", "seq", "done", "command", "properties", "pose", "online", "last_seen_at"]
+    device.save(update_fields=fields)
+
+
+def mark_stale(*, now: datetime) -> tuple[DeviceView, ...]:
+    """Mark as offline the devices that have said nothing for 45 s, and return them."""
+    silent = Device.objects.filter(online=True, last_seen_at__lt=now - STALE_AFTER)
+    found = []
+    for device in silent.select_related("site"):
+        if silent.filter(pk=device.pk).update(online=False):
+            _write_event(device, now, "offline", f"Said nothing for {STALE_AFTER.seconds} s")
+            before = view_of(device, device.site.slug) if device.description else None
+            device.online = False
+            if before:
+                found.append(view_of(device, device.site.slug))
+                _announce(before, found[-1])
+    return tuple(found)
+
+
+def record_problem(*, device_id: str, text: str, at: datetime | None = None) -> bool:
+    """Note in a device's history that something of it was refused, at most every 10 s; tell whether it was noted."""
+    at = at or timezone.now()
+    device = Device.objects.filter(pk=device_id).first()
+    if device is None or DeviceEvent.objects.filter(device=device, kind="problem", at__gt=at - PROBLEM_EVERY).exists():
+        return False
+    _write_event(device, at, "problem", text)
+    return True
+
+
+def _write_event(device: Device, at: datetime, kind: str, text: str, by: User | None = None) -> None:
+    """Add a line of history and forget the ones beyond the newest 200."""
+    DeviceEvent.objects.create(device=device, at=at, kind=kind, text=text[:300], by=by)
+    oldest = DeviceEvent.objects.filter(device=device).order_by("-pk").values_list("pk", flat=True)[MOST_EVENTS:][:1]
+    for key in list(oldest):
+        DeviceEvent.objects.filter(device=device, pk__lte=key).delete()
+
+
+def _announce(before: DeviceView | None, after: DeviceView) -> None:
+    """Tell the browsers what is new, once the transaction holds."""
+    changes = changed_fields(before, after)
+    if len(changes) > 1:
+        transaction.on_commit(lambda: publish(after.site, {"type": "device", "device": changes}))
+
+
+def expect_device(*, site: str, device_id: str, credential: str, approved: bool = True) -> None:
+    """Let a device that is not there yet come in with its own key, approved beforehand or still to be looked at."""
+    if not is_device_id(device_id) or device_id in RESERVED_IDS:
+        raise BadDevice("A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server'.")
+    if len(credential) < 20:
+        raise BadDevice("A device's key needs at least 20 characters; make it at random.")
+    lifecycle = Device.Lifecycle.APPROVED if approved else Device.Lifecycle.PENDING
+    with transaction.atomic():
+        device, made = Device.objects.select_for_update(of=("self",)).get_or_create(
+            pk=device_id, defaults={"site": find_site(site), "lifecycle": lifecycle}
+        )
+        if not made and device.site.slug != site:
+            raise BadDevice(f"The device {device_id} belongs to another site.")
+        device.credential_hash = secret_hash(credential)
+        device.save(update_fields=["credential_hash"])
+
+
+def check_device_password(*, username: str, password: str) -> Principal | None:
+    """Return who may connect with this: a device by its own key, or a newcomer by a site's join key."""
+    if not is_device_id(username) or username in RESERVED_IDS:
+        return None
+    offered = secret_hash(password)
+    device = Device.objects.filter(pk=username).first()
+    if device and device.lifecycle == Device.Lifecycle.RETIRED:
+        return None
+    if device and device.credential_hash:
+        return Principal(username, False) if hmac.compare_digest(device.credential_hash, offered) else None
+    if device and device.lifecycle != Device.Lifecycle.PENDING:
+        return None
+    return Principal(username, True) if Site.objects.filter(join_key_hash=offered).exists() else None
+
+
+def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
+    """Let a pending device take part. Raises NoSuchDevice, NotPending."""
+    return _decide(site, device_id, Device.Lifecycle.APPROVED, "Approved", by, at)
+
+
+def reject_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
+    """Turn a pending device away; it may not connect again. Raises NoSuchDevice, NotPending."""
+    return _decide(site, device_id, Device.Lifecycle.RETIRED, "Rejected", by, at)
+
+
+def _decide(site: str, device_id: str, lifecycle: str, word: str, by: User | None, at: datetime) -> DeviceView:
+    with transaction.atomic():
+        device = _lock(site, device_id)
+        if device.lifecycle != Device.Lifecycle.PENDING:
+            raise NotPending(f"{device_id} does not wait for a decision; it is {device.lifecycle}.")
+        before = view_of(device, site)
+        device.lifecycle = lifecycle
+        device.save(update_fields=["lifecycle"])
+        _write_event(device, at, lifecycle, word, by)
+        after = view_of(device, site)
+        if lifecycle == Device.Lifecycle.RETIRED:
+            transaction.on_commit(lambda: publish(site, {"type": "device_removed", "id": device_id}))
+        else:
+            _announce(before, after)
+    return after
+
+
+def _lock(site: str, device_id: str) -> Device:
+    rows = Device.objects.select_for_update(of=("self",)).select_related("site").filter(description__isnull=False)
+    device = rows.filter(pk=device_id, site__slug=site).first() if is_device_id(device_id) else None
+    if device is None:
+        raise NoSuchDevice(f"This site has no device {device_id[:64]!r}.")
+    return device
+
+
+def update_device(
+    *, site: str, device_id: str, name: str | None = None, pose: Pose | None = None, by: User | None, at: datetime
+) -> DeviceView:
+    """Give a device another name (empty: its own again) or place. Raises NoSuchDevice, BadDevice."""
+    if name is not None and (len(name.strip()) > 100 or not name.isprintable()):
+        raise BadDevice("A device's name has at most 100 characters, all of which can be printed.")
+    if pose is not None and not all(abs(v) <= 1e6 for v in (pose.x, pose.y, pose.z, pose.theta)):
+        raise BadDevice("A device's place must lie within a million metres.")
+    with transaction.atomic():
+        device = _lock(site, device_id)
+        before = view_of(device, site)
+        if name is not None:
+            device.name_override = name.strip()
+        if pose is not None:
+            device.pose_override = asdict(pose)
+        device.save(update_fields=["name_override", "pose_override"])
+        after = view_of(device, site)
+        for text in _edits(before, after):
+            _write_event(device, at, "edited", text, by)
+        _announce(before, after)
+    return after
+
+
+def _edits(before: DeviceView, after: DeviceView) -> list[str]:
+    edits = []
+    if before.name != after.name:
+        edits.append(f"Renamed from {before.name} to {after.name}")
+    if before.pose != after.pose:
+        edits.append(f"Moved to {after.pose.x:.2f}, {after.pose.y:.2f}")
+    return edits
+
+
+def list_devices(*, site: str, lifecycle: str | None = None) -> tuple[DeviceView, ...]:
+    """Return the site's described devices by id; retired ones only when asked for by `lifecycle`."""
+    rows = Device.objects.filter(site=find_site(site), description__isnull=False).order_by("id").defer("source")
+    chosen = rows.filter(lifecycle=lifecycle) if lifecycle else rows.exclude(lifecycle=Device.Lifecycle.RETIRED)
+    return tuple(view_of(device, site) for device in chosen)
+
+
+def get_device(*, site: str, device_id: str) -> DeviceView:
+    """Return one device. Raises NoSuchDevice."""
+    rows = Device.objects.filter(pk=device_id, site__slug=site, description__isnull=False)
+    device = rows.exclude(lifecycle=Device.Lifecycle.RETIRED).first() if is_device_id(device_id) else None
+    if device is None:
+        raise NoSuchDevice(f"This site has no device {device_id[:64]!r}.")
+    return view_of(device, site)
+
+
+def find_device(*, device_id: str) -> DeviceView | None:
+    """Return a device by its id alone, whatever its site; None when nobody described it yet."""
+    device = Device.objects.filter(pk=device_id, description__isnull=False).select_related("site").first()
+    return view_of(device, device.site.slug) if device else None
+
+
+def list_device_events(*, site: str, device_id: str, limit: int = 50) -> tuple[DeviceEventView, ...]:
+    """Return a device's history, newest first. Raises NoSuchDevice."""
+    get_device(site=site, device_id=device_id)
+    rows = DeviceEvent.objects.filter(device__pk=device_id, device__site__slug=site).select_related("by")
+    return tuple(
+        DeviceEventView(e.at, e.kind, e.text, e.by.display_name if e.by else "") for e in rows.order_by("-pk")[:limit]
+    )

@@ -1,0 +1,262 @@
+"""What the registry's services hand out: frozen, and free of the database."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from datetime import datetime
+from typing import Any, Literal
+
+from registry.capability import Description, MethodSpec, Pose, PropertySpec, Scalar, description_from_json
+from registry.floor import Grid
+from registry.models import Device
+
+Status = Literal["idle", "busy", "done", "waiting", "warning", "error", "offline", "pending"]
+LOW_BATTERY_PERCENT = 15.0
+_ICONS = {"turtlebot": "turtle"}
+_LOAD = re.compile(r"([A-Za-z0-9_.-]+)\s*[:=]\s*(\d{1,6})")
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceView:
+    """A named place; metres and radians in the map frame. `label` is where its name is written, if not beside it."""
+
+    id: str
+    name: str
+    kind: str
+    x: float
+    y: float
+    theta: float
+    label: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MapView:
+    """A site's map."""
+
+    site: str
+    version: int
+    grid: Grid
+
+
+@dataclass(frozen=True, slots=True)
+class StopView:
+    """The latched stop of a site."""
+
+    active: bool
+    by: str
+    at: datetime | None
+
+
+@dataclass(frozen=True, slots=True)
+class SiteView:
+    """A site and its counts; `role` is what the asking user is there, empty when nobody asks."""
+
+    slug: str
+    name: str
+    role: str
+    machines: int
+    robots: int
+    online: int
+    pending: int
+    has_map: bool
+    stop: StopView
+    simulated: bool
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceView:
+    """A device as it is now: `canonical` has the name and place that hold, `readings` its properties' values."""
+
+    id: str
+    site: str
+    canonical: Description
+    lifecycle: str
+    online: bool
+    done: bool
+    command: str
+    boot: int
+    readings: Mapping[str, Scalar] = field(default_factory=dict)
+    carrying: Mapping[str, int] = field(default_factory=dict)
+    status: Status = "idle"
+    doing: str = ""
+    last_seen_at: datetime | None = None
+
+    @property
+    def name(self) -> str:
+        """The name people gave it, or the one it gave itself."""
+        return self.canonical.name
+
+    @property
+    def kind(self) -> str:
+        """`machine` or `robot`."""
+        return self.canonical.kind
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is now."""
+        return self.canonical.pose
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceEventView:
+    """One line of a device's history."""
+
+    at: datetime
+    kind: str
+    text: str
+    by: str
+
+
+def view_of(device: Device, site: str) -> DeviceView:
+    """Return the view of a device's row, which has been described."""
+    canonical = effective_description(device)
+    readings: dict[str, Scalar] = dict(device.properties)
+    view = DeviceView(
+        id=device.id,
+        site=site,
+        canonical=canonical,
+        lifecycle=device.lifecycle,
+        online=device.online,
+        done=device.done,
+        command=device.command,
+        boot=device.boot,
+        readings=readings,
+        carrying=read_load(readings.get("load")),
+        last_seen_at=device.last_seen_at,
+    )
+    return replace(view, status=status_of(view), doing=doing_of(view))
+
+
+def effective_description(device: Device) -> Description:
+    """Return what the device says of itself, with the name and place that hold.
+
+    A robot knows best where it is; a machine is where people put it, else where it says.
+    """
+    said = description_from_json(device.description or {})
+    measured, placed = device.pose, device.pose_override
+    pose = (measured or placed) if said.kind == "robot" else (placed or measured)
+    return replace(said, name=device.name_override or said.name, pose=Pose(**pose) if pose else said.pose)
+
+
+def read_load(value: Scalar) -> dict[str, int]:
+    """Read what a robot carries from its property `load`: text such as `box:1,can:2`."""
+    return {name: int(count) for name, count in _LOAD.findall(value) if int(count)} if isinstance(value, str) else {}
+
+
+def status_of(view: DeviceView) -> Status:
+    """Return the one word for how a device is."""
+    if view.lifecycle == "pending":
+        return "pending"
+    if not view.online:
+        return "offline"
+    if view.readings.get("error"):
+        return "error"
+    if not view.done:
+        return "busy"
+    battery = view.readings.get("battery")
+    low = isinstance(battery, int | float) and battery < LOW_BATTERY_PERCENT
+    return "warning" if low or view.readings.get("warning") else "idle"
+
+
+def doing_of(view: DeviceView) -> str:
+    """Return in a few words what a device is doing."""
+    if view.lifecycle == "pending":
+        return "Not trusted yet"
+    if not view.online:
+        return ""
+    for trouble in ("error", "warning"):
+        if text := view.readings.get(trouble):
+            return str(text)
+    if view.carrying:
+        return "Carrying " + ", ".join(_counted(count, name) for name, count in sorted(view.carrying.items()))
+    return _idle_words(view) if view.done else _busy_words(view)
+
+
+def _busy_words(view: DeviceView) -> str:
+    progress = view.readings.get("jobStatus")
+    if isinstance(progress, int | float):
+        return f"Working, {progress:.0f} %"
+    return "Driving" if view.kind == "robot" else "Working"
+
+
+def _idle_words(view: DeviceView) -> str:
+    stock, slots = view.readings.get("stock"), view.readings.get("freeSlots")
+    if isinstance(stock, int | float):
+        return _counted(round(stock), (view.canonical.gives or ("object",))[0])
+    if isinstance(slots, int | float):
+        return f"{slots:.0f} slots free"
+    return "Ready"
+
+
+def _counted(count: int, name: str) -> str:
+    """Return `1 box`, `2 boxes`, `3 cans`."""
+    plural = name + ("es" if name.endswith(("x", "s", "ch", "sh")) else "s")
+    return f"{count} {name if count == 1 else plural}"
+
+
+def device_to_json(view: DeviceView) -> dict[str, Any]:
+    """Return the device as the API and the sockets say it."""
+    said = view.canonical
+    return {
+        "id": view.id,
+        "name": said.name,
+        "kind": said.kind,
+        "device_class": said.device_class,
+        "icon": _ICONS.get(said.device_class, said.device_class),
+        "lifecycle": view.lifecycle,
+        "status": view.status,
+        "doing": view.doing,
+        "location": asdict(said.pose),
+        "size": asdict(said.size),
+        "radius_m": said.radius_m,
+        "properties": [_property_to_json(p, view.readings.get(p.name)) for p in said.properties],
+        "methods": [_method_to_json(m) for m in said.methods],
+        "gives": list(said.gives),
+        "takes": list(said.takes),
+        "capacity": said.capacity,
+        "carrying": dict(view.carrying),
+        "last_seen_at": view.last_seen_at.isoformat() if view.last_seen_at else None,
+        "done": view.done,
+        "simulated": said.simulated,
+        "image": said.image if said.image.startswith(("https://", "http://")) else "",
+        "description": said.description,
+    }
+
+
+def _property_to_json(spec: PropertySpec, value: Scalar) -> dict[str, Any]:
+    return {
+        "name": spec.name,
+        "title": spec.title,
+        "type": spec.type,
+        "unit": spec.unit,
+        "minimum": spec.minimum,
+        "maximum": spec.maximum,
+        "options": list(spec.options),
+        "value": value,
+    }
+
+
+def _method_to_json(method: MethodSpec) -> dict[str, Any]:
+    return {
+        "name": method.name,
+        "title": method.title,
+        "topic": method.topic,
+        "message_type": method.message_type,
+        "parameters": [{**asdict(p), "options": list(p.options)} for p in method.parameters],
+    }
+
+
+def changed_fields(before: DeviceView | None, after: DeviceView) -> dict[str, Any]:
+    """Return the id and what a browser does not know yet."""
+    new = device_to_json(after)
+    old = device_to_json(before) if before else {}
+    return {"id": after.id, **{k: v for k, v in new.items() if k not in old or old[k] != v}}
+
+
+def site_to_json(view: SiteView) -> dict[str, Any]:
+    """Return the site as the API says it."""
+    body = asdict(view)
+    body["stop"]["at"] = view.stop.at.isoformat() if view.stop.at else None
+    return body

@@ -1,0 +1,248 @@
+"""The JSON that devices and the server exchange over MQTT, read with suspicion; see docs/protocol.md."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import Any, Literal, cast, get_args
+
+from registry.capability import DeviceState, Pose, Scalar
+from registry.errors import RegistryError
+
+AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
+MAX_BYTES = 16 * 1024
+MAX_DEPTH = 16
+MAX_PROPERTIES = 64
+MAX_TEXT = 256
+MAX_WHOLE = 2**53
+MAX_METRES = 1e6
+_ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
+_UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
+
+
+class BadMessage(RegistryError):
+    """A message that does not fit the protocol; the sentence says where."""
+
+    code = "bad_message"
+    status = 422
+
+
+@dataclass(frozen=True, slots=True)
+class Presence:
+    """Whether a device is there; `boot` counts its starts."""
+
+    online: bool
+    boot: int
+
+
+@dataclass(frozen=True, slots=True)
+class AckMessage:
+    """A device's answer to a command."""
+
+    command: str
+    status: AckStatus
+    why: str = ""
+    result: Mapping[str, Scalar] = field(default_factory=dict)
+
+
+def is_device_id(text: str) -> bool:
+    """Tell whether a device may be called so."""
+    return _ID.fullmatch(text) is not None
+
+
+def up_topic(device_id: str, kind: str) -> str:
+    """Return the topic on which a device speaks: `desc`, `presence`, `state`, `ack` or `map`."""
+    return f"vipo/v1/dev/{device_id}/up/{kind}"
+
+
+def down_topic(device_id: str, method: str) -> str:
+    """Return the topic on which a device is told to do something."""
+    return f"vipo/v1/dev/{device_id}/down/{method}"
+
+
+def read_up_topic(topic: str) -> tuple[str, str] | None:
+    """Return (device id, kind) of an `up` topic, or None for any other."""
+    found = _UP.fullmatch(topic)
+    return (found.group(1), found.group(2)) if found else None
+
+
+def parse_json(payload: bytes, *, max_bytes: int = MAX_BYTES) -> Any:
+    """Return the JSON value of a payload; raises BadMessage for all that two readers could understand differently."""
+    if len(payload) > max_bytes:
+        raise BadMessage(f"The message has {len(payload)} bytes; {max_bytes} is the most.")
+    try:
+        text = payload.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise BadMessage("The message is not UTF-8.") from error
+    _check_depth(text)
+    try:
+        value = json.loads(
+            text, object_pairs_hook=_unique, parse_constant=_no_constant, parse_float=_finite, parse_int=_whole
+        )
+    except json.JSONDecodeError as error:
+        raise BadMessage(f"The message is not JSON: {error.msg} at character {error.pos}.") from error
+    _check_text(value)
+    return value
+
+
+def _check_depth(text: str) -> None:
+    depth = 0
+    for found in re.finditer(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]', text, re.DOTALL):
+        mark = found.group()[0]
+        depth += (mark in "[{") - (mark in "]}")
+        if depth > MAX_DEPTH:
+            raise BadMessage(f"The message is nested more than {MAX_DEPTH} levels deep.")
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise BadMessage("The message names a key twice.")
+    return found
+
+
+def _no_constant(name: str) -> Any:
+    raise BadMessage(f"The message holds {name}, which is not a number of JSON.")
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if not isfinite(number):
+        raise BadMessage(f"The message holds a number that is too large: {text[:20]}.")
+    return number
+
+
+def _whole(text: str) -> int:
+    if len(text) > 17 or abs(int(text)) > MAX_WHOLE:
+        raise BadMessage(f"The message holds a whole number that is too large: {text[:20]}.")
+    return int(text)
+
+
+def _check_text(value: Any) -> None:
+    """Refuse NUL, which PostgreSQL cannot keep, and lone surrogates, which UTF-8 cannot say."""
+    if isinstance(value, str):
+        if "\0" in value or any("\ud800" <= c <= "\udfff" for c in value):
+            raise BadMessage("The message holds a character that is not text (NUL or half of a surrogate pair).")
+    elif isinstance(value, dict):
+        for key, inner in value.items():
+            _check_text(key)
+            _check_text(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            _check_text(inner)
+
+
+def parse_presence(payload: bytes) -> Presence:
+    """Read `{"s": "online", "boot": 7}`."""
+    fields = _object(parse_json(payload))
+    said = fields.get("s")
+    if said not in ("online", "offline"):
+        raise BadMessage("Presence needs `s`: online or offline.")
+    return Presence(said == "online", _count(fields, "boot"))
+
+
+def parse_state(payload: bytes) -> DeviceState:
+    """Read `{"boot", "seq", "done", "cmd"?, "loc"?: [x, y, z, theta], "props"?: {…}}`."""
+    fields = _object(parse_json(payload))
+    done = fields.get("done")
+    if not isinstance(done, bool):
+        raise BadMessage("State needs `done`: true or false.")
+    return DeviceState(
+        boot=_count(fields, "boot"),
+        seq=_count(fields, "seq"),
+        done=done,
+        pose=_location(fields.get("loc")),
+        command=_text(fields, "cmd", 64),
+        properties=_scalars(fields.get("props"), "props"),
+    )
+
+
+def parse_ack(payload: bytes) -> AckMessage:
+    """Read `{"id", "st", "why"?, "result"?: {…}}`."""
+    fields = _object(parse_json(payload))
+    command, status = _text(fields, "id", 64), fields.get("st")
+    if not command:
+        raise BadMessage("An answer needs `id`, the command's.")
+    if status not in get_args(AckStatus):
+        raise BadMessage(f"An answer needs `st`: one of {', '.join(get_args(AckStatus))}.")
+    return AckMessage(
+        command, cast("AckStatus", status), _text(fields, "why", MAX_TEXT), _scalars(fields.get("result"), "result")
+    )
+
+
+def _object(value: Any) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise BadMessage("The message is not a JSON object.")
+    return value
+
+
+def _count(fields: dict[str, Any], name: str) -> int:
+    value = fields.get(name)
+    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
+        raise BadMessage(f"The message needs `{name}`: a whole number from 0.")
+    return value
+
+
+def _text(fields: dict[str, Any], name: str, longest: int) -> str:
+    value = fields.get(name)
+    if value is None:
+        return ""
+    if not isinstance(value, str) or len(value) > longest:
+        raise BadMessage(f"`{name}` must be text of at most {longest} characters.")
+    return value
+
+
+def _location(value: Any) -> Pose | None:
+    if value is None:
+        return None
+    if not isinstance(value, list) or len(value) not in (3, 4) or not all(_is_metres(v) for v in value):
+        raise BadMessage("`loc` must be [x, y, z, theta]: metres and radians.")
+    x, y, z, theta = (float(v) for v in (*value, 0.0)[:4])
+    return Pose(x, y, z, theta)
+
+
+def _is_metres(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= MAX_METRES
+
+
+def _scalars(value: Any, name: str) -> dict[str, Scalar]:
+    if value is None:
+        return {}
+    if not isinstance(value, dict) or len(value) > MAX_PROPERTIES:
+        raise BadMessage(f"`{name}` must be an object of at most {MAX_PROPERTIES} values.")
+    for key, inner in value.items():
+        if not 1 <= len(key) <= 64 or isinstance(inner, dict | list):
+            raise BadMessage(f"`{name}` holds {key[:40]!r}, which is not a plain value with a short name.")
+        if isinstance(inner, str) and len(inner) > MAX_TEXT:
+            raise BadMessage(f"`{name}` holds a text of more than {MAX_TEXT} characters: {key!r}.")
+    return value
+
+
+def presence_payload(presence: Presence) -> bytes:
+    """Write what parse_presence reads."""
+    return _dump({"s": "online" if presence.online else "offline", "boot": presence.boot})
+
+
+def state_payload(state: DeviceState) -> bytes:
+    """Write what parse_state reads."""
+    body: dict[str, Any] = {"boot": state.boot, "seq": state.seq, "done": state.done, "cmd": state.command}
+    if state.pose:
+        body["loc"] = [state.pose.x, state.pose.y, state.pose.z, state.pose.theta]
+    return _dump({**body, "props": dict(state.properties)})
+
+
+def ack_payload(ack: AckMessage) -> bytes:
+    """Write what parse_ack reads."""
+    return _dump({"id": ack.command, "st": ack.status, "why": ack.why, "result": dict(ack.result)})
+
+
+def command_payload(command: str, arguments: Mapping[str, object], ttl_s: float) -> bytes:
+    """Write a command: `{"id", "v": {…}, "ttl_s"}`."""
+    return _dump({"id": command, "v": dict(arguments), "ttl_s": ttl_s})
+
+
+def _dump(body: Mapping[str, Any]) -> bytes:
+    return json.dumps(body, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()

@@ -1,0 +1,135 @@
+"""What every pretend device has in common: answers, readings, pause and cancel, and faults on purpose."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from registry.capability import Description, PropertySpec, Scalar
+from simulation.actors.arguments import refusal_of_arguments
+from simulation.actors.ledger import Answer, Ledger
+from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
+
+Emit = Callable[[WorldEvent], None]
+CONTROLS = frozenset({"pause", "resume", "cancel"})
+
+
+def starting_value(spec: PropertySpec) -> Scalar:
+    """Return what a reading shows before anything has happened."""
+    if spec.type == "number":
+        return spec.minimum if spec.minimum is not None and spec.minimum > 0 else 0
+    if spec.type == "boolean":
+        return False
+    return spec.options[0] if spec.options else ""
+
+
+@dataclass(frozen=True, slots=True)
+class Beginning:
+    """How a device is when the world begins; `holds` is a machine's stock or a robot's load, None as usual."""
+
+    readings: Mapping[str, Scalar] = field(default_factory=dict)
+    holds: Mapping[str, int] | None = None
+    faults: tuple[Fault, ...] = ()
+    remembered: Mapping[str, Answer] = field(default_factory=dict)
+    seed: int = 0
+
+
+class Actor(ABC):
+    """A pretend device. Frozen while paused (by a command), held (by the site's stop) or stopped (by a fault)."""
+
+    def __init__(self, description: Description, emit: Emit, beginning: Beginning) -> None:
+        self.description = description
+        known = beginning.readings
+        self.readings = {p.name: known.get(p.name, starting_value(p)) for p in description.properties}
+        self.ledger = Ledger(beginning.remembered)
+        self.paused = self.held = False
+        self._emit = emit
+        self._waiting_faults = sorted(beginning.faults, key=lambda f: f.at_s)
+        self._faults: set[str] = set()
+
+    @property
+    @abstractmethod
+    def busy(self) -> bool:
+        """True while a command is under way."""
+
+    @abstractmethod
+    def _take_on(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> str:
+        """Begin or queue a command whose arguments fit; return why not, or an empty text."""
+
+    @abstractmethod
+    def _cancel(self, t_s: float, command: str) -> None:
+        """End a command that is under way, or all of them when the id is empty."""
+
+    @property
+    def frozen(self) -> bool:
+        """True while the device stands still whatever it was told."""
+        return self.paused or self.held or "stop" in self._faults
+
+    def command(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> None:
+        """Take a command in; what comes of it is emitted."""
+        self.notice_faults(t_s)
+        if "offline" in self._faults:
+            return
+        if known := self.ledger.answer(command):
+            self._emit(Ack(t_s, self.description.id, command, known.status, known.why, known.result))
+        elif method in CONTROLS:
+            self._control(t_s, method, arguments, command)
+        elif why := self._refusal(t_s, method, arguments, command):
+            self._say(t_s, command, Answer("REJECTED", why))
+
+    def notice_faults(self, t_s: float) -> None:
+        """Let the faults begin whose time has come."""
+        while self._waiting_faults and self._waiting_faults[0].at_s <= t_s:
+            self._faults.add(self._waiting_faults.pop(0).kind)
+
+    def read(self, t_s: float, name: str, value: Scalar) -> None:
+        """Set a reading that the device offers; a change is emitted."""
+        if name in self.readings and self.readings[name] != value:
+            self.readings[name] = value
+            if "offline" not in self._faults:
+                self._emit(PropertyChanged(t_s, self.description.id, name, value))
+
+    def _refusal(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> str:
+        spec = self.description.method(method)
+        if spec is None:
+            known = ", ".join(m.name for m in self.description.methods) or "nothing"
+            return f"{self.description.name} cannot {method}; it can: {known}."
+        if why := refusal_of_arguments(spec, arguments):
+            return why
+        return self._take_on(t_s, method, arguments, command)
+
+    def _control(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> None:
+        if method == "cancel":
+            self._cancel_named(t_s, arguments.get("command"))
+        else:
+            self.paused = method == "pause"
+        self._say(t_s, command, Answer("DONE"))
+
+    def _cancel_named(self, t_s: float, target: object) -> None:
+        if target is None or target == "":
+            self._cancel(t_s, "")
+        elif isinstance(target, str) and self.ledger.is_under_way(target):
+            self._cancel(t_s, target)
+        elif isinstance(target, str) and self.ledger.answer(target) is None:
+            # The command that was cancelled may still be on its way here: it must not be carried out when it comes.
+            self.ledger.note(target, Answer("CANCELED", "It was cancelled before it arrived."))
+
+    def _say(self, t_s: float, command: str, answer: Answer) -> None:
+        self.ledger.note(command, answer)
+        is_final = answer.status not in {"ACCEPTED", "RUNNING"}
+        if "offline" in self._faults:
+            return
+        if is_final and "lose_ack" in self._faults:
+            self._faults.discard("lose_ack")
+            return
+        self._emit(Ack(t_s, self.description.id, command, answer.status, answer.why, answer.result))
+
+    def _say_done(self, t_s: float, command: str, result: Mapping[str, Scalar] | None = None) -> bool:
+        """Say that a command succeeded, unless a fault makes it fail; True if it succeeded."""
+        if "fail_next" in self._faults:
+            self._faults.discard("fail_next")
+            self._say(t_s, command, Answer("FAILED", f"{self.description.name} broke down (a fault on purpose)."))
+            return False
+        self._say(t_s, command, Answer("DONE", result=result or {}))
+        return True

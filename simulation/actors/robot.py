@@ -1,0 +1,284 @@
+"""A pretend robot: it drives along what was released to it, picks up, puts down, and runs its battery flat."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import hypot
+
+from registry.capability import Description, Scalar
+from simulation.actors.actor import Actor, Beginning, Emit
+from simulation.actors.arguments import counted_object, duration_s, is_number, read_path
+from simulation.actors.follower import Follower, Motion
+from simulation.actors.ledger import Answer
+from simulation.actors.machine import Machine
+from simulation.proximity import body_of
+
+DEFAULT_SPEED_M_S = 0.5
+DEFAULT_RADIUS_M = 0.18
+ARM_M = 0.5
+HANDLING_S = 2.0
+DRIVING_PERCENT_S = 100.0 / (4 * 3600)
+STANDING_PERCENT_S = 100.0 / (24 * 3600)
+CHARGING_PERCENT_S = 100.0 / 1800
+DOCKED_M = 0.3
+Bounds = tuple[float, float, float, float]
+
+
+@dataclass(slots=True)
+class Task:
+    """A command in the robot's queue."""
+
+    command: str
+    method: str
+    arguments: Mapping[str, object]
+    points: tuple[tuple[float, float], ...] = ()
+    theta: float | None = None
+    left_s: float = 0.0
+    begun: bool = False
+    handed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What a robot finds: the machines, and the map's edges (x1, y1, x2, y2) in metres."""
+
+    machines: Mapping[str, Machine]
+    bounds: Bounds
+
+
+class Robot(Actor):
+    """Commands queue up; moves that follow one another are driven without stopping between them."""
+
+    def __init__(self, description: Description, emit: Emit, beginning: Beginning, surroundings: Surroundings) -> None:
+        super().__init__(description, emit, beginning)
+        self.carrying = {k: v for k, v in (beginning.holds or {}).items() if v > 0}
+        self.radius_m = description.radius_m or max(description.size.x, description.size.y) / 2 or DEFAULT_RADIUS_M
+        self.touches = ""
+        known = beginning.readings.get("battery")
+        self.battery = float(known) if isinstance(known, int | float) else 100.0
+        self._machines, self._bounds = surroundings.machines, surroundings.bounds
+        self._tasks: deque[Task] = deque()
+        self._follower = Follower(description.speed_m_s or DEFAULT_SPEED_M_S)
+        self._at = Motion(description.pose.x, description.pose.y, description.pose.theta)
+        self._start_readings()
+
+    @property
+    def busy(self) -> bool:
+        """True while commands are under way."""
+        return bool(self._tasks)
+
+    @property
+    def resting(self) -> bool:
+        """True when the robot stands and has nothing to do."""
+        return not self._tasks and self._follower.idle
+
+    @property
+    def load(self) -> int:
+        """How many objects it carries."""
+        return sum(self.carrying.values())
+
+    def stands_at(self, motion: Motion) -> None:
+        """Tell the robot where it is, before it is first steered."""
+        self._at = motion
+
+    def control(self, motion: Motion, t_s: float, dt_s: float) -> tuple[float, float]:
+        """Decide how fast to drive (m/s) and turn (rad/s) in the next `dt_s`; handle objects when it is time."""
+        self._at = motion
+        self.notice_faults(t_s)
+        if self.frozen or not self._tasks:
+            return self._follower.brake(dt_s)
+        task = self._tasks[0]
+        self._begin(t_s, task)
+        if task.points:
+            return self._drive(motion, t_s, dt_s)
+        targets = self._follower.brake(dt_s)
+        if self._follower.idle:
+            self._handle(t_s, dt_s, task)
+        return targets
+
+    def use_battery(self, t_s: float, dt_s: float, *, driving: bool) -> None:
+        """Drain the battery, or charge it where the robot is at home."""
+        home = self.description.pose
+        docked = not driving and hypot(self._at.x - home.x, self._at.y - home.y) < DOCKED_M
+        rate = CHARGING_PERCENT_S if docked else -(DRIVING_PERCENT_S if driving else STANDING_PERCENT_S)
+        self.battery = min(100.0, max(0.0, self.battery + rate * dt_s))
+        self.read(t_s, "battery", round(self.battery))
+
+    def _begin(self, t_s: float, task: Task) -> None:
+        if not task.begun:
+            task.begun = True
+            self._say(t_s, task.command, Answer("RUNNING"))
+
+    def _drive(self, motion: Motion, t_s: float, dt_s: float) -> tuple[float, float]:
+        self._hand_over_moves()
+        speed, turn, reached = self._follower.steer(motion, dt_s)
+        for command in reached:
+            self._reached(t_s, command)
+        if self._follower.stuck:
+            self._give_up(t_s)
+            return 0.0, 0.0
+        return speed, turn
+
+    def _hand_over_moves(self) -> None:
+        """Give the follower all moves at the head of the queue, so that it need not stop between them."""
+        for task in self._tasks:
+            if not task.points:
+                return
+            if not task.handed:
+                task.handed = True
+                self._follower.add(list(task.points), task.command, task.theta)
+
+    def _reached(self, t_s: float, command: str) -> None:
+        if not self._tasks or self._tasks[0].command != command:
+            return
+        task = self._tasks.popleft()
+        self._begin(t_s, task)
+        if not self._say_done(t_s, command):
+            self._end_moves(t_s, "The way before it failed.")
+
+    def _give_up(self, t_s: float) -> None:
+        task = self._tasks.popleft()
+        what = f"{self.description.name} cannot go on"
+        self._say(
+            t_s, task.command, Answer("FAILED", f"{what}: it touches {self.touches}." if self.touches else f"{what}.")
+        )
+        self._end_moves(t_s, "The way before it failed.")
+
+    def _end_moves(self, t_s: float, why: str) -> None:
+        """Cancel all queued moves: without the way before them they would lead through walls."""
+        self._follower.clear()
+        ended = [t for t in self._tasks if t.points]
+        self._tasks = deque(t for t in self._tasks if not t.points)
+        for task in ended:
+            self._say(t_s, task.command, Answer("CANCELED", why))
+
+    def _handle(self, t_s: float, dt_s: float, task: Task) -> None:
+        """Spend time on a pick, a drop or another method; at its end objects change hands."""
+        if task.left_s > 0 and (why := self._refusal_of_handling(task.method, task.arguments)):
+            self._tasks.popleft()
+            self._say(t_s, task.command, Answer("FAILED", why))
+            return
+        task.left_s -= dt_s
+        if task.left_s > 1e-9:
+            return
+        self._tasks.popleft()
+        if self._say_done(t_s, task.command):
+            self._hand_objects(t_s, task)
+
+    def _refusal_of_handling(self, method: str, arguments: Mapping[str, object]) -> str:
+        if method not in {"pick", "drop"}:
+            return ""
+        goods = counted_object(arguments)
+        if isinstance(goods, str):
+            return goods
+        machine = self._machine_at_hand(arguments)
+        if isinstance(machine, str):
+            return machine
+        return self._refusal_of_goods(method, machine, *goods)
+
+    def _refusal_of_goods(self, method: str, machine: Machine, name: str, count: int) -> str:
+        room = max(1, self.description.capacity) - self.load
+        if method == "pick" and count > room:
+            return f"{self.description.name} is full: it carries {self.load} and has room for {room}, not {count}."
+        if method == "pick":
+            return machine.refusal_to_give(name, count)
+        if self.carrying.get(name, 0) < count:
+            return f"{self.description.name} carries {self.carrying.get(name, 0)} {name}, not {count}."
+        return machine.refusal_to_take(name, count)
+
+    def _machine_at_hand(self, arguments: Mapping[str, object]) -> Machine | str:
+        """Return the machine that is meant, or the nearest one in reach when none is named; a text says why not."""
+        named = arguments.get("device")
+        if isinstance(named, str) and named:
+            machine = self._machines.get(named)
+            if machine is None:
+                return f"There is no machine {named} here."
+            away_m = self._reach_to(machine)
+            if away_m > ARM_M:
+                return f"{self.description.name} is not at {machine.description.name}: it is {away_m:.1f} m away."
+            return machine
+        reachable = [(away, m.description.id) for m in self._machines.values() if (away := self._reach_to(m)) <= ARM_M]
+        return self._machines[min(reachable)[1]] if reachable else f"{self.description.name} stands at no machine."
+
+    def _reach_to(self, machine: Machine) -> float:
+        return body_of(machine.description).distance_m(self._at.x, self._at.y) - self.radius_m
+
+    def _hand_objects(self, t_s: float, task: Task) -> None:
+        if task.method not in {"pick", "drop"}:
+            return
+        goods, machine = counted_object(task.arguments), self._machine_at_hand(task.arguments)
+        assert isinstance(goods, tuple)
+        assert isinstance(machine, Machine)
+        name, count = goods
+        change = count if task.method == "pick" else -count
+        machine.change_stock(t_s, name, -change)
+        self.carrying[name] = self.carrying.get(name, 0) + change
+        self.carrying = {k: v for k, v in self.carrying.items() if v > 0}
+        self.read(t_s, "load", self._load_shown())
+
+    def _take_on(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> str:
+        task = self._task(method, arguments, command)
+        if isinstance(task, str):
+            return task
+        if not self._tasks and (why := self._refusal_of_handling(method, arguments)):
+            return why
+        self._tasks.append(task)
+        self._say(t_s, command, Answer("ACCEPTED"))
+        return ""
+
+    def _task(self, method: str, arguments: Mapping[str, object], command: str) -> Task | str:
+        if method == "move":
+            return self._move(arguments, command)
+        if method in {"pick", "drop"}:
+            goods = counted_object(arguments)
+            return goods if isinstance(goods, str) else Task(command, method, dict(arguments), left_s=HANDLING_S)
+        spec = self.description.method(method)
+        assert spec is not None
+        return Task(command, method, dict(arguments), left_s=duration_s(spec, arguments))
+
+    def _move(self, arguments: Mapping[str, object], command: str) -> Task | str:
+        points = read_path(arguments)
+        if isinstance(points, str):
+            return points
+        theta = arguments.get("theta")
+        if theta is not None and not is_number(theta):
+            return "theta must be a number in radians."
+        x1, y1, x2, y2 = self._bounds
+        if not all(x1 <= x <= x2 and y1 <= y <= y2 for x, y in points):
+            return "The path leaves the map."
+        return Task(command, "move", {}, tuple(points), float(theta) if isinstance(theta, int | float) else None)
+
+    def _cancel(self, t_s: float, command: str) -> None:
+        """End a command; a move takes the moves after it along."""
+        ended = [t for t in self._tasks if command in {"", t.command}]
+        if any(t.points for t in ended):
+            self._cancel_moves_from(t_s, command)
+        for task in [t for t in ended if t in self._tasks]:
+            self._tasks.remove(task)
+            self._say(t_s, task.command, Answer("CANCELED", f"{task.method} was cancelled."))
+
+    def _cancel_moves_from(self, t_s: float, command: str) -> None:
+        order = [t.command for t in self._tasks]
+        first = order.index(command) if command else 0
+        kept = [t for t in self._tasks if order.index(t.command) < first or not t.points]
+        ended = [t for t in self._tasks if t not in kept]
+        self._tasks = deque(kept)
+        before = [t.command for t in kept if t.handed]
+        self._follower.drop_after(before[-1]) if before else self._follower.clear()
+        for task in ended:
+            why = "move was cancelled." if task.command == command else "The way before it was cancelled."
+            self._say(t_s, task.command, Answer("CANCELED", why))
+
+    def _load_shown(self) -> Scalar:
+        """Return the load as text (`box:1,can:2`), or as a number where the robot describes it so."""
+        spec = self.description.property("load")
+        if spec is not None and spec.type == "number":
+            return self.load
+        return ",".join(f"{name}:{count}" for name, count in sorted(self.carrying.items()))
+
+    def _start_readings(self) -> None:
+        """Set the readings that follow from the robot's state, before anyone listens."""
+        values: dict[str, Scalar] = {"battery": round(self.battery), "load": self._load_shown()}
+        self.readings.update({name: value for name, value in values.items() if name in self.readings})

@@ -1,0 +1,119 @@
+"""`manage.py twin --site SLUG`: give a site live virtual devices that speak MQTT as real ones do."""
+
+from __future__ import annotations
+
+import json
+import logging
+import signal
+import threading
+from argparse import ArgumentParser
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+from django.conf import settings
+from django.core.management.base import BaseCommand, CommandError
+
+from registry.errors import RegistryError
+from registry.mqtt import MqttClient, Will, tls_context
+from simulation.face import ConnectionMaker
+from simulation.site_facts import SiteFacts, read_site_facts
+from simulation.twin import Twin, TwinPlan
+
+log = logging.getLogger(__name__)
+
+
+class Command(BaseCommand):
+    """Runs until SIGTERM or Ctrl-C."""
+
+    help = "Give a site live virtual devices that speak MQTT as real ones do."
+    requires_system_checks = ()  # it serves no pages, and starts a second sooner
+
+    def add_arguments(self, parser: ArgumentParser) -> None:
+        """Say what can be chosen."""
+        parser.add_argument("--site", default=settings.VIPO_DEFAULT_SITE, help="the site's short name")
+        parser.add_argument("--speed", type=float, default=1.0, help="times real time (1)")
+        parser.add_argument("--driver", choices=["physics", "kinematic"], default="physics")
+        chosen = parser.add_mutually_exclusive_group()
+        chosen.add_argument("--only", default="", help="ids with commas between: these devices and no others")
+        chosen.add_argument("--except", dest="left_out", default="", help="ids with commas between: not these")
+
+    def handle(self, *_args: Any, **options: Any) -> None:
+        """Run the twin."""
+        if not 0.1 <= options["speed"] <= 100:
+            raise CommandError(f"--speed {options['speed']:g} is outside 0.1 to 100; 1 is real time.")
+        stopping = threading.Event()
+
+        def stop(_signal: int, _frame: FrameType | None) -> None:
+            stopping.set()
+
+        signal.signal(signal.SIGTERM, stop)
+        signal.signal(signal.SIGINT, stop)
+        try:
+            make_twin(options).run(stopping)
+        except RegistryError as error:
+            raise CommandError(error.detail) from error
+
+
+def make_twin(options: dict[str, Any]) -> Twin:
+    """Return the twin that the command line asks for."""
+    site: str = options["site"]
+    facts = read_site_facts(site)
+    folder = Path(settings.VIPO_STATE_DIR)
+    passwords, join_key = read_credentials(folder / "secrets")
+    wanted = choose_devices(facts, options["only"], options["left_out"])
+    voices = frozenset(name for name in wanted if name in passwords or join_key)
+    for name in sorted(wanted - voices):
+        log.warning("%s has no password in secrets/devices.json and there is no join key; it stays away.", name)
+    plan = TwinPlan(
+        facts=facts,
+        voices=voices,
+        memory_path=folder / "twin" / f"{site}.json",
+        newcomers=frozenset(d.description.id for d in facts.devices) - passwords.keys(),
+        speed=options["speed"],
+        driver=options["driver"],
+        refresh=lambda: read_site_facts(site),
+    )
+    return Twin(plan, connections({name: passwords.get(name, join_key) for name in voices}))
+
+
+def choose_devices(facts: SiteFacts, only: str, left_out: str) -> frozenset[str]:
+    """Return the ids of the devices that shall speak; a name that nobody has is refused."""
+    known = frozenset(d.description.id for d in facts.devices)
+    named = frozenset(name.strip() for name in (only or left_out).split(",") if name.strip())
+    if strangers := sorted(named - known):
+        raise CommandError(f"{facts.slug} has no virtual device {strangers[0]}; it has {', '.join(sorted(known))}.")
+    return named if only else known - named
+
+
+def read_credentials(folder: Path) -> tuple[dict[str, str], str]:
+    """Return the devices' passwords by id, and the key with which newcomers join (empty if there is none)."""
+    try:
+        passwords: dict[str, str] = json.loads((folder / "devices.json").read_text())
+    except FileNotFoundError:
+        passwords = {}
+    except ValueError as error:
+        raise CommandError(
+            f"secrets/devices.json is not JSON ({error}); `make demo RESET=1` writes a new one."
+        ) from None
+    join = folder / "join"
+    return passwords, join.read_text().strip() if join.exists() else ""
+
+
+def connections(passwords: dict[str, str]) -> ConnectionMaker:
+    """Return what makes a device's connection to the broker of the settings."""
+    broker: dict[str, Any] = settings.VIPO_MQTT
+    tls = tls_context(broker["ca"]) if broker["tls"] else None
+
+    def connect(device: str, will: Will) -> MqttClient:
+        return MqttClient(
+            host=broker["host"],
+            port=broker["port"],
+            username=device,
+            password=passwords[device],
+            client_id=device,
+            tls=tls,
+            will=will,
+        )
+
+    return connect

@@ -1,0 +1,86 @@
+"""From a map and descriptions to what a world is made of: walls, machines, robots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from registry.capability import Description, Pose
+from registry.floor import Grid, wall_boxes
+from simulation.actors import Beginning, Emit, Machine, Motion, Robot, Surroundings
+from simulation.actors.ledger import Answer
+from simulation.proximity import Body, machine_bodies, wall_bodies
+from simulation.world import Scene
+
+WALL_HEIGHT_M = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class RobotStart:
+    """Where a robot begins, and how big it is."""
+
+    id: str
+    pose: Pose
+    radius_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """What stands on the floor."""
+
+    walls: tuple[Body, ...]
+    machines: tuple[Body, ...]
+    robots: tuple[RobotStart, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Cast:
+    """The actors of a scene."""
+
+    machines: dict[str, Machine]
+    robots: dict[str, Robot]
+
+
+def lay_out(scene: Scene, cast: Cast) -> Layout:
+    """Return the bodies of a scene."""
+    robots = tuple(
+        RobotStart(robot.description.id, scene.poses.get(robot.description.id, robot.description.pose), robot.radius_m)
+        for robot in cast.robots.values()
+    )
+    solid = [d for d in scene.devices if d.id not in scene.bodiless]
+    return Layout(tuple(wall_bodies(wall_boxes(scene.grid))), tuple(machine_bodies(solid)), robots)
+
+
+def cast_actors(scene: Scene, emit: Emit) -> Cast:
+    """Make the actors of a scene, in the order of its devices."""
+    machines = {d.id: _machine(scene, d, emit) for d in scene.devices if d.kind == "machine"}
+    robots = {d.id: _robot(scene, d, emit, machines) for d in scene.devices if d.kind == "robot"}
+    return Cast(machines, robots)
+
+
+def _machine(scene: Scene, description: Description, emit: Emit) -> Machine:
+    return Machine(description, emit, _beginning(scene, description.id, scene.stocks))
+
+
+def _robot(scene: Scene, description: Description, emit: Emit, machines: dict[str, Machine]) -> Robot:
+    beginning = _beginning(scene, description.id, scene.carrying)
+    robot = Robot(description, emit, beginning, Surroundings(machines, _bounds(scene.grid)))
+    pose = scene.poses.get(description.id, description.pose)
+    robot.stands_at(Motion(pose.x, pose.y, pose.theta))
+    return robot
+
+
+def _beginning(scene: Scene, device: str, holds: Mapping[str, Mapping[str, int]]) -> Beginning:
+    return Beginning(
+        readings=scene.readings.get(device, {}),
+        holds=holds.get(device),
+        faults=tuple(f for f in scene.faults if f.device == device),
+        remembered={a.command: Answer(a.status, a.why, a.result) for a in scene.remembered.get(device, ())},
+        seed=scene.seed,
+    )
+
+
+def _bounds(grid: Grid) -> tuple[float, float, float, float]:
+    """Return the map's edges (x1, y1, x2, y2) in metres."""
+    width, height = grid.width * grid.resolution_m, grid.height * grid.resolution_m
+    return grid.origin_x_m, grid.origin_y_m, grid.origin_x_m + width, grid.origin_y_m + height

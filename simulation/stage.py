@@ -1,0 +1,158 @@
+"""The pretend world itself: actors decide, a driver moves the robots, time goes in equal ticks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import floor
+from typing import Protocol
+
+from registry.capability import Pose, Scalar
+from simulation.actors import Motion
+from simulation.nearness import NearnessWatch
+from simulation.scene import Layout, cast_actors, lay_out
+from simulation.world import Ack, RobotSnapshot, Scene, WorldEvent
+
+Drive = tuple[float, float]
+SLOW_TICK_S = 1.0
+
+
+class Driver(Protocol):
+    """What moves robots: mathematics or physics."""
+
+    tick_s: float
+
+    def motions(self) -> Mapping[str, Motion]:
+        """Return where each robot is; the objects stay the same and change as time passes."""
+
+    def drive(self, targets: Mapping[str, Drive], touching: Mapping[str, Sequence[Drive]]) -> None:
+        """Let one tick pass; `targets` are speed and turn, robots that are not named stand.
+
+        `touching` holds, for each robot that touches something, the directions that lead away from what it touches.
+        """
+
+    def close(self) -> None:
+        """Give back what the driver holds."""
+
+
+class DriverFactory(Protocol):
+    """Makes a driver for what stands on a floor."""
+
+    def __call__(self, layout: Layout) -> Driver:
+        """Return the driver."""
+
+
+class Stage:
+    """A world in virtual time (see `World`)."""
+
+    def __init__(self, scene: Scene, make_driver: DriverFactory) -> None:
+        self._events: list[WorldEvent] = []
+        self._cast = cast_actors(scene, self._events.append)
+        layout = lay_out(scene, self._cast)
+        self._driver = make_driver(layout)
+        self._motions = self._driver.motions()
+        self._nearness = NearnessWatch(layout, self._motions)
+        self._actors = {**self._cast.machines, **self._cast.robots}
+        self._delivery_s = scene.delivery_s
+        self._due_s: dict[str, float] = {}
+        self._asked_s = 0.0
+        self._ticks = 0
+        self._slow_ticks = 0
+
+    @property
+    def time_s(self) -> float:
+        """Return the virtual time."""
+        return self._asked_s
+
+    def command(self, device: str, method: str, arguments: Mapping[str, object], command: str) -> None:
+        """Give a device a command; a device that is not here stays silent, as on the network."""
+        actor = self._actors.get(device)
+        if actor is not None:
+            actor.command(self._asked_s, method, arguments, command)
+
+    def advance(self, seconds: float) -> list[WorldEvent]:
+        """Let time pass and return what happened, oldest first."""
+        self._asked_s = round(self._asked_s + max(0.0, seconds), 9)
+        last = floor(self._asked_s / self._driver.tick_s + 1e-6)
+        while self._ticks < last:
+            self._ticks += 1
+            self._tick(round(self._ticks * self._driver.tick_s, 9))
+        happened, self._events[:] = list(self._events), []
+        return happened
+
+    def hold(self, *, active: bool) -> None:
+        """Stop everything where it is, or let it go on."""
+        for actor in self._actors.values():
+            actor.held = active
+
+    def robots(self) -> dict[str, RobotSnapshot]:
+        """Return every robot's state."""
+        return {
+            name: RobotSnapshot(
+                Pose(motion.x, motion.y, 0.0, motion.theta), motion.speed, dict(robot.carrying), robot.battery
+            )
+            for name, robot in self._cast.robots.items()
+            for motion in (self._motions[name],)
+        }
+
+    def readings(self) -> dict[str, dict[str, Scalar]]:
+        """Return every device's properties."""
+        return {name: dict(actor.readings) for name, actor in self._actors.items()}
+
+    def busy(self) -> dict[str, bool]:
+        """Return, for each device, whether it is doing something."""
+        return {name: actor.busy for name, actor in self._actors.items()}
+
+    def stocks(self) -> dict[str, dict[str, int]]:
+        """Return what each machine holds."""
+        return {name: dict(machine.stock) for name, machine in self._cast.machines.items()}
+
+    def remembered(self) -> dict[str, list[Ack]]:
+        """Return the final answers that each device would give again, oldest first."""
+        now = self._asked_s
+        return {
+            name: [Ack(now, name, command, a.status, a.why, a.result) for command, a in actor.ledger.over().items()]
+            for name, actor in self._actors.items()
+        }
+
+    def under_way(self) -> dict[str, tuple[str, ...]]:
+        """Return the commands that each device has begun or queued."""
+        return {name: actor.ledger.under_way() for name, actor in self._actors.items()}
+
+    def close(self) -> None:
+        """Give back what the driver holds."""
+        self._driver.close()
+
+    def _tick(self, t_s: float) -> None:
+        dt_s = self._driver.tick_s
+        for machine in self._cast.machines.values():
+            if not machine.resting:
+                machine.advance(t_s, dt_s)
+        targets = {
+            name: robot.control(self._motions[name], t_s, dt_s)
+            for name, robot in self._cast.robots.items()
+            if not robot.resting
+        }
+        self._driver.drive(targets, self._nearness.touching)
+        self._events.extend(self._nearness.look(t_s, targets))
+        for name in targets:
+            self._cast.robots[name].touches = self._nearness.touched_by(name)
+        if t_s >= (self._slow_ticks + 1) * SLOW_TICK_S:
+            self._slow_ticks += 1
+            self._tick_slowly(t_s, targets)
+
+    def _tick_slowly(self, t_s: float, targets: Mapping[str, Drive]) -> None:
+        """Do once a second what need not be done more often."""
+        for name, robot in self._cast.robots.items():
+            robot.notice_faults(t_s)
+            robot.use_battery(t_s, SLOW_TICK_S, driving=name in targets)
+        if self._delivery_s is not None:
+            self._deliver(t_s, self._delivery_s)
+
+    def _deliver(self, t_s: float, after_s: float) -> None:
+        for name, machine in self._cast.machines.items():
+            goods = machine.wanted_stock()
+            if goods is None:
+                self._due_s.pop(name, None)
+            elif t_s >= self._due_s.setdefault(name, t_s + after_s):
+                del self._due_s[name]
+                machine.set_stock(t_s, goods)

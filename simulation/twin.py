@@ -1,0 +1,202 @@
+"""The twin: a live pretend world whose devices speak MQTT as real ones do.
+
+The main thread owns the world (physics wants one thread); network threads only put messages into a queue.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from pathlib import Path
+from queue import Empty, SimpleQueue
+
+from registry.capability import Pose
+from simulation.face import CameIn, ConnectionMaker, Face, Incoming, Look, Stopped, Told
+from simulation.services import DriverName, make_world
+from simulation.site_facts import SiteFacts
+from simulation.twin_memory import TwinMemory, read_memory, take_down, write_memory
+from simulation.world import Ack, Scene, World
+
+log = logging.getLogger(__name__)
+TICK_S = 0.05
+RESTING_S = 0.2
+SLICE_S = 0.1
+PATIENCE_S = 3.0
+SAVE_EVERY_S = 3.0
+REFRESH_EVERY_S = 5.0
+WARN_EVERY_S = 60.0
+DELIVERY_S = 60.0
+
+
+@dataclass(frozen=True, slots=True)
+class TwinPlan:
+    """Which site, which of its devices speak (`voices`), which are newcomers, how fast, and where memory is kept."""
+
+    facts: SiteFacts
+    voices: frozenset[str]
+    memory_path: Path
+    newcomers: frozenset[str] = frozenset()
+    speed: float = 1.0
+    driver: DriverName = "physics"
+    refresh: Callable[[], SiteFacts] | None = None
+
+
+class Twin:
+    """A site's pretend world and the faces of its devices."""
+
+    def __init__(self, plan: TwinPlan, make_connection: ConnectionMaker) -> None:
+        self._plan, self._facts, self._make_connection = plan, plan.facts, make_connection
+        self._inbox: SimpleQueue[Incoming] = SimpleQueue()
+        memory = read_memory(plan.memory_path)
+        self._boots = {**memory.boots, **{name: memory.next_boot(name) for name in plan.voices}}
+        self._world: World = self._make_world(memory)
+        self._held = False
+        self._faces = {
+            d.description.id: Face(d, plan.facts.slug, self._boots[d.description.id], self._inbox)
+            for d in plan.facts.devices
+            if d.description.id in plan.voices
+        }
+        self._lag_s = self._warned_s = 0.0
+        self._saved_under_way: Mapping[str, object] = {}
+
+    def run(self, stopping: threading.Event) -> None:
+        """Live until `stopping` is set; then say goodbye and remember."""
+        self._save()
+        for face in self._faces.values():
+            face.connect(self._make_connection)
+        try:
+            self._live(stopping)
+        finally:
+            self._save()
+            self._leave()
+            self._world.close()
+
+    def _live(self, stopping: threading.Event) -> None:
+        now = saved = refreshed = time.monotonic()
+        while not stopping.is_set():
+            self._take_in()
+            last, now = now, time.monotonic()
+            self._pass_time(now - last, now)
+            if now - saved >= SAVE_EVERY_S or self._world.under_way() != self._saved_under_way:
+                saved = now
+                self._save()
+            if now - refreshed >= REFRESH_EVERY_S:
+                refreshed = now
+                self._refresh()
+
+    def _take_in(self) -> None:
+        """Wait for a message for a moment, and carry out all that have come."""
+        resting = not any(self._world.busy().values())
+        try:
+            self._hear(self._inbox.get(timeout=RESTING_S if resting else TICK_S))
+            while True:
+                self._hear(self._inbox.get_nowait())
+        except Empty:
+            return
+
+    def _hear(self, message: Incoming) -> None:
+        match message:
+            case Told(device=device, method=method, arguments=arguments, command=command):
+                self._world.command(device, method, arguments, command)
+            case CameIn(device=device):
+                self._faces[device].introduce()
+            case Stopped(active=active) if active != self._held:
+                self._held = active
+                self._world.hold(active=active)
+                log.warning("The site's stop is %s.", "on: everything stands still" if active else "reset")
+
+    def _pass_time(self, real_s: float, now_s: float) -> None:
+        """Let as much virtual time pass as is due; what cannot be made up is left out, and the log says so."""
+        speed = self._plan.speed
+        self._lag_s += real_s * speed
+        step = min(self._lag_s, SLICE_S * max(1.0, speed))
+        events = self._world.advance(step)
+        self._lag_s -= step
+        if self._lag_s > PATIENCE_S * max(1.0, speed):
+            self._warn_of_lag(now_s)
+            self._lag_s = 0.0
+        self._speak([e for e in events if isinstance(e, Ack)], now_s)
+
+    def _warn_of_lag(self, now_s: float) -> None:
+        """Say at most once a minute that time was left out, if anybody was busy and so has lost it."""
+        if now_s - self._warned_s >= WARN_EVERY_S and any(self._world.busy().values()):
+            self._warned_s = now_s
+            log.warning(
+                "The pretend world cannot keep up: it is %.1f s behind, and leaves them out. Lower the speed (%g).",
+                self._lag_s / self._plan.speed,
+                self._plan.speed,
+            )
+
+    def _speak(self, acks: list[Ack], now_s: float) -> None:
+        """Say states, then answers: who hears that a command is done must already know what came of it."""
+        is_over = any(ack.status not in {"ACCEPTED", "RUNNING"} for ack in acks)
+        if is_over:
+            self._save()  # before anybody hears of it: what was answered is never done again after a crash
+        begun = [ack for ack in acks if ack.status in {"ACCEPTED", "RUNNING"}]
+        for ack in begun:
+            self._answer(ack)
+        looks = self._looks()
+        for name, face in self._faces.items():
+            face.report(looks[name], now_s, at_once=is_over)
+        for ack in acks:
+            if ack not in begun:
+                self._answer(ack)
+
+    def _answer(self, ack: Ack) -> None:
+        face = self._faces.get(ack.device)
+        if face is not None:
+            face.answer(ack)
+
+    def _looks(self) -> dict[str, Look]:
+        robots, readings, busy = self._world.robots(), self._world.readings(), self._world.busy()
+        looks = {}
+        for device in self._facts.devices:
+            name, pose = device.description.id, device.description.pose
+            if name in self._faces:
+                at = _rounded(robots[name].pose) if name in robots else pose
+                looks[name] = Look(not busy[name], at, readings[name])
+        return looks
+
+    def _refresh(self) -> None:
+        """Take over a new map or machines that people moved, as soon as nobody is busy."""
+        if self._plan.refresh is None or any(self._world.busy().values()):
+            return
+        facts = self._plan.refresh()
+        if facts == self._facts:
+            return
+        memory = take_down(self._world, self._boots)
+        self._world.close()
+        self._facts = facts
+        self._world = self._make_world(memory)
+        self._world.hold(active=self._held)
+        log.info("The map or the place of a machine has changed; the pretend world was built anew.")
+
+    def _make_world(self, memory: TwinMemory) -> World:
+        return make_world(memory.put_into(make_scene(self._plan, self._facts)), self._plan.driver)
+
+    def _save(self) -> None:
+        memory = take_down(self._world, self._boots)
+        self._saved_under_way = self._world.under_way()
+        write_memory(self._plan.memory_path, memory)
+
+    def _leave(self) -> None:
+        """Say goodbye on all connections, and end them side by side."""
+        for face in self._faces.values():
+            face.say_goodbye()
+        with ThreadPoolExecutor(max_workers=max(1, len(self._faces))) as pool:
+            list(pool.map(Face.disconnect, self._faces.values()))
+
+
+def make_scene(plan: TwinPlan, facts: SiteFacts) -> Scene:
+    """Return the scene of a twin: its own devices, and the bodies of machines that others speak for."""
+    devices = [d.description for d in facts.devices]
+    here = [d for d in devices if d.kind == "machine" or d.id in plan.voices]
+    return Scene(facts.grid, here, delivery_s=DELIVERY_S, bodiless=plan.newcomers)
+
+
+def _rounded(pose: Pose) -> Pose:
+    return replace(pose, x=round(pose.x, 3), y=round(pose.y, 3), theta=round(pose.theta, 3))

@@ -1,0 +1,98 @@
+"""What a twin remembers over a restart: one JSON file, written in one piece."""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from registry.capability import Pose, Scalar
+from simulation.world import Ack, Scene, World
+
+log = logging.getLogger(__name__)
+FORMAT = 1
+
+
+@dataclass(frozen=True, slots=True)
+class TwinMemory:
+    """How the world was, and how often each device has started. `first_boot` counts for devices without a number."""
+
+    boots: Mapping[str, int] = field(default_factory=dict)
+    poses: Mapping[str, Pose] = field(default_factory=dict)
+    carrying: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    stocks: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    readings: Mapping[str, Mapping[str, Scalar]] = field(default_factory=dict)
+    remembered: Mapping[str, Sequence[Ack]] = field(default_factory=dict)
+    first_boot: int = 1
+
+    def next_boot(self, device: str) -> int:
+        """Return the number of the start that comes now."""
+        return self.boots.get(device, self.first_boot - 1) + 1
+
+    def put_into(self, scene: Scene) -> Scene:
+        """Return the scene as it was left.
+
+        Commands that were under way are unknown to it: objects change hands at the end of a command, so none of them
+        has had its effect, and each is carried out when the server sends it again.
+        """
+        return replace(
+            scene,
+            poses=self.poses,
+            carrying=self.carrying,
+            stocks={**scene.stocks, **self.stocks},
+            readings=self.readings,
+            remembered=self.remembered,
+        )
+
+
+def take_down(world: World, boots: Mapping[str, int]) -> TwinMemory:
+    """Return what is to be remembered of a world as it is now."""
+    robots = world.robots()
+    return TwinMemory(
+        boots=boots,
+        poses={name: robot.pose for name, robot in robots.items()},
+        carrying={name: robot.carrying for name, robot in robots.items()},
+        stocks=world.stocks(),
+        readings=world.readings(),
+        remembered=world.remembered(),
+    )
+
+
+def write_memory(path: Path, memory: TwinMemory) -> None:
+    """Write the file in one piece: who reads it finds the old or the new one."""
+    body = {"format": FORMAT, **asdict(memory)}
+    del body["first_boot"]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    draft = path.with_suffix(".new")
+    draft.write_text(json.dumps(body, separators=(",", ":")))
+    os.replace(draft, path)  # noqa: PTH105 - the atomic rename is what matters here
+
+
+def read_memory(path: Path) -> TwinMemory:
+    """Return what was remembered; a file that cannot be read is left aside and the world begins anew."""
+    try:
+        return _memory(json.loads(path.read_text()))
+    except FileNotFoundError:
+        return TwinMemory()
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        log.warning("%s cannot be read (%s); the twin begins with everything in its place.", path.name, error)
+        # Boot numbers must not go back, so they continue from the clock.
+        return TwinMemory(first_boot=int(time.time()))
+
+
+def _memory(body: dict[str, Any]) -> TwinMemory:
+    if body["format"] != FORMAT:
+        raise ValueError(f"format {body['format']!r} is not {FORMAT}")
+    return TwinMemory(
+        boots={k: int(v) for k, v in body["boots"].items()},
+        poses={k: Pose(**v) for k, v in body["poses"].items()},
+        carrying={k: dict(v) for k, v in body["carrying"].items()},
+        stocks={k: dict(v) for k, v in body["stocks"].items()},
+        readings={k: dict(v) for k, v in body["readings"].items()},
+        remembered={k: [Ack(**answer) for answer in v] for k, v in body["remembered"].items()},
+    )

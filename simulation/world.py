@@ -1,0 +1,129 @@
+"""The interface of a pretend world: commands in, time forward, events out. Physics and kinematics both offer it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+from registry.capability import Description, Pose, Scalar
+from registry.floor import Grid
+
+AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Something that goes wrong on purpose: from `at_s` on, `device` does `kind`."""
+
+    device: str
+    kind: Literal["stop", "fail_next", "offline", "lose_ack"]
+    at_s: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Ack:
+    """A device's answer to a command."""
+
+    t_s: float
+    device: str
+    command: str
+    status: AckStatus
+    why: str = ""
+    result: Mapping[str, Scalar] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """All that a world is made from; what is not said begins as if nothing had happened yet.
+
+    `stocks` says what each machine holds, `poses` where a robot stands (its description says where it is at home),
+    `carrying` what it carries, `readings` what properties show. After `delivery_s` (none: never) an empty source is
+    filled and a full sink is emptied, as people would do. `bodiless` machines are not in anybody's way. `remembered`
+    are the final answers that devices would give again, oldest first.
+    """
+
+    grid: Grid
+    devices: Sequence[Description]
+    seed: int = 0
+    faults: Sequence[Fault] = ()
+    stocks: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    poses: Mapping[str, Pose] = field(default_factory=dict)
+    carrying: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    readings: Mapping[str, Mapping[str, Scalar]] = field(default_factory=dict)
+    delivery_s: float | None = None
+    bodiless: frozenset[str] = frozenset()
+    remembered: Mapping[str, Sequence[Ack]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class PropertyChanged:
+    """A reading changed."""
+
+    t_s: float
+    device: str
+    name: str
+    value: Scalar
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """Two bodies touched or came nearer than their clearance; `other` is a device id or `wall`."""
+
+    t_s: float
+    device: str
+    other: str
+    distance_m: float
+    x: float
+    y: float
+
+
+WorldEvent = Ack | PropertyChanged | Contact
+
+
+@dataclass(frozen=True, slots=True)
+class RobotSnapshot:
+    """Where a robot is, how fast it drives, and what it carries."""
+
+    pose: Pose
+    speed_m_s: float
+    carrying: Mapping[str, int]
+    battery: float
+
+
+class World(Protocol):
+    """A pretend world in virtual time; not thread-safe, one per process when it is physics."""
+
+    @property
+    def time_s(self) -> float:
+        """Return the virtual time."""
+
+    def command(self, device: str, method: str, arguments: Mapping[str, object], command: str) -> None:
+        """Give a device a command, as a message on its topic would; answers come as Ack events."""
+
+    def advance(self, seconds: float) -> list[WorldEvent]:
+        """Let time pass and return what happened, oldest first."""
+
+    def hold(self, *, active: bool) -> None:
+        """Stop everything where it is, as the site's stop does, until it is called again with False."""
+
+    def robots(self) -> Mapping[str, RobotSnapshot]:
+        """Return every robot's state."""
+
+    def readings(self) -> Mapping[str, Mapping[str, Scalar]]:
+        """Return every device's properties."""
+
+    def busy(self) -> Mapping[str, bool]:
+        """Return, for each device, whether it is doing something (the paper's `done`, negated)."""
+
+    def stocks(self) -> Mapping[str, Mapping[str, int]]:
+        """Return what each machine holds."""
+
+    def remembered(self) -> Mapping[str, Sequence[Ack]]:
+        """Return the final answers that each device would give again, oldest first (at most 16)."""
+
+    def under_way(self) -> Mapping[str, Sequence[str]]:
+        """Return the commands that each device has begun or queued."""
+
+    def close(self) -> None:
+        """Give back what the world holds."""

@@ -1,0 +1,70 @@
+"""What a test hears on an MQTT bus, and how it waits for it."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from registry.mqtt import MqttClient
+
+
+@dataclass(frozen=True)
+class Heard:
+    """One message."""
+
+    topic: str
+    payload: bytes
+    retained: bool
+    at: float
+
+    @property
+    def json(self) -> Any:
+        return json.loads(self.payload)
+
+
+class Ear:
+    """The server's account on a bus: hears a topic filter, says what it is told, waits for what shall come."""
+
+    def __init__(self, port: int, password: str, topic: str = "vipo/v1/dev/+/up/#", **more: Any) -> None:
+        self.heard: list[Heard] = []
+        self._changed = threading.Condition()
+        self.client = MqttClient(
+            host="127.0.0.1", port=port, username="server", password=password, client_id="ear", **more
+        )
+        self.client.subscribe(topic, 1, self._take)
+
+    def __enter__(self) -> Ear:
+        self.client.start()
+        assert self.client.wait_connected(20), f"the ear did not connect: {self.client.refusal}"
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.client.stop()
+
+    def _take(self, topic: str, payload: bytes, retained: bool) -> None:
+        with self._changed:
+            self.heard.append(Heard(topic, payload, retained, time.monotonic()))
+            self._changed.notify_all()
+
+    def say(self, topic: str, body: Any, **more: Any) -> None:
+        self.client.publish(topic, body if isinstance(body, bytes) else json.dumps(body).encode(), **more)
+
+    def wait(self, wanted: Callable[[Heard], bool], timeout_s: float = 8) -> Heard:
+        """Return the first message heard so far or from now on that is wanted."""
+        with self._changed:
+            found = self._changed.wait_for(lambda: next((h for h in self.heard if wanted(h)), None), timeout_s)
+        assert found, f"not heard within {timeout_s} s; heard were {[(h.topic, h.payload[:120]) for h in self.heard]}"
+        return found
+
+    def forget(self) -> None:
+        with self._changed:
+            self.heard.clear()
+
+    def all(self, kind: str) -> list[Heard]:
+        """Return what was heard on topics that end so."""
+        with self._changed:
+            return [h for h in self.heard if h.topic.endswith(kind)]

@@ -1,0 +1,133 @@
+"""A running demo, a real Chromium, and people who sign in.
+
+The fixtures live as long as this package's tests: Playwright keeps an event loop of its own, which tests elsewhere that
+bring their own loop would meet.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Protocol
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, WebError, expect, sync_playwright
+
+from tests.e2e.demo import Demo, running_demo
+
+CHROMIUM = "/usr/bin/chromium"
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+PATIENCE_MS = 40_000
+DEVICES = 11
+
+
+class SignIn(Protocol):
+    """Opens a browser of its own for a person of a role, signed in."""
+
+    def __call__(
+        self, role: str, at: str = "/", *, width: int = 1600, height: int = 1000, dark: bool = False, language: str = ""
+    ) -> Page: ...
+
+
+@pytest.fixture(scope="package")
+def demo(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Demo]:
+    with running_demo(tmp_path_factory.mktemp("demo") / "state") as running:
+        yield running
+
+
+@pytest.fixture(scope="package")
+def chromium() -> Iterator[Browser]:
+    assert Path(CHROMIUM).exists(), "Chromium is missing: run `make servers` (it installs Debian's chromium)."
+    expect.set_options(timeout=PATIENCE_MS)
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="package")
+def signed_in(demo: Demo, chromium: Browser) -> dict[str, Any]:
+    """What a browser keeps of each role's sign-in, so that most tests need not go through the form."""
+    states = {role: sign_in_by_form(chromium, demo, role) for role in ("admin", "author")}
+    wait_for_devices(chromium, demo, states["author"])
+    return states
+
+
+def sign_in_by_form(chromium: Browser, demo: Demo, role: str) -> Any:
+    context = chromium.new_context(locale="en-GB")
+    page = context.new_page()
+    account = demo.account(role)
+    page.goto(f"{demo.url}/sign-in")
+    page.get_by_label("Email address").fill(account.email)
+    page.get_by_label("Password", exact=True).fill(account.password)
+    page.get_by_role("button", name="Sign in", exact=True).click()
+    page.wait_for_url(f"{demo.url}/")
+    state = context.storage_state()
+    context.close()
+    return state
+
+
+def wait_for_devices(chromium: Browser, demo: Demo, state: Any) -> None:
+    """Wait until the factory is complete: the machines and robots join by themselves, one after the other."""
+    context = chromium.new_context(locale="en-GB", storage_state=state)
+    page = context.new_page()
+    page.goto(f"{demo.url}/sites/painting-factory/devices")
+    expect(page.locator("tbody tr")).to_have_count(DEVICES, timeout=90_000)
+    context.close()
+
+
+@pytest.fixture
+def faults() -> Iterator[list[str]]:
+    """What the test's browsers complain of; a test that provokes a complaint clears it, all others must have none."""
+    heard: list[str] = []
+    yield heard
+    assert heard == []
+
+
+@pytest.fixture
+def sign_in(demo: Demo, chromium: Browser, signed_in: dict[str, Any], faults: list[str]) -> Iterator[SignIn]:
+    contexts: list[BrowserContext] = []
+
+    def open_for(
+        role: str, at: str = "/", *, width: int = 1600, height: int = 1000, dark: bool = False, language: str = ""
+    ) -> Page:
+        context = chromium.new_context(
+            viewport={"width": width, "height": height},
+            color_scheme="dark" if dark else "light",
+            locale="de-DE" if language == "de" else "en-GB",
+            storage_state=signed_in.get(role),
+            permissions=["clipboard-read", "clipboard-write"],
+        )
+        contexts.append(context)
+        listen(context, faults)
+        page = context.new_page()
+        page.set_default_timeout(PATIENCE_MS)
+        page.goto(demo.url + at)
+        return page
+
+    yield open_for
+    for context in contexts:
+        context.close()
+
+
+def listen(context: BrowserContext, faults: list[str]) -> None:
+    def on_console(message: ConsoleMessage) -> None:
+        if message.type == "error":
+            faults.append(f"{message.text} ({json.dumps(message.location)})")
+
+    def on_error(error: WebError) -> None:
+        faults.append(f"{error.error.message}\n{error.error.stack or ''}")
+
+    context.on("console", on_console)
+    context.on("weberror", on_error)

@@ -1,0 +1,126 @@
+"""What a person does on VIPO's screens, by the words that stand there."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from playwright.sync_api import Locator, Page, expect
+
+THIN_SPACE = "\u202f"
+SITE = "/api/sites/painting-factory"
+ERRAND = "Pick-and-Drop, 1 \u00d7 box from Item Inventory to Painting Machine"
+
+
+def ask(page: Page, path: str) -> Any:
+    """Read from the interface with the page's own session."""
+    origin = re.match(r"https?://[^/]+", page.url)
+    assert origin is not None
+    answer = page.request.get(origin[0] + path)
+    assert answer.ok, f"{path}: {answer.status} {answer.text()}"
+    return answer.json()
+
+
+def make_program(page: Page, name: str) -> str:
+    """Make a program by the form of the programs page; return its path."""
+    show_programs(page)
+    page.get_by_role("banner").get_by_role("button", name="New program").click()
+    page.get_by_role("dialog").get_by_label("Name").fill(name)
+    page.keyboard.press("Enter")
+    expect(page.get_by_label("Name of the program")).to_have_value(name)
+    return re.sub(r"https?://[^/]+", "", page.url)
+
+
+def show_programs(page: Page) -> None:
+    """Go to the list of all programs and wait until it is there."""
+    page.get_by_role("link", name=re.compile("^Programs")).click()
+    expect(page.get_by_role("heading", level=1, name="Programs")).to_be_visible()
+    expect(page.get_by_role("table")).to_be_visible()
+
+
+def open_program(page: Page, name: str) -> None:
+    show_programs(page)
+    page.get_by_role("table").get_by_role("link", name=name, exact=True).click()
+    expect(page.get_by_label("Name of the program")).to_have_value(name)
+
+
+def the_map(page: Page) -> Locator:
+    return page.get_by_role("application", name=re.compile("on the map"))
+
+
+def machine(page: Page, name: str) -> Locator:
+    return the_map(page).get_by_role("group", name=re.compile(f"^{re.escape(name)}\\b"))
+
+
+def chip(page: Page, name: str) -> Locator:
+    """A step on the map, by its number and what it says."""
+    return the_map(page).get_by_role("group", name=re.compile(f"^{re.escape(name)}"))
+
+
+def draw_errand(
+    page: Page, source: str = "Item Inventory", target: str = "Painting Machine", load: str = "1 \u00d7 box"
+) -> None:
+    """Draw a Pick-and-Drop as a novice does: one key, three clicks."""
+    page.keyboard.press("p")
+    machine(page, source).click()
+    machine(page, target).click()
+    page.get_by_role("dialog", name="What to carry?").get_by_role("button", name=load, exact=True).click()
+
+
+def click_floor(page: Page, x: float, y: float) -> None:
+    """Click the map at a share of its width and height."""
+    box = the_map(page).bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] + box["width"] * x, box["y"] + box["height"] * y)
+
+
+def saved(page: Page) -> None:
+    """Wait until everything that was drawn is in the database."""
+    expect(page.get_by_text("Saved", exact=True)).to_be_visible()
+
+
+def script_lines(page: Page) -> list[str]:
+    """The script beside the drawing, without the space at lines' ends."""
+    text = page.get_by_role("textbox", name="Script").locator(".cm-line").all_inner_texts()
+    return [line.rstrip() for line in text]
+
+
+def problems(page: Page) -> Locator:
+    page.get_by_role("tab", name=re.compile("^Problems")).click()
+    return page.get_by_role("tabpanel", name=re.compile("^Problems")).get_by_role("listitem")
+
+
+def steps_in_list(page: Page) -> list[str]:
+    """The names of the steps as the list of steps reads them out."""
+    page.get_by_role("tab", name="Steps").click()
+    rows = page.get_by_role("tree", name="Steps").get_by_role("treeitem")
+    return [(row.get_attribute("aria-label") or "").replace(THIN_SPACE, " ") for row in rows.all()]
+
+
+def start_run(page: Page) -> None:
+    page.get_by_role("banner").get_by_role("button", name="Run", exact=True).click()
+    page.get_by_role("dialog").get_by_role("button", name="Run", exact=True).click()
+    expect(page).to_have_url(re.compile("/runs/"))
+
+
+def run_state(page: Page) -> Locator:
+    return page.get_by_role("banner").get_by_role("status").filter(has_text=re.compile(r"\d:\d\d"))
+
+
+def device(page: Page, name: str) -> dict[str, Any]:
+    found: dict[str, Any] = ask(page, f"{SITE}/devices/{name}")
+    return found
+
+
+def reading(page: Page, device_id: str, name: str) -> Any:
+    return next(each["value"] for each in device(page, device_id)["properties"] if each["name"] == name)
+
+
+def tell(page: Page, path: str, body: dict[str, Any] | None = None) -> Any:
+    """Change something over the interface with the page's own session."""
+    origin = re.match(r"https?://[^/]+", page.url)
+    assert origin is not None
+    token = ask(page, "/api/me")["csrf"]
+    answer = page.request.post(origin[0] + path, data=body or {}, headers={"X-CSRFToken": token})
+    assert answer.ok, f"{path}: {answer.status} {answer.text()}"
+    return answer.json()

@@ -1,0 +1,327 @@
+"""The whole journey: two people, two browsers, one factory."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from tests.e2e.conftest import SignIn, listen
+from tests.e2e.demo import Demo
+from tests.e2e.screens import (
+    ERRAND,
+    SITE,
+    ask,
+    chip,
+    click_floor,
+    device,
+    draw_errand,
+    machine,
+    make_program,
+    open_program,
+    problems,
+    reading,
+    run_state,
+    script_lines,
+    start_run,
+    steps_in_list,
+    the_map,
+)
+
+pytestmark = pytest.mark.browser
+
+PAPERS_LINES = [
+    "class Task(object):",
+    "    def new_task(self):",
+    "        self.robot.move(self.item_inventory.location)",
+    '        self.robot.pick({"value": 1, "object": "box"})',
+    "        self.robot.move(self.painting_machine.location)",
+    '        self.robot.drop({"value": 1, "object": "box"})',
+    "",
+    "    def run(self, ctx):",
+    '        self.robot = ctx.any("pick", "drop")',
+    '        self.item_inventory = ctx.get("itemInventory01")',
+    '        self.painting_machine = ctx.get("paintMachine01")',
+    "        self.new_task()",
+]
+
+
+def test_a_wrong_password_is_refused_in_a_sentence_and_the_right_one_opens_home(
+    demo: Demo, chromium: Browser, faults: list[str]
+) -> None:
+    context = chromium.new_context(locale="en-GB")
+    listen(context, faults)
+    page = context.new_page()
+    page.goto(f"{demo.url}/sign-in")
+    account = demo.account("author")
+    page.get_by_label("Email address").fill(account.email)
+    page.get_by_label("Password", exact=True).fill("not the password")
+    page.get_by_role("button", name="Sign in", exact=True).click()
+    expect(page.get_by_role("alert")).to_have_text(re.compile(r"^[A-Z].*(password|e-?mail).*\.$", re.IGNORECASE))
+    faults.clear()
+    page.get_by_label("Password", exact=True).fill(account.password)
+    page.get_by_role("button", name="Sign in", exact=True).click()
+    expect(page.get_by_role("heading", name="Home")).to_be_visible()
+    expect(page.get_by_role("heading", name="Painting Factory", exact=True)).to_be_visible()
+    expect(page.get_by_role("link", name="Paint order", exact=True)).to_be_visible()
+    expect(page.get_by_role("link", name="First errand", exact=True)).to_be_visible()
+    context.close()
+
+
+def test_the_newcomer_takes_part_once_an_admin_has_approved_it(sign_in: SignIn) -> None:
+    admin, author = sign_in("admin"), sign_in("author", "/sites/painting-factory/devices/paintMixer03")
+    expect(author.get_by_text("An admin of this site can approve it.")).to_be_visible()
+    admin.get_by_role("link", name=re.compile("^Devices")).click()
+    row = admin.get_by_role("row", name=re.compile("^paintMixer03"))
+    expect(row).to_contain_text("Waiting for approval")
+    row.get_by_role("link").click()
+    admin.get_by_role("button", name="Approve", exact=True).click()
+    expect(admin.get_by_text("paintMixer03 takes part from now on.")).to_be_visible()
+    expect(row).to_contain_text("Idle")
+    expect(admin.get_by_role("button", name="Approve", exact=True)).to_have_count(0)
+    expect(author.get_by_role("row", name=re.compile("^paintMixer03"))).to_contain_text("Idle")
+    assert device(admin, "paintMixer03")["lifecycle"] == "approved"
+
+
+def test_every_device_of_the_factory_is_online(sign_in: SignIn) -> None:
+    page = sign_in("author", "/sites/painting-factory/devices")
+    expect(page.locator("tbody tr")).to_have_count(11, timeout=60_000)
+    expect(page.get_by_role("row", name=re.compile("Offline"))).to_have_count(0)
+    found = {each["id"]: each for each in ask(page, f"{SITE}/devices")}
+    assert len(found) == 11
+    assert [name for name, each in found.items() if each["status"] == "offline"] == []
+
+
+def test_two_people_draw_one_program(sign_in: SignIn) -> None:
+    author, admin = sign_in("author"), sign_in("admin")
+    for page in (author, admin):
+        open_program(page, "First errand")
+    draw_errand(author)
+    shared = chip(admin, f"1, {ERRAND}")
+    expect(shared).to_be_visible()
+    expect(chip(author, f"1, {ERRAND}")).to_contain_text("Move added for you")
+    expect(shared.get_by_text("OB", exact=True)).to_be_visible()
+    see_the_pointer(author, admin)
+    edit_both_at_once(author, admin)
+    undo_ones_own(author, admin)
+
+
+def see_the_pointer(author: Page, admin: Page) -> None:
+    box = the_map(author).bounding_box()
+    assert box is not None
+    author.mouse.move(box["x"] + 500, box["y"] + 300)
+    author.mouse.move(box["x"] + 520, box["y"] + 320)
+    expect(admin.get_by_text("Otto Brandt", exact=True)).to_be_visible()
+
+
+def edit_both_at_once(author: Page, admin: Page) -> None:
+    author.get_by_role("toolbar", name="Tools").get_by_role("button", name="Wait").click()
+    admin.get_by_role("toolbar", name="Tools").get_by_role("button", name="Operate").click()
+    click_floor(author, 0.42, 0.26)
+    machine(admin, "Painting Machine").click()
+    author.get_by_label("Time", exact=True).fill("5")
+    admin.get_by_label("time", exact=True).fill("2")
+    for page in (author, admin):
+        expect(
+            page.get_by_role("application").get_by_role("group", name=re.compile(r"^\d, (Wait|Operate)"))
+        ).to_have_count(2)
+        expect(page.get_by_role("banner").get_by_role("button", name=re.compile("error"))).to_have_count(0)
+    assert steps_in_list(author) == steps_in_list(admin)
+    assert sorted(step[3:] for step in steps_in_list(author)) == [
+        "Operate, Paint · 2 min at Painting Machine",
+        ERRAND,
+        "Wait, wait 5 s",
+    ]
+
+
+def undo_ones_own(author: Page, admin: Page) -> None:
+    """The author's undo takes back what the author did, though the admin's edit came later."""
+    undo = author.get_by_role("group", name="Undo and redo").get_by_role("button", name="Undo")
+    while undo.is_enabled():
+        undo.click()
+    for page in (author, admin):
+        expect(page.get_by_role("treeitem")).to_have_count(1)
+        expect(
+            page.get_by_role("treeitem", name=re.compile(r"Operate, Paint · 2\smin at Painting Machine"))
+        ).to_be_visible()
+    redo = author.get_by_role("group", name="Undo and redo").get_by_role("button", name="Redo")
+    while redo.is_enabled():
+        redo.click()
+    for page in (author, admin):
+        expect(page.get_by_role("treeitem")).to_have_count(3)
+
+
+def test_a_novice_needs_one_key_and_three_clicks(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "Four presses")
+    page.evaluate(
+        "presses = 0; for (const kind of ['pointerdown', 'keydown']) addEventListener(kind, () => presses++, true)"
+    )
+    draw_errand(page)
+    expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+    expect(page.get_by_text("Nothing to fix")).to_be_visible()
+    assert page.evaluate("presses") == 4
+
+
+def test_the_script_has_the_papers_lines_and_leads_to_its_steps(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "Script and drawing")
+    draw_errand(page)
+    expect(page.get_by_text("self.robot.drop").first).to_be_visible()
+    lines = script_lines(page)
+    assert lines[: len(PAPERS_LINES)] == PAPERS_LINES
+    draw_errand(page, "Painting Machine", "Curing Oven")
+    second = chip(page, "2, Pick-and-Drop, 1 \u00d7 box from Painting Machine to Curing Oven")
+    expect(second).to_be_visible()
+    expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Step 2")
+    page.get_by_text('self.robot.pick({"value": 1, "object": "box"})').first.click()
+    expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Step 1")
+    second.click()
+    expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Step 2")
+    expect(page.locator(".vipo-line-selected").first).to_contain_text("self.robot.pick")
+    assert script_lines(page).index("        self.robot.move(self.curing_oven.location)") == 7
+
+
+def test_a_missing_value_is_marked_everywhere_and_its_button_mends_it(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "Something is missing")
+    draw_errand(page, load="Other")
+    marked = chip(page, "1, Pick-and-Drop, ? \u00d7 box")
+    expect(marked).to_be_visible()
+    expect(marked).to_have_attribute("aria-label", re.compile(", error$"))
+    quantity = page.get_by_role("textbox", name="Quantity")
+    expect(quantity).to_have_attribute("aria-invalid", "true")
+    row = problems(page).filter(has_text="carry")
+    expect(row).to_have_count(1)
+    expect(page.get_by_role("banner").get_by_role("button", name="Run", exact=True)).to_be_disabled()
+    row.get_by_role("button", name=re.compile("1$")).click()
+    expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+    expect(quantity).to_have_value("1")
+    expect(page.get_by_text("Nothing to fix")).to_be_visible()
+    expect(page.get_by_role("banner").get_by_role("button", name="Run", exact=True)).to_be_enabled()
+
+
+def test_a_rehearsal_is_shown_on_the_map_and_in_3d_at_the_same_moment(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "To be rehearsed")
+    draw_errand(page)
+    expect(page.get_by_text("Nothing to fix")).to_be_visible()
+    page.get_by_role("button", name="Simulate").click()
+    expect(page.get_by_role("progressbar")).to_be_visible()
+    expect(page.get_by_role("region", name="Result")).to_contain_text("Finishes without errors", timeout=90_000)
+    scene = page.get_by_role("region", name="3D view")
+    expect(scene.locator("canvas")).to_be_visible()
+    expect(scene.get_by_text("Curing Oven")).to_be_visible()
+    moment = page.get_by_role("slider", name="Moment of the recording")
+    picture = scene.get_by_role("img")
+    moment.fill(str(float(moment.get_attribute("max") or 0) - 20))
+    expect(picture).to_have_accessible_name(re.compile("carries 1 \u00d7 box"))
+    step = chip(page, "1, Pick-and-Drop")
+    expect(step.locator("[data-state]")).to_have_attribute("data-state", "running")
+    page.get_by_role("button", name="To the end").click()
+    expect(step.locator("[data-state]")).to_have_attribute("data-state", "done")
+    page.get_by_role("button", name="Back to the start").click()
+    expect(moment).to_have_value("0")
+    page.get_by_role("button", name="Play", exact=True).click()
+    expect(moment).not_to_have_value("0")
+    expect(page.get_by_role("button", name="Pause", exact=True)).to_be_visible()
+
+
+def test_a_run_carries_the_box_to_the_painting_machine(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "To be run")
+    draw_errand(page)
+    expect(page.get_by_text("Nothing to fix")).to_be_visible()
+    stock = reading(page, "itemInventory01", "stock")
+    start_run(page)
+    line = page.get_by_role("region", name="Steps", exact=True).get_by_role("button")
+    expect(line).to_have_accessible_name(re.compile("^Running 1"))
+    lit = chip(page, "1, Pick-and-Drop").locator("[data-state]")
+    expect(lit).to_have_attribute("data-state", "running")
+    expect(run_state(page)).to_contain_text("Finished", timeout=90_000)
+    expect(lit).to_have_attribute("data-state", "done")
+    expect(line).to_have_accessible_name(re.compile("^Done 1"))
+    page.get_by_role("tab", name="Logs").click()
+    log = page.get_by_role("tabpanel", name="Logs").get_by_role("listitem")
+    expect(log.filter(has_text="pick(Item Inventory, box, 1)")).to_have_count(1)
+    expect(log.filter(has_text=re.compile("TurtleBot . is done: pick"))).to_have_count(1)
+    expect(log.filter(has_text="drop(Painting Machine, box, 1)")).to_have_count(1)
+    expect(log.filter(has_text=re.compile("TurtleBot . is done: drop"))).to_have_count(1)
+    assert reading(page, "itemInventory01", "stock") == stock - 1
+    robots = [device(page, f"robot0{number}") for number in (1, 2, 3)]
+    assert [robot["carrying"] for robot in robots] == [{}, {}, {}]
+    assert any(abs(robot["location"]["x"] - 20.9) < 1 and robot["location"]["y"] > -6 for robot in robots)
+
+
+def test_a_run_pauses_resumes_is_stopped_for_everybody_and_cancelled(sign_in: SignIn) -> None:
+    author, admin = sign_in("author"), sign_in("admin")
+    make_program(author, "To be held")
+    draw_errand(author)
+    expect(author.get_by_text("Nothing to fix")).to_be_visible()
+    start_run(author)
+    expect(run_state(author)).to_contain_text("Running")
+    author.get_by_role("button", name="Pause", exact=True).click()
+    expect(run_state(author)).to_contain_text("Paused")
+    author.get_by_role("button", name="Resume", exact=True).click()
+    expect(run_state(author)).to_contain_text("Running")
+    admin.get_by_role("button", name="Stop all").click()
+    for page in (author, admin):
+        dialog = page.get_by_role("dialog", name="Painting Factory is stopped")
+        expect(dialog).to_contain_text(re.compile("Ada.* pressed Stop all"))
+        expect(page.get_by_role("button", name="Stopped")).to_be_attached()
+    expect(run_state(author)).to_contain_text("Paused")
+    hold(admin.get_by_role("button", name="Hold for 2 seconds to reset"))
+    for page in (author, admin):
+        expect(page.get_by_role("dialog", name="Painting Factory is stopped")).to_have_count(0)
+        expect(page.get_by_role("button", name="Stop all")).to_be_visible()
+    expect(run_state(author)).to_contain_text("Paused")
+    author.get_by_role("button", name="Cancel run").click()
+    author.get_by_role("dialog").get_by_role("button", name="Cancel run").click()
+    expect(run_state(author)).to_contain_text("Cancelled")
+
+
+def hold(button: Locator) -> None:
+    button.click(delay=500)
+    expect(button).to_be_visible()
+    button.click(delay=2300)
+
+
+def test_a_function_is_made_saved_found_by_another_person_and_used(sign_in: SignIn) -> None:
+    author, admin = sign_in("author"), sign_in("admin")
+    make_program(author, "Where a function comes from")
+    draw_errand(author)
+    draw_errand(author, "Painting Machine", "Curing Oven")
+    author.keyboard.press("Control+a")
+    expect(author.get_by_text("2 steps selected")).to_be_visible()
+    author.keyboard.press("Control+g")
+    author.get_by_label("Name for a function of 2 steps").fill("bringAndCure")
+    author.get_by_role("button", name="Make the function").click()
+    expect(chip(author, "1, Function, bringAndCure")).to_be_visible()
+    expect(author.get_by_text("Nothing to fix")).to_be_visible()
+    author.get_by_role("button", name="Save to the library").click()
+    author.get_by_label("What it does").fill("Brings a box to paint and on to the oven")
+    author.get_by_role("dialog").get_by_role("button", name="Save", exact=True).click()
+    expect(author.get_by_text("bringAndCure is in the library as version 1")).to_be_visible()
+    make_program(admin, "Where a function is used")
+    admin.get_by_role("button", name="or import a function").click()
+    admin.get_by_label("Search by name or what it does").fill("oven")
+    admin.get_by_role("button", name=re.compile("^bringAndCure v1")).click()
+    expect(chip(admin, "1, Function, bringAndCure")).to_be_visible()
+    expect(admin.get_by_text("Nothing to fix")).to_be_visible()
+    assert "        self.bring_and_cure()" in script_lines(admin)
+
+
+def test_the_paint_order_is_sound_and_rehearses(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    open_program(page, "Paint order")
+    expect(page.get_by_text("Nothing to fix")).to_be_visible()
+    names = steps_in_list(page)
+    for kind in ("Parallel", "Function", "Operate", "Try", "While", "Wait", "If", "Move", "Pick-and-Drop"):
+        assert any(f", {kind}," in name for name in names), f"{kind} is not in {names}"
+    page.get_by_role("button", name="Simulate").click()
+    result = page.get_by_role("region", name="Result")
+    expect(result).to_contain_text("Finishes without errors", timeout=120_000)
+    expect(result).to_contain_text("by 2 robots")
+    programs = ask(page, f"{SITE}/programs")
+    assert next(each["errors"] for each in programs if each["name"] == "Paint order") == 0

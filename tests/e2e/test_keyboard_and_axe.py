@@ -1,0 +1,163 @@
+"""Everything by keyboard, and every screen looked over: accessibility, both themes, both languages, two sizes."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from tests.e2e.conftest import SignIn
+from tests.e2e.screens import ERRAND, SITE, ask, chip, draw_errand, make_program, saved, tell
+
+pytestmark = pytest.mark.browser
+
+AXE = Path(__file__).resolve().parents[2] / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
+RAW_KEY = re.compile(r"\b(?:shell|pages|map|editor|run|simulation)\.[a-z]\w+")
+SERIOUS = {"serious", "critical"}
+
+
+@dataclass(frozen=True)
+class Screen:
+    """A screen: where it is, and what is there once it is ready."""
+
+    name: str
+    path: str
+    ready: str
+
+
+def test_a_pick_and_drop_by_keyboard_alone(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "By keyboard")
+    page.keyboard.press("Escape")
+    page.keyboard.press("p")
+    expect(page.get_by_role("combobox", name="Click where to pick from")).to_be_focused()
+    page.keyboard.type("item")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("combobox", name="Now click where to drop")).to_be_focused()
+    page.keyboard.type("painting")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("button", name="1 \u00d7 box", exact=True)).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+    page.keyboard.press("Delete")
+    expect(chip(page, f"1, {ERRAND}")).to_have_count(0)
+    page.keyboard.press("Control+z")
+    expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+
+
+def test_the_list_of_steps_is_walked_by_arrows(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "By arrows")
+    draw_errand(page)
+    draw_errand(page, "Painting Machine", "Curing Oven")
+    page.get_by_role("tab", name="Steps").click()
+    rows = page.get_by_role("treeitem")
+    rows.first.focus()
+    page.keyboard.press("ArrowDown")
+    expect(rows.nth(1)).to_be_focused()
+    expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Step 2")
+
+
+@pytest.fixture(scope="package")
+def things() -> dict[str, str]:
+    """What the first look-over makes for the screens that need something to show."""
+    return {}
+
+
+def screens(page: Page, things: dict[str, str]) -> list[Screen]:
+    if not things:
+        things.update(make_things(page))
+    site = "/sites/painting-factory"
+    return [
+        Screen("home", "/", "h2"),
+        Screen("devices", f"{site}/devices", "tbody tr"),
+        Screen("a device", f"{site}/devices/paintMixer02", "aside table"),
+        Screen("programs", f"{site}/programs", "tbody tr"),
+        Screen("library", f"{site}/library", "main h3, main section"),
+        Screen("runs", f"{site}/runs", "tbody tr"),
+        Screen("map", f"{site}/map", "main canvas"),
+        Screen("a new site", "/sites/new", "form"),
+        Screen("paint order", things["paint order"], "[data-shape]"),
+        Screen("empty program", things["empty"], ".react-flow__node"),
+        Screen("program", things["errand"], "[data-shape]"),
+        Screen("simulation", things["rehearsal"], "canvas[data-engine]"),
+        Screen("run", things["run"], "[data-state]"),
+        Screen("nowhere", "/no/such/page", "main, h1, h2"),
+    ]
+
+
+def make_things(page: Page) -> dict[str, str]:
+    empty = make_program(page, "Nothing in it")
+    page.goto(page.url.split("/programs/")[0])
+    errand = make_program(page, "To look at")
+    draw_errand(page)
+    expect(page.get_by_text("Nothing to fix")).to_be_visible()
+    saved(page)
+    rehearsal = tell(page, f"/api{errand}/rehearsals")["id"]
+    run = tell(page, f"/api{errand}/runs")["id"]
+    programs = {each["name"]: each["id"] for each in ask(page, f"{SITE}/programs")}
+    return {
+        "empty": empty,
+        "errand": errand,
+        "paint order": f"/programs/{programs['Paint order']}",
+        "rehearsal": f"{errand}/simulate/{rehearsal}",
+        "run": f"/runs/{run}",
+    }
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "dark", "language"),
+    [(1600, 1000, False, "en"), (820, 1180, True, "de"), (1600, 1000, True, "de"), (820, 1180, False, "en")],
+)
+def test_every_screen_is_sound(
+    sign_in: SignIn, faults: list[str], things: dict[str, str], width: int, height: int, dark: bool, language: str
+) -> None:
+    page = sign_in("author", width=1600, height=1000)
+    found: list[str] = []
+    every = screens(page, things)
+    page = sign_in("author", width=width, height=height, dark=dark, language=language)
+    for screen in every:
+        page.goto(re.sub(r"(https?://[^/]+).*", r"\1", page.url) + screen.path)
+        expect(page.locator(screen.ready).first).to_be_visible(timeout=60_000)
+        found += [f"{screen.name}: {fault}" for fault in look_over(page, language)]
+        found += [f"{screen.name}: {fault}" for fault in faults]
+        faults.clear()
+    assert not found, "\n".join(found)
+
+
+def look_over(page: Page, language: str) -> list[str]:
+    """What is wrong with a screen, in words."""
+    found = []
+    overflow = page.evaluate("document.documentElement.scrollWidth - innerWidth")
+    if overflow > 0:
+        found.append(f"is {overflow} px wider than the window")
+    if page.evaluate("document.documentElement.lang") != language:
+        found.append("does not speak the chosen language")
+    found += [f"shows the raw key {key}" for key in RAW_KEY.findall(page.locator("body").inner_text())]
+    return found + violations(page)
+
+
+def violations(page: Page) -> list[str]:
+    page.evaluate(AXE.read_text())
+    result: dict[str, Any] = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")
+    return [
+        f"{each['id']} ({each['impact']}): "
+        + "; ".join(str(node["target"]) + node["html"][:120] for node in each["nodes"][:3])
+        for each in result["violations"]
+        if each["impact"] in SERIOUS
+    ]
+
+
+def test_the_sign_in_is_sound_in_both_themes(demo: Any, chromium: Any) -> None:
+    for dark in (False, True):
+        context = chromium.new_context(color_scheme="dark" if dark else "light", locale="en-GB")
+        page = context.new_page()
+        page.goto(f"{demo.url}/sign-in")
+        form: Locator = page.get_by_label("Email address")
+        expect(form).to_be_visible()
+        assert look_over(page, "en") == []
+        context.close()

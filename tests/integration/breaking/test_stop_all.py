@@ -1,0 +1,45 @@
+"""Stop all, pause, resume and cancel in the middle of a run."""
+
+from __future__ import annotations
+
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+from tests.integration.breaking.site import SLUG, Factory, carry_document, wait_for
+
+
+def test_stop_all_holds_the_robots_and_the_run_goes_on_after_a_reset(factory: Factory) -> None:
+    run = factory.start(factory.plant({"Stopped errand": carry_document()})["Stopped errand"])
+    before = factory.poses()
+    wait_for("a robot that drives", lambda: factory.poses() != before)
+    stop = factory.admin.post(f"/api/sites/{SLUG}/stop").json()
+    assert stop["active"] is True
+    time.sleep(1.5)
+    still = factory.poses()
+    time.sleep(1.5)
+    assert factory.poses() == still
+    view = factory.wait_run(run, "paused")
+    assert view["reason"] == f"{stop['by']} stopped all devices of the site"
+
+    refused = factory.order(run, "resume")
+    assert refused.status_code == 409
+    assert refused.json()["detail"] == "The site is stopped. Reset the stop, then resume the run."
+    assert factory.admin.post(f"/api/sites/{SLUG}/stop/reset").json()["active"] is False
+    assert factory.order(run, "resume").status_code == 200
+    factory.wait_run(run, "finished")
+    assert {c["status"] for c in factory.commands(run)} == {"done"}
+
+
+def test_two_people_pause_resume_and_cancel_at_once(factory: Factory) -> None:
+    run = factory.start(factory.plant({"Quarrel": carry_document()})["Quarrel"])
+    factory.wait_command(run, "move", "accepted", "running", "done")
+    people = [factory.signed_in("admin"), factory.signed_in("admin")]
+    with ThreadPoolExecutor(2) as both:
+        for word, status in (("pause", "paused"), ("resume", "running"), ("pause", "paused"), ("cancel", "cancelled")):
+            answers = list(both.map(lambda person, word=word: factory.order(run, word, person).status_code, people))
+            assert set(answers) <= {200, 409}, (word, answers)
+            assert 200 in answers
+            factory.wait_run(run, status)
+    over = factory.order(run, "resume")
+    assert over.status_code == 409
+    assert "is over (cancelled)" in over.json()["detail"]

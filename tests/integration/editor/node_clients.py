@@ -1,0 +1,57 @@
+"""Drives real y-websocket clients in a Node process."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from tests.integration.editor.conftest import Web
+from tests.servers import ROOT, find_program
+
+MODULES = ROOT / "frontend"
+
+
+class NodeClients:
+    """Sends commands to the Node process and waits for each one's answer."""
+
+    def __init__(self, process: subprocess.Popen[str], web: Web) -> None:
+        self._process = process
+        self._web = web
+
+    def tell(self, do: str, **command: Any) -> dict[str, Any]:
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._process.stdin.write(json.dumps({"do": do, **command}) + "\n")
+        self._process.stdin.flush()
+        answer: dict[str, Any] = json.loads(self._process.stdout.readline() or '{"ok": false, "error": "node ended"}')
+        assert answer.pop("ok"), f"{do}: {answer}\n{self._web.story()[-3000:]}"
+        return answer
+
+    def open(self, name: str, person: str = "author", web: Web | None = None, **more: Any) -> dict[str, Any]:
+        at = web or self._web
+        return self.tell("open", name=name, session=at.sessions[person], port=at.port, **more)
+
+
+@contextmanager
+def node_clients(web: Web, program: str) -> Iterator[NodeClients]:
+    node = find_program("node")
+    assert (MODULES / "node_modules" / "y-websocket").exists(), "Run `npm ci` in frontend/ first."
+    script = Path(__file__).with_name("node_client.mjs")
+    process = subprocess.Popen(
+        [node, script, str(MODULES), json.dumps({"program": program})],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        yield NodeClients(process, web)
+    finally:
+        assert process.stdin is not None
+        process.stdin.close()
+        process.wait(10)
+        assert process.stdout is not None
+        process.stdout.close()

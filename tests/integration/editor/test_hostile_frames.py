@@ -1,0 +1,185 @@
+"""What a client may send that it should not: each is refused with its code, and nobody else notices."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+
+import pytest
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed
+
+from editor import wire
+from editor.document import SharedDocument, empty_document, encode_document
+from tests.integration.editor.conftest import Web
+
+
+def join(web: Web, person: str | None = "author", program: str | None = None) -> connect:
+    return connect(web.socket_url(program), additional_headers=web.headers(person), max_size=None)
+
+
+async def code_of_close(socket: ClientConnection) -> int | None:
+    """Read until the server closes; tell its code."""
+    try:
+        async with asyncio.timeout(10):
+            while True:
+                await socket.recv()
+    except ConnectionClosed as closed:
+        return closed.rcvd.code if closed.rcvd else None
+
+
+async def read_until(socket: ClientConnection, kind: bytes) -> bytes:
+    async with asyncio.timeout(10):
+        while True:
+            frame = await socket.recv()
+            assert isinstance(frame, bytes)
+            if frame.startswith(kind):
+                return frame
+
+
+def step(name: str) -> bytes:
+    return encode_document({**empty_document(), "steps": {name: {"kind": "wait", "place": None, "params": {}}}})
+
+
+MALFORMED = {
+    "an empty frame": b"",
+    "0xff without end": b"\xff" * 200_000,
+    "a number that is cut off": b"\x00\x00\x80",
+    "a length beyond the end": b"\x00\x02\x7f\x01",
+    "a type that does not exist": b"\x63\x00",
+    "a sync step that does not exist": b"\x00\x09\x00",
+    "a state vector that is none": b"\x00\x00\x02\xff\xff",
+    "something after the end": b"\x03\x00\x00",
+    "awareness that is not JSON": b"\x01\x05\x01\x01\x01\x01{",
+    "awareness for ever": b"\x01\x04\xff\xff\xff\x7f",
+    "step 2 with noise": b"\x00\x01\x04\x01\xff\xff\xff",
+    "a message of the server": b"\x64\x00\x01\x00",
+}
+
+
+@pytest.mark.parametrize("frame", MALFORMED.values(), ids=MALFORMED.keys())
+async def test_what_is_not_the_protocol_closes_with_4400(web: Web, frame: bytes) -> None:
+    async with join(web) as socket:
+        await socket.send(frame)
+        assert await code_of_close(socket) == 4400
+
+
+async def test_text_closes_with_4400_and_says_why(web: Web) -> None:
+    async with join(web) as socket:
+        await socket.send("hello")
+        refusal = await read_until(socket, b"\x02")
+        assert b"The protocol has no text messages." in refusal
+        assert await code_of_close(socket) == 4400
+
+
+async def test_a_frame_above_the_limit_closes_with_4413(web: Web) -> None:
+    async with join(web) as socket:
+        await socket.send(wire.encode_update(bytes(wire.MOST_FRAME_BYTES + 1)))
+        assert await code_of_close(socket) == 4413
+
+
+async def test_noise_instead_of_a_change_harms_nobody(web: Web) -> None:
+    program = web.new_program()
+    async with join(web, "second", program) as good, join(web, "author", program) as bad:
+        await good.send(wire.encode_step_2(step("kept")))
+        await bad.send(wire.encode_step_2(b"\x00\x00"))
+        for position in range(4, 12):
+            noise = bytearray(step("broken"))
+            noise[position] ^= 0x55
+            await bad.send(wire.encode_update(bytes(noise)))
+        await bad.send(wire.encode_update(b"\x05\xff\xff\xff\x0f"))
+        assert await code_of_close(bad) == 4400
+        await good.send(wire.encode_update(step("later")))
+        await good.send(wire.encode_step_1(b"\x00"))
+        answer = await read_until(good, b"\x00\x01")
+    steps = SharedDocument([wire.decode_frame(answer).update]).to_json()["steps"]  # type: ignore[union-attr]
+    assert {"kept", "later"} <= set(steps)
+
+
+async def test_changes_that_never_follow_a_step_2_are_held_and_then_refused(web: Web) -> None:
+    program = web.new_program()
+    async with join(web, "author", program) as socket:
+        for number in range(500):
+            await socket.send(wire.encode_update(step(f"s{number}")))
+        await socket.send(wire.encode_step_1(b"\x00"))
+        answer = await read_until(socket, b"\x00\x01")
+        assert SharedDocument([wire.decode_frame(answer).update]).to_json()["steps"] == {}  # type: ignore[union-attr]
+        closing = asyncio.create_task(code_of_close(socket))
+        with suppress(ConnectionClosed):
+            for number in range(600):
+                await socket.send(wire.encode_update(step(f"t{number}")))
+                await asyncio.sleep(0)
+        assert await closing in {4400, 4429}
+
+
+async def test_a_flood_closes_with_4429(web: Web) -> None:
+    async with join(web) as socket:
+        for _ in range(2000):
+            await socket.send(b"\x03")
+        assert await code_of_close(socket) == 4429
+
+
+async def test_nobody_speaks_for_another_client(web: Web) -> None:
+    program = web.new_program()
+    async with join(web, "second", program) as good, join(web, "author", program) as bad:
+        await good.send(wire.encode_awareness([wire.AwarenessEntry(7, 1, {"cursor": [1, 1]})]))
+        await read_until(bad, b"\x01")
+        await bad.send(wire.encode_awareness([wire.AwarenessEntry(7, 99, None)]))
+        await bad.send(wire.encode_awareness([wire.AwarenessEntry(8, 1, {"user": {"name": "Root"}})]))
+        seen = wire.decode_frame(await read_until(good, b"\x01"))
+        await bad.send(b"\x03")
+        clocks: dict[int, int] = {}
+        while 8 not in clocks:  # the good client's own frame may still be on its way to the bad one
+            everybody = wire.decode_frame(await read_until(bad, b"\x01"))
+            assert isinstance(everybody, wire.Awareness)
+            clocks |= {e.client: e.clock for e in everybody.entries}
+    assert isinstance(seen, wire.Awareness)
+    assert [(e.client, e.state["user"]["name"]) for e in seen.entries if e.state] == [(8, "Ada author")]
+    assert clocks == {7: 1, 8: 1}
+
+
+async def test_awareness_above_four_kilobytes_closes_with_4413(web: Web) -> None:
+    async with join(web) as socket:
+        await socket.send(wire.encode_awareness([wire.AwarenessEntry(1, 1, {"text": "x" * 5000})]))
+        assert await code_of_close(socket) == 4413
+
+
+async def test_each_standing_has_its_code(web: Web) -> None:
+    codes = {}
+    for person in ("stranger", None):
+        async with join(web, person) as socket:
+            codes[person] = await code_of_close(socket)
+    async with join(web, "author", "00000000-0000-4000-8000-000000000000") as socket:
+        codes["no program"] = await code_of_close(socket)
+    assert codes == {"stranger": 4404, None: 4401, "no program": 4404}
+
+
+async def test_deleting_a_program_closes_it_for_everybody(web: Web) -> None:
+    program = web.new_program()
+    async with join(web, "second", program) as socket:
+        await read_until(socket, b"\x00\x00")
+        await in_thread(lambda: delete(web, program))
+        assert await code_of_close(socket) == 4404
+
+
+def delete(web: Web, program: str) -> None:
+    with web.client("author") as client:
+        assert client.delete(f"/programs/{program}").status_code == 204
+
+
+def in_thread(act: Callable[[], None]) -> Awaitable[None]:
+    return asyncio.to_thread(act)
+
+
+async def test_a_change_is_compiled_and_told_to_who_watches_the_site(web: Web) -> None:
+    program = web.new_program()
+    site = f"ws://127.0.0.1:{web.port}/ws/site/hall"
+    async with connect(site, additional_headers=web.headers("viewer")) as watcher, join(web, program=program) as socket:
+        await socket.send(wire.encode_step_2(step("s1")))
+        async with asyncio.timeout(10):
+            while True:
+                text = await watcher.recv()
+                assert isinstance(text, str)
+                if f'"{program}"' in text and '"compiled"' in text and '"s1"' in text:
+                    break

@@ -1,0 +1,91 @@
+"""One suite for both streams: in the process, and over a real Redis."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Iterator
+from pathlib import Path
+
+import pytest
+
+from editor.stream import BEGINNING, Batch, MemoryStream, Note, RedisStream, RoomStream, StreamLost
+from tests.servers import Redis, run_redis
+
+
+@pytest.fixture(scope="module")
+def redis(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Redis]:
+    with run_redis(tmp_path_factory.mktemp("redis")) as server:
+        yield server
+
+
+@pytest.fixture(params=["memory", "redis"])
+async def stream(request: pytest.FixtureRequest) -> AsyncIterator[RoomStream]:
+    made: RoomStream = (
+        MemoryStream(kept=50)
+        if request.param == "memory"
+        else RedisStream(request.getfixturevalue("redis").url, kept=50)
+    )
+    yield made
+    await made.close()
+
+
+def notes(*texts: str) -> list[Note]:
+    return [Note("update", text.encode()) for text in texts]
+
+
+def texts(batch: Batch) -> list[str]:
+    return [entry.note.data.decode() for entry in batch.entries]
+
+
+async def test_notes_are_read_in_the_order_of_writing(stream: RoomStream, request: pytest.FixtureRequest) -> None:
+    room = request.node.name
+    await stream.append(room, "a", notes("1", "2"))
+    await stream.append(room, "b", notes("3"))
+    batch = await stream.read(room, BEGINNING, 0.1)
+    assert texts(batch) == ["1", "2", "3"]
+    assert [entry.origin for entry in batch.entries] == ["a", "a", "b"]
+    assert texts(await stream.read(room, batch.entries[1].id, 0.1)) == ["3"]
+
+
+async def test_a_reader_waits_for_what_comes(stream: RoomStream, request: pytest.FixtureRequest) -> None:
+    room = request.node.name
+    await stream.append(room, "a", notes("1"))
+    first = await stream.read(room, BEGINNING, 0.1)
+    reading = asyncio.create_task(stream.read(room, first.entries[-1].id, 5))
+    await asyncio.sleep(0.05)
+    await stream.append(room, "a", notes("2"))
+    assert texts(await reading) == ["2"]
+
+
+async def test_nothing_comes_and_the_reader_is_let_go(stream: RoomStream, request: pytest.FixtureRequest) -> None:
+    batch = await stream.read(request.node.name, BEGINNING, 0.02)
+    assert batch == Batch(())
+
+
+async def test_rooms_do_not_hear_each_other(stream: RoomStream, request: pytest.FixtureRequest) -> None:
+    await stream.append(f"{request.node.name}-one", "a", notes("1"))
+    assert texts(await stream.read(f"{request.node.name}-two", BEGINNING, 0.02)) == []
+
+
+async def test_whoever_was_away_too_long_is_told(redis: Redis) -> None:
+    for stream in (MemoryStream(kept=50), RedisStream(redis.url, kept=50)):
+        await stream.append("gap", "a", notes("first"))
+        seen = (await stream.read("gap", BEGINNING, 0.1)).entries[-1].id
+        await stream.append("gap", "a", notes(*map(str, range(700))))
+        batch = await stream.read("gap", seen, 0.1)
+        await stream.close()
+        assert batch.gap
+        assert "first" not in texts(batch)
+
+
+async def test_a_redis_that_is_gone_is_said_to_be(tmp_path: Path) -> None:
+    with run_redis(tmp_path) as server:
+        stream = RedisStream(server.url)
+        await stream.append("room", "a", notes("1"))
+        server.process.kill()
+        server.process.wait()
+        with pytest.raises(StreamLost, match="Redis does not answer"):
+            await stream.append("room", "a", notes("2"))
+        with pytest.raises(StreamLost, match="Redis does not answer"):
+            await stream.read("room", BEGINNING, 0.1)
+        await stream.close()

@@ -1,0 +1,109 @@
+"""Documents in the database: batches, snapshots, and what the services make of them."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Any
+from uuid import uuid4
+
+import pytest
+
+from editor import services
+from editor.document import SharedDocument, empty_document, encode_document
+from editor.errors import NoSuchProgram
+from editor.models import DocumentUpdate, Program, Snapshot
+from editor.room import Change
+from editor.store import SnapshotDiffers, append_changes, compact_document, load_document
+from registry import services as registry
+
+NOW = datetime(2026, 1, 2, 3, 4, tzinfo=UTC)
+pytestmark = pytest.mark.django_db
+
+
+@pytest.fixture
+def author() -> Any:
+    registry.create_site(name="Hall", slug="hall")
+    return registry.create_user(email="ada@vipo.example", password="a long password", display_name="Ada Author")
+
+
+@pytest.fixture
+def program(author: Any) -> str:
+    return str(services.create_program(site="hall", name="Carry", user=author).id)
+
+
+def drawing(name: str) -> bytes:
+    return encode_document(
+        {
+            **empty_document(),
+            "steps": {name: {"kind": "wait", "place": ["program", "body", name], "params": {"seconds": 1}}},
+        }
+    )
+
+
+def steps(program: str) -> list[str]:
+    return sorted(SharedDocument(load_document(program).updates).to_json()["steps"])
+
+
+def test_a_batch_is_appended_with_its_authors(program: str, author: Any) -> None:
+    changes = [Change(author.pk, drawing("s1")), Change(None, drawing("s2"))]
+    assert append_changes(program, changes, NOW) == (3, 2)
+    assert steps(program) == ["s1", "s2"]
+    rows = DocumentUpdate.objects.order_by("seq").values_list("seq", "author_id")
+    assert list(rows) == [(2, author.pk), (3, None)]
+    kept = Program.objects.get(pk=program)
+    assert (kept.edited_at, kept.edited_by_id, kept.last_seq) == (NOW, author.pk, 3)
+
+
+def test_compacting_keeps_the_document_and_drops_the_rows(program: str, author: Any) -> None:
+    append_changes(program, [Change(author.pk, drawing(f"s{number}")) for number in range(9)], NOW)
+    before = SharedDocument(load_document(program).updates).digest()
+    compact_document(program)
+    assert SharedDocument(load_document(program).updates).digest() == before
+    assert (DocumentUpdate.objects.count(), Snapshot.objects.get().seq) == (0, 10)
+    append_changes(program, [Change(author.pk, drawing("later"))], NOW)
+    compact_document(program)
+    assert "later" in steps(program)
+    assert Snapshot.objects.get().seq == 11
+
+
+def test_a_snapshot_that_differs_deletes_nothing(program: str, author: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    append_changes(program, [Change(author.pk, drawing("s1"))], NOW)
+    monkeypatch.setattr(SharedDocument, "encode", lambda *_: b"\x00\x00")
+    with pytest.raises(SnapshotDiffers, match="they are kept"):
+        compact_document(program)
+    monkeypatch.undo()
+    assert steps(program) == ["s1"]
+    assert (DocumentUpdate.objects.count(), Snapshot.objects.get().seq) == (1, 1)
+
+
+def test_a_program_that_is_gone_takes_no_changes(program: str, author: Any) -> None:
+    services.delete_program(program_id=program)
+    with pytest.raises(NoSuchProgram):
+        append_changes(program, [Change(author.pk, drawing("s1"))], NOW)
+    with pytest.raises(NoSuchProgram):
+        load_document(program)
+    with pytest.raises(NoSuchProgram):
+        services.get_program(program_id=uuid4())
+    assert DocumentUpdate.objects.count() == 0
+
+
+def test_a_version_is_pinned_once_for_one_document(program: str, author: Any) -> None:
+    first = services.pin_version(program_id=program, user=author)
+    assert services.pin_version(program_id=program, user=author) == first
+    append_changes(program, [Change(author.pk, drawing("s1"))], NOW)
+    second = services.pin_version(program_id=program, user=author, message="One wait")
+    assert (first.number, second.number, second.message) == (1, 2, "One wait")
+    assert services.get_version(version_id=first.id).document == empty_document()
+    compiled = services.compile_version(version=second)
+    assert compiled.plan is not None
+    assert list(second.document["steps"]) == ["s1"]
+
+
+def test_the_demo_has_its_programs_and_seeding_again_changes_nothing(author: Any) -> None:
+    services.seed_programs(site="hall")
+    first = [program.id for program in services.list_programs(site="hall")]
+    services.seed_programs(site="hall")
+    programs = services.list_programs(site="hall")
+    assert [program.id for program in programs] == first
+    assert [program.name for program in programs] == ["Paint order", "First errand"]
+    assert {"pick_and_drop", "operate", "while"} <= set(programs[0].kinds)

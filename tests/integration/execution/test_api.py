@@ -1,0 +1,156 @@
+"""Who may do what over HTTP; strangers do not learn what exists."""
+
+import json
+from uuid import uuid4
+
+import pytest
+from django.test import Client
+
+from editor import services as editor
+from execution import services
+from execution.models import Rehearsal, Run
+from registry.models import Membership, User
+
+pytestmark = pytest.mark.django_db(transaction=True)
+SITE = "painting-factory"
+ROLES = ("viewer", "operator", "author", "admin")
+ERRAND = {
+    "format": 1,
+    "start_pos": [0, 0],
+    "steps": {
+        "s1": {
+            "kind": "pick_and_drop",
+            "place": ["program", "body", "V"],
+            "pos": [3, -6],
+            "params": {
+                "source": {"device": "itemInventory01"},
+                "target": {"device": "paintMachine01"},
+                "object": "box",
+                "quantity": 1,
+            },
+        }
+    },
+    "functions": {},
+    "roles": {},
+    "parameters": {},
+    "zones": {},
+}
+
+
+def member(role):
+    user = User.objects.create_user(email=f"{role}@x.example", password="a-long-password", display_name=role.title())
+    if role != "stranger":
+        site = registry_site()
+        Membership.objects.create(user=user, site=site, role=role)
+    client = Client()
+    client.force_login(user)
+    return client
+
+
+def registry_site():
+    return Membership._meta.get_field("site").related_model.objects.get(slug=SITE)
+
+
+@pytest.fixture
+def program(factory):
+    return editor.create_program(site=SITE, name="Errand", document=ERRAND).id
+
+
+def send(client, path, body=None):
+    return client.post(f"/api{path}", json.dumps(body or {}), content_type="application/json")
+
+
+def post(client, path, body=None):
+    return send(client, path, body).status_code
+
+
+def all_calls(program, run, rehearsal):
+    here = {"from": [2.3, -8.0], "to": {"device": "paintMachine01"}}
+    return {
+        ("get", f"/sites/{SITE}/runs"): "viewer",
+        ("get", f"/runs/{run}"): "viewer",
+        ("get", f"/runs/{run}/events"): "viewer",
+        ("get", f"/rehearsals/{rehearsal}"): "viewer",
+        ("post", f"/sites/{SITE}/route", json.dumps(here)): "viewer",
+        ("post", f"/sites/{SITE}/routes", json.dumps({"pairs": [here]})): "viewer",
+        ("post", f"/programs/{program}/rehearsals"): "operator",
+        ("post", f"/programs/{program}/runs"): "operator",
+        ("post", f"/runs/{run}/pause"): "operator",
+        ("post", f"/runs/{run}/resume"): "operator",
+        ("post", f"/runs/{run}/cancel"): "operator",
+        ("post", f"/sites/{SITE}/stop/reset"): "operator",
+        ("post", f"/sites/{SITE}/stop"): "viewer",
+    }
+
+
+@pytest.mark.parametrize("role", ["stranger", *ROLES])
+def test_each_call_is_open_to_its_role_and_above(program, role):
+    operator = member("operator") if role != "operator" else None
+    client = member(role)
+    starter = operator or client
+    run = send(starter, f"/programs/{program}/runs").json()["id"]
+    rehearsal = send(starter, f"/programs/{program}/rehearsals").json()["id"]
+    runs, rehearsals = Run.objects.count(), Rehearsal.objects.count()
+    seen = {}
+    for call, needed in all_calls(program, run, rehearsal).items():
+        method, path, body = (*call, None)[:3]
+        status = post(client, path, json.loads(body) if body else None) if method == "post" else client.get(
+            f"/api{path}"
+        ).status_code  # fmt: skip
+        allowed = role in ROLES and ROLES.index(role) >= ROLES.index(needed)
+        seen[call[:2]] = (status, 200 if allowed else 404 if role == "stranger" else 403)
+    assert {call: status for call, (status, _) in seen.items()} == {call: wanted for call, (_, wanted) in seen.items()}
+    if role in {"stranger", "viewer"}:
+        assert (Run.objects.count(), Rehearsal.objects.count()) == (runs, rehearsals)
+    assert services.is_stopped(site=SITE) is (role != "stranger")
+
+
+def test_nobody_who_is_not_signed_in_gets_an_answer(program):
+    assert Client().get(f"/api/sites/{SITE}/runs").status_code == 401
+    assert post(Client(), f"/sites/{SITE}/stop") == 401
+    assert services.is_stopped(site=SITE) is False
+
+
+def test_what_does_not_exist_is_not_found(factory):
+    client = member("admin")
+    for path in (f"/runs/{uuid4()}", f"/rehearsals/{uuid4()}", f"/runs/{uuid4()}/events", "/sites/nowhere/runs"):
+        assert client.get(f"/api{path}").status_code == 404
+    assert post(client, f"/programs/{uuid4()}/runs") == 404
+
+
+def test_a_program_with_errors_is_not_started_and_the_answer_says_why(factory):
+    program = editor.create_program(site=SITE, name="Empty").id
+    client = member("operator")
+    answer = client.post(f"/api/programs/{program}/runs", "{}", content_type="application/json")
+    assert (answer.status_code, answer.json()["code"]) == (422, "not_ready")
+    assert answer.json()["detail"].startswith("The program has one error and cannot be carried out.")
+    assert Run.objects.count() == 0
+
+
+def test_routes_that_do_not_exist_are_null_among_others(factory):
+    client = member("viewer")
+    pairs = [
+        {"from": {"device": "itemInventory01"}, "to": {"device": "paintMachine01"}},
+        {"from": [2.3, -8.0], "to": {"device": "nothing"}},
+        {"from": [2.3, -8.0], "to": {"point": ["a", None]}},
+    ]
+    answer = client.post(f"/api/sites/{SITE}/routes", json.dumps({"pairs": pairs}), content_type="application/json")
+    assert answer.json() == [
+        {"path": [[2.3, -2.93], [2.3, -7.65], [20.9, -7.65], [20.9, -4.23]], "length_m": 26.74, "seconds": 13},
+        None,
+        None,
+    ]
+
+
+def test_a_run_over_http_reaches_its_end(factory, program):
+    client = member("operator")
+    run = send(client, f"/programs/{program}/runs").json()
+    assert (run["status"], run["program"]["name"], run["version"]) == ("pending", "Errand", 1)
+    factory.go(lambda: client.get(f"/api/runs/{run['id']}").json()["status"] == "finished")
+    view = client.get(f"/api/runs/{run['id']}").json()
+    assert view["steps"]["s1"]["status"] == "done"
+    assert view["document"]["steps"].keys() == {"s1"}
+    assert "class Task(object):" in view["compiled"]["script"]
+    events = client.get(f"/api/runs/{run['id']}/events").json()
+    later = client.get(f"/api/runs/{run['id']}/events?after={events[2]['seq']}").json()
+    assert later == events[3:]

@@ -1,0 +1,50 @@
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from editor.language import plan_to_json
+from editor.language.plan import Constant, End, Instruction, Plan, Wait
+from execution.rehearsal import rehearse_program
+from execution.rehearsal_job import scene_to_json
+from simulation.world import Scene
+from tests.unit.execution import demo_floor
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def scene():
+    return Scene(demo_floor.grid(), demo_floor.devices(), seed=1)
+
+
+def test_the_example_programs_rehearse_without_errors():
+    for name in ("pick-and-drop", "paint-order"):
+        body = json.loads((ROOT / "examples" / f"{name}.json").read_text())
+        site = body["site"]
+        if isinstance(site, str):
+            site = json.loads((ROOT / "examples" / site).read_text())
+        grid = {"yaml": str(ROOT / "registry" / "demo" / "painting-factory.yaml")}
+        result = rehearse_program(body["document"], {**site, "grid": grid}, 1, "kinematic")
+        assert (result["ok"], result["errors"], result["collisions"], result["near_misses"]) == (True, [], [], [])
+
+
+def test_the_child_process_writes_progress_and_the_result():
+    plan = Plan((Instruction(Wait(Constant(30)), "w"), Instruction(End())))
+    job = {"plan": plan_to_json(plan), "scene": scene_to_json(scene(), demo_floor.places()), "driver": "kinematic"}
+    child = subprocess.run(
+        [sys.executable, "-m", "execution.rehearsal_job"],
+        input=json.dumps(job), capture_output=True, text=True, cwd=ROOT, timeout=120,
+    )  # fmt: skip
+    lines = [json.loads(line) for line in child.stdout.splitlines()]
+    assert child.returncode == 0
+    assert lines[-2] == {"progress": 1.0}
+    assert lines[-1]["result"]["ok"] is True
+    assert lines[-1]["result"]["duration_s"] == 30.0
+
+
+def test_a_broken_job_is_answered_with_a_sentence():
+    child = subprocess.run(
+        [sys.executable, "-m", "execution.rehearsal_job"], input="{}", capture_output=True, text=True, cwd=ROOT
+    )
+    assert child.returncode == 1
+    assert json.loads(child.stdout)["error"].startswith("The rehearsal broke off")

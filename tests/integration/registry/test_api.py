@@ -1,0 +1,274 @@
+from __future__ import annotations
+
+import gzip
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from django.core.files.uploadedfile import SimpleUploadedFile
+from django.test import Client
+
+from registry import services
+from registry.models import Membership, Site, User
+from registry.ontology import read_description
+
+from .conftest import MIXER, NOW, PASSWORD, ROLES, come, describe, say
+
+YAML = b"image: a.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\n"
+IMAGE = b"P5 2 2 255\n" + bytes([254, 0, 205, 254])
+EVERYBODY = (*ROLES, "stranger", "nobody")
+
+
+@pytest.fixture
+def browser(hall: str) -> Callable[[str], Client]:
+    def make(name: str) -> Client:
+        client = Client()
+        if name != "nobody":
+            client.force_login(User.objects.get(email=f"{name}@vipo.example"))
+        return client
+
+    return make
+
+
+def sign_in(client: Client, email: str, password: str, **headers: str) -> Any:
+    body = json.dumps({"email": email, "password": password})
+    return client.post("/api/sign-in", body, content_type="application/json", headers=headers)
+
+
+def test_a_person_signs_in_and_out_with_the_token(hall: str) -> None:
+    client = Client(enforce_csrf_checks=True)
+    me = client.get("/api/me").json()
+    assert (me["user"], me["demo_accounts"]) == (None, [])
+    assert sign_in(client, "admin@vipo.example", PASSWORD).status_code == 403
+    answer = sign_in(client, " Admin@VIPO.example ", PASSWORD, **{"X-CSRFToken": me["csrf"]})
+    assert answer.status_code == 200
+    person = answer.json()["user"]
+    assert (person["name"], person["initials"], person["email"]) == ("Admin Person", "AP", "admin@vipo.example")
+    assert client.get("/api/me").json()["user"] == person
+    assert client.post("/api/sign-out").status_code == 403
+    assert client.post("/api/sign-out", headers={"X-CSRFToken": answer.json()["csrf"]}).json()["user"] is None
+    assert client.get("/api/sites").status_code == 401
+
+
+@pytest.mark.parametrize(
+    ("email", "password"), [("admin@vipo.example", "wrong"), ("who@vipo.example", PASSWORD), ("", ""), ("\0", "\0")]
+)
+def test_a_wrong_address_and_a_wrong_password_look_the_same(hall: str, email: str, password: str) -> None:
+    answer = sign_in(Client(), email, password)
+    assert answer.status_code == 401
+    assert answer["Content-Type"] == "application/problem+json"
+    assert answer.json()["code"] == "wrong_password"
+    assert answer.json()["detail"] == "The e-mail address or the password is wrong. Check both and try again."
+
+
+def test_guessing_is_slowed_down_and_does_not_lock_out_others(hall: str) -> None:
+    for _ in range(8):
+        assert sign_in(Client(), "admin@vipo.example", "wrong").status_code == 401
+    blocked = sign_in(Client(), "admin@vipo.example", PASSWORD)
+    assert (blocked.status_code, blocked.json()["code"]) == (429, "too_many_attempts")
+    assert sign_in(Client(), "author@vipo.example", PASSWORD).status_code == 200
+    assert sign_in(Client(REMOTE_ADDR="10.0.0.9"), "admin@vipo.example", PASSWORD).status_code == 200
+
+
+def test_somebody_who_was_deactivated_cannot_sign_in(hall: str) -> None:
+    User.objects.filter(email="admin@vipo.example").update(is_active=False)
+    assert sign_in(Client(), "admin@vipo.example", PASSWORD).status_code == 401
+
+
+def test_the_demo_shows_its_accounts_and_nothing_else_does(hall: str, settings: Any, tmp_path: Path) -> None:
+    account = {"email": "a@vipo.example", "password": "x", "role": "admin"}
+    (tmp_path / "demo-accounts.json").write_text(json.dumps([account]))
+    settings.VIPO_STATE_DIR = tmp_path
+    assert Client().get("/api/me").json()["demo_accounts"] == []
+    settings.VIPO_DEMO = True
+    assert Client().get("/api/me").json()["demo_accounts"] == [account]
+
+
+DEVICE = "/devices/mixer1"
+READ = (
+    *("", "/map", "/map/cells", "/map.yaml", "/map.pgm", "/devices"),
+    *(DEVICE, f"{DEVICE}/events", f"{DEVICE}/rdf"),
+)
+
+
+@pytest.mark.parametrize("path", READ)
+def test_every_member_may_look_and_strangers_learn_nothing(browser: Callable[[str], Client], path: str) -> None:
+    describe()
+    answers = {name: browser(name).get(f"/api/sites/hall{path}").status_code for name in EVERYBODY}
+    assert answers == {**dict.fromkeys(ROLES, 200), "stranger": 404, "nobody": 401}
+    hidden = browser("stranger").get(f"/api/sites/hall{path}").json()["detail"]
+    assert hidden == browser("stranger").get(f"/api/sites/missing{path}").json()["detail"]
+
+
+@pytest.mark.parametrize(("method", "path"), [("post", "/approve"), ("post", "/reject"), ("patch", "")])
+def test_only_admins_decide_about_devices(browser: Callable[[str], Client], method: str, path: str) -> None:
+    describe()
+    address, body = f"/api/sites/hall/devices/mixer1{path}", json.dumps({"name": "Mine"})
+    answers = {}
+    for name in ("stranger", "nobody", "viewer", "operator", "author"):
+        call = getattr(browser(name), method)
+        answers[name] = call(address, body, content_type="application/json").status_code
+    assert answers == {"stranger": 404, "nobody": 401, "viewer": 403, "operator": 403, "author": 403}
+    device = services.get_device(site="hall", device_id="mixer1")
+    assert (device.lifecycle, device.name) == ("pending", "Mixer One")
+    assert getattr(browser("admin"), method)(address, body, content_type="application/json").status_code == 200
+
+
+def test_a_refusal_says_which_role_is_needed(browser: Callable[[str], Client]) -> None:
+    describe()
+    answer = browser("viewer").post("/api/sites/hall/devices/mixer1/approve")
+    assert answer.json()["code"] == "not_allowed"
+    assert answer.json()["detail"] == "You are viewer of this site; this needs the role admin. Ask an admin for it."
+
+
+def test_a_member_sees_their_sites_with_counts(browser: Callable[[str], Client]) -> None:
+    describe()
+    come()
+    services.create_site(name="Other")
+    expected = {
+        "slug": "hall",
+        "name": "Hall",
+        "role": "author",
+        "machines": 0,
+        "robots": 0,
+        "online": 0,
+        "pending": 1,
+        "has_map": True,
+        "stop": {"active": False, "by": "", "at": None},
+        "simulated": False,
+    }
+    assert browser("author").get("/api/sites").json() == [expected]
+    assert browser("stranger").get("/api/sites").json() == []
+    services.approve_device(site="hall", device_id="mixer1", by=None, at=NOW)
+    services.set_site_stop(site="hall", active=True, by="Ada", at=NOW)
+    now = browser("author").get("/api/sites/hall").json()
+    assert (now["machines"], now["online"], now["pending"], now["simulated"]) == (1, 1, 0, True)
+    assert now["stop"] == {"active": True, "by": "Ada", "at": "2026-11-21T12:00:00+00:00"}
+
+
+def test_the_map_comes_as_facts_cells_and_ros_files(browser: Callable[[str], Client]) -> None:
+    services.save_places(site="hall", places=[services.PlaceView("dock1", "Dock 1", "dock", 1.0, 2.0, 0.5)])
+    client = browser("viewer")
+    assert client.get("/api/sites/hall/map").json() == {
+        "version": 1,
+        "width": 4,
+        "height": 3,
+        "resolution_m": 1.0,
+        "origin": {"x": 0.0, "y": 0.0, "yaw": 0.0},
+        "places": [{"id": "dock1", "name": "Dock 1", "kind": "dock", "x": 1.0, "y": 2.0, "theta": 0.5, "label": None}],
+        "walls": [[0.0, 2.0, 3.0, 3.0]],
+    }
+    cells = client.get("/api/sites/hall/map/cells")
+    assert gzip.decompress(cells.content) == bytes([0] * 8 + [100] * 3 + [255])
+    again = client.get("/api/sites/hall/map/cells", headers={"If-None-Match": cells["ETag"]})
+    assert (again.status_code, again.content) == (304, b"")
+    assert b"image: hall.pgm" in client.get("/api/sites/hall/map.yaml").content
+    assert client.get("/api/sites/hall/map.pgm").content.startswith(b"P5\n4 3\n255\n")
+
+
+def upload(client: Client, **files: Any) -> Any:
+    return client.post("/api/sites", {"name": "Second  Hall", **files})
+
+
+def test_a_site_is_made_from_a_ros_map_and_its_maker_is_admin(browser: Callable[[str], Client]) -> None:
+    client = browser("stranger")
+    for slug in ("second-hall", "second-hall-2"):
+        answer = upload(client, yaml=SimpleUploadedFile("m.yaml", YAML), image=SimpleUploadedFile("a.pgm", IMAGE))
+        assert answer.status_code == 201
+        assert (answer.json()["slug"], answer.json()["role"], answer.json()["name"]) == (slug, "admin", "Second Hall")
+    assert client.get("/api/sites/second-hall/map").json()["width"] == 2
+    assert browser("admin").get("/api/sites/second-hall").status_code == 404
+
+
+def test_a_broken_map_makes_no_site(browser: Callable[[str], Client]) -> None:
+    client, before = browser("author"), Site.objects.count()
+    bad = upload(client, yaml=SimpleUploadedFile("m.yaml", YAML), image=SimpleUploadedFile("a.pgm", b"P5 9 9 255\n1"))
+    assert (bad.status_code, bad.json()["code"]) == (422, "bad_map")
+    assert bad.json()["detail"] == "The PGM ends early: 1 of 81 cells. Copy the whole file again."
+    alone = upload(client, yaml=SimpleUploadedFile("m.yaml", YAML))
+    assert alone.json()["detail"] == ("The map's image 'a.pgm' is missing. Choose it together with the .yaml file.")
+    big = upload(client, yaml=SimpleUploadedFile("m.yaml", b"#" * 70000), image=SimpleUploadedFile("a.pgm", IMAGE))
+    assert big.status_code == 422
+    files = {"yaml": SimpleUploadedFile("m.yaml", YAML), "image": SimpleUploadedFile("a.pgm", IMAGE)}
+    nameless = client.post("/api/sites", {"name": " ", **files})
+    assert (nameless.status_code, nameless.json()["code"]) == (422, "bad_name")
+    assert client.post("/api/sites", {"name": "x"}).json()["code"] == "bad_request"
+    assert (Site.objects.count(), Membership.objects.filter(user__email="author@vipo.example").count()) == (before, 1)
+
+
+def test_nobody_uploads_without_a_session(hall: str) -> None:
+    answer = upload(Client(), yaml=SimpleUploadedFile("m.yaml", YAML), image=SimpleUploadedFile("a.pgm", IMAGE))
+    assert answer.status_code == 401
+    assert Site.objects.count() == 1
+
+
+def test_a_device_is_shown_as_the_contract_says(browser: Callable[[str], Client]) -> None:
+    describe()
+    come()
+    say(seq=3, props={"jobStatus": 10})
+    body = browser("viewer").get("/api/sites/hall/devices").json()[0]
+    assert body == browser("viewer").get("/api/sites/hall/devices/mixer1").json()
+    assert body["status"] == "pending"
+    assert body["location"] == {"x": 2.0, "y": 2.0, "z": 0.0, "theta": 0.0}
+    assert body["properties"][0]["value"] == 10
+    assert body["methods"][0]["topic"] == "vipo/v1/dev/mixer1/down/mix"
+    assert body["last_seen_at"] == "2026-11-21T12:00:00+00:00"
+    contract = {
+        *("id", "name", "kind", "device_class", "icon", "lifecycle", "status", "doing", "location", "size", "radius_m"),
+        *("properties", "methods", "gives", "takes", "capacity", "carrying", "last_seen_at", "done", "simulated"),
+        *("image", "description"),
+    }
+    assert set(body) == contract
+
+
+def test_a_device_is_renamed_and_moved(browser: Callable[[str], Client]) -> None:
+    describe()
+    client = browser("admin")
+    body = {"name": "New name", "location": {"x": 1, "y": 2}}
+    answer = client.patch("/api/sites/hall/devices/mixer1", json.dumps(body), content_type="application/json")
+    assert (answer.json()["name"], answer.json()["location"]["y"]) == ("New name", 2.0)
+    events = client.get("/api/sites/hall/devices/mixer1/events").json()
+    assert [(e["text"], e["by"]) for e in events[:2]] == [
+        ("Moved to 1.00, 2.00", "Admin Person"),
+        ("Renamed from Mixer One to New name", "Admin Person"),
+    ]
+    far = client.patch(
+        "/api/sites/hall/devices/mixer1", json.dumps({"location": {"x": 1e9, "y": 0}}), content_type="application/json"
+    )
+    assert far.status_code == 422
+
+
+def test_a_decided_device_is_not_decided_again(browser: Callable[[str], Client]) -> None:
+    describe()
+    client = browser("admin")
+    assert client.post("/api/sites/hall/devices/mixer1/approve").json()["lifecycle"] == "approved"
+    assert client.post("/api/sites/hall/devices/mixer1/reject").status_code == 409
+    assert client.post("/api/sites/hall/devices/nothing/approve").status_code == 404
+
+
+@pytest.mark.parametrize("form", ["turtle", "nt", "json-ld"])
+def test_a_description_can_be_had_as_rdf(browser: Callable[[str], Client], form: str) -> None:
+    describe()
+    answer = browser("viewer").get(f"/api/sites/hall/devices/mixer1/rdf?format={form}")
+    assert read_description(answer.content) == MIXER
+    assert browser("viewer").get("/api/sites/hall/devices/mixer1/rdf?format=xml").status_code == 422
+
+
+def test_a_site_without_a_map_says_so(browser: Callable[[str], Client], person: Callable[[str], User]) -> None:
+    services.create_site(name="Bare", slug="bare", admin=person("author"))
+    answer = browser("author").get("/api/sites/bare/map")
+    assert (answer.status_code, answer.json()["code"]) == (404, "no_map")
+
+
+def test_characters_that_no_name_has_are_refused(browser: Callable[[str], Client]) -> None:
+    describe()
+    client = browser("admin")
+    for path in ("/sites/ha%00ll", "/sites/hall/devices/mixer1%00", "/sites/hall/devices/a%00/events"):
+        assert client.get(f"/api{path}").status_code == 404
+    assert client.post("/api/sites/hall/devices/mixer%00/approve").status_code == 404
+    named = client.patch("/api/sites/hall/devices/mixer1", json.dumps({"name": "a\0"}), content_type="application/json")
+    assert (named.status_code, named.json()["code"]) == (422, "bad_device")
+    files = {"yaml": SimpleUploadedFile("m.yaml", YAML), "image": SimpleUploadedFile("a.pgm", IMAGE)}
+    assert client.post("/api/sites", {"name": "a\0b", **files}).json()["code"] == "bad_name"

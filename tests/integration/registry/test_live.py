@@ -1,0 +1,146 @@
+from __future__ import annotations
+
+import asyncio
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from registry import live as port
+from registry.live import Live, RedisLive, make_live
+from tests.servers import run_redis
+
+
+@pytest.fixture(scope="module")
+def redis_url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    with run_redis(Path(tmp_path_factory.mktemp("redis"))) as redis:
+        yield redis.url
+
+
+@pytest.fixture(params=["memory", "redis"])
+def live(request: pytest.FixtureRequest) -> Iterator[Live]:
+    url = "memory://" if request.param == "memory" else request.getfixturevalue("redis_url")
+    made = make_live(url)
+    yield made
+    made.close()
+
+
+def wait_for(happened: Callable[[], bool], seconds: float = 5.0) -> bool:
+    end = time.monotonic() + seconds
+    while time.monotonic() < end and not happened():
+        time.sleep(0.005)
+    return happened()
+
+
+def test_every_listener_hears_every_site_in_order(live: Live) -> None:
+    first: list[Any] = []
+    second: list[Any] = []
+    live.listen(lambda slug, message: first.append((slug, message)))
+    stop = live.listen(lambda slug, message: second.append((slug, message)))
+    for number in range(20):
+        live.publish("a", {"n": number})
+    live.publish("b", {"ä": [1.5, None]})
+    assert wait_for(lambda: len(first) == 21 and len(second) == 21)
+    assert first == second == [*(("a", {"n": n}) for n in range(20)), ("b", {"ä": [1.5, None]})]
+    stop()
+    live.publish("a", {"n": 99})
+    assert wait_for(lambda: len(first) == 22)
+    assert len(second) == 21
+
+
+def test_a_listener_that_fails_does_not_keep_the_message_from_others(
+    live: Live, caplog: pytest.LogCaptureFixture
+) -> None:
+    heard: list[Any] = []
+
+    def fail(slug: str, message: Any) -> None:
+        raise ValueError("broken")
+
+    live.listen(fail)
+    live.listen(lambda slug, message: heard.append(message))
+    live.publish("a", {"n": 1})
+    assert wait_for(lambda: heard == [{"n": 1}])
+    assert "A listener failed" in caplog.text
+
+
+def test_what_a_listener_does_to_a_message_is_its_own_affair(live: Live) -> None:
+    heard: list[Any] = []
+    live.listen(lambda slug, message: message.clear())  # type: ignore[attr-defined]
+    live.listen(lambda slug, message: heard.append(message))
+    live.publish("a", {"n": 1})
+    assert wait_for(lambda: heard == [{"n": 1}])
+
+
+def test_a_hint_wakes_who_waits(live: Live) -> None:
+    woken: list[float] = []
+    waiting = threading.Event()
+
+    def wait() -> None:
+        live.wait_wake("gateway", 0.01)
+        waiting.set()
+        if live.wait_wake("gateway", 10):
+            woken.append(time.monotonic())
+
+    thread = threading.Thread(target=wait)
+    thread.start()
+    assert waiting.wait(10)
+    live.wake("other")
+    assert not wait_for(lambda: bool(woken), 0.2)
+    live.wake("gateway")
+    thread.join(10)
+    assert len(woken) == 1
+
+
+def test_a_hint_given_between_two_waits_is_not_lost(live: Live) -> None:
+    assert live.wait_wake("ticker", 0.01) is False
+    live.wake("ticker")
+    time.sleep(0.1)
+    assert live.wait_wake("ticker", 1) is True
+    assert live.wait_wake("ticker", 0.05) is False
+
+
+def test_a_subscription_gives_one_sites_messages_in_the_event_loop(live: Live, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(port, "live", lambda: live)
+
+    async def read() -> list[Any]:
+        async with port.subscribe("a") as messages:
+            await asyncio.to_thread(live.publish, "b", {"n": 0})
+            await asyncio.to_thread(live.publish, "a", {"n": 1})
+            return [await asyncio.wait_for(messages.get(), 5)]
+
+    assert asyncio.run(read()) == [{"n": 1}]
+    live.publish("a", {"n": 2})
+
+
+def test_a_full_subscription_drops_the_oldest(live: Live, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(port, "live", lambda: live)
+
+    async def read() -> list[Any]:
+        async with port.subscribe("a", limit=2) as messages:
+            for number in range(5):
+                live.publish("a", {"n": number})
+            await asyncio.sleep(0.5)
+            return [messages.get_nowait(), messages.get_nowait()]
+
+    assert asyncio.run(asyncio.wait_for(read(), 5)) == [{"n": 3}, {"n": 4}]
+
+
+def test_after_a_gap_watchers_are_told_to_begin_anew(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    heard: list[Any] = []
+    with run_redis(tmp_path) as redis:
+        live = RedisLive(redis.url)
+        live.listen(lambda slug, message: heard.append((slug, message)))
+        clients: list[Any] = [c for c in live._redis.client_list() if int(c["psub"])]
+        live._redis.client_kill_filter(_id=clients[0]["id"])
+        assert wait_for(lambda: ("", {"type": "hello"}) in heard)
+        live.publish("a", {"n": 1})
+        assert wait_for(lambda: ("a", {"n": 1}) in heard)
+        redis.process.kill()
+        redis.process.wait()
+        live.publish("a", {"n": 2})
+        live.wake("gateway")
+    assert "was dropped; Redis does not answer" in caplog.text
+    live.close()

@@ -1,0 +1,65 @@
+from __future__ import annotations
+
+import json
+import stat
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from registry import services
+from registry.demo.devices import DEVICES
+from registry.demo.seed import seed_demo
+from registry.models import Device, Membership, SiteMap, User
+
+from .conftest import NOW
+
+pytestmark = pytest.mark.django_db
+SITE = "painting-factory"
+
+
+def test_the_demo_is_seeded_once_and_again_without_change(tmp_path: Path) -> None:
+    first = seed_demo(state=tmp_path)
+    keys = (tmp_path / "secrets" / "devices.json").read_text()
+    assert seed_demo(state=tmp_path) == first
+    assert (tmp_path / "secrets" / "devices.json").read_text() == keys
+    assert [(a["email"], a["role"]) for a in first] == [
+        ("admin@vipo.example", "admin"),
+        ("author@vipo.example", "author"),
+    ]
+    assert (SiteMap.objects.count(), Membership.objects.count(), Device.objects.count()) == (1, 2, 11)
+    assert [p.id for p in services.list_places(site=SITE) if p.kind == "dock"] == ["dock1", "dock2", "dock3"]
+
+
+def test_its_secrets_can_be_read_by_their_owner_only_and_hold(tmp_path: Path) -> None:
+    accounts = seed_demo(state=tmp_path)
+    files = [tmp_path / "demo-accounts.json", tmp_path / "secrets" / "devices.json", tmp_path / "secrets" / "join"]
+    assert [stat.S_IMODE(f.stat().st_mode) for f in files] == [0o600] * 3
+    assert json.loads(files[0].read_text()) == accounts
+    assert all(User.objects.get(email=a["email"]).check_password(a["password"]) for a in accounts)
+    keys: dict[str, Any] = json.loads(files[1].read_text())
+    assert all(services.check_device_password(username=i, password=k) for i, k in keys.items())
+    assert len(set(keys.values())) == 11
+
+
+def test_a_new_database_keeps_the_passwords_and_a_lost_file_makes_new_ones(tmp_path: Path) -> None:
+    first = seed_demo(state=tmp_path)
+    User.objects.all().delete()
+    assert seed_demo(state=tmp_path) == first
+    assert User.objects.get(email="admin@vipo.example").check_password(first[0]["password"])
+    (tmp_path / "demo-accounts.json").unlink()
+    second = seed_demo(state=tmp_path)
+    assert second[0]["password"] != first[0]["password"]
+    assert User.objects.get(email="admin@vipo.example").check_password(second[0]["password"])
+
+
+def test_the_demos_devices_join_and_one_waits(tmp_path: Path) -> None:
+    seed_demo(state=tmp_path)
+    assert services.list_devices(site=SITE) == ()
+    for path in DEVICES.glob("*.ttl"):
+        services.ingest_description(device_id=path.stem, payload=path.read_bytes(), at=NOW)
+    site = services.get_site(site=SITE)
+    assert (site.machines, site.robots, site.pending, site.simulated) == (7, 3, 1, True)
+    assert [d.id for d in services.list_devices(site=SITE, lifecycle="pending")] == ["paintMixer03"]
+    floor = services.get_floor(site=SITE)
+    assert all(floor.is_free(p.x, p.y, 0.3) for p in services.list_places(site=SITE))

@@ -1,0 +1,113 @@
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from typing import Any
+
+import pytest
+from channels.db import database_sync_to_async
+from channels.routing import URLRouter
+from channels.testing import WebsocketCommunicator
+from django.contrib.auth.models import AnonymousUser
+from django.urls import path
+
+from registry import live, services, sockets
+from registry.models import User
+from registry.sockets import SiteSocket
+
+from .conftest import ROLES
+
+pytestmark = pytest.mark.django_db(transaction=True)
+
+
+@asynccontextmanager
+async def opened(user: Any, site: str = "hall") -> AsyncIterator[WebsocketCommunicator]:
+    socket = WebsocketCommunicator(URLRouter([path("ws/site/<slug:slug>", SiteSocket.as_asgi())]), f"/ws/site/{site}")
+    socket.scope["user"] = user
+    connected, _ = await socket.connect(timeout=5)
+    assert connected
+    yield socket
+    await socket.disconnect(timeout=5)
+
+
+async def close_code(socket: WebsocketCommunicator) -> int:
+    while (event := await socket.receive_output(timeout=5))["type"] != "websocket.close":
+        pass
+    code: int = event["code"]
+    return code
+
+
+@pytest.mark.parametrize("role", ROLES)
+async def test_members_hear_their_site_and_no_other(person: Callable[[str], User], role: str) -> None:
+    async with opened(await database_sync_to_async(person)(role)) as socket:
+        assert await socket.receive_json_from(5) == {"type": "hello", "site": "hall"}
+        live.publish("other", {"type": "programs"})
+        live.publish("hall", {"type": "run", "run": {"id": 1}})
+        assert await socket.receive_json_from(5) == {"type": "run", "run": {"id": 1}}
+
+
+async def test_strangers_and_the_signed_out_are_closed_with_a_code(person: Callable[[str], User]) -> None:
+    stranger, admin = await database_sync_to_async(person)("stranger"), await database_sync_to_async(person)("admin")
+    for user, site, code in ((AnonymousUser(), "hall", 4401), (stranger, "hall", 4404), (admin, "missing", 4404)):
+        async with opened(user, site) as socket:
+            assert await close_code(socket) == code
+
+
+async def test_a_device_is_sent_at_most_ten_times_a_second_and_the_latest_wins(person: Callable[[str], User]) -> None:
+    async with opened(await database_sync_to_async(person)("viewer")) as socket:
+        await socket.receive_json_from(5)
+        for number in range(200):
+            live.publish("hall", {"type": "device", "device": {"id": "r1", "location": {"x": number}}})
+            if number == 7:
+                live.publish("hall", {"type": "device", "device": {"id": "r1", "status": "busy"}})
+            await asyncio.sleep(0.003)
+        merged: dict[str, Any] = {}
+        count = 0
+        while merged.get("location") != {"x": 199}:
+            merged |= (await socket.receive_json_from(5))["device"]
+            count += 1
+        assert merged == {"id": "r1", "location": {"x": 199}, "status": "busy"}
+        assert count <= 9
+
+
+async def test_a_device_that_was_removed_is_not_heard_of_again(person: Callable[[str], User]) -> None:
+    async with opened(await database_sync_to_async(person)("viewer")) as socket:
+        await socket.receive_json_from(5)
+        live.publish("hall", {"type": "device", "device": {"id": "r1", "status": "busy"}})
+        live.publish("hall", {"type": "device_removed", "id": "r1"})
+        messages = [await socket.receive_json_from(5)]
+        while messages[-1]["type"] != "device_removed":
+            messages.append(await socket.receive_json_from(5))
+        assert await socket.receive_nothing(0.3)
+
+
+async def test_somebody_who_is_no_member_any_more_is_closed_out(person: Callable[[str], User]) -> None:
+    async with opened(await database_sync_to_async(person)("viewer")) as leaving:
+        await leaving.receive_json_from(5)
+        async with opened(await database_sync_to_async(person)("author")) as staying:
+            await staying.receive_json_from(5)
+            await database_sync_to_async(services.remove_member)(site="hall", email="viewer@vipo.example")
+            assert await close_code(leaving) == 4403
+            live.publish("hall", {"type": "programs"})
+            assert await staying.receive_json_from(5) == {"type": "programs"}
+
+
+async def test_a_browser_that_reads_too_slowly_is_closed(
+    person: Callable[[str], User], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sockets, "MOST_WAITING", 5)
+    async with opened(await database_sync_to_async(person)("viewer")) as socket:
+        await socket.receive_json_from(5)
+        for number in range(50):
+            live.publish("hall", {"type": "run_event", "event": {"n": number}})
+        assert await close_code(socket) == 4503
+
+
+async def test_what_a_browser_sends_is_not_listened_to(person: Callable[[str], User]) -> None:
+    async with opened(await database_sync_to_async(person)("viewer")) as socket:
+        await socket.receive_json_from(5)
+        await socket.send_to(text_data="{" * 1000)
+        await socket.send_to(bytes_data=b"\xff" * 1000)
+        live.publish("hall", {"type": "programs"})
+        assert await socket.receive_json_from(5) == {"type": "programs"}

@@ -1,0 +1,151 @@
+"""The served form, started by hand: the processes of docker-compose.yml against real servers on free ports."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+from tests.servers import Mosquitto, Postgres, Redis, find_program, free_port, run_mosquitto, run_postgres, run_redis
+
+ROOT = Path(__file__).resolve().parents[3]
+SPEED = 6
+WEB = ["-m", "daphne", "-b", "127.0.0.1", "--proxy-headers", "--websocket-max-message-size", "16777216"]
+WORKER = ["-m", "celery", "-A", "vipo_site", "worker", "--pool", "threads", "--concurrency", "4", "--loglevel", "INFO"]
+
+
+@dataclass
+class Served:
+    """Running processes by name, and how to start, kill and ask them."""
+
+    folder: Path
+    environment: dict[str, str]
+    postgres: Postgres
+    redis: Redis
+    mosquitto: Mosquitto
+    web_ports: tuple[int, int]
+    processes: dict[str, subprocess.Popen[bytes]] = field(default_factory=dict)
+
+    def start(self, name: str, *arguments: str) -> None:
+        with self.log(name).open("ab") as log:
+            self.processes[name] = subprocess.Popen(
+                [sys.executable, *arguments], cwd=ROOT, env=self.environment, stdout=log, stderr=log
+            )
+
+    def manage(self, *arguments: str) -> str:
+        done = subprocess.run(
+            [sys.executable, "manage.py", *arguments], cwd=ROOT, env=self.environment, capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+
+    def log(self, name: str) -> Path:
+        return self.folder / f"{name}.log"
+
+    def kill(self, name: str) -> None:
+        process = self.processes.pop(name)
+        process.kill()
+        process.wait()
+
+    def stop_all(self) -> dict[str, int]:
+        """End everything as an operator would; return the exit codes."""
+        for process in self.processes.values():
+            process.send_signal(signal.SIGTERM)
+        return {name: wait_or_kill(process) for name, process in self.processes.items()}
+
+    @contextmanager
+    def signed_in(self, role: str, web: int = 0) -> Iterator[httpx.Client]:
+        """Give a browser's session with one of the web processes."""
+        accounts = json.loads((self.folder / "state" / "demo-accounts.json").read_text())
+        account = next(a for a in accounts if a["role"] == role)
+        base = f"http://127.0.0.1:{self.web_ports[web]}"
+        with httpx.Client(base_url=base, timeout=20, headers={"Origin": base, "Referer": base}) as client:
+            csrf = client.get("/api/me").json()["csrf"]
+            words = {"email": account["email"], "password": account["password"]}
+            answer = client.post("/api/sign-in", json=words, headers={"X-CSRFToken": csrf})
+            assert answer.status_code == 200, answer.text
+            client.headers["X-CSRFToken"] = answer.json()["csrf"]
+            yield client
+
+    def story(self) -> str:
+        """Return the last lines of every log, for a failing test."""
+        logs = sorted(self.folder.glob("*.log"))
+        return "\n".join(f"--- {log.name}\n{chr(10).join(log.read_text().splitlines()[-15:])}" for log in logs)
+
+    def wait(self, what: str, ready: Callable[[], Any], timeout_s: float = 60) -> Any:
+        """Return the first true answer; fail with the processes' logs."""
+        deadline = time.monotonic() + timeout_s
+        while time.monotonic() < deadline:
+            found = ready()
+            if found:
+                return found
+            ended = [name for name, process in self.processes.items() if process.poll() is not None]
+            assert not ended, f"{ended} ended by themselves.\n{self.story()}"
+            time.sleep(0.2)
+        raise AssertionError(f"{what} did not come within {timeout_s} s.\n{self.story()}")
+
+
+def wait_or_kill(process: subprocess.Popen[bytes]) -> int:
+    try:
+        return process.wait(15)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        return process.wait()
+
+
+def settings_for(state: Path, postgres: Postgres, redis: Redis, mosquitto: Mosquitto) -> dict[str, str]:
+    """Return the environment that docker-compose.yml gives."""
+    own = {name: value for name, value in os.environ.items() if not name.startswith(("VIPO_", "DJANGO_"))}
+    return own | {
+        "VIPO_MODE": "served",
+        "VIPO_SECRET_KEY": "a key for this test only",
+        "VIPO_HOSTS": "127.0.0.1",
+        "VIPO_DATABASE_URL": postgres.url,
+        "VIPO_REDIS_URL": redis.url,
+        "VIPO_MQTT_HOST": "localhost",
+        "VIPO_MQTT_PORT": str(mosquitto.port),
+        "VIPO_MQTT_TLS": "1",
+        "VIPO_MQTT_CA": mosquitto.authority,
+        "VIPO_MQTT_PASSWORD": mosquitto.accounts["server"],
+        "VIPO_DEMO": "1",
+        "VIPO_STATE_DIR": str(state),
+        "VIPO_LOG": "INFO",
+        "PYTHONUNBUFFERED": "1",
+    }
+
+
+@contextmanager
+def running_served(folder: Path) -> Iterator[Served]:
+    """Start the servers, prepare the database and the broker's accounts, and start all processes."""
+    find_program("mosquitto", "/usr/sbin/mosquitto")
+    state = folder / "state"
+    state.mkdir()
+    with ExitStack() as stack:
+        postgres = stack.enter_context(run_postgres(folder))
+        redis = stack.enter_context(run_redis(folder))
+        mosquitto = stack.enter_context(run_mosquitto(folder, {"server": "the server's word"}, tls=True))
+        environment = settings_for(state, postgres, redis, mosquitto)
+        served = Served(folder, environment, postgres, redis, mosquitto, (free_port(), free_port()))
+        served.manage("prepare")
+        served.manage("mosquitto_passwords", str(folder / "passwords"), "--newcomer", "paintMixer03")
+        assert mosquitto.process is not None
+        mosquitto.process.send_signal(signal.SIGHUP)
+        stack.callback(served.stop_all)
+        for number, port in enumerate(served.web_ports, 1):
+            served.start(f"web-{number}", *WEB, "-p", str(port), "vipo_site.asgi:application")
+        for name in ("worker-1", "worker-2"):
+            served.start(name, *WORKER, "-n", f"{name}@%h")
+        for name in ("gateway", "ticker"):
+            served.start(name, "manage.py", name)
+        served.start("twin", "manage.py", "twin", "--site", "painting-factory", "--speed", str(SPEED))
+        yield served

@@ -1,0 +1,198 @@
+"""The embedded broker's rules, tried with real clients over real sockets."""
+
+from __future__ import annotations
+
+import socket
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from registry.mqtt import MqttClient
+from tests.bus import Ear
+from vipo_site.broker import EmbeddedBroker, PortInUse, start_broker
+
+WORDS = {"robot01": "one", "mixer01": "two"}
+
+
+@pytest.fixture
+def broker() -> Iterator[EmbeddedBroker]:
+    running = start_broker(port=0, server_password="secret", check_password=lambda name, word: WORDS.get(name) == word)
+    yield running
+    running.stop()
+    assert not running.running
+
+
+@pytest.fixture
+def ear(broker: EmbeddedBroker) -> Iterator[Ear]:
+    with Ear(broker.port, "secret") as listening:
+        yield listening
+
+
+def device(broker: EmbeddedBroker, name: str, **more: object) -> MqttClient:
+    options = {"username": name, "password": WORDS[name], "client_id": name, **more}
+    return MqttClient(host="127.0.0.1", port=broker.port, **options)  # type: ignore[arg-type]
+
+
+def refused(client: MqttClient) -> str:
+    client.start()
+    try:
+        assert not client.wait_connected(0.7)
+        return client.refusal
+    finally:
+        client.stop()
+
+
+def test_a_client_that_prefers_mqtt_5_settles_on_3_1_1_at_once(broker: EmbeddedBroker) -> None:
+    began = time.monotonic()
+    with Ear(broker.port, "secret") as ear:
+        assert ear.client.protocol == "3.1.1"
+    assert time.monotonic() - began < 3
+
+
+def test_what_was_published_before_the_first_connection_arrives(broker: EmbeddedBroker, ear: Ear) -> None:
+    robot = device(broker, "robot01")
+    robot.publish("vipo/v1/dev/robot01/up/state", b"early")
+    robot.start()
+    assert ear.wait(lambda h: h.payload == b"early").topic == "vipo/v1/dev/robot01/up/state"
+    robot.stop()
+
+
+def test_a_device_writes_only_under_its_own_name(broker: EmbeddedBroker, ear: Ear) -> None:
+    robot = device(broker, "robot01")
+    robot.start()
+    for topic in ("vipo/v1/dev/mixer01/up/state", "vipo/v1/dev/robot01/down/move", "vipo/v1/site/hall/stop"):
+        robot.publish(topic, b"evil", retain=True)
+    robot.publish("vipo/v1/dev/robot01/up/state", b"good")
+    ear.wait(lambda h: h.payload == b"good")
+    assert [h.payload for h in ear.heard] == [b"good"]
+    robot.stop()
+    with Ear(broker.port, "secret", "vipo/#") as all_topics:
+        time.sleep(0.2)
+        assert all_topics.heard == []
+
+
+def test_a_device_hears_only_its_own_commands_and_its_sites_stop(broker: EmbeddedBroker, ear: Ear) -> None:
+    heard: list[tuple[str, bytes]] = []
+    robot = device(broker, "robot01")
+    for topic in ("vipo/v1/dev/+/down/#", "vipo/v1/dev/mixer01/down/#", "vipo/#", "vipo/v1/dev/robot01/down/#"):
+        robot.subscribe(topic, 1, lambda t, p, _r: heard.append((t, p)))
+    robot.subscribe("vipo/v1/site/hall/stop", 1, lambda t, p, _r: heard.append((t, p)))
+    robot.start()
+    assert robot.wait_connected(5)
+    time.sleep(0.2)
+    ear.say("vipo/v1/dev/mixer01/down/mixPaint", b"not yours")
+    ear.say("vipo/v1/dev/robot01/down/move", b"yours")
+    ear.say("vipo/v1/site/hall/stop", b"stop", retain=True)
+    deadline = time.monotonic() + 5
+    while len(heard) < 2 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    time.sleep(0.2)
+    assert heard == [("vipo/v1/dev/robot01/down/move", b"yours"), ("vipo/v1/site/hall/stop", b"stop")]
+    robot.stop()
+
+
+def test_a_newcomer_is_not_given_what_others_asked_for(broker: EmbeddedBroker, ear: Ear) -> None:
+    ear.say("vipo/v1/dev/mixer01/up/desc", b"private", retain=True)
+    ear.wait(lambda h: h.payload == b"private")
+    with socket.create_connection(("127.0.0.1", broker.port)) as raw:
+        raw.settimeout(1)
+        raw.sendall(connect_packet("robot01", "robot01", "one"))
+        assert raw.recv(4) == b"\x20\x02\x00\x00"
+        with pytest.raises(TimeoutError):
+            raw.recv(1)
+
+
+def test_a_wrong_password_is_refused_and_throws_nobody_out(broker: EmbeddedBroker, ear: Ear) -> None:
+    robot = device(broker, "robot01", will=("vipo/v1/dev/robot01/up/presence", b"gone", 1, True))
+    robot.start()
+    assert robot.wait_connected(5)
+    assert refused(device(broker, "robot01", password="wrong")) == "Not authorized"
+    assert refused(device(broker, "mixer01", client_id="robot01")) == "Not authorized"
+    assert refused(device(broker, "robot01", username="")) == "Not authorized"
+    assert robot.connected
+    assert ear.heard == []
+    robot.stop()
+
+
+def test_a_will_on_somebody_elses_topic_is_refused(broker: EmbeddedBroker) -> None:
+    assert refused(device(broker, "robot01", will=("vipo/v1/dev/mixer01/up/presence", b"x", 1, True))) != ""
+
+
+def test_a_second_connection_of_a_device_ends_the_first_before_it_speaks(broker: EmbeddedBroker, ear: Ear) -> None:
+    topic = "vipo/v1/dev/robot01/up/presence"
+    first = device(broker, "robot01", will=(topic, b"first is gone", 1, True))
+    first.start()
+    assert first.wait_connected(5)
+    second = device(broker, "robot01", will=(topic, b"second is gone", 1, True))
+    second.on_connected(lambda: second.publish(topic, b"second is here", retain=True))
+    second.start()
+    ear.wait(lambda h: h.payload == b"second is here")
+    first.stop()
+    second.stop()
+    assert [h.payload for h in ear.heard][:2] == [b"first is gone", b"second is here"]
+
+
+def test_a_device_that_falls_silent_is_declared_gone_by_its_will(broker: EmbeddedBroker, ear: Ear) -> None:
+    with socket.create_connection(("127.0.0.1", broker.port)) as raw:
+        will = ("vipo/v1/dev/robot01/up/presence", b"gone")
+        raw.sendall(connect_packet("robot01", "robot01", "one", keepalive_s=1, will=will))
+        assert raw.recv(4) == b"\x20\x02\x00\x00"
+        assert ear.wait(lambda h: h.payload == b"gone", 6).topic == "vipo/v1/dev/robot01/up/presence"
+
+
+def test_nonsense_instead_of_a_connect_harms_nobody(broker: EmbeddedBroker, ear: Ear) -> None:
+    for nonsense in (
+        b"GET / HTTP/1.1\r\n\r\n",
+        b"\x10\xff\xff\xff\xff\xff",
+        b"\x10\x04\x00\x04MQ",
+        b"\x10\x00",
+        b"\xff" * 64,
+    ):
+        with socket.create_connection(("127.0.0.1", broker.port)) as raw:
+            raw.sendall(nonsense)
+            raw.shutdown(socket.SHUT_WR)
+            raw.settimeout(5)
+            assert raw.recv(16) in (b"", b"\x20\x02\x00\x01")
+    ear.say("vipo/v1/dev/robot01/up/state", b"still here")
+    ear.wait(lambda h: h.payload == b"still here")
+
+
+def test_a_port_in_use_is_said_with_the_remedy(broker: EmbeddedBroker) -> None:
+    with pytest.raises(PortInUse) as refusal:
+        start_broker(port=broker.port, server_password="x", check_password=lambda _n, _w: False)
+    assert refusal.value.detail == (
+        f"The MQTT port {broker.port} is in use by another program. "
+        "Stop that program, or set VIPO_MQTT_PORT to a free port."
+    )
+
+
+def test_no_message_is_lost_while_others_subscribe(broker: EmbeddedBroker, ear: Ear) -> None:
+    robot = device(broker, "robot01")
+    robot.start()
+    assert robot.wait_connected(5)
+    restless = device(broker, "mixer01")
+    restless.start()
+    for number in range(300):
+        robot.publish("vipo/v1/dev/robot01/up/ack", b"%d" % number)
+        restless.subscribe(f"vipo/v1/dev/mixer01/down/m{number}", 1, lambda *_: None)
+    ear.wait(lambda h: h.payload == b"299")
+    assert [h.payload for h in ear.heard] == [b"%d" % number for number in range(300)]
+    robot.stop()
+    restless.stop()
+
+
+def connect_packet(
+    client: str, user: str, password: str, *, keepalive_s: int = 60, will: tuple[str, bytes] | None = None
+) -> bytes:
+    """A CONNECT of MQTT 3.1.1 as bytes."""
+
+    def field(data: bytes) -> bytes:
+        return len(data).to_bytes(2, "big") + data
+
+    flags = 0xC2 | (0x2C if will else 0)
+    body = field(b"MQTT") + bytes((4, flags)) + keepalive_s.to_bytes(2, "big") + field(client.encode())
+    if will:
+        body += field(will[0].encode()) + field(will[1])
+    body += field(user.encode()) + field(password.encode())
+    return bytes((0x10, len(body))) + body

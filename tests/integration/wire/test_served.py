@@ -1,0 +1,133 @@
+"""The run part of the journey in the served form: two web processes, two workers, gateway, ticker and twin."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from registry.mqtt import MqttClient, tls_context
+from tests.integration.wire.served import WORKER, Served, running_served
+
+pytestmark = pytest.mark.servers
+SITE = "/api/sites/painting-factory"
+MAKE_ERRAND = """
+import json, pathlib
+from editor import services
+document = json.loads(pathlib.Path("examples/pick-and-drop.json").read_text())["document"]
+services.create_program(site="painting-factory", name="Errand", document=document)
+"""
+OVER = {"finished", "failed", "cancelled"}
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    with running_served(tmp_path_factory.mktemp("served")) as running:
+        running.manage("shell", "-c", MAKE_ERRAND)
+        for number in (0, 1):
+            running.wait("a web process", lambda n=number: is_up(running.web_ports[n]), 200)
+        yield running
+
+
+def is_up(port: int) -> bool:
+    try:
+        return httpx.get(f"http://127.0.0.1:{port}/health", timeout=2).status_code == 200
+    except httpx.HTTPError:
+        return False
+
+
+def devices(client: httpx.Client) -> dict[str, Any]:
+    return {device["id"]: device for device in client.get(f"{SITE}/devices").json()}
+
+
+def start_errand(served: Served, client: httpx.Client) -> str:
+    programs = client.get(f"{SITE}/programs").json()
+    errand = next(program for program in programs if program["name"] == "Errand")
+    answer = client.post(f"/api/programs/{errand['id']}/runs", json={})
+    assert answer.status_code in (200, 201), answer.text + served.story()
+    return str(answer.json()["id"])
+
+
+def test_devices_join_over_mosquitto_and_both_web_processes_show_them(served: Served) -> None:
+    for web in (0, 1):
+        with served.signed_in("author", web) as client:
+            served.wait(
+                "every device online",
+                lambda c=client: sum(d["status"] == "idle" for d in devices(c).values()) == 10,
+                120,
+            )
+            assert devices(client)["paintMixer03"]["status"] == "pending"
+
+
+def test_messages_that_cannot_be_read_are_noted_and_harm_nobody(served: Served) -> None:
+    client = MqttClient(
+        host="localhost",
+        port=served.mosquitto.port,
+        username="server",
+        password=served.environment["VIPO_MQTT_PASSWORD"],
+        client_id="nonsense",
+        tls=tls_context(served.mosquitto.authority),
+    )
+    client.start()
+    assert client.wait_connected(20)
+    for kind in ("state", "presence", "ack", "desc"):
+        for nonsense in (b"{", b"\xff\xfe", b'{"boot": NaN}', b'{"a": 1, "a": 2}', b"[" * 5000, b"<rdf:RDF/>"):
+            client.publish(f"vipo/v1/dev/dropOff01/up/{kind}", nonsense)
+    with served.signed_in("admin") as page:
+        served.wait(
+            "a note in the device's history",
+            lambda: any(e["kind"] == "problem" for e in page.get(f"{SITE}/devices/dropOff01/events").json()),
+        )
+        assert devices(page)["dropOff01"]["status"] == "idle"
+    client.stop()
+    assert served.processes["gateway"].poll() is None
+
+
+def test_a_pick_and_drop_runs_to_its_end_with_two_workers(served: Served) -> None:
+    with served.signed_in("author", 0) as first, served.signed_in("admin", 1) as second:
+        before = devices(first)
+        run = start_errand(served, first)
+        done = served.wait("the end of the run", lambda: over(second, run), 180)
+        assert (done["status"], done["reason"]) == ("finished", ""), served.story()
+        assert {step["status"] for step in done["steps"].values()} == {"done"}
+        kinds = [event["kind"] for event in second.get(f"/api/runs/{run}/events").json()]
+        assert kinds
+        after = devices(second)
+        assert stock(after, "itemInventory01") < stock(before, "itemInventory01")
+    logs = [served.log(f"worker-{n}").read_text() for n in (1, 2)]
+    assert all("advance_site" in log or "advance_run" in log for log in logs), "one worker had nothing to do"
+
+
+def test_a_run_survives_the_death_of_a_worker_and_of_the_gateway(served: Served) -> None:
+    with served.signed_in("author", 1) as client:
+        run = start_errand(served, client)
+        served.wait("the start", lambda: client.get(f"/api/runs/{run}").json()["status"] == "running")
+        served.kill("worker-1")
+        served.kill("gateway")
+        served.start("gateway", "manage.py", "gateway")
+        served.start("worker-1", *WORKER, "-n", "worker-1@%h")
+        done = served.wait("the end of the run", lambda: over(client, run), 180)
+        assert (done["status"], done["reason"]) == ("finished", ""), served.story()
+
+
+def test_every_process_ends_when_it_is_asked(served: Served) -> None:
+    codes = served.stop_all()
+    assert set(codes) == {"web-1", "web-2", "worker-1", "worker-2", "gateway", "ticker", "twin"}
+    assert {name: codes[name] for name in ("gateway", "ticker", "twin", "worker-1")} == {
+        "gateway": 0,
+        "ticker": 0,
+        "twin": 0,
+        "worker-1": 0,
+    }
+
+
+def over(client: httpx.Client, run: str) -> dict[str, Any] | None:
+    found: dict[str, Any] = client.get(f"/api/runs/{run}").json()
+    return found if found["status"] in OVER else None
+
+
+def stock(found: dict[str, Any], device: str) -> float:
+    value = next(p["value"] for p in found[device]["properties"] if p["name"] == "stock")
+    return float(value)

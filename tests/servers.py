@@ -1,0 +1,232 @@
+"""Real PostgreSQL, Redis and Mosquitto for tests: each on a free port, in a folder of its own, ended after use.
+
+with run_redis(folder) as redis: ...            redis.url
+with run_postgres(folder) as postgres: ...      postgres.url
+with run_mosquitto(folder, {"server": "secret"}) as mosquitto: ...   mosquitto.port, .device_port, .authority
+"""
+
+from __future__ import annotations
+
+import os
+import pwd
+import shutil
+import socket
+import subprocess
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from vipo_site.passwords import password_file
+
+ROOT = Path(__file__).resolve().parent.parent
+START_LIMIT_S = 30
+
+
+class ServerMissing(AssertionError):
+    """A server program is not installed; the message says how to get it."""
+
+
+@dataclass(frozen=True)
+class Postgres:
+    """A running PostgreSQL with one empty database."""
+
+    url: str
+    port: int
+
+
+@dataclass
+class Redis:
+    """A running Redis."""
+
+    url: str
+    port: int
+    process: subprocess.Popen[bytes]
+
+
+@dataclass
+class Mosquitto:
+    """A running Mosquitto with the product's own configuration; `port` is the server's, `device_port` the devices'."""
+
+    port: int
+    device_port: int
+    folder: Path
+    authority: str = ""
+    process: subprocess.Popen[bytes] | None = None
+    accounts: dict[str, str] = field(default_factory=dict)
+
+    def start(self) -> None:
+        """Start (again), on the same ports and with what it kept."""
+        program = find_program("mosquitto", "/usr/sbin/mosquitto")
+        with (self.folder / "mosquitto.log").open("ab") as log:
+            self.process = subprocess.Popen([program, "-c", self.folder / "mosquitto.conf"], stdout=log, stderr=log)
+        wait_until(lambda: answers(self.port) and answers(self.device_port), self._story, self.process)
+
+    def kill(self) -> None:
+        """End it without warning, as a power cut would."""
+        assert self.process is not None
+        self.process.kill()
+        self.process.wait()
+
+    def stop(self) -> None:
+        """End it properly; what it keeps is written."""
+        if self.process is not None and self.process.poll() is None:
+            self.process.terminate()
+            self.process.wait(10)
+
+    def _story(self) -> str:
+        return (self.folder / "mosquitto.log").read_text()
+
+
+def find_program(name: str, *places: str) -> str:
+    """Return a program's path, or say how to get it."""
+    found = shutil.which(name) or next((place for place in places if Path(place).exists()), None)
+    if found is None:
+        raise ServerMissing(f"{name} is not installed. Run scripts/install-test-servers.sh (or `make servers`).")
+    return found
+
+
+def free_port() -> int:
+    """Return a port that nothing listens on."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def answers(port: int) -> bool:
+    """Tell whether something accepts connections on the port."""
+    with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1):
+        return True
+    return False
+
+
+def wait_until(ready: Callable[[], bool], story: Callable[[], str], process: subprocess.Popen[bytes]) -> None:
+    """Wait for a server; when it ends or takes too long, fail with what it wrote."""
+    deadline = time.monotonic() + START_LIMIT_S
+    while time.monotonic() < deadline:
+        if ready():
+            return
+        if process.poll() is not None:
+            raise AssertionError(f"The server ended with code {process.returncode}:\n{story()}")
+        time.sleep(0.02)
+    raise AssertionError(f"The server did not answer within {START_LIMIT_S} s:\n{story()}")
+
+
+def plain_user() -> list[str]:
+    """Return how to become the user `postgres`, since PostgreSQL refuses to run as root; empty for a plain user."""
+    if os.geteuid() != 0:
+        return []
+    try:
+        pwd.getpwnam("postgres")
+    except KeyError:
+        raise ServerMissing("There is no user postgres. Run scripts/install-test-servers.sh.") from None
+    return ["runuser", "-u", "postgres", "--"]
+
+
+def postgres_programs() -> Path:
+    """Return the folder of the newest PostgreSQL."""
+    found = sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"), key=lambda path: float(path.parts[-3]))
+    if not found:
+        raise ServerMissing("PostgreSQL is not installed. Run scripts/install-test-servers.sh (or `make servers`).")
+    return found[-1].parent
+
+
+@contextmanager
+def run_postgres(folder: Path, *, keep_durable: bool = False) -> Iterator[Postgres]:
+    """Run PostgreSQL with the database `vipo`; not durable unless asked, since tests do not pull the plug."""
+    programs, become, port = postgres_programs(), plain_user(), free_port()
+    # The server's own user cannot enter pytest's folders, which belong to the one who runs the tests.
+    made_folder = subprocess.run([*become, "mktemp", "-d", "/tmp/vipo-pg.XXXXXX"], capture_output=True, check=True)
+    data = Path(made_folder.stdout.decode().strip())
+    log = folder / "postgres.log"
+    options = f"-p {port} -k {data} -c listen_addresses=127.0.0.1 -c max_connections=60 -c shared_buffers=32MB"
+    options += "" if keep_durable else " -c fsync=off -c synchronous_commit=off -c full_page_writes=off"
+    try:
+        made = [
+            *become,
+            programs / "initdb",
+            "-D",
+            data / "db",
+            "-U",
+            "vipo",
+            "-A",
+            "trust",
+            "-E",
+            "UTF8",
+            "--locale=C",
+            "-N",
+        ]
+        subprocess.run(made, capture_output=True, check=True, cwd="/")
+        with log.open("ab") as out:
+            command = [*become, programs / "postgres", "-D", data / "db", *options.split()]
+            process = subprocess.Popen(command, stdout=out, stderr=out, cwd="/")
+        try:
+            create = [programs / "createdb", "-h", "127.0.0.1", "-p", str(port), "-U", "vipo", "vipo"]
+            wait_until(
+                lambda: answers(port) and subprocess.run(create, capture_output=True).returncode == 0,
+                log.read_text,
+                process,
+            )
+            yield Postgres(f"postgresql://vipo@127.0.0.1:{port}/vipo", port)
+        finally:
+            stop = [*become, programs / "pg_ctl", "-D", data / "db", "-m", "immediate", "-w", "stop"]
+            subprocess.run(stop, capture_output=True, cwd="/")
+            process.wait(20)
+    finally:
+        subprocess.run([*become, "rm", "-rf", data], check=False)
+
+
+@contextmanager
+def run_redis(folder: Path) -> Iterator[Redis]:
+    """Run Redis without persistence."""
+    program, port = find_program("redis-server"), free_port()
+    log = folder / "redis.log"
+    command = [program, "--port", str(port), "--bind", "127.0.0.1", "--save", "", "--appendonly", "no", "--dir", folder]
+    with log.open("ab") as out:
+        process = subprocess.Popen(command, stdout=out, stderr=out)
+    try:
+        wait_until(lambda: answers(port), log.read_text, process)
+        yield Redis(f"redis://127.0.0.1:{port}/0", port, process)
+    finally:
+        process.terminate()
+        process.wait(10)
+
+
+@contextmanager
+def run_mosquitto(folder: Path, accounts: Mapping[str, str], *, tls: bool = False) -> Iterator[Mosquitto]:
+    """Run Mosquitto with deploy/mosquitto's configuration and rules for {user name: password}."""
+    server = Mosquitto(free_port(), free_port(), folder, accounts=dict(accounts))
+    if tls:
+        script = ROOT / "deploy" / "mosquitto" / "make-certificates.sh"
+        subprocess.run([script, folder, "localhost", "127.0.0.1"], check=True, capture_output=True)
+        server.authority = str(folder / "ca.crt")
+    write_mosquitto_files(server)
+    server.start()
+    try:
+        yield server
+    finally:
+        server.stop()
+
+
+def write_mosquitto_files(server: Mosquitto) -> None:
+    """Write the configuration with this test's paths and ports, and the files that it names."""
+    folder = server.folder
+    (folder / "passwords").write_text(password_file(server.accounts))
+    shutil.copy(ROOT / "deploy" / "mosquitto" / "acl", folder / "acl")
+    text = (ROOT / "deploy" / "mosquitto" / "mosquitto.conf").read_text()
+    for old, new in {
+        "/mosquitto/config/": f"{folder}/",
+        "/mosquitto/certificates/": f"{folder}/",
+        "/mosquitto/data/": f"{folder}/",
+        "listener 8883": f"listener {server.device_port} 127.0.0.1",
+        "listener 8884": f"listener {server.port} 127.0.0.1",
+    }.items():
+        assert old in text, f"deploy/mosquitto/mosquitto.conf has no {old!r} any more"
+        text = text.replace(old, new)
+    if not server.authority:
+        certificates = ("cafile", "certfile", "keyfile", "tls_version")
+        text = "\n".join(line for line in text.splitlines() if not line.startswith(certificates))
+    if os.geteuid() == 0:
+        text += "\nuser root\n"
+    (folder / "mosquitto.conf").write_text(text)

@@ -1,0 +1,67 @@
+"""Connections without a network, for rooms in tests."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from pycrdt import Doc, Map
+
+from editor import wire
+from editor.document import SharedDocument
+from editor.member import Member, Person
+from editor.room import Room
+
+
+def nobody() -> None:
+    """Nobody sends."""
+
+
+@dataclass
+class Client:
+    """A Yjs client: its own document, joined to a room through the frames it exchanges."""
+
+    room: Room
+    person: Person = field(default_factory=lambda: Person(1, "Ada Author", "AA"))
+    can_write: bool = True
+    number: int = 1
+    member: Member = field(init=False)
+    document: Doc = field(init=False)
+    refused: str = ""
+
+    def __post_init__(self) -> None:
+        self.member = Member(self.person, can_write=self.can_write, wake=nobody)
+        self.document = Doc(client_id=self.number)
+        self.document.get("steps", type=Map)
+        self.room.join(self.member)
+
+    def send(self, frame: bytes, now_s: float = 0.0) -> None:
+        self.room.receive(self.member, frame, now_s)
+
+    def edit(self, step: str, x: float) -> bytes:
+        """Change the client's own document; returns the update, which is not sent yet."""
+        before = self.document.get_state()
+        self.document.get("steps", type=Map)[step] = Map({"kind": "wait", "pos": [x, 0], "params": Map({})})
+        return self.document.get_update(before)
+
+    def read(self) -> list[wire.Message]:
+        """Take the frames that were sent, answer the questions among them, apply the changes."""
+        read = []
+        while self.member.outbox:
+            frame = self.member.outbox.popleft()
+            if frame[0] in (wire.SAVED, wire.REFUSAL):
+                continue
+            message = wire.decode_frame(frame)
+            read.append(message)
+            if isinstance(message, wire.SyncStep1):
+                self.send(wire.encode_step_2(self.document.get_update(message.state)))
+            elif isinstance(message, wire.SyncStep2 | wire.Update):
+                self.document.apply_update(message.update)
+        return read
+
+    def steps(self) -> dict[str, object]:
+        return SharedDocument([self.document.get_update()]).to_json()["steps"]
+
+
+def room(origin: str = "here") -> Room:
+    """Return an empty room."""
+    return Room("program", "hall", origin, SharedDocument())

@@ -1,0 +1,122 @@
+"""The shared document and its plain form."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import pytest
+from pycrdt import Doc, Map
+
+from editor.document import (
+    BadUpdate,
+    SharedDocument,
+    digest_of,
+    empty_document,
+    encode_document,
+    merge,
+)
+
+PLAIN: dict[str, Any] = {
+    "format": 1,
+    "start_pos": [2.5, -3],
+    "steps": {
+        "s1": {"kind": "wait", "place": ["program", "body", "a"], "pos": [1, 2], "params": {"seconds": 5}},
+        "s2": {"kind": "if", "place": None, "pos": None, "params": {"condition": {"op": "<", "args": [1.5, True]}}},
+    },
+    "functions": {"f1": {"name": "Rest", "parameters": [{"name": "minutes", "type": "number", "unit": "MIN"}]}},
+    "roles": {"robot": {"name": "Robot", "can": []}},
+    "parameters": {},
+    "zones": {},
+}
+
+
+def test_a_plain_document_comes_back() -> None:
+    assert SharedDocument([encode_document(PLAIN)]).to_json() == PLAIN
+
+
+def test_an_empty_document_has_all_its_parts() -> None:
+    assert SharedDocument().to_json() == empty_document()
+    assert SharedDocument([encode_document(empty_document())]).to_json() == empty_document()
+
+
+def test_a_step_is_a_shared_map_so_that_two_may_change_it_at_once() -> None:
+    document: Doc[Any] = Doc()
+    document.apply_update(encode_document(PLAIN))
+    steps = document.get("steps", type=Map)
+    assert isinstance(steps["s1"], Map)
+    assert isinstance(steps["s1"]["params"], Map)
+    assert steps["s1"]["place"] == ["program", "body", "a"]
+
+
+def test_numbers_are_as_they_were_typed() -> None:
+    plain = SharedDocument([encode_document(PLAIN)]).to_json()
+    assert isinstance(plain["steps"]["s1"]["params"]["seconds"], int)
+    assert isinstance(plain["steps"]["s2"]["params"]["condition"]["args"][0], float)
+    assert plain["steps"]["s2"]["params"]["condition"]["args"][1] is True
+
+
+def test_two_documents_that_hold_the_same_have_one_digest() -> None:
+    assert digest_of(PLAIN) == SharedDocument([encode_document(PLAIN)]).digest()
+    assert digest_of(PLAIN) != digest_of(empty_document())
+
+
+def test_what_is_no_update_is_refused_and_changes_nothing() -> None:
+    document = SharedDocument([encode_document(PLAIN)])
+    for noise in (b"\xff" * 1000, b"\x01\xff\xff\xff\xff\x0f", b"\x00"):
+        with pytest.raises(BadUpdate):
+            document.apply(noise)
+    assert document.to_json() == PLAIN
+
+
+def test_an_update_that_is_already_known_changes_nothing() -> None:
+    update = encode_document(PLAIN)
+    document = SharedDocument([update])
+    assert document.apply(update) == []
+
+
+def histories() -> list[tuple[list[bytes], str]]:
+    """Return updates of three people who edit at once, in the order of happening, with the digest they lead to."""
+    found = []
+    for seed in range(20):
+        dice, updates = random.Random(seed), []
+        documents = [Doc(client_id=number + 1) for number in range(3)]
+        for document in documents:
+            document.get("steps", type=Map)
+        for turn in range(40):
+            document = dice.choice(documents)
+            before, steps = document.get_state(), document.get("steps", type=Map)
+            key = dice.choice("abcde")
+            if key in steps and turn % 3 == 0:
+                del steps[key]
+            elif key in steps:
+                steps[key]["pos"] = [turn, 0]
+            else:
+                steps[key] = Map({"kind": "wait", "params": Map({})})
+            updates.append(document.get_update(before))
+            if dice.random() < 0.7:
+                for other in documents:
+                    other.apply_update(merge(updates))
+        final = SharedDocument()
+        for update in updates:
+            final.apply(update)
+        found.append((updates, final.digest()))
+    return found
+
+
+def test_loading_does_not_depend_on_the_order_of_the_rows() -> None:
+    dice = random.Random(1)
+    for updates, digest in histories():
+        shuffled = dice.sample(updates, len(updates))
+        assert SharedDocument(shuffled).digest() == digest
+        half = merge(shuffled[:20])
+        assert SharedDocument([half, *shuffled[10:]]).digest() == digest
+
+
+def test_what_is_told_is_enough_to_follow() -> None:
+    for updates, digest in histories():
+        leader, follower = SharedDocument(), SharedDocument()
+        for update in updates:
+            for change in leader.apply(update):
+                follower.apply(change)
+        assert follower.digest() == leader.digest() == digest

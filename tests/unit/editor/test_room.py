@@ -1,0 +1,223 @@
+"""A room without a network: order, holding back, roles, and two processes that hold the same room."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from editor import wire
+from editor.member import FRAMES_PER_S, Close, Member, Person
+from editor.room import MOST_MEMBERS, Room
+from editor.stream import Entry, Note
+from tests.unit.editor.people import Client, nobody, room
+
+
+def test_a_new_connection_is_asked_for_what_it_has() -> None:
+    here = room()
+    client = Client(here)
+    assert [type(message) for message in client.read()] == [wire.SyncStep1]
+
+
+def test_a_change_reaches_the_others_and_not_its_sender() -> None:
+    here = room()
+    ada, bob = Client(here), Client(here, number=2)
+    ada.read()
+    bob.read()
+    ada.send(wire.encode_update(ada.edit("s1", 3)))
+    assert ada.read() == []
+    bob.read()
+    assert bob.steps() == {"s1": {"kind": "wait", "pos": [3, 0], "params": {}}}
+    assert [(change.author, len(here.to_tell)) for change in here.to_keep] == [(1, 1)]
+
+
+def test_updates_wait_for_the_step_2_of_their_client() -> None:
+    here = room()
+    ada = Client(here)
+    first, second = ada.edit("s1", 1), ada.edit("s2", 2)
+    ada.send(wire.encode_update(second))
+    assert (here.document.step_count(), len(here.to_keep)) == (0, 0)
+    ada.send(wire.encode_step_2(first))
+    assert here.document.to_json()["steps"].keys() == {"s1", "s2"}
+
+
+def test_a_change_after_a_hole_is_not_let_in_and_the_client_is_asked() -> None:
+    here = room()
+    ada = Client(here)
+    ada.read()
+    lost, later = ada.edit("s1", 1), ada.edit("s1", 2)
+    ada.send(wire.encode_update(later))
+    assert (here.document.to_json()["steps"], list(here.to_keep)) == ({}, [])
+    ada.read()
+    assert here.document.to_json()["steps"] == ada.steps()
+    assert lost != later
+
+
+def test_a_reader_is_answered_and_never_heard() -> None:
+    here = room()
+    author, reader = Client(here), Client(here, can_write=False, number=2)
+    author.read()
+    author.send(wire.encode_update(author.edit("s1", 1)))
+    reader.read()
+    reader.send(wire.encode_step_2(reader.edit("bad", 1)))
+    reader.send(wire.encode_update(reader.edit("worse", 1)))
+    reader.send(wire.encode_step_1(b"\x00"))
+    assert [type(message) for message in reader.read()] == [wire.SyncStep2]
+    assert list(here.document.to_json()["steps"]) == ["s1"]
+    assert len(here.to_keep) == 1
+
+
+def test_a_room_is_full_at_some_point() -> None:
+    here = room()
+    for number in range(MOST_MEMBERS):
+        Client(here, number=number + 1)
+    with pytest.raises(Close, match="50 people are in this program already") as refused:
+        Client(here, number=99)
+    assert (refused.value.code, len(here.members)) == (4503, MOST_MEMBERS)
+
+
+def test_too_many_frames_in_a_second_are_refused_and_a_steady_hand_is_not() -> None:
+    here = room()
+    steady, flood = Client(here), Client(here, number=2)
+    for number in range(3000):
+        steady.send(b"\x03", number / FRAMES_PER_S)
+    with pytest.raises(Close, match="more than 60 messages a second") as refused:
+        send_often(flood, 3000)
+    assert refused.value.code == 4429
+
+
+def send_often(client: Client, times: int) -> None:
+    for _ in range(times):
+        client.send(b"\x03")
+
+
+def test_what_fails_half_way_leaves_no_trace() -> None:
+    here = room()
+    ada = Client(here)
+    ada.read()
+    ada.send(wire.encode_update(ada.edit("s1", 1)))
+    before = here.document.to_json()
+    base = here.document.encode()
+    dice, refused = random.Random(7), 0
+    for _ in range(400):
+        noise = bytearray(base)
+        noise[dice.randrange(4, len(noise))] ^= 1 << dice.randrange(8)
+        refused += is_refused(ada, bytes(noise))
+    assert refused > 50
+    assert here.document.to_json()["steps"]["s1"] == before["steps"]["s1"]
+
+
+def is_refused(client: Client, update: bytes) -> bool:
+    try:
+        client.room.receive(Member(client.person, can_write=True, wake=nobody), wire.encode_step_2(update), 0.0)
+    except Close as close:
+        return close.code == Close.MALFORMED
+    return False
+
+
+def test_saved_carries_the_state_it_speaks_of() -> None:
+    here = room()
+    ada = Client(here)
+    ada.read()
+    ada.send(wire.encode_update(ada.edit("s1", 1)))
+    here.tell_saved(12, here.document.state())
+    frame = ada.member.outbox.pop()
+    reader = wire.Reader(frame)
+    assert (reader.integer(), reader.integer()) == (wire.SAVED, 12)
+    assert wire.decode_state_vector(reader.sized(100))[1] > 0
+
+
+def test_a_connection_that_does_not_read_is_sent_away() -> None:
+    here = room()
+    lazy = Client(here)
+    lazy.read()
+    for _ in range(40):
+        lazy.member.post(bytes(1024 * 1024))
+    assert lazy.member.closing is not None
+    assert (lazy.member.closing.code, len(lazy.member.outbox)) == (4503, 0)
+
+
+def test_a_connection_that_reads_a_lot_stays() -> None:
+    here = room()
+    keen = Client(here)
+    for _ in range(100):
+        keen.member.post(wire.encode_update(bytes(500_000)))
+        keen.member.outbox.clear()
+        keen.send(wire.encode_step_1(b"\x00"))
+        keen.read()
+    assert keen.member.closing is None
+
+
+class TwoProcesses:
+    """Two rooms of the same program, joined by a stream that may lose things."""
+
+    def __init__(self) -> None:
+        self.rooms = {"a": room("a"), "b": room("b")}
+        self.number = 0
+
+    def carry(self, lose: bool = False) -> None:
+        for _ in range(10):
+            for origin, source in self.rooms.items():
+                while source.to_tell:
+                    note = source.to_tell.popleft()
+                    if not lose:
+                        self._deliver(origin, note)
+
+    def _deliver(self, origin: str, note: Note) -> None:
+        self.number += 1
+        for name, target in self.rooms.items():
+            if name != origin:
+                target.hear(Entry(str(self.number), origin, note))
+
+    def pair(self) -> tuple[Room, Room]:
+        return self.rooms["a"], self.rooms["b"]
+
+
+def test_two_processes_hold_the_same_and_each_keeps_only_its_own() -> None:
+    both = TwoProcesses()
+    a, b = both.pair()
+    ada, bob = Client(a), Client(b, Person(2, "Bob", "B"), number=2)
+    ada.read()
+    bob.read()
+    ada.send(wire.encode_update(ada.edit("s1", 1)))
+    both.carry()
+    bob.read()
+    bob.send(wire.encode_update(bob.edit("s1", 2)))
+    both.carry()
+    ada.read()
+    assert a.document.digest() == b.document.digest()
+    assert ada.steps() == bob.steps() == {"s1": {"kind": "wait", "pos": [2, 0], "params": {}}}
+    assert [[change.author for change in each.to_keep] for each in (a, b)] == [[1], [2]]
+
+
+def test_what_the_stream_lost_is_found_by_comparing() -> None:
+    both = TwoProcesses()
+    a, b = both.pair()
+    ada, bob = Client(a), Client(b, number=2)
+    ada.read()
+    bob.read()
+    for client, name in ((ada, "s1"), (bob, "s2")):
+        client.send(wire.encode_update(client.edit(name, 1)))
+    both.carry(lose=True)
+    assert a.document.digest() != b.document.digest()
+    a.say_state()
+    both.carry()
+    assert a.document.digest() == b.document.digest()
+    assert set(a.document.to_json()["steps"]) == {"s1", "s2"}
+
+
+def test_a_lost_deletion_is_found_by_its_hash() -> None:
+    both = TwoProcesses()
+    a, b = both.pair()
+    ada = Client(a)
+    ada.read()
+    ada.send(wire.encode_update(ada.edit("s1", 1)))
+    both.carry()
+    state = ada.document.get_state()
+    del ada.document.get("steps", type=type(ada.document["steps"]))["s1"]
+    ada.send(wire.encode_step_2(ada.document.get_update(state)))
+    both.carry(lose=True)
+    assert list(b.document.to_json()["steps"]) == ["s1"]
+    b.say_state()
+    both.carry()
+    assert a.document.to_json()["steps"] == b.document.to_json()["steps"] == {}

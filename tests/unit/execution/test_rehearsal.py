@@ -1,0 +1,124 @@
+import json
+
+import pytest
+
+from editor.language.plan import (
+    Branch,
+    Constant,
+    Drop,
+    End,
+    Fork,
+    Instruction,
+    Join,
+    Jump,
+    Move,
+    Operation,
+    Pick,
+    PlaceRef,
+    Plan,
+    Reading,
+    RoleBinding,
+    Wait,
+)
+from execution.monitor import FootprintMonitor
+from execution.rehearsal import Conditions, rehearse
+from simulation.world import Fault, Scene
+from tests.unit.execution import demo_floor
+
+KINEMATIC = Conditions("kinematic")
+SHELF, MIXER = PlaceRef(device="paintInventory01"), PlaceRef(device="paintMixer02")
+CAN, ONE = Constant("can"), Constant(1)
+CARRY = (
+    Instruction(Move("robot", SHELF), "s1", 1),
+    Instruction(Pick("robot", SHELF, CAN, ONE), "s1", 2),
+    Instruction(Drop("robot", MIXER, CAN, ONE), "s1", 3),
+)
+ROLES = {"robot": RoleBinding("robot", None, ("move", "pick", "drop"))}
+
+
+def scene(**more):
+    return Scene(demo_floor.grid(), demo_floor.devices(), seed=1, **more)
+
+
+def test_a_can_is_carried_and_everything_is_recorded():
+    result = rehearse(
+        Plan((*CARRY, Instruction(End())), ROLES), scene(), places=demo_floor.places(), conditions=KINEMATIC
+    )
+    assert (result["ok"], result["errors"], result["collisions"], result["near_misses"]) == (True, [], [], [])
+    assert [(s["step"], s["status"], s["robot"], s["device"]) for s in result["steps"]] == [
+        ("s1", "done", "robot01", "paintInventory01")
+    ]
+    assert [load for _, load in result["carrying"]["robot01"]] == [{}, {"can": 1}, {}]
+    frames = result["frames"]
+    assert len(frames["robots"]["robot01"]) == int(result["duration_s"] / frames["dt_s"]) + 1
+    assert 20 < result["robots"]["robot01"]["distance_m"] < 30
+    assert json.loads(json.dumps(result)) == result
+
+
+def test_the_same_rehearsal_twice_gives_the_same_bytes():
+    plan = Plan((*CARRY, Instruction(End())), ROLES)
+    first, second = (
+        json.dumps(rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)) for _ in range(2)
+    )
+    assert first == second
+
+
+def test_two_robots_to_one_machine_wait_for_each_other_and_do_not_touch():
+    roles = {name: RoleBinding(name, None, ("move", "pick", "drop")) for name in ("a", "b")}
+    plan = Plan(
+        (
+            Instruction(Fork((2, 5), 1)),
+            Instruction(End()),
+            Instruction(Pick("a", SHELF, CAN, ONE), "a1"),
+            Instruction(Drop("a", MIXER, CAN, ONE), "a2"),
+            Instruction(Join()),
+            Instruction(Pick("b", SHELF, CAN, ONE), "b1"),
+            Instruction(Drop("b", MIXER, CAN, ONE), "b2"),
+            Instruction(Join()),
+        ),
+        roles,
+    )
+    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    assert (result["ok"], result["errors"], result["collisions"], result["near_misses"]) == (True, [], [], [])
+    assert any("Paint Inventory serves" in wait["reason"] for wait in result["waits"])
+
+
+def test_an_error_of_the_real_run_is_met_in_rehearsal():
+    plan = Plan((Instruction(Pick("robot", PlaceRef(device="curingOven01"), CAN, ONE), "p"), Instruction(End())), ROLES)
+    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    assert result["ok"] is False
+    assert [(e["step"], e["kind"]) for e in result["errors"]] == [("p", "refused")]
+    assert result["steps"][0]["status"] == "failed"
+
+
+def test_a_robot_that_stops_on_purpose_is_noticed():
+    plan = Plan(
+        (Instruction(Move("robot", SHELF), "m"), Instruction(End())), {"robot": RoleBinding("robot", "robot01")}
+    )
+    faults = (Fault("robot01", "stop", 5.0),)
+    result = rehearse(plan, scene(faults=faults), places=demo_floor.places(), conditions=KINEMATIC)
+    assert [(e["step"], e["kind"]) for e in result["errors"]] == [("m", "timed_out")]
+
+
+@pytest.mark.parametrize("body", [Jump(0), Wait(Constant(1))])
+def test_a_program_that_never_ends_is_stopped_with_a_reason(body):
+    plan = Plan((Instruction(body), Instruction(Jump(0))))
+    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=Conditions("kinematic", limit_s=360))
+    assert result["ok"] is False
+    assert result["errors"][0]["message"] == (
+        "The program was stopped after 0.1 h of simulated time; it may never end."
+    )
+
+
+def test_a_condition_looks_at_the_readings_of_the_pretend_devices():
+    hot = Operation(">", (Reading(Constant("curingOven01"), "temperature"), Constant(1000)))
+    plan = Plan((Instruction(Branch(hot, 2)), Instruction(Jump(0)), Instruction(End())))
+    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    assert (result["ok"], result["duration_s"]) == (True, 0.0)
+
+
+def test_the_monitor_finds_robots_that_pass_too_near_between_two_looks():
+    monitor = FootprintMonitor({"a": 0.18, "b": 0.18})
+    monitor.look(0.0, {"a": (0.0, 0.0), "b": (2.0, 0.3)})
+    monitor.look(1.0, {"a": (2.0, 0.0), "b": (0.0, 0.3)})
+    assert [(e["a"], e["b"], e["distance_m"]) for e in monitor.encounters] == [("a", "b", -0.06)]

@@ -1,0 +1,122 @@
+"""Programs made by chance: sound enough to print, and as broken as can be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hypothesis import strategies as st
+
+DEVICES = ("itemInventory01", "paintInventory01", "paintMixer02", "paintMachine01", "curingOven01", "dropOff01")
+ROLES = ("robot", "box_carrier", "paint_carrier", "bound")
+
+names = st.sampled_from(["minutes", "shade", "n"])
+places = st.one_of(
+    st.sampled_from([{"device": device} for device in DEVICES]),
+    st.sampled_from([{"place": "dock1"}, {"point": [1.5, -2]}, {"param": "minutes"}, None, {"device": "gone"}]),
+)
+numbers = st.one_of(st.integers(-5, 200), st.floats(-1e6, 1e6, allow_nan=False))
+readings = st.sampled_from(
+    [
+        {"property": ["curingOven01", "temperature"]},
+        {"property": ["curingOven01", "quality"]},
+        {"property": ["curingOven01", "no such"]},
+        {"property": ["gone", "jobStatus"]},
+        {"property": [{"param": "minutes"}, "jobStatus"]},
+    ]
+)
+leaves = st.one_of(
+    numbers,
+    st.booleans(),
+    st.text(max_size=6),
+    readings,
+    st.just(None),
+    st.just({"param": "minutes"}),
+    st.just([1, "a"]),
+)
+
+
+def _operations(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+    two = st.sampled_from(["<", "<=", ">", ">=", "==", "!=", "in", "not in", "+", "-", "*", "/", "min", "max"])
+    return st.one_of(
+        st.builds(lambda op, a, b: {"op": op, "args": [a, b]}, two, inner, inner),
+        st.builds(lambda op, a: {"op": op, "args": [a]}, st.sampled_from(["-", "not", "abs", "round"]), inner),
+        st.builds(
+            lambda op, a: {"op": op, "args": a}, st.sampled_from(["and", "or"]), st.lists(inner, min_size=2, max_size=3)
+        ),
+    )
+
+
+values = st.recursive(leaves, _operations, max_leaves=8)
+loads = {"role": st.sampled_from(ROLES), "object": st.sampled_from(["box", "can", None]), "quantity": values}
+PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
+    "move": st.fixed_dictionaries(
+        {"role": st.sampled_from(ROLES), "to": places, "route": st.sampled_from([[], [[1, 2], [3.5, 4]]])}
+    ),
+    "pick": st.fixed_dictionaries({**loads, "at": places}),
+    "drop": st.fixed_dictionaries({**loads, "at": places}),
+    "pick_and_drop": st.fixed_dictionaries({**loads, "source": places, "target": places}),
+    "operate": st.fixed_dictionaries(
+        {
+            "device": places,
+            "method": st.sampled_from(["curePaint", "mixPaint", "paint", "no such", "dispense", None]),
+            "args": st.dictionaries(st.sampled_from(["time", "object", "value", "x y"]), values, max_size=2),
+        }
+    ),
+    "wait": st.one_of(
+        st.fixed_dictionaries({"seconds": values}),
+        st.fixed_dictionaries({"until": values, "timeout_s": values}),
+    ),
+    "if": st.fixed_dictionaries({"condition": values}),
+    "while": st.fixed_dictionaries({"condition": values}),
+    "parallel": st.sampled_from([{"branches": ["a", "b"]}, {"branches": ["a", "b", "c"]}, {}]),
+    "try": st.sampled_from([{"kinds": []}, {"kinds": ["failed", "offline"]}, {"kinds": ["timed_out"]}, {}]),
+    "call": st.fixed_dictionaries(
+        {"function": st.sampled_from(["f", "g", "gone", None]), "args": st.dictionaries(names, values, max_size=2)}
+    ),
+}
+BRANCHES = ["body", "then", "else", "catch", "a", "b", "c"]
+
+
+@st.composite
+def documents(draw: st.DrawFn, largest: int = 12) -> dict[str, Any]:
+    """Draw a document whose steps are of known kinds, in places that may or may not be good."""
+    count = draw(st.integers(0, largest))
+    ids = [f"s{index}" for index in range(count)]
+    steps: dict[str, Any] = {}
+    for index, name in enumerate(ids):
+        kind = draw(st.sampled_from(sorted(PARAMS)))
+        parent = draw(st.sampled_from(["program", "program", "f", "g", *ids[: max(index, 1)], *ids]))
+        branch = "body" if parent in {"program", "f", "g"} else draw(st.sampled_from(BRANCHES))
+        order = draw(st.sampled_from(["1", "5", "V", "a"]))
+        steps[name] = {"kind": kind, "place": [parent, branch, order], "pos": [index, 0], "params": draw(PARAMS[kind])}
+    parameters = draw(st.lists(names, unique=True, max_size=2))
+    function = {"name": "mixPaint", "parameters": [{"name": n, "type": "number"} for n in parameters]}
+    default = draw(st.sampled_from(["minutes", "n"]))
+    second = {"name": "Class", "parameters": [{"name": "n", "default": 3}, {"name": "shade"}]}
+    return {
+        "format": 1,
+        "start_pos": [0, 0],
+        "steps": steps,
+        "functions": {"f": function, "g": second},
+        "roles": {
+            "box_carrier": {"name": "box carrier", "can": ["pick"]},
+            "bound": {"name": "bound", "device": "robot01"},
+            "paint_carrier": {"name": "drop off", "can": []},
+        },
+        "parameters": {"p": {"name": default, "type": "number", "default": 2}},
+        "zones": {},
+    }
+
+
+json_values = st.recursive(
+    st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5)),
+    lambda inner: st.one_of(st.lists(inner, max_size=3), st.dictionaries(st.text(max_size=5), inner, max_size=3)),
+    max_leaves=8,
+)
+KEYS = ["steps", "functions", "roles", "parameters", "kind", "place", "params", "s1", "program", "body", "param",
+        "property", "op", "args", "device", "role", "function", "branches", "until", "condition", "name"]  # fmt: skip
+broken_documents = st.recursive(
+    st.one_of(json_values, st.sampled_from([*PARAMS, "program", "body", "s1", "f"])),
+    lambda inner: st.one_of(st.lists(inner, max_size=4), st.dictionaries(st.sampled_from(KEYS), inner, max_size=5)),
+    max_leaves=25,
+)

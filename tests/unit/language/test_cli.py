@@ -1,0 +1,95 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.unit.language.site import ROOT
+from vipo_site.cli import main
+
+EXAMPLES = ROOT / "examples"
+SITE = str(EXAMPLES / "painting-factory.json")
+
+
+@pytest.mark.parametrize("name", ["pick-and-drop", "paint-order"])
+def test_the_examples_are_clean(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", str(EXAMPLES / f"{name}.json")]) == 0
+    assert capsys.readouterr().out.endswith("0 errors, 0 warnings.\n")
+
+
+def test_a_script_that_was_written_out_prints_the_same_again(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["script", str(EXAMPLES / "paint-order.json")]) == 0
+    text = capsys.readouterr().out
+    path = tmp_path / "order.py"
+    path.write_text(text)
+    assert main(["script", str(path), "--site", SITE]) == 0
+    assert capsys.readouterr().out == text
+
+
+def test_the_plan_is_json_for_machines(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plan", str(EXAMPLES / "pick-and-drop.json"), "--json"]) == 0
+    plan = json.loads(capsys.readouterr().out)
+    assert [instruction["do"] for instruction in plan["instructions"]] == [
+        "Move",
+        "Call",
+        "Pick",
+        "Move",
+        "Drop",
+        "End",
+    ]
+
+
+def test_errors_in_a_program_give_code_1(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "program.json"
+    path.write_text(json.dumps({"vipo": 1, "name": "Nothing", "document": {}, "site": {"devices": []}}))
+    assert main(["check", str(path)]) == 1
+    assert capsys.readouterr().out == (
+        "error: program: This program has no steps yet. Draw a Pick-and-Drop to begin. [empty_program]\n"
+        "Nothing: 1 error, 0 warnings.\n"
+    )
+    assert main(["plan", str(path)]) == 1
+    assert main(["rehearse", str(path)]) == 1
+
+
+def test_a_script_outside_the_language_gives_code_1(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "bad.py"
+    path.write_text("import os\n")
+    assert main(["check", str(path), "--site", SITE, "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["diagnostics"][0]["code"] == "not_in_language"
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("{", "is not JSON: line 1"),
+        ("[" * 100_000, "is not JSON that can be read"),
+        ("[]", "must hold a JSON object"),
+        ("{}", "is no program file"),
+        ('{"steps": {}}', "names no site"),
+        ('{"vipo": 1, "document": {}, "site": 5}', "must be a JSON object"),
+        ('{"vipo": 1, "document": {}, "site": "gone.json"}', "gone.json cannot be read"),
+        ('{"vipo": 1, "document": {}, "site": {"devices": [{"id": "x"}]}}', "device x cannot be read"),
+        ('{"vipo": 1, "document": {}, "site": {"places": [{"id": "x"}]}}', "Place x needs"),
+        ('{"vipo": 1, "document": {}, "site": {"grid": {"yaml": "gone.yaml"}}}', "gone.yaml cannot be read"),
+    ],
+)
+def test_a_bad_file_gives_code_2_and_one_sentence(
+    text: str, sentence: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "bad.json"
+    path.write_text(text)
+    assert main(["check", str(path)]) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert sentence in said.err
+    assert said.err.count("\n") == 1
+
+
+def test_bad_usage_gives_code_2_and_one_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(["draw", "x.json"])
+    assert stop.value.code == 2
+    assert capsys.readouterr().err.count("\n") == 1

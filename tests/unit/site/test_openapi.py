@@ -1,0 +1,90 @@
+"""The OpenAPI file is what the API is, and its shapes are what the code makes."""
+
+import json
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from ninja import Schema
+
+import editor.api
+import editor.shapes
+import execution.shapes
+import registry.shapes
+import vipo_site.openapi
+from editor.language import compile_document, compiled_to_json
+from editor.shapes import CompiledShape, DocumentShape
+from execution.rehearsal import rehearse_program
+from execution.shapes import RehearsalResultShape
+from vipo_site.api import api
+from vipo_site.openapi import describe
+from vipo_site.program_file import read_program_file
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def program(name):
+    return read_program_file(ROOT / "examples" / f"{name}.json", None)
+
+
+def fits(shape, value):
+    """The value has the shape, and nothing besides: what is read and written again is the same."""
+    plain = json.loads(json.dumps(value))
+    again = shape.model_validate(plain).model_dump(mode="json", exclude_unset=True)
+    assert again == plain
+
+
+def test_the_committed_file_is_up_to_date():
+    committed = (ROOT / "docs" / "openapi.json").read_text()
+    assert committed == describe(api), "docs/openapi.json is out of date: run `make openapi` and commit what it writes"
+
+
+def test_two_descriptions_are_the_same_bytes():
+    assert describe(api) == describe(api)
+
+
+def has_shape(answer):
+    return bool(answer.get("content")) and all(body["schema"] for body in answer["content"].values())
+
+
+def test_every_answer_has_a_shape():
+    paths = json.loads(describe(api))["paths"]
+    answers = {
+        (method, path, status): answer
+        for path, calls in paths.items()
+        for method, call in calls.items()
+        for status, answer in call["responses"].items()
+    }
+    assert len(answers) > 80
+    assert [key for key, answer in answers.items() if not has_shape(answer)] == [
+        ("delete", "/api/programs/{program}", "204")
+    ]
+
+
+def test_no_two_shapes_have_one_name():
+    modules = (registry.shapes, editor.api, editor.shapes, execution.shapes, vipo_site.openapi)
+    shapes = {s for m in modules for s in vars(m).values() if isinstance(s, type) and issubclass(s, Schema)}
+    assert [name for name, count in Counter(shape.__name__ for shape in shapes).items() if count > 1] == []
+
+
+@pytest.mark.parametrize("name", ["pick-and-drop", "paint-order"])
+def test_documents_and_compiled_programs_have_their_shape(name):
+    file = program(name)
+    fits(DocumentShape, file.document)
+    fits(CompiledShape, compiled_to_json(compile_document(file.document, file.surroundings)))
+
+
+def test_a_compiled_program_with_errors_has_its_shape():
+    file = program("pick-and-drop")
+    for step in file.document["steps"].values():
+        step["params"].pop("quantity", None)
+    compiled = compiled_to_json(compile_document(file.document, file.surroundings))
+    assert compiled["diagnostics"][0]["severity"] == "error"
+    fits(CompiledShape, compiled)
+
+
+def test_a_rehearsals_result_has_its_shape():
+    file = program("pick-and-drop")
+    result = rehearse_program(file.document, file.site, driver="kinematic")
+    assert result["ok"]
+    fits(RehearsalResultShape, result)

@@ -1,0 +1,64 @@
+"""The gateway's own bookkeeping, without a broker or a database."""
+
+from __future__ import annotations
+
+from execution.gateway import COMPLAINT_EVERY_S, Complaints, Entry, Inbox, TokenBucket
+from registry.mqtt import Message
+
+
+def entry(device: str, kind: str, payload: bytes = b"") -> Entry:
+    return Entry(Message(f"vipo/v1/dev/{device}/up/{kind}", payload, False, lambda: None), device, kind)
+
+
+def taken(inbox: Inbox) -> list[tuple[str, str, bytes, bool]]:
+    found = []
+    while (one := inbox.get(0)) is not None:
+        found.append((one.device, one.kind, one.message.payload, one.outdated))
+    return found
+
+
+def test_messages_come_out_in_the_order_of_their_arrival_and_only_the_newest_state_counts() -> None:
+    inbox = Inbox()
+    for one in (
+        entry("a", "state", b"1"),
+        entry("a", "ack", b"2"),
+        entry("b", "state", b"3"),
+        entry("a", "state", b"4"),
+    ):
+        assert inbox.put(one)
+    assert taken(inbox) == [
+        ("a", "state", b"1", True),
+        ("a", "ack", b"2", False),
+        ("b", "state", b"3", False),
+        ("a", "state", b"4", False),
+    ]
+
+
+def test_a_state_that_was_taken_out_is_not_outdated_by_a_later_one() -> None:
+    inbox = Inbox()
+    inbox.put(entry("a", "state", b"1"))
+    first = inbox.get(0)
+    inbox.put(entry("a", "state", b"2"))
+    assert first is not None
+    assert not first.outdated
+
+
+def test_a_full_inbox_takes_nothing_more() -> None:
+    inbox = Inbox(limit=2)
+    assert [inbox.put(entry("a", "ack")) for _ in range(3)] == [True, True, False]
+
+
+def test_a_bucket_gives_its_burst_and_then_its_rate() -> None:
+    bucket = TokenBucket(rate=8, burst=3, tokens=3, filled_at=100.0)
+    assert [bucket.take(100.0) for _ in range(4)] == [True, True, True, False]
+    assert [bucket.take(100.125), bucket.take(100.125)] == [True, False]
+    assert [bucket.take(200.0) for _ in range(4)] == [True, True, True, False]
+
+
+def test_complaints_are_counted_and_written_once_a_minute() -> None:
+    complaints = Complaints()
+    assert complaints.add("a", "ack: not JSON", 0.0) == "ack: not JSON"
+    assert complaints.add("a", "ack: not JSON", 1.0) is None
+    assert complaints.add("b", "state: no boot", 1.0) == "state: no boot"
+    assert complaints.add("a", "state: no boot", COMPLAINT_EVERY_S) == "state: no boot (1 more since the last note)"
+    assert dict(complaints.counts) == {"ack": 2, "state": 2}

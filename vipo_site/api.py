@@ -1,0 +1,57 @@
+"""The HTTP API: one router per app, every refusal as problem+json."""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from typing import Any
+
+from django.http import HttpRequest, HttpResponse, JsonResponse
+from ninja.errors import HttpError, ValidationError
+from ninja.security import django_auth
+
+from editor.api import router as editor_router
+from execution.api import router as execution_router
+from registry.api import router as registry_router
+from registry.errors import VipoError
+from vipo_site.openapi import DescribedAPI
+
+api = DescribedAPI(title="VIPO", version="1", auth=django_auth, docs_url=None, urls_namespace="api")
+
+
+def problem(status: int, code: str, detail: str, **more: Any) -> JsonResponse:
+    """Return an RFC 9457 answer."""
+    body = {
+        "type": f"urn:vipo:problem:{code}",
+        "title": HTTPStatus(status).phrase,
+        "status": status,
+        "detail": detail,
+        "code": code,
+        **more,
+    }
+    return JsonResponse(body, status=status, content_type="application/problem+json")
+
+
+@api.exception_handler(VipoError)
+def on_refusal(request: HttpRequest, error: VipoError) -> HttpResponse:
+    """Turn an app's refusal into an answer."""
+    return problem(error.status, error.code, error.detail)
+
+
+@api.exception_handler(ValidationError)
+def on_bad_request(request: HttpRequest, error: ValidationError) -> HttpResponse:
+    """Say which fields of the request do not fit, and why."""
+    fields = [{"field": ".".join(str(p) for p in e["loc"][1:]), "message": e["msg"]} for e in error.errors]
+    named = "; ".join(f"{f['field']}: {f['message']}" for f in fields)
+    return problem(422, "bad_request", f"The request does not fit: {named}", fields=fields)
+
+
+@api.exception_handler(HttpError)
+def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
+    """Turn the framework's own refusals (no session, bad CSRF) into an answer."""
+    code = {401: "signed_out", 403: "not_allowed", 404: "not_found"}.get(error.status_code, "refused")
+    return problem(error.status_code, code, str(error))
+
+
+api.add_router("", registry_router)
+api.add_router("", editor_router)
+api.add_router("", execution_router)

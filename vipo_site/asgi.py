@@ -1,0 +1,55 @@
+"""HTTP and sockets."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from django.core.asgi import get_asgi_application
+
+os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
+http = get_asgi_application()
+
+from channels.auth import AuthMiddlewareStack  # noqa: E402 - models load only after Django is set up
+from channels.routing import ProtocolTypeRouter, URLRouter  # noqa: E402
+from channels.security.websocket import AllowedHostsOriginValidator  # noqa: E402
+from django.conf import settings  # noqa: E402
+from django.urls import path, re_path  # noqa: E402
+from servestatic import ServeStaticASGI  # noqa: E402
+
+from editor.sockets import ProgramSocket  # noqa: E402
+from registry.sockets import SiteSocket  # noqa: E402
+
+
+async def refuse_socket(_scope: Any, receive: Any, send: Any) -> None:
+    """Close a socket whose address nobody serves; accepted first, since a browser learns no code otherwise."""
+    await receive()
+    await send({"type": "websocket.accept"})
+    await send({"type": "websocket.close", "code": 4404})
+
+
+routes = ProtocolTypeRouter(
+    {
+        "http": http,
+        "websocket": AllowedHostsOriginValidator(
+            AuthMiddlewareStack(
+                URLRouter(
+                    [
+                        path("ws/site/<slug:slug>", SiteSocket.as_asgi()),
+                        path("ws/program/<uuid:program>", ProgramSocket.as_asgi()),
+                        re_path(r"", refuse_socket),  # type: ignore[arg-type]  # the stubs know pages only
+                    ]
+                )
+            )
+        ),
+    }
+)
+
+# Everything of the built frontend but its page, which Django serves with the CSRF cookie.
+application = ServeStaticASGI(
+    routes,
+    root=settings.FRONTEND_DIST if settings.FRONTEND_DIST.exists() else None,
+    index_file=False,
+    immutable_file_test=r"^/assets/.+-[A-Za-z0-9_-]{8}\.\w+$",
+    max_age=3600,
+)

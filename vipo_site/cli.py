@@ -1,0 +1,194 @@
+"""`vipo`: check, print, plan and rehearse a program file from the command line."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from editor.language import compile_document, compiled_to_json, plan_to_json
+from editor.language.compiled import Compiled, diagnostic_to_json
+from vipo_site.program_file import FaultyScript, ProgramFile, UnreadableFile, read_program_file
+
+CLEAN, FAULTY, UNUSABLE = 0, 1, 2
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code: 0 clean, 1 errors in the program, 2 nothing could be done."""
+    options = _parser().parse_args(arguments)
+    try:
+        program = read_program_file(options.file, options.site)
+        command: Callable[[ProgramFile, argparse.Namespace], int] = options.command
+        return command(program, options)
+    except FaultyScript as error:
+        if options.json:
+            _write_json({"diagnostics": [diagnostic_to_json(diagnostic) for diagnostic in error.diagnostics]})
+        else:
+            _complain(str(error))
+        return FAULTY
+    except UnreadableFile as error:
+        _complain(str(error))
+        return UNUSABLE
+    except BrokenPipeError:
+        sys.stderr.close()
+        return CLEAN
+
+
+class _Parser(argparse.ArgumentParser):
+    """Tells of bad usage in one sentence."""
+
+    def error(self, message: str) -> NoReturn:
+        _complain(f"{message[:1].upper()}{message[1:]}. Try: {self.prog} --help")
+        raise SystemExit(UNUSABLE)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="vipo", description="Check, print, plan and rehearse programs for robots and machines.")
+    commands = parser.add_subparsers(required=True, metavar="check|script|plan|rehearse", parser_class=_Parser)
+    for name, command, text in _COMMANDS:
+        sub = commands.add_parser(name, help=text, description=text)
+        sub.add_argument("file", type=Path, help="a program file (.json), a document (.json) or a script (.py)")
+        sub.add_argument("--site", type=Path, help="the site file, when the program file names none")
+        sub.add_argument("--json", action="store_true", help="write JSON for machines")
+        sub.set_defaults(command=command)
+        if name == "rehearse":
+            sub.add_argument("--seed", type=int, default=0, help="another seed, another course of chance (0)")
+            sub.add_argument(
+                "--driver", choices=("physics", "kinematic"), default="physics", help="who drives (physics)"
+            )
+    return parser
+
+
+def _check(program: ProgramFile, options: argparse.Namespace) -> int:
+    compiled = _compile(program)
+    if options.json:
+        _write_json(compiled_to_json(compiled))
+        return _code(compiled)
+    for line in _report(compiled):
+        _write(line)
+    errors, warnings = _counts(compiled)
+    _write(f"{program.name}: {_count(errors, 'error')}, {_count(warnings, 'warning')}.")
+    return _code(compiled)
+
+
+def _script(program: ProgramFile, options: argparse.Namespace) -> int:
+    compiled = _compile(program)
+    if options.json:
+        _write_json({key: compiled_to_json(compiled)[key] for key in ("script", "lines", "numbers")})
+    else:
+        sys.stdout.write(compiled.script)
+        _complain_of_errors(compiled)
+    return _code(compiled)
+
+
+def _plan(program: ProgramFile, options: argparse.Namespace) -> int:
+    compiled = _compile(program)
+    if compiled.plan is None:
+        if options.json:
+            _write_json({"diagnostics": compiled_to_json(compiled)["diagnostics"]})
+        _complain_of_errors(compiled)
+        return FAULTY
+    body = plan_to_json(compiled.plan)
+    if options.json:
+        _write_json(body)
+        return CLEAN
+    for address, instruction in enumerate(body["instructions"]):
+        number = compiled.numbers.get(instruction["step"], "")
+        _write(f"{address:4} {number:8} {instruction['do']:9} {_details(instruction)}".rstrip())
+    return CLEAN
+
+
+def _rehearse(program: ProgramFile, options: argparse.Namespace) -> int:
+    compiled = _compile(program)
+    if compiled.plan is None:
+        _complain_of_errors(compiled)
+        return FAULTY
+    # imported late: rehearsing loads the physics, the other commands do not need it
+    from execution.rehearsal import rehearse_program
+
+    result = rehearse_program(
+        document=program.document, site=dict(program.site), seed=options.seed, driver=options.driver
+    )
+    if options.json:
+        _write_json(result)
+    else:
+        _write_result(program, result)
+    return CLEAN if result["ok"] else FAULTY
+
+
+_COMMANDS: tuple[tuple[str, Callable[[ProgramFile, argparse.Namespace], int], str], ...] = (
+    ("check", _check, "Say what is wrong with a program, or odd about it."),
+    ("script", _script, "Print a program as a task script."),
+    ("plan", _plan, "Print the instructions that a run carries out."),
+    ("rehearse", _rehearse, "Run a program in simulation, in virtual time, and say how it went."),
+)
+
+
+def _compile(program: ProgramFile) -> Compiled:
+    return compile_document(program.document, program.surroundings)
+
+
+def _counts(compiled: Compiled) -> tuple[int, int]:
+    severities = [diagnostic.severity for diagnostic in compiled.diagnostics]
+    return severities.count("error"), severities.count("warning")
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}" if number == 1 else f"{number} {word}s"
+
+
+def _code(compiled: Compiled) -> int:
+    return FAULTY if compiled.plan is None else CLEAN
+
+
+def _report(compiled: Compiled) -> list[str]:
+    lines = []
+    for d in compiled.diagnostics:
+        where = f"step {compiled.numbers[d.step]}" if d.step in compiled.numbers else d.step or "program"
+        line = f", line {d.line}" if d.line else ""
+        lines.append(f"{d.severity}: {where}{line}: {d.message} [{d.code}]")
+    return lines
+
+
+def _complain_of_errors(compiled: Compiled) -> None:
+    for line in _report(compiled):
+        if line.startswith("error"):
+            _complain(line)
+
+
+def _details(instruction: Mapping[str, Any]) -> str:
+    hidden = {"do", "step", "line", "enters", "leaves"}
+    shown = {key: value for key, value in instruction.items() if key not in hidden and value not in (None, [], {})}
+    return " ".join(f"{key}={json.dumps(value, ensure_ascii=False)}" for key, value in shown.items())
+
+
+def _write_result(program: ProgramFile, result: Mapping[str, Any]) -> None:
+    minutes, seconds = divmod(round(result["duration_s"]), 60)
+    word = "ends well" if result["ok"] else "does not end well"
+    _write(f"{program.name}: {word} after {minutes} min {seconds} s.")
+    for error in result["errors"]:
+        _write(f"error: at {error['t']:.0f} s, step {error['step'] or 'none'}: {error['message']}")
+    for robot, figures in sorted(result["robots"].items()):
+        _write(
+            f"{robot}: {figures['distance_m']:.1f} m, busy {figures['busy_s']:.0f} s, waits {figures['wait_s']:.0f} s"
+        )
+    _write(f"Near misses: {len(result['near_misses'])}, collisions: {len(result['collisions'])}.")
+
+
+def _write(line: str) -> None:
+    print(line)  # noqa: T201 - a command line tool speaks by printing
+
+
+def _write_json(body: object) -> None:
+    _write(json.dumps(body, ensure_ascii=False, indent=1))
+
+
+def _complain(line: str) -> None:
+    print(line, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,68 @@
+"""The API described in OpenAPI, with the refusals that every call may give."""
+
+from __future__ import annotations
+
+import json
+from http import HTTPStatus
+from typing import Any
+
+from ninja import NinjaAPI, Schema
+from ninja.openapi.schema import OpenAPISchema
+
+
+class FieldProblem(Schema):
+    """A field of the request that does not fit, and why."""
+
+    field: str
+    message: str
+
+
+class Problem(Schema):
+    """A refusal (RFC 9457): `detail` is a sentence for people, `code` is for programs."""
+
+    type: str
+    title: str
+    status: int
+    detail: str
+    code: str
+    fields: list[FieldProblem] = []
+
+
+class DescribedAPI(NinjaAPI):
+    """An API whose description also says what refusals look like."""
+
+    def get_openapi_schema(self, **options: Any) -> OpenAPISchema:
+        """Return the description; every call has the refusal as its default answer."""
+        schema = super().get_openapi_schema(**options)
+        problem = Problem.model_json_schema(mode="serialization", ref_template="#/components/schemas/{model}")
+        schema.schemas.update(problem.pop("$defs"))
+        schema.schemas["Problem"] = problem
+        refusal = {
+            "description": "A refusal",
+            "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}},
+        }
+        for methods in schema["paths"].values():
+            for call in methods.values():
+                call["responses"]["default"] = refusal
+        return schema
+
+
+def describe(api: NinjaAPI) -> str:
+    """Return the API's OpenAPI file: the same bytes for the same API."""
+    schema = json.loads(json.dumps(api.get_openapi_schema(path_prefix="api/"), default=_plain))
+    for part in ("paths", "components"):
+        schema[part] = _untitled(schema[part])
+    return json.dumps(schema, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
+
+
+def _untitled(value: Any) -> Any:
+    """Leave out the titles, which only repeat names; a property that is called `title` is no text and stays."""
+    if isinstance(value, dict):
+        return {k: _untitled(v) for k, v in value.items() if not (k == "title" and isinstance(v, str))}
+    return [_untitled(item) for item in value] if isinstance(value, list) else value
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, HTTPStatus):
+        return int(value)
+    raise TypeError(f"{value!r} cannot stand in an OpenAPI file")

@@ -1,0 +1,154 @@
+"""All settings, from the environment. The one place that knows which of the two modes runs."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from django.core.exceptions import ImproperlyConfigured
+
+BASE_DIR = Path(__file__).resolve().parent.parent
+MODE = os.environ.get("VIPO_MODE", "embedded")
+if MODE not in {"embedded", "served"}:
+    raise ImproperlyConfigured(f"VIPO_MODE is {MODE!r}; set it to 'embedded' or 'served'.")
+SERVED = MODE == "served"
+
+
+def required(name: str) -> str:
+    """Return a setting that the served mode cannot do without."""
+    value = os.environ.get(name, "")
+    if not value:
+        raise ImproperlyConfigured(f"{name} is not set; the served mode needs it (see docs/operations.md).")
+    return value
+
+
+VIPO_STATE_DIR = Path(os.environ.get("VIPO_STATE_DIR", BASE_DIR / "var"))
+
+
+def local_secret(name: str) -> str:
+    """Return a secret of this machine, made at first use and kept beside the database."""
+    path = VIPO_STATE_DIR / "secrets" / name
+    if not path.exists():
+        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        path.touch(mode=0o600)
+        path.write_text(secrets.token_urlsafe(32))
+    return path.read_text().strip()
+
+
+SECRET_KEY = required("VIPO_SECRET_KEY") if SERVED else local_secret("django")
+DEBUG = False
+ALLOWED_HOSTS = (
+    required("VIPO_HOSTS").split(",")
+    if SERVED
+    else os.environ.get("VIPO_HOSTS", "127.0.0.1,localhost,[::1],testserver").split(",")
+)
+CSRF_TRUSTED_ORIGINS = [o for o in os.environ.get("VIPO_ORIGINS", "").split(",") if o]
+if os.environ.get("VIPO_HTTPS", "") == "1":
+    SESSION_COOKIE_SECURE = CSRF_COOKIE_SECURE = True
+    SECURE_PROXY_SSL_HEADER = ("HTTP_X_FORWARDED_PROTO", "https")
+
+INSTALLED_APPS = [
+    "daphne",
+    "channels",
+    "django.contrib.auth",
+    "django.contrib.contenttypes",
+    "django.contrib.sessions",
+    "django.contrib.staticfiles",
+    "registry",
+    "editor",
+    "simulation",
+    "execution",
+    "vipo_site",
+]
+MIDDLEWARE = [
+    "django.middleware.security.SecurityMiddleware",
+    "vipo_site.headers.SecurityHeaders",
+    "django.contrib.sessions.middleware.SessionMiddleware",
+    "django.middleware.common.CommonMiddleware",
+    "django.middleware.csrf.CsrfViewMiddleware",
+    "django.contrib.auth.middleware.AuthenticationMiddleware",
+    "django.middleware.clickjacking.XFrameOptionsMiddleware",
+]
+ROOT_URLCONF = "vipo_site.urls"
+ASGI_APPLICATION = "vipo_site.asgi.application"
+TEMPLATES: list[dict[str, object]] = []
+AUTH_USER_MODEL = "registry.User"
+DEFAULT_AUTO_FIELD = "django.db.models.BigAutoField"
+AUTH_PASSWORD_VALIDATORS = [
+    {"NAME": "django.contrib.auth.password_validation.MinimumLengthValidator", "OPTIONS": {"min_length": 10}},
+]
+LANGUAGE_CODE = "en"
+TIME_ZONE = "UTC"
+USE_TZ = True
+SESSION_COOKIE_HTTPONLY = True
+SESSION_COOKIE_SAMESITE = "Lax"
+
+
+def postgres(url: str) -> dict[str, object]:
+    """Turn postgresql://user:password@host:port/name into Django's form."""
+    parts = urlsplit(url)
+    return {
+        "ENGINE": "django.db.backends.postgresql",
+        "NAME": parts.path.lstrip("/"),
+        "USER": unquote(parts.username or ""),
+        "PASSWORD": unquote(parts.password or ""),
+        "HOST": parts.hostname or "",
+        "PORT": str(parts.port or ""),
+        "CONN_MAX_AGE": 0,
+    }
+
+
+if SERVED:
+    DATABASES = {"default": postgres(required("VIPO_DATABASE_URL"))}
+else:
+    DATABASES = {
+        "default": {
+            "ENGINE": "django.db.backends.sqlite3",
+            "NAME": VIPO_STATE_DIR / "vipo.sqlite3",
+            "OPTIONS": {
+                "transaction_mode": "IMMEDIATE",
+                "timeout": 20,
+                "init_command": "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;",
+            },
+        }
+    }
+
+VIPO_REDIS_URL = required("VIPO_REDIS_URL") if SERVED else None
+VIPO_LIVE_URL = VIPO_REDIS_URL or "memory://"
+VIPO_STREAM_URL = VIPO_REDIS_URL or "memory://"
+VIPO_MQTT = {
+    "host": required("VIPO_MQTT_HOST") if SERVED else "127.0.0.1",
+    "port": int(os.environ.get("VIPO_MQTT_PORT", "8883" if SERVED else "1883")),
+    "username": os.environ.get("VIPO_MQTT_USERNAME", "server"),
+    "password": required("VIPO_MQTT_PASSWORD") if SERVED else local_secret("mqtt-server"),
+    "tls": os.environ.get("VIPO_MQTT_TLS", "1" if SERVED else "0") == "1",
+    "ca": os.environ.get("VIPO_MQTT_CA", ""),
+}
+VIPO_DEFAULT_SITE = os.environ.get("VIPO_DEFAULT_SITE", "painting-factory")
+VIPO_SPEED = float(os.environ.get("VIPO_SPEED", "1"))
+VIPO_DEMO = os.environ.get("VIPO_DEMO", "") == "1"
+
+CELERY_BROKER_URL = VIPO_REDIS_URL or "memory://localhost/"
+CELERY_BROKER_TRANSPORT_OPTIONS: dict[str, object] = {} if SERVED else {"polling_interval": 0.005}
+CELERY_TASK_IGNORE_RESULT = True
+CELERY_TASK_ACKS_LATE = False
+CELERY_WORKER_HIJACK_ROOT_LOGGER = False
+CELERY_WORKER_REDIRECT_STDOUTS = False
+CELERY_BROKER_CONNECTION_RETRY_ON_STARTUP = True
+CELERY_TIMEZONE = "UTC"
+
+FRONTEND_DIST = Path(os.environ.get("VIPO_FRONTEND_DIST", BASE_DIR / "frontend" / "dist"))
+STATIC_URL = "/static/"
+STATIC_ROOT = VIPO_STATE_DIR / "static"
+DATA_UPLOAD_MAX_MEMORY_SIZE = 4 * 1024 * 1024
+FILE_UPLOAD_MAX_MEMORY_SIZE = 16 * 1024 * 1024
+
+LOGGING = {
+    "version": 1,
+    "disable_existing_loggers": False,
+    "formatters": {"line": {"format": "%(asctime)s %(levelname)s %(name)s: %(message)s"}},
+    "handlers": {"stderr": {"class": "logging.StreamHandler", "formatter": "line"}},
+    "root": {"handlers": ["stderr"], "level": os.environ.get("VIPO_LOG", "WARNING")},
+}

@@ -1,0 +1,41 @@
+"""Where requests go: the API, and the frontend's one page for everything else."""
+
+from __future__ import annotations
+
+from django.conf import settings
+from django.http import HttpRequest, HttpResponse, JsonResponse
+from django.urls import path, re_path
+from django.views.decorators.csrf import ensure_csrf_cookie
+
+from vipo_site.api import api, problem
+from vipo_site.health import check_health
+
+
+@ensure_csrf_cookie
+def page(request: HttpRequest) -> HttpResponse:
+    """Serve the single page; its router shows the screen that the address names."""
+    index = settings.FRONTEND_DIST / "index.html"
+    if not index.exists():
+        return HttpResponse("The frontend is not built. Run `make frontend`.", status=503, content_type="text/plain")
+    response = HttpResponse(index.read_bytes(), content_type="text/html; charset=utf-8")
+    response["Cache-Control"] = "no-cache"
+    return response
+
+
+def health(request: HttpRequest) -> JsonResponse:
+    """Tell a supervisor whether this process can serve."""
+    report = check_health()
+    return JsonResponse(report, status=200 if report["ok"] else 503)
+
+
+def no_such_call(request: HttpRequest) -> HttpResponse:
+    """Answer an API address that does not exist as the API does, not with a page."""
+    return problem(404, "not_found", "There is no such call. See docs/api.md.")
+
+
+urlpatterns = [
+    path("api/", api.urls),
+    path("health", health),
+    re_path(r"^(api|ws)/.*$", no_such_call),
+    re_path(r"^(?!static/|assets/).*$", page),
+]
