@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from editor.language.plan import Constant, Expression, PlaceRef
+from editor.language.plan import AnswerSpec, Constant, Expression, PlaceRef
 from registry.capability import Scalar
 
 MISSING = Constant(None)
 """A value that is still to be entered."""
+YES_OR_NO = AnswerSpec()
 NOWHERE = PlaceRef()
 """A place that is still to be chosen."""
 
@@ -100,6 +101,76 @@ class While:
 
 
 @dataclass(frozen=True, slots=True)
+class Repeat:
+    """The body so many times."""
+
+    times: Expression
+    body: Block = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class ForEach:
+    """The body once for each item, which `variable` holds."""
+
+    variable: str
+    items: tuple[Expression, ...] = ()
+    body: Block = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Set:
+    """A variable takes a value (empty: still to be named)."""
+
+    variable: str
+    value: Expression
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """The people of the site are asked; the program waits for the answer."""
+
+    question: Expression
+    answer: AnswerSpec = YES_OR_NO
+    variable: str = ""
+    timeout_s: Expression | None = None
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Notify:
+    """The people of the site are told something; level is info or warning."""
+
+    message: Expression
+    level: str = "info"
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """The program ends here."""
+
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Return:
+    """The function ends here, with a value if it gives one."""
+
+    value: Expression | None = None
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Break:
+    """The innermost loop ends here."""
+
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Parallel:
     """All branches at once; what follows begins when all have ended."""
 
@@ -109,11 +180,16 @@ class Parallel:
 
 @dataclass(frozen=True, slots=True)
 class Try:
-    """The body, and `catch` when it fails with one of `kinds` (none: any)."""
+    """The body, `catch` when it fails with one of `kinds` (none: any), and `final` whatever happens.
+
+    Where `catches` is False there is no catch at all and failures go on outwards.
+    """
 
     kinds: tuple[str, ...] = ()
     body: Block = ()
     catch: Block = ()
+    final: Block = ()
+    catches: bool = True
     step: str = field(default="", compare=False)
 
 
@@ -123,10 +199,15 @@ class Call:
 
     function: str
     arguments: Arguments = ()
+    result: str = ""
+    """The variable that takes what the function gives."""
     step: str = field(default="", compare=False)
 
 
-Node = Move | Pick | Drop | Operate | Wait | WaitUntil | If | While | Parallel | Try | Call
+Node = (
+    Move | Pick | Drop | Operate | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Call
+    | Set | Ask | Notify | End | Return | Break
+)  # fmt: skip
 Block = tuple[Node, ...]
 
 
@@ -147,8 +228,21 @@ class Function:
     method: str
     parameters: tuple[Parameter, ...] = ()
     body: Block = ()
+    result_type: str = ""
+    """Empty: it gives nothing back."""
+    result_unit: str = ""
     id: str = field(default="", compare=False)
     name: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A second entry: the body runs each time the condition becomes true."""
+
+    condition: Expression
+    body: Block = ()
+    starts: str = "branch"
+    step: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,9 +267,10 @@ class Tree:
     functions: tuple[Function, ...] = ()
     roles: tuple[Role, ...] = ()
     parameters: tuple[Parameter, ...] = ()
+    events: tuple[Event, ...] = ()
 
 
-_COMPOSITES = frozenset({If, While, Parallel, Try})
+_COMPOSITES = frozenset({If, While, Repeat, ForEach, Parallel, Try})
 
 
 def blocks_of(node: Node) -> tuple[Block, ...]:
@@ -185,10 +280,10 @@ def blocks_of(node: Node) -> tuple[Block, ...]:
     match node:
         case If(then=then, otherwise=otherwise):
             return (then, otherwise)
-        case While(body=body):
+        case While(body=body) | Repeat(body=body) | ForEach(body=body):
             return (body,)
         case Parallel(branches=branches):
             return branches
-        case Try(body=body, catch=catch):
-            return (body, catch)
+        case Try(body=body, catch=catch, final=final):
+            return (body, catch, final)
     return ()

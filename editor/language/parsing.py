@@ -289,12 +289,12 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
     branch_names = set(_branch_names(module))
     for name, method in methods.items():
         if name not in branch_names and name not in {"new_task", "run"}:
-            parser.functions[name] = n.Function(name, parse_parameters(method), (), "", name)
+            parser.functions[name] = n.Function(name, parse_parameters(method), name=name)
     body = parser.block(methods["new_task"].body)
     for name, function in list(parser.functions.items()):
         scope.locals = frozenset(parameter.name for parameter in function.parameters)
         inner = parser.block(methods[name].body)
-        parser.functions[name] = n.Function(name, function.parameters, inner, "", name)
+        parser.functions[name] = n.Function(name, function.parameters, inner, name=name)
     roles, parameters = _roles_and_parameters(parser)
     tree = in_reading_order(n.Tree(body, tuple(parser.functions.values()), roles, parameters))
     settled, homeless = settle_places(tree)

@@ -43,6 +43,25 @@ class Operation:
     arguments: tuple[Expression, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number with its unit as people wrote it; the compiler converts it, no plan has one."""
+
+    value: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Located:
+    """Something that has a place: exactly one field is set. A device's and a place's value is its id."""
+
+    device: str | None = None
+    place: str | None = None
+    point: tuple[float, float] | None = None
+    role: str | None = None
+    zone: str | None = None
+
+
 Expression = Constant | Variable | Reading | Operation
 
 
@@ -140,15 +159,24 @@ class Join:
 
 @dataclass(frozen=True, slots=True)
 class TryBegin:
-    """From here to the matching TryEnd, a failure of one of `kinds` (empty: any) goes on at `handler`."""
+    """From here to the matching TryEnd, a failure of one of `kinds` (empty: any) goes on at `handler`.
+
+    A `final` guard takes everything, an early End too; its handler ends in a Rethrow.
+    """
 
     handler: int
     kinds: tuple[str, ...] = ()
+    final: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class TryEnd:
     """Leave the innermost guarded stretch of this thread."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rethrow:
+    """Behind a `final` handler: go on failing, or ending, as before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,6 +187,8 @@ class Invoke:
     function: str
     arguments: Mapping[str, Expression]
     result: str | None = None
+    shared: bool = False
+    """The result is a variable of the program (frame 0), not of the running frame."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,20 +200,58 @@ class Return:
 
 @dataclass(frozen=True, slots=True)
 class Assign:
-    """Set a variable of the running frame."""
+    """Set a variable: of the program (frame 0) when it is `shared`, else of the running frame."""
 
     name: str
     value: Expression
+    shared: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class AnswerSpec:
+    """What a question may be answered with: `type` is boolean, number, text or choice."""
+
+    type: str = "boolean"
+    unit: str = ""
+    minimum: float | None = None
+    maximum: float | None = None
+    options: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class AskPerson:
+    """Ask the people of the site and wait; past `timeout_s` it fails as `timed_out`."""
+
+    question: Expression
+    answer: AnswerSpec
+    result: str | None = None
+    shared: bool = False
+    timeout_s: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Notify:
+    """Tell the people of the site."""
+
+    message: Expression
+    level: str = "info"
 
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """The program is over; roles are released."""
+    """The program is over; roles are released. One that comes `early` carries out the `final` guards around it."""
+
+    early: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class EventEnd:
+    """The body of an event is over."""
 
 
 Action = (
     Move | Pick | Drop | Call | Wait | WaitUntil | Branch | Jump | Fork | Join
-    | TryBegin | TryEnd | Invoke | Return | Assign | End
+    | TryBegin | TryEnd | Rethrow | Invoke | Return | Assign | AskPerson | Notify | End | EventEnd
 )  # fmt: skip
 
 
@@ -210,6 +278,27 @@ class RoleBinding:
 
 
 @dataclass(frozen=True, slots=True)
+class EventEntry:
+    """A second entry: each time the condition becomes true, beside the running program, or as a run of its own."""
+
+    step: str
+    entry: int
+    condition: Expression
+    starts: Literal["branch", "run"] = "branch"
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """A named area of the map: a polygon in metres that robots of this run keep out of, share, or go slowly in."""
+
+    id: str
+    name: str
+    rule: Literal["keep_out", "one_at_a_time", "slow"]
+    points: tuple[tuple[float, float], ...]
+    speed_m_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Plan:
     """A whole program, ready to be carried out. Execution begins at instruction 0."""
 
@@ -220,3 +309,5 @@ class Plan:
     reads: tuple[tuple[str, str], ...] = ()
     """(device id, property) pairs that conditions look at, as far as they are known before the run."""
     format: int = PLAN_FORMAT
+    events: tuple[EventEntry, ...] = ()
+    zones: tuple[Zone, ...] = ()

@@ -174,7 +174,7 @@ def _try(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
     named = params.get("kinds")
     wanted = named if isinstance(named, list | tuple) else ()
     kinds = tuple(kind for kind in FAILURE_KINDS if kind in wanted)
-    return (Try(kinds, reader.block(step, "body"), reader.block(step, "catch"), step),)
+    return (Try(kinds, reader.block(step, "body"), reader.block(step, "catch"), step=step),)
 
 
 def _call(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
@@ -183,7 +183,7 @@ def _call(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
     if function is None:
         if wanted is not None:
             reader.problems.append(Problem("unknown_function", step, "function"))
-        return (Call("", (), step),)
+        return (Call("", step=step),)
     names = reader.argument_names[function.id]
     given = mapping(params.get("args"))
     arguments: list[tuple[str, Expression]] = []
@@ -195,7 +195,7 @@ def _call(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
             options = ", ".join(names) or "nothing"
             details = {"method": function.name, "argument": str(name), "options": options}
             reader.problems.append(Problem("unknown_argument", step, f"args.{name}", details))
-    return (Call(function.method, tuple(sorted(arguments, key=lambda pair: pair[0])), step),)
+    return (Call(function.method, tuple(sorted(arguments, key=lambda pair: pair[0])), step=step),)
 
 
 def _call_argument(reader: _Reader, step: str, given: Params, name: str) -> Expression:
@@ -239,7 +239,7 @@ def read_document(document: object) -> Reading:
         reader.names = {**global_names, **argument_names[function.id]}
         block = reader.block(function.id, "body") if function.id not in outline.kinds else ()
         with_bodies[function.method] = Function(
-            function.method, function.parameters, block, function.id, function.name
+            function.method, function.parameters, block, id=function.id, name=function.name
         )  # fmt: skip
     tree = in_reading_order(Tree(body, tuple(with_bodies.values()), tuple(roles.values()), parameters))
     return Reading(tree, outline, tuple(reader.problems))
@@ -293,7 +293,7 @@ def _read_functions(
         listed = item.get("parameters")
         items = [("", mapping(entry)) for entry in listed] if isinstance(listed, list | tuple) else []
         parameters, argument_names[key] = _read_parameters(items, local=True)
-        functions[key] = Function(method, parameters, (), key, name)
+        functions[key] = Function(method, parameters, id=key, name=name)
     return functions, argument_names
 
 

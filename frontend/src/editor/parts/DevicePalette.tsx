@@ -1,26 +1,35 @@
 /** Choosing a device by typing: the keyboard's way through a gesture. */
-import { useEffect, useRef, useState } from "react";
+import { useLayoutEffect, useRef, useState } from "react";
 import { DeviceIcon } from "@/map/DeviceIcon";
 import { useOpenProgram } from "../state/context";
-import { askOf, stepBack, suits } from "../state/tool";
+import { askOf, stepBack, suits, type Gesture } from "../state/tool";
 import { useUi } from "../state/ui";
 import classes from "./float.module.css";
 
 const ASKS = ["source", "target", "goal", "device"];
 
 export function DevicePalette({ onChoose }: { onChoose: (device: string) => void }) {
-  const { t, devices, surroundings } = useOpenProgram();
   const gesture = useUi((ui) => ui.gesture);
+  const ask = askOf(gesture);
+  if (!gesture.byKeyboard || !ASKS.includes(ask)) return null;
+  // A new question is a new field, so that what was typed for the last one can never run into it.
+  return <Palette key={ask} ask={ask} gesture={gesture} onChoose={onChoose} />;
+}
+
+function Palette({
+  ask,
+  gesture,
+  onChoose,
+}: {
+  ask: string;
+  gesture: Gesture;
+  onChoose: (device: string) => void;
+}) {
+  const { t, devices, surroundings } = useOpenProgram();
   const [text, setText] = useState("");
   const [at, setAt] = useState(0);
   const input = useRef<HTMLInputElement>(null);
-  const ask = askOf(gesture);
-  useEffect(() => {
-    input.current?.focus();
-    setText("");
-    setAt(0);
-  }, [ask, gesture.byKeyboard]);
-  if (!gesture.byKeyboard || !ASKS.includes(ask)) return null;
+  useLayoutEffect(() => input.current?.focus(), []);
   const source = gesture.source ? surroundings.devices.get(gesture.source) : undefined;
   const found = devices.filter(
     (device) => suits(gesture, device, source) && device.name.toLowerCase().includes(text.trim().toLowerCase()),
