@@ -8,7 +8,7 @@ from typing import Literal
 
 from registry.capability import Scalar
 
-PLAN_FORMAT = 1
+PLAN_FORMAT = 2
 
 BinaryOperator = Literal["<", "<=", ">", ">=", "==", "!=", "and", "or", "+", "-", "*", "/", "in", "not in"]
 

@@ -7,9 +7,15 @@ from typing import Any
 
 from editor.language import plan as p
 
+_READABLE_FORMATS = (1, p.PLAN_FORMAT)
+
 
 class UnreadablePlan(ValueError):
     """The JSON is no plan of this format; the message says where it is wrong."""
+
+
+_LEFT_OUT_WHEN_UNSET = frozenset({"early", "final", "shared"})
+"""Marks that format 1 did not have; they are written only where they are set."""
 
 
 def plan_to_json(plan: p.Plan) -> dict[str, Any]:
@@ -20,22 +26,26 @@ def plan_to_json(plan: p.Plan) -> dict[str, Any]:
         "roles": {name: {"device": r.device, "can": list(r.can)} for name, r in plan.roles.items()},
         "parameters": dict(plan.parameters),
         "reads": [list(pair) for pair in plan.reads],
+        "events": [_event_to_json(event) for event in plan.events],
+        "zones": [_zone_to_json(zone) for zone in plan.zones],
     }
 
 
 def plan_from_json(body: Mapping[str, Any]) -> p.Plan:
-    """Return the plan in the JSON.
+    """Return the plan in the JSON; one of format 1 says nothing of what came later, and means the same.
 
     Raises:
         UnreadablePlan: the JSON is not what `plan_to_json` writes.
     """
-    if not isinstance(body, Mapping) or body.get("format") != p.PLAN_FORMAT:
+    if not isinstance(body, Mapping) or body.get("format") not in _READABLE_FORMATS:
         raise UnreadablePlan(f"This is not a plan of format {p.PLAN_FORMAT}. Compile the program again.")
     try:
         instructions = tuple(_instruction_from_json(item) for item in body["instructions"])
         roles = {name: p.RoleBinding(name, r["device"], tuple(r["can"])) for name, r in body["roles"].items()}
         reads = tuple((str(device), str(name)) for device, name in body["reads"])
-        return p.Plan(instructions, roles, dict(body["parameters"]), reads)
+        events = tuple(_event_from_json(item) for item in body.get("events", ()))
+        zones = tuple(_zone_from_json(item) for item in body.get("zones", ()))
+        return p.Plan(instructions, roles, dict(body["parameters"]), reads, events=events, zones=zones)
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise UnreadablePlan(f"The plan cannot be read: {error!r}. Compile the program again.") from error
 
@@ -53,6 +63,22 @@ def expression_to_json(expression: p.Expression | None) -> Any:
             return {"read": [expression_to_json(device), name]}
         case p.Operation(operator=operator, arguments=arguments):
             return {"op": operator, "args": [expression_to_json(argument) for argument in arguments]}
+        case p.Located():
+            return {"at": _located_to_json(expression)}
+    raise TypeError(f"A plan has no {type(expression).__name__}.")
+
+
+def _located_to_json(located: p.Located) -> dict[str, Any]:
+    if located.point is not None:
+        return {"point": list(located.point)}
+    named = {name: getattr(located, name) for name in ("device", "place", "role", "zone")}
+    return {name: value for name, value in named.items() if value is not None}
+
+
+def _located_from_json(body: Mapping[str, Any]) -> p.Located:
+    point = body.get("point")
+    given = {name: body.get(name) for name in ("device", "place", "role", "zone")}
+    return p.Located(point=None if point is None else _point(point), **given)
 
 
 def expression_from_json(body: Any) -> p.Expression:
@@ -65,6 +91,8 @@ def expression_from_json(body: Any) -> p.Expression:
     if "read" in body:
         device, name = body["read"]
         return p.Reading(expression_from_json(device), name)
+    if "at" in body:
+        return _located_from_json(body["at"])
     return p.Operation(body["op"], tuple(expression_from_json(argument) for argument in body["args"]))
 
 
@@ -102,8 +130,10 @@ def _value_to_json(value: Any) -> Any:
     match value:
         case p.PlaceRef():
             return _place_to_json(value)
-        case p.Constant() | p.Variable() | p.Reading() | p.Operation():
+        case p.Constant() | p.Variable() | p.Reading() | p.Operation() | p.Located():
             return expression_to_json(value)
+        case p.AnswerSpec():
+            return _answer_to_json(value)
         case Mapping():
             return {name: expression_to_json(item) for name, item in value.items()}
         case tuple():
@@ -113,10 +143,44 @@ def _value_to_json(value: Any) -> Any:
 
 def _instruction_to_json(instruction: p.Instruction) -> dict[str, Any]:
     do = instruction.do
-    fields = {name: _value_to_json(getattr(do, name)) for name in type(do).__dataclass_fields__}
-    body: dict[str, Any] = {"do": type(do).__name__, **fields}
+    fields = {name: getattr(do, name) for name in type(do).__dataclass_fields__}
+    body: dict[str, Any] = {"do": type(do).__name__}
+    body |= {k: _value_to_json(value) for k, value in fields.items() if value or k not in _LEFT_OUT_WHEN_UNSET}
     body |= {"step": instruction.step, "line": instruction.line}
     return body | {"enters": list(instruction.enters), "leaves": list(instruction.leaves)}
+
+
+def _answer_to_json(answer: p.AnswerSpec) -> dict[str, Any]:
+    limits = {"minimum": answer.minimum, "maximum": answer.maximum}
+    return {"type": answer.type, "unit": answer.unit, **limits, "options": list(answer.options)}
+
+
+def _answer_from_json(b: Mapping[str, Any]) -> p.AnswerSpec:
+    return p.AnswerSpec(b["type"], b["unit"], b["minimum"], b["maximum"], tuple(b["options"]))
+
+
+def _ask(b: Mapping[str, Any]) -> p.AskPerson:
+    question, answer = expression_from_json(b["question"]), _answer_from_json(b["answer"])
+    return p.AskPerson(question, answer, b["result"], b.get("shared", False), _maybe(b["timeout_s"]))
+
+
+def _event_to_json(event: p.EventEntry) -> dict[str, Any]:
+    condition = expression_to_json(event.condition)
+    return {"step": event.step, "entry": event.entry, "condition": condition, "starts": event.starts}
+
+
+def _event_from_json(body: Mapping[str, Any]) -> p.EventEntry:
+    return p.EventEntry(body["step"], int(body["entry"]), expression_from_json(body["condition"]), body["starts"])
+
+
+def _zone_to_json(zone: p.Zone) -> dict[str, Any]:
+    points = [list(point) for point in zone.points]
+    return {"id": zone.id, "name": zone.name, "rule": zone.rule, "points": points, "speed_m_s": zone.speed_m_s}
+
+
+def _zone_from_json(body: Mapping[str, Any]) -> p.Zone:
+    points = tuple(_point(point) for point in body["points"])
+    return p.Zone(body["id"], body["name"], body["rule"], points, body["speed_m_s"])
 
 
 def _load(kind: type[p.Pick] | type[p.Drop], b: Mapping[str, Any]) -> p.Pick | p.Drop:
@@ -135,12 +199,18 @@ _ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "Jump": lambda b: p.Jump(int(b["to"])),
     "Fork": lambda b: p.Fork(tuple(map(int, b["branches"])), int(b["join"])),
     "Join": lambda b: p.Join(),
-    "TryBegin": lambda b: p.TryBegin(int(b["handler"]), tuple(b["kinds"])),
+    "TryBegin": lambda b: p.TryBegin(int(b["handler"]), tuple(b["kinds"]), b.get("final", False)),
     "TryEnd": lambda b: p.TryEnd(),
-    "Invoke": lambda b: p.Invoke(int(b["entry"]), b["function"], _named(b["arguments"]), b["result"]),
+    "Rethrow": lambda b: p.Rethrow(),
+    "Invoke": lambda b: p.Invoke(
+        int(b["entry"]), b["function"], _named(b["arguments"]), b["result"], b.get("shared", False)
+    ),
     "Return": lambda b: p.Return(_maybe(b["value"])),
-    "Assign": lambda b: p.Assign(b["name"], expression_from_json(b["value"])),
-    "End": lambda b: p.End(),
+    "Assign": lambda b: p.Assign(b["name"], expression_from_json(b["value"]), b.get("shared", False)),
+    "AskPerson": _ask,
+    "Notify": lambda b: p.Notify(expression_from_json(b["message"]), b["level"]),
+    "End": lambda b: p.End(b.get("early", False)),
+    "EventEnd": lambda b: p.EventEnd(),
 }
 
 
