@@ -16,15 +16,7 @@ export function DevicePalette({ onChoose }: { onChoose: (device: string) => void
   return <Palette key={ask} ask={ask} gesture={gesture} onChoose={onChoose} />;
 }
 
-function Palette({
-  ask,
-  gesture,
-  onChoose,
-}: {
-  ask: string;
-  gesture: Gesture;
-  onChoose: (device: string) => void;
-}) {
+function Palette({ ask, gesture, onChoose }: { ask: string; gesture: Gesture; onChoose: (device: string) => void }) {
   const { t, devices, surroundings } = useOpenProgram();
   const [text, setText] = useState("");
   const [at, setAt] = useState(0);
