@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from editor.language.plan import Constant, Expression, Operation, Reading, Variable
+from editor.language.quoting import quote
 from editor.language.values import FUNCTIONS
 from registry.capability import Scalar
 
@@ -12,7 +13,6 @@ _STRENGTH = {"or": 1, "and": 2, "not": 3, "+": 5, "-": 5, "*": 6, "/": 6}
 _COMPARISON = 4
 _NEGATION = 7
 _ATOM = 9
-_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
 
 class Names(Protocol):
@@ -23,22 +23,6 @@ class Names(Protocol):
 
     def reading(self, device: str, property_name: str) -> str:
         """Return how a device's property is written."""
-
-
-def quote(text: str) -> str:
-    """Return a text as a Python string in double quotes; what cannot be seen is escaped."""
-    if text.isascii() and text.isalnum():
-        return f'"{text}"'
-    return f'"{"".join(map(_character, text))}"'
-
-
-def _character(character: str) -> str:
-    if character in _ESCAPES:
-        return _ESCAPES[character]
-    if character.isprintable():
-        return character
-    code = ord(character)
-    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 
 def scalar_text(value: Scalar) -> str:

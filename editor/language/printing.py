@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from editor.language.expression_text import quote, scalar_text, write_expression
+from editor.language.expression_text import scalar_text, write_expression
 from editor.language.names import RESERVED_ATTRIBUTES, RESERVED_MEMBERS, snake_case, unique_name
 from editor.language.nodes import (
     Block,
@@ -28,6 +28,7 @@ from editor.language.nodes import (
 )
 from editor.language.numbering import letters_of
 from editor.language.plan import Expression, PlaceRef
+from editor.language.quoting import quote
 from editor.language.surroundings import Surroundings
 
 ERROR_CLASSES: Mapping[str, str] = {
