@@ -174,14 +174,21 @@ export interface ProgramRole {
   can?: string[];
 }
 
+export interface Zone {
+  name: string;
+  rule: "keep_out" | "one_at_a_time" | "slow";
+  points: Point[];
+  speed_m_s?: number | null;
+}
+
 export interface ProgramDocument {
-  format: 1;
+  format: number;
   start_pos?: Point;
   steps: Record<string, Step>;
   functions: Record<string, FunctionDefinition>;
   roles: Record<string, ProgramRole>;
   parameters: Record<string, FunctionParameter>;
-  zones: Record<string, unknown>;
+  zones: Record<string, Zone>;
 }
 
 export interface DiagnosticFix {

@@ -38,12 +38,12 @@ export function WaitForm() {
     apply(
       mode === "until"
         ? [
-            { do: "set_param", id, name: "seconds", value: null },
+            { do: "set_param", id, name: "duration", value: null },
             { do: "set_param", id, name: "until", value: { op: "<", args: [null, null] } },
           ]
         : [
             { do: "set_param", id, name: "until", value: null },
-            { do: "set_param", id, name: "timeout_s", value: null },
+            { do: "set_param", id, name: "timeout", value: null },
           ],
     );
   return (
@@ -64,22 +64,22 @@ export function WaitForm() {
           <ConditionForm field="until" />
           <ValueField
             label={t("wait.limit")}
-            field="timeout_s"
+            field="timeout"
             unit="s"
             minimum={1}
-            value={step.params.timeout_s as Value}
-            onChange={(value) => set("timeout_s", value)}
+            value={step.params.timeout as Value}
+            onChange={(value) => set("timeout", value)}
             placeholder={t("wait.no_limit")}
           />
         </>
       ) : (
         <ValueField
           label={t("wait.seconds")}
-          field="seconds"
+          field="duration"
           unit="s"
           minimum={0}
-          value={step.params.seconds as Value}
-          onChange={(value) => set("seconds", value)}
+          value={step.params.duration as Value}
+          onChange={(value) => set("duration", value)}
           placeholder={t("wait.example")}
         />
       )}

@@ -1,5 +1,5 @@
 /** Edits of a document as data: gestures decide them, the shared document applies them. */
-import type { FunctionDefinition, ProgramDocument, Role, Step } from "./types";
+import type { FunctionDefinition, Parameter, ProgramDocument, Role, Step, Zone } from "./types";
 
 export type StepPlace = readonly [parent: string, branch: string, order: string];
 export type Position = readonly [x: number, y: number];
@@ -12,6 +12,8 @@ export type Edit =
   | { readonly do: "set_param"; readonly id: string; readonly name: string; readonly value: unknown }
   | { readonly do: "set_function"; readonly id: string; readonly value: FunctionDefinition | null }
   | { readonly do: "set_role"; readonly id: string; readonly value: Role | null }
+  | { readonly do: "set_parameter"; readonly id: string; readonly value: Parameter | null }
+  | { readonly do: "set_zone"; readonly id: string; readonly value: Zone | null }
   | { readonly do: "set_start"; readonly pos: Position };
 
 /** A gesture's outcome: what to change, or the reason (a catalogue key) why nothing changes. */
@@ -41,6 +43,10 @@ function applyEdit(document: ProgramDocument, edit: Edit): ProgramDocument {
       return { ...document, functions: withValue(document.functions, edit.id, edit.value) };
     case "set_role":
       return { ...document, roles: withValue(document.roles, edit.id, edit.value) };
+    case "set_parameter":
+      return { ...document, parameters: withValue(document.parameters, edit.id, edit.value) };
+    case "set_zone":
+      return { ...document, zones: withValue(document.zones, edit.id, edit.value) };
     case "set_start":
       return { ...document, start_pos: edit.pos };
   }

@@ -9,7 +9,7 @@ function docWithSteps(): Y.Doc {
     step.set("kind", "wait");
     step.set("place", ["program", "body", id]);
     step.set("pos", [1, 2]);
-    step.set("params", new Y.Map([["seconds", 3]]));
+    step.set("params", new Y.Map([["duration", 3]]));
     doc.getMap("steps").set(id, step);
   }
   return doc;
@@ -21,9 +21,9 @@ test("a change of one step leaves the other steps the very same objects", () => 
   const changed = new Map<string, Set<string>>();
   for (const root of ROOTS) doc.getMap(root).observeDeep((events) => changed.set(root, changedBy(root, events)));
   const step = doc.getMap<Y.Map<Y.Map<unknown>>>("steps").get("a");
-  step?.get("params")?.set("seconds", 9);
+  step?.get("params")?.set("duration", 9);
   const next = rereadDocument(doc, before, changed);
-  expect(next.steps.a?.params).toEqual({ seconds: 9 });
+  expect(next.steps.a?.params).toEqual({ duration: 9 });
   expect(next.steps.b).toBe(before.steps.b);
 });
 

@@ -157,6 +157,12 @@ function applyToDoc(doc: Y.Doc, edit: Edit): void {
     case "set_role":
       setOrDelete(doc.getMap("roles"), edit.id, edit.value);
       return;
+    case "set_parameter":
+      setOrDelete(doc.getMap("parameters"), edit.id, edit.value);
+      return;
+    case "set_zone":
+      setOrDelete(doc.getMap("zones"), edit.id, edit.value);
+      return;
     case "set_start":
       doc.getMap("meta").set("start_pos", edit.pos);
   }

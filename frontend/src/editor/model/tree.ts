@@ -9,7 +9,7 @@ export interface BranchRef {
 export interface ProgramTree {
   /** Steps of one branch in their order. */
   children(parent: string, branch: string): readonly string[];
-  /** Steps that are joined to nothing. */
+  /** Steps that are joined to nothing; comments are none. */
   readonly drafts: readonly string[];
   /** Every step that is joined, parents before their children, as read from top to bottom. */
   readonly reading: readonly string[];
@@ -18,6 +18,8 @@ export interface ProgramTree {
 }
 
 export const PROGRAM: BranchRef = { parent: "program", branch: "body" };
+/** Where the steps stand that begin when something happens, and no others. */
+export const EVENTS: BranchRef = { parent: "program", branch: "events" };
 
 /** The branches that a step of this kind has, in the order in which they are read. */
 export function branchesOf(step: Step): readonly string[] {
@@ -25,9 +27,12 @@ export function branchesOf(step: Step): readonly string[] {
     case "if":
       return ["then", "else"];
     case "while":
+    case "repeat":
+    case "for_each":
+    case "on_event":
       return ["body"];
     case "try":
-      return ["body", "catch"];
+      return ["body", "catch", "finally"];
     case "parallel": {
       const names = step.params.branches;
       return Array.isArray(names) && names.length > 0 ? names.map(String) : ["a", "b"];
@@ -51,11 +56,12 @@ export function readTree(document: ProgramDocument): ProgramTree {
     }
   };
   visit(PROGRAM.parent, PROGRAM.branch, 0);
+  visit(EVENTS.parent, EVENTS.branch, 0);
   for (const id of Object.keys(document.functions).sort()) visit(id, "body", 0);
   return {
     children: (parent, branch) => branches.get(keyOf(parent, branch)) ?? [],
     drafts: Object.keys(document.steps)
-      .filter((id) => !depths.has(id))
+      .filter((id) => !depths.has(id) && document.steps[id]?.kind !== "comment")
       .sort(),
     reading,
     depth: (step) => depths.get(step) ?? 0,
@@ -69,7 +75,7 @@ function keyOf(parent: string, branch: string): string {
 function sortIntoBranches(document: ProgramDocument): Map<string, string[]> {
   const branches = new Map<string, string[]>();
   for (const [id, step] of Object.entries(document.steps)) {
-    if (!step.place) continue;
+    if (!step.place || !mayStand(step)) continue;
     const key = keyOf(step.place[0], step.place[1]);
     branches.set(key, [...(branches.get(key) ?? []), id]);
   }
@@ -78,6 +84,12 @@ function sortIntoBranches(document: ProgramDocument): Map<string, string[]> {
   for (const ids of branches.values())
     ids.sort((one, other) => compare(order(one), order(other)) || compare(one, other));
   return branches;
+}
+
+/** Comments stand nowhere in the program; events stand beside it, and nothing else does. */
+function mayStand(step: Step): boolean {
+  const amongEvents = step.place?.[0] === EVENTS.parent && step.place[1] === EVENTS.branch;
+  return step.kind !== "comment" && amongEvents === (step.kind === "on_event");
 }
 
 /** The step and everything inside it. */

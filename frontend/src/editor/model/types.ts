@@ -1,7 +1,27 @@
-/** The document (format 1) as plain JSON; docs/architecture.md, "The document". */
+/** The document (format 2) as plain JSON; docs/adr/0005-the-whole-language.md. */
 
 export type StepKind =
-  "move" | "pick" | "drop" | "pick_and_drop" | "operate" | "wait" | "if" | "while" | "parallel" | "try" | "call";
+  | "move"
+  | "pick"
+  | "drop"
+  | "pick_and_drop"
+  | "operate"
+  | "wait"
+  | "if"
+  | "while"
+  | "repeat"
+  | "for_each"
+  | "parallel"
+  | "try"
+  | "call"
+  | "set"
+  | "ask"
+  | "notify"
+  | "end"
+  | "return"
+  | "break"
+  | "on_event"
+  | "comment";
 
 export type Place =
   | { readonly device: string }
@@ -14,7 +34,11 @@ export type Value =
   | number
   | boolean
   | null
+  | readonly Value[]
   | { readonly param: string }
+  | { readonly quantity: readonly [number, string] }
+  | { readonly at: Place | { readonly role: string } }
+  | { readonly zone: string }
   | { readonly property: readonly [string | { readonly param: string }, string] }
   | { readonly op: string; readonly args: readonly Value[] };
 
@@ -35,7 +59,26 @@ export interface Parameter {
 export interface FunctionDefinition {
   readonly name: string;
   readonly parameters: readonly Parameter[];
+  readonly result?: { readonly type: string; readonly unit?: string | null } | null;
   readonly source?: { readonly library: string; readonly version: number } | null;
+}
+
+/** How a person may answer. */
+export interface Answer {
+  readonly type: "boolean" | "number" | "text" | "choice";
+  readonly unit?: string | null;
+  readonly minimum?: number | null;
+  readonly maximum?: number | null;
+  readonly options?: readonly string[] | null;
+}
+
+/** A named area with a rule; no step. */
+export interface Zone {
+  readonly name: string;
+  readonly rule: "keep_out" | "one_at_a_time" | "slow";
+  /** At least three corners, metres. */
+  readonly points: readonly (readonly [number, number])[];
+  readonly speed_m_s?: number | null;
 }
 
 export interface Role {
@@ -50,8 +93,8 @@ export interface ProgramDocument {
   readonly steps: Readonly<Record<string, Step>>;
   readonly functions: Readonly<Record<string, FunctionDefinition>>;
   readonly roles: Readonly<Record<string, Role>>;
-  readonly parameters: Readonly<Record<string, unknown>>;
-  readonly zones: Readonly<Record<string, unknown>>;
+  readonly parameters: Readonly<Record<string, Parameter>>;
+  readonly zones: Readonly<Record<string, Zone>>;
 }
 
 export interface Fix {
@@ -85,7 +128,7 @@ export interface Compiled {
 }
 
 export const EMPTY_DOCUMENT: ProgramDocument = {
-  format: 1,
+  format: 2,
   start_pos: null,
   steps: {},
   functions: {},

@@ -91,7 +91,7 @@ function waitText(step: Step, speaker: Speaker): TextPart[] {
   const { t } = speaker;
   if (step.params.until !== undefined && step.params.until !== null)
     return [plain(valueText(step.params.until as Value, speaker) ?? "?")];
-  const seconds = step.params.seconds as Value;
+  const seconds = step.params.duration as Value;
   if (typeof seconds === "number") return [plain(t("chip.wait", { time: durationText(seconds) }))];
   const text = valueText(seconds ?? null, speaker);
   return text === null ? [plain(t("chip.wait_word")), MISSING] : [plain(t("chip.wait", { time: text }))];
