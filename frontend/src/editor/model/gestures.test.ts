@@ -100,7 +100,7 @@ test("a pasted frame keeps its inside and its order under new ids", () => {
   expect(readTree(pasted).children(added[0] ?? "", "body")).toHaveLength(2);
 });
 
-test("steps without a place and steps in a circle are drafts", () => {
+test("a step without a place is a draft, and of a circle the step with the smallest id", () => {
   const broken = {
     ...program,
     steps: {
@@ -110,5 +110,6 @@ test("steps without a place and steps in a circle are drafts", () => {
       b: step("while", ["a", "body", "A"]),
     },
   };
-  expect(readTree(broken).drafts).toEqual(["a", "b", "loose"]);
+  expect(readTree(broken).drafts).toEqual(["a", "loose"]);
+  expect(readTree(broken).loose).toEqual(["a", "b", "loose"]);
 });

@@ -16,7 +16,7 @@ export function StepsPanel() {
   const { scene, document, t } = open;
   const selected = useUi((ui) => ui.selected);
   const list = useRef<HTMLUListElement>(null);
-  const rows = [...scene.tree.reading, ...scene.tree.drafts].flatMap((id) => scene.chips.get(id) ?? []);
+  const rows = [...scene.tree.reading, ...scene.tree.loose].flatMap((id) => scene.chips.get(id) ?? []);
   const current = selected.at(-1) ?? rows[0]?.id;
   const go = (id: string | undefined) => {
     if (!id) return;

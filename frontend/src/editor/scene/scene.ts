@@ -44,7 +44,7 @@ export function buildScene(input: SceneInput): Scene {
   const { document, surroundings, t } = input;
   const tree = readTree(document);
   const speaker: Speaker = { document, surroundings, t };
-  const shown = [...tree.reading, ...tree.drafts].filter((id) => isShown(input, id));
+  const shown = [...tree.reading, ...tree.loose].filter((id) => isShown(input, id));
   const ways = waysOf(document, tree, surroundings).filter((way) => shown.includes(way.step));
   const routes = shapeRoutes(ways, input.routes);
   const chips = new Map<string, Chip>();
