@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from editor.language import nodes as n
 from editor.language.diagnostics import Problem
+from editor.language.phrases import Argument
 from editor.language.plan import Constant, Expression, Variable
 from editor.language.values import is_number
 from editor.language.walking import walk
@@ -32,7 +33,7 @@ class _Follower:
 
     functions: Mapping[str, n.Function]
     capacity: Callable[[str], int]
-    robot: Callable[[str], str]
+    robot: Callable[[str], Argument]
     found: list[tuple[Problem, int]] = field(default_factory=list)
     silent: bool = False
     calls: int = 0
@@ -45,7 +46,7 @@ class _Follower:
                 carried = follow(self, node, carried, values)
         return carried
 
-    def tell(self, node: n.Pick | n.Drop, code: str, args: dict[str, str | int | float]) -> None:
+    def tell(self, node: n.Pick | n.Drop, code: str, args: dict[str, Argument]) -> None:
         if not self.silent:
             problem = Problem(code, node.step, "quantity", {"robot": self.robot(node.role), **args})
             self.found.append((problem, id(node)))
@@ -97,7 +98,7 @@ def _drop(follower: _Follower, node: n.Drop, carried: Carried, values: Mapping[s
     key, quantity = load
     before = _count(carried, key)
     if before[1] is not None:
-        args: dict[str, str | int | float] = {"object": key[1], "quantity": quantity, "carried": before[1]}
+        args: dict[str, Argument] = {"object": key[1], "quantity": quantity, "carried": before[1]}
         if before[1] < quantity:
             follower.tell(node, "drops_nothing", args)
         elif before[0] < quantity:
@@ -195,7 +196,7 @@ def _either(first: Carried, second: Carried) -> Carried:
 
 
 def follow_loads(
-    tree: n.Tree, capacity: Callable[[str], int], robot: Callable[[str], str]
+    tree: n.Tree, capacity: Callable[[str], int], robot: Callable[[str], Argument]
 ) -> list[tuple[Problem, int]]:
     """Return what is wrong with what robots carry, each with its node's identity.
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from editor.language import nodes as n
 from editor.language.diagnostics import Fix, Problem, TextArguments
+from editor.language.phrases import Driver, Robot
 from editor.language.surroundings import DeviceFacts, Surroundings
 from editor.language.typing_of_values import Kind
 from registry.capability import Description
@@ -58,45 +59,20 @@ class Context:
         """Return how many objects the role's robot holds at most; 0 when that is not known."""
         return max((robot.capacity for robot in self.robots(role)), default=0)
 
-    def robot_name(self, role: str) -> str:
+    def robot_name(self, role: str) -> Robot:
         """Return what to call the role's robot: its name, or that of its sort where any will do."""
-        robots = self.robots(role)
-        if self.roles[role].device is not None:
-            return robots[0].name if robots else str(self.roles[role].device)
+        robots, device = self.robots(role), self.roles[role].device
+        if device is not None:
+            return Robot(robots[0].name if robots else device)
         sorts = {_NUMBER_AT_THE_END.sub("", robot.name) for robot in robots}
-        only = sorts.pop() if len(sorts) == 1 else "robot"
-        return f"{'An' if only[:1].upper() in 'AEIOU' else 'A'} {only}" if only else "A robot"
+        return Robot(sorts.pop() if len(sorts) == 1 else "", sort=True)
 
-    def driver_name(self, role: str) -> str:
+    def driver_name(self, role: str) -> Driver:
         """Return what to call the one robot that has the role, in the middle of a sentence."""
         bound = self.roles[role].device is not None
-        return self.robot_name(role) if bound else f"the robot “{self.roles[role].name}”"
+        return Driver(self.robot_name(role).name if bound else self.roles[role].name, bound)
 
     def robot_key(self, role: str) -> tuple[str, str]:
         """Return what tells robots apart: the device for a bound role, else the role."""
         device = self.roles[role].device
         return ("role", role) if device is None else ("device", device)
-
-
-def span(minimum: float | None, maximum: float | None, unit: str = "") -> str:
-    """Return a range in words: `1 to 30 min`, `15 °C or more`; empty when there is none."""
-    behind = f" {unit}" if unit and unit != "%" else unit
-    if minimum is not None and maximum is not None:
-        return f"{minimum:g} to {maximum:g}{behind}"
-    if minimum is not None:
-        return f"{minimum:g}{behind} or more"
-    return "" if maximum is None else f"{maximum:g}{behind} or less"
-
-
-def amounts(capacity: int) -> str:
-    """Return how many a robot carries at a time, in words."""
-    if capacity <= 2:
-        return {1: "1", 2: "1 or 2"}.get(capacity, "1 or more")
-    return f"1 to {capacity}"
-
-
-def plural(thing: str) -> str:
-    """Return the plural of a kind of object."""
-    if thing.endswith(("s", "x", "ch", "sh")):
-        return f"{thing}es"
-    return f"{thing[:-1]}ies" if thing.endswith("y") and thing[-2:-1] not in "aeiou" else f"{thing}s"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from editor.language import nodes as n
 from editor.language.check_context import Context
-from editor.language.diagnostics import Fix
+from editor.language.diagnostics import Fix, TextArguments
+from editor.language.phrases import Options
 from editor.language.plan import Constant, Expression, PlaceRef, Reading
 from editor.language.surroundings import DeviceFacts
 from editor.language.values import parts_of
@@ -51,7 +52,7 @@ def check_load_place(context: Context, node: n.Pick | n.Drop, *, gives: bool) ->
     thing = node.object.value if isinstance(node.object, Constant) else None
     things = device.gives if gives else device.takes
     if isinstance(thing, str) and thing not in things:
-        details = {"device": device.name, "object": thing, "options": ", ".join(things) or "nothing"}
+        details: TextArguments = {"device": device.name, "object": thing, "options": Options(things)}
         fix = None
         if len(things) == 1 and gives:
             fix = Fix("set_to", node.step, "object", things[0], {"value": things[0]})
@@ -99,8 +100,8 @@ def check_readings(context: Context, node: n.Node, expression: Expression, field
         facts = known_device(context, node, str(part.device.value), field)
         if facts is not None and facts.description.property(part.property) is None:
             description = facts.description
-            options = ", ".join(spec.name for spec in description.properties) or "nothing"
-            details = {"device": description.name, "property": part.property, "options": options}
+            options = Options(tuple(spec.name for spec in description.properties))
+            details: TextArguments = {"device": description.name, "property": part.property, "options": options}
             context.tell(node, "unknown_property", field, details)
 
 
@@ -119,7 +120,7 @@ def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, 
                 context.tell(node, "cannot_do", "role", {"device": description.name, "method": method})
         return
     robots = context.robots(role.name)
-    methods = {"methods": " and ".join(role.can)}
+    methods: TextArguments = {"methods": Options(role.can, "and")}
     if not robots:
         context.tell(node, "no_robot_can", "role", methods)
     elif not any(context.surroundings.devices[robot.id].online for robot in robots):

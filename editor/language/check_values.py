@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from editor.language import nodes as n
-from editor.language.check_context import Context, amounts, plural, span
+from editor.language.check_context import Context
 from editor.language.check_devices import check_readings
 from editor.language.diagnostics import fix_value
+from editor.language.phrases import Amounts, Options, Plural, Span
 from editor.language.plan import Constant, Expression
 from editor.language.typing_of_values import TYPE_WORDS, Kind, Typing, plain_type, unit_word
 from editor.language.values import is_number, parts_of
@@ -59,12 +60,12 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
 ) -> None:
     """Check one argument of a method or a function against what is declared of it."""
     field = f"args.{parameter.name}"
-    limits = span(parameter.minimum, parameter.maximum, unit_word(parameter.unit))
     if has_missing(value):
         if parameter.required or value != n.MISSING:
+            limits = Span(parameter.minimum, parameter.maximum, unit_word(parameter.unit), ": ")
             details = {"argument": parameter.name, "method": method, "function": method}
             fix = None if parameter.minimum is None else fix_value(node.step, field, parameter.minimum)
-            context.tell(node, missing_code, field, {**details, "range": f": {limits}" if limits else ""}, fix)
+            context.tell(node, missing_code, field, {**details, "range": limits}, fix)
         return
     wanted = Kind(parameter.type, parameter.unit) if typed else Kind()
     if not check_value(context, node, value, field, wanted, parameter.name.capitalize()):
@@ -76,7 +77,7 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
 def _check_limits(context: Context, node: n.Node, parameter: ParameterSpec, value: Constant, field: str) -> None:
     given, subject = value.value, parameter.name.capitalize()
     if parameter.options and given not in parameter.options:
-        context.tell(node, "not_an_option", field, {"subject": subject, "options": ", ".join(parameter.options)})
+        context.tell(node, "not_an_option", field, {"subject": subject, "options": Options(parameter.options)})
     if not is_number(given):
         return
     nearest = given
@@ -85,7 +86,7 @@ def _check_limits(context: Context, node: n.Node, parameter: ParameterSpec, valu
     if parameter.maximum is not None:
         nearest = min(nearest, parameter.maximum)
     if nearest != given:
-        limits = span(parameter.minimum, parameter.maximum, unit_word(parameter.unit))
+        limits = Span(parameter.minimum, parameter.maximum, unit_word(parameter.unit))
         fix = fix_value(node.step, field, int(nearest) if float(nearest).is_integer() else nearest)
         context.tell(node, "out_of_range", field, {"subject": subject, "range": limits}, fix)
 
@@ -97,9 +98,9 @@ def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
     robot = context.robot_name(node.role)
     if has_missing(node.quantity):
         thing = node.object.value if isinstance(node.object, Constant) else None
-        details = {"things": plural(thing) if isinstance(thing, str) and thing else "objects"}
+        details = {"things": Plural(thing if isinstance(thing, str) else "")}
         fix = fix_value(node.step, "quantity", 1)
-        context.tell(node, "missing_quantity", "quantity", {**details, "robot": robot, "range": amounts(capacity)}, fix)
+        context.tell(node, "missing_quantity", "quantity", {**details, "robot": robot, "range": Amounts(capacity)}, fix)
         return
     if not check_value(context, node, node.quantity, "quantity", Kind("number"), "The quantity"):
         return
@@ -110,7 +111,7 @@ def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
         context.tell(node, "quantity_not_positive", "quantity", {}, fix_value(node.step, "quantity", 1))
     elif capacity and quantity > capacity:
         fix = fix_value(node.step, "quantity", capacity)
-        context.tell(node, "quantity_above_capacity", "quantity", {"robot": robot, "range": amounts(capacity)}, fix)
+        context.tell(node, "quantity_above_capacity", "quantity", {"robot": robot, "range": Amounts(capacity)}, fix)
 
 
 def _check_object(context: Context, node: n.Pick | n.Drop) -> None:
@@ -123,4 +124,6 @@ def _check_object(context: Context, node: n.Pick | n.Drop) -> None:
     else:
         things = list(facts.description.gives if isinstance(node, n.Pick) else facts.description.takes)
     fix = fix_value(node.step, "object", things[0]) if len(things) == 1 else None
-    context.tell(node, "missing_object", "object", {"options": " or ".join(things) or "there is nothing here"}, fix)
+    context.tell(
+        node, "missing_object", "object", {"options": Options(tuple(things), "or", "there is nothing here")}, fix
+    )

@@ -10,7 +10,8 @@ from editor.language.carrying import follow_loads
 from editor.language.check_context import Context
 from editor.language.check_devices import check_load_place, check_place, check_role, usable_device
 from editor.language.check_values import check_argument, check_condition, check_quantity, check_value, has_missing
-from editor.language.diagnostics import Fix, Problem
+from editor.language.diagnostics import Fix, Problem, TextArguments
+from editor.language.phrases import Options, Span
 from editor.language.plan import Constant
 from editor.language.reading import Reading
 from editor.language.surroundings import Surroundings
@@ -68,7 +69,7 @@ def _operate(context: Context, node: n.Operate) -> None:
     device = usable_device(context, node, node.device, "device", "missing_machine")
     if device is None:
         return
-    known = ", ".join(method.name for method in device.methods) or "nothing"
+    known = Options(tuple(method.name for method in device.methods))
     if not node.method:
         fix = None
         if len(device.methods) == 1:
@@ -78,14 +79,14 @@ def _operate(context: Context, node: n.Operate) -> None:
         return
     method = device.method(node.method)
     if method is None:
-        details = {"device": device.name, "method": node.method, "options": known}
+        details: TextArguments = {"device": device.name, "method": node.method, "options": known}
         context.tell(node, "unknown_method", "method", details)
         return
     given = dict(node.arguments)
     for parameter in method.parameters:
         value = given.pop(parameter.name, n.MISSING)
         check_argument(context, node, parameter, value, node.method, "missing_argument")
-    options = ", ".join(parameter.name for parameter in method.parameters) or "nothing"
+    options = Options(tuple(parameter.name for parameter in method.parameters))
     for name in given:
         details = {"method": node.method, "argument": name, "options": options}
         fix = Fix("remove", node.step, f"args.{name}", None, {"value": name})
@@ -109,7 +110,7 @@ def _wait_until(context: Context, node: n.WaitUntil) -> None:
 
 def _check_time(context: Context, node: n.Node, value: object, field: str, subject: str) -> None:
     if isinstance(value, Constant) and isinstance(value.value, int | float) and value.value < 0:
-        context.tell(node, "out_of_range", field, {"subject": subject, "range": "0 s or more"})
+        context.tell(node, "out_of_range", field, {"subject": subject, "range": Span(0, None, "s")})
 
 
 def _if(context: Context, node: n.If) -> None:
@@ -141,7 +142,11 @@ def _parallel(context: Context, node: n.Parallel) -> None:
     drivers = [{context.robot_key(role): role for role in roles_used(b, context.tree)} for b in node.branches]
     for (first, mine), (second, theirs) in combinations(enumerate(drivers), 2):
         for key in sorted(mine.keys() & theirs.keys()):
-            details = {"first": chr(97 + first), "second": chr(97 + second), "robot": context.driver_name(theirs[key])}
+            details: TextArguments = {
+                "first": chr(97 + first),
+                "second": chr(97 + second),
+                "robot": context.driver_name(theirs[key]),
+            }
             context.tell(node, "shared_robot", "branches", details)
 
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 from editor.language.checking import check
 from editor.language.compiling import compile_tree
-from editor.language.diagnostics import Diagnostic, Fix, Problem, put_into_words
+from editor.language.diagnostics import Diagnostic, Fix, Problem, arguments_to_json, put_into_words
 from editor.language.nodes import Block, Tree, blocks_of
 from editor.language.nodes import Move as MoveNode
 from editor.language.numbering import number_steps
+from editor.language.phrases import LANGUAGES
 from editor.language.plan import Plan
 from editor.language.positions import add_moves
 from editor.language.printing import Script, print_tree
@@ -115,7 +116,9 @@ def diagnostic_to_json(diagnostic: Diagnostic) -> dict[str, object]:
         "step": diagnostic.step,
         "field": diagnostic.field,
         "message": diagnostic.message,
-        "args": dict(diagnostic.args),
+        "messages": diagnostic.messages,
+        "when": diagnostic.when,
+        "args": arguments_to_json(diagnostic.args),
         "line": diagnostic.line,
         "fix": None if diagnostic.fix is None else _fix_to_json(diagnostic.fix),
     }
@@ -124,6 +127,7 @@ def diagnostic_to_json(diagnostic: Diagnostic) -> dict[str, object]:
 def _fix_to_json(fix: Fix) -> dict[str, object]:
     return {
         "label": fix.label,
+        "labels": {language: fix.label_in(language) for language in LANGUAGES},
         "label_code": fix.label_code,
         "step": fix.step,
         "field": fix.field,

@@ -1,4 +1,4 @@
-"""What the checks say: one sentence for a person, with a code and its arguments for translation."""
+"""What the checks say: one sentence for a person in each language, with a code and its arguments."""
 
 from __future__ import annotations
 
@@ -7,16 +7,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from editor.language.texts import FIX_TEXTS, TEXTS
+from editor.language.phrases import LANGUAGES, Argument, Language, Said, say_argument
+from editor.language.texts import FIX_TEXTS, NOT_NOW, TEXTS
+from editor.language.texts_de import FIX_TEXTS_DE, TEXTS_DE
 from registry.capability import Scalar
 
 Severity = Literal["error", "warning"]
-TextArguments = Mapping[str, str | int | float]
+When = Literal["now", "ever"]
+TextArguments = Mapping[str, Argument]
+_FIXED_WORDS = frozenset({"subject", "wanted", "given", "left", "right", "detail", "instead", "found"})
+"""Arguments that may be words of the language rather than names of the site."""
 
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """A change that one click makes: `field` of the step becomes `value`; `args.x` is the argument x."""
+    """A change that one click makes: `field` of the step becomes `value`.
+
+    `args.x` is the argument x, `place` and `delete` the step itself, `kind` what sort of step it is, `robot_of` a
+    branch that gets a robot of its own, `source.version` the version of a library function.
+    """
 
     label_code: str
     step: str
@@ -27,7 +36,14 @@ class Fix:
     @property
     def label(self) -> str:
         """Return the words on the button."""
-        return FIX_TEXTS[self.label_code].format_map(self.args)
+        return self.label_in("en")
+
+    def label_in(self, language: Language) -> str:
+        """Return the words on the button in a language."""
+        text = FIX_TEXTS[self.label_code]
+        if language == "de":
+            text = FIX_TEXTS_DE.get(self.label_code, text)
+        return _fill(text, self.args, language)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,18 +71,54 @@ class Diagnostic:
     fix: Fix | None = None
     column: int | None = None
 
+    @property
+    def when(self) -> When:
+        """Tell whether it is only now that this is so, or for ever."""
+        return "now" if self.code in NOT_NOW else "ever"
 
-def put_into_words(problem: Problem, line: int | None) -> Diagnostic:
+    def message_in(self, language: Language) -> str:
+        """Return the sentence in a language."""
+        return self.message if language == "en" else message_in(self.code, self.args, language)
+
+    @property
+    def messages(self) -> dict[str, str]:
+        """Return the sentence in every language."""
+        return {language: self.message_in(language) for language in LANGUAGES}
+
+
+def message_in(code: str, args: TextArguments, language: Language) -> str:
+    """Return the sentence of a code in a language."""
+    text = TEXTS[code][1]
+    return _fill(text if language == "en" else TEXTS_DE.get(code, text), args, language)
+
+
+def _fill(text: str, args: TextArguments, language: Language) -> str:
+    return text.format_map({name: _say(name, argument, language) for name, argument in args.items()})
+
+
+def _say(name: str, argument: Argument, language: Language) -> str:
+    fixed = isinstance(argument, str) and name in _FIXED_WORDS
+    return say_argument(Said(str(argument)) if fixed else argument, language)
+
+
+def put_into_words(problem: Problem, line: int | None, column: int | None = None) -> Diagnostic:
     """Return the diagnostic for a problem that shows at a line of the script."""
-    severity, text = TEXTS[problem.code]
-    message = text.format_map(problem.args)
+    code, args = problem.code, problem.args
+    message = message_in(code, args, "en")
     return Diagnostic(
-        problem.code, severity, message, problem.step, problem.field, problem.args, line, problem.fix
+        code, TEXTS[code][0], message, problem.step, problem.field, args, line, problem.fix, column
     )  # fmt: skip
+
+
+def arguments_to_json(args: TextArguments) -> dict[str, str | int | float]:
+    """Return the arguments of a sentence for machines, phrases in English words."""
+    return {
+        name: argument if isinstance(argument, str | int | float) else argument.say("en")
+        for name, argument in args.items()
+    }
 
 
 def fix_value(problem_step: str, field_name: str, value: Scalar) -> Fix:
     """Return the fix that enters a value."""
-    return Fix(
-        "set_to", problem_step, field_name, value, {"value": f"{value:g}" if isinstance(value, float) else str(value)}
-    )
+    shown: Argument = value if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
+    return Fix("set_to", problem_step, field_name, value, {"value": shown})

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from string import ascii_lowercase
 
 from editor.language import nodes as n
-from editor.language.diagnostics import Diagnostic
+from editor.language.diagnostics import Diagnostic, Problem, put_into_words
 from editor.language.names import ROBOT_METHODS
 from editor.language.outline import DEEPEST_STEP
 from editor.language.parsing_bindings import parse_arguments, parse_parameters, parse_run
@@ -24,12 +24,12 @@ from editor.language.parsing_expressions import (
     parse_point,
     parse_thing,
     quoted,
+    robots_driven,
 )
 from editor.language.plan import Expression, PlaceRef
 from editor.language.positions import settle_places
 from editor.language.printing import ERROR_CLASSES, member_name
 from editor.language.surroundings import Surroundings
-from editor.language.texts import TEXTS
 from editor.language.walking import in_reading_order
 
 LONGEST_SCRIPT = 2_000_000
@@ -65,9 +65,7 @@ def parse_script(text: str, surroundings: Surroundings) -> Parsed:
 
 
 def _diagnostic(code: str, line: int, column: int, args: Mapping[str, str]) -> Diagnostic:
-    severity, text = TEXTS[code]
-    details: dict[str, str | int | float] = {"line": line, **args}
-    return Diagnostic(code, severity, text.format_map(details), args=details, line=line, column=column)
+    return put_into_words(Problem(code, args={"line": line, **args}), line, column)
 
 
 def _refusal(refused: Refused) -> Diagnostic:
@@ -283,7 +281,7 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
     for needed in ("new_task", "run"):
         if needed not in methods:
             raise Refused(module, "A task without this method", f"Write def {needed}(self…) in class Task.")
-    scope = Scope(surroundings)
+    scope = Scope(surroundings, robots=robots_driven(module))
     parse_run(methods["run"], scope)
     parser = Parser(methods, scope)
     branch_names = set(_branch_names(module))
@@ -316,7 +314,7 @@ def _roles_and_parameters(parser: Parser) -> tuple[tuple[n.Role, ...], tuple[n.P
         for name, b in bindings
         if name in parser.roles
     )
-    return roles, tuple(n.Parameter(name, b.default) for name, b in bindings if b.kind == "parameter")
+    return roles, tuple(n.Parameter(name, b.default, b.type, b.unit) for name, b in bindings if b.kind == "parameter")
 
 
 def _branch_names(module: ast.Module) -> Iterator[str]:

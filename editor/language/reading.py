@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
-from editor.language.diagnostics import Fix, Problem
+from editor.language.diagnostics import Fix, Problem, TextArguments
 from editor.language.names import RESERVED_ATTRIBUTES, local_name, unique_name
 from editor.language.nodes import (
     MISSING,
@@ -30,7 +30,9 @@ from editor.language.nodes import (
     While,
 )
 from editor.language.outline import PROGRAM, Outline, Params, make_outline, mapping
+from editor.language.phrases import Options
 from editor.language.plan import Constant, Expression, PlaceRef
+from editor.language.type_names import settle_type
 from editor.language.values import UnknownParameter, plain, read_place, read_point, read_value
 from editor.language.walking import in_reading_order
 
@@ -192,19 +194,13 @@ def _call(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
         if value != MISSING and name in names:
             arguments.append((names[name], value))
         elif name not in names:
-            options = ", ".join(names) or "nothing"
-            details = {"method": function.name, "argument": str(name), "options": options}
+            options = Options(tuple(names))
+            details: TextArguments = {"method": function.name, "argument": str(name), "options": options}
             reader.problems.append(Problem("unknown_argument", step, f"args.{name}", details))
     return (Call(function.method, tuple(sorted(arguments, key=lambda pair: pair[0])), step=step),)
 
 
 def _call_argument(reader: _Reader, step: str, given: Params, name: str) -> Expression:
-    """An argument may be a Place, too: a device's or a named place's id is then the value."""
-    value = given.get(name)
-    if isinstance(value, Mapping):
-        place = value.get("device", value.get("place"))
-        if isinstance(place, str) and place:
-            return Constant(place)
     return reader.value(step, given, name, f"args.{name}")
 
 
@@ -260,7 +256,7 @@ def _read_parameters(
         if wanted and wanted not in names:
             taken = set(names.values()) | (set() if local else RESERVED_ATTRIBUTES)
             names[wanted] = local_name(wanted, taken)
-            default, kind, unit = plain(item.get("default")), _text(item.get("type")), _text(item.get("unit"))
+            default, (kind, unit) = plain(item.get("default")), settle_type(item.get("type"), item.get("unit"))
             parameters.append(Parameter(names[wanted], default, kind, unit))
     return tuple(parameters), names
 

@@ -1,4 +1,4 @@
-"""The sentences of the checks, by code; other languages translate these by the same codes and arguments."""
+"""The sentences of the checks, by code; `texts_de.py` has them in German by the same codes and arguments."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "place_outside": ("error", "This place is outside the map. Move it inside."),
     "place_blocked": ("error", "{robot} does not fit here: a wall or a machine is too near."),
     "place_unreachable": ("error", "{robot} finds no way to this place."),
-    "calls_itself": ("error", "{function} calls itself and would never end."),
+    "calls_itself": ("error", "{function} calls itself on every way through it and would never end."),
     "shared_robot": ("error", "Branches {first} and {second} both drive {robot}. Give one of them another robot."),
     # it works, but perhaps not as it is meant
     "offline_device": ("warning", "{device} is offline. The program can run when it is back."),
@@ -74,4 +74,12 @@ FIX_TEXTS: Final[Mapping[str, str]] = {
     "set_to": "Set to {value}",
     "choose": "Choose {value}",
     "remove": "Remove {value}",
+    "join_at_end": "Join it at the end of the program",
+    "delete_step": "Delete the step",
+    "own_robot": "Give branch {value} a robot of its own",
+    "use_version": "Use version {value}",
+    "make_end": "End the program instead",
 }
+
+NOT_NOW: Final = frozenset({"pending_device", "offline_device", "no_robot_online"})
+"""What keeps a program from running only as the site is now; everything else holds for ever."""

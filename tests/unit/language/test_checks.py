@@ -5,7 +5,6 @@ from typing import Any
 
 from editor.language import PlaceFacts, Surroundings, compile_document, parse_script
 from editor.language.plan import Call, Drop, Fork, Invoke, Jump, Move, Pick
-from editor.language.texts import FIX_TEXTS, TEXTS
 from tests.unit.language.site import factory
 
 
@@ -108,8 +107,3 @@ def test_a_chain_of_steps_that_is_too_deep_ends_in_a_draft() -> None:
     assert len(compiled.numbers) == 30
     assert len(compiled.order) == 900
     assert parse_script(compiled.script, factory()).tree == compiled.tree
-
-
-def test_every_sentence_ends_and_has_a_severity() -> None:
-    assert all(text.endswith((".", "}")) and severity in {"error", "warning"} for severity, text in TEXTS.values())
-    assert all("{value}" in text for text in FIX_TEXTS.values())

@@ -1,0 +1,80 @@
+"""The sentences of the checks in German, by the codes and with the arguments of `texts.py`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+TEXTS_DE: Final[Mapping[str, str]] = {
+    # something is still to be entered
+    "missing_quantity": "Geben Sie ein, wie viele {things} zu tragen sind. {robot} trägt {range} auf einmal.",
+    "missing_object": "Wählen Sie, was zu tragen ist: {options}.",
+    "missing_source": "Wählen Sie, wo der Roboter etwas holt.",
+    "missing_target": "Wählen Sie, wo der Roboter etwas abgibt.",
+    "missing_destination": "Wählen Sie, wohin der Roboter fährt.",
+    "missing_machine": "Wählen Sie die Maschine, die das tut.",
+    "missing_method": "Wählen Sie, was {device} tut: {options}.",
+    "missing_argument": "Geben Sie {argument} für {method} ein{range}.",
+    "missing_condition": "Geben Sie die Bedingung ein, die entscheidet.",
+    "missing_seconds": "Geben Sie ein, wie lange gewartet wird, in Sekunden, oder worauf.",
+    "missing_function": "Wählen Sie die Funktion, die aufgerufen wird.",
+    "missing_function_argument": "Geben Sie {argument} für {function} ein.",
+    "empty_program": "Dieses Programm hat noch keine Schritte. Beginnen Sie mit Holen und Bringen.",
+    # it speaks of something that does not exist
+    "unknown_device": "An diesem Standort gibt es kein Gerät {device}. Wählen Sie ein anderes.",
+    "unknown_place": "Auf dieser Karte gibt es keinen Ort {place}. Wählen Sie einen anderen.",
+    "unknown_method": "{device} kann {method} nicht. Es kann: {options}.",
+    "unknown_property": "{device} meldet {property} nicht. Es meldet: {options}.",
+    "unknown_argument": "{method} kennt {argument} nicht. Einzugeben ist: {options}.",
+    "unknown_function": "Diese Funktion gibt es nicht mehr. Wählen Sie eine andere.",
+    "unknown_parameter": "Hier gibt es keinen Wert mit dem Namen {parameter}. Wählen oder schreiben Sie einen anderen.",
+    "unknown_role": "Dieses Programm hat keinen Roboter mit dem Namen {role}. Wählen Sie einen anderen.",
+    "unknown_kind": "Diese Art von Schritt kennt diese Version von VIPO nicht. Löschen Sie ihn.",
+    # it cannot ever work
+    "pending_device": "{device} wartet auf Zulassung. Ein Administrator kann es im Register zulassen.",
+    "retired_device": "{device} ist nicht mehr in Betrieb. Wählen Sie ein anderes Gerät.",
+    "not_a_robot": "{device} ist kein Roboter. Wählen Sie einen Roboter für {role}.",
+    "robot_as_place": "{device} ist ein Roboter und kann Objekte weder geben noch nehmen. Wählen Sie eine Maschine.",
+    "cannot_do": "{device} kann {method} nicht. Wählen Sie einen Roboter, der das kann.",
+    "no_robot_can": "Kein Roboter an diesem Standort kann {methods}.",
+    "not_given": "{device} gibt {object} nicht her. Es gibt: {options}.",
+    "not_taken": "{device} nimmt {object} nicht an. Es nimmt: {options}.",
+    "wrong_type": "{subject}: Hier wird {wanted} gebraucht, und das ist {given}.",
+    "not_comparable": "{left} und {right} lassen sich nicht mit {operator} vergleichen.",
+    "wrong_unit": "{subject} ist in {wanted}, und dieser Wert ist in {given}.",
+    "out_of_range": "{subject} muss {range} sein.",
+    "not_an_option": "{subject} ist eines von: {options}.",
+    "quantity_not_positive": "Die Menge muss eine ganze Zahl über 0 sein.",
+    "quantity_above_capacity": "{robot} trägt {range} auf einmal. Geben Sie weniger ein, oder fahren Sie zweimal.",
+    "carrying_too_much": "{robot} trägt hier schon {carried} und fasst höchstens {capacity}.",
+    "may_carry_too_much": "{robot} trägt hier vielleicht schon zu viel. Höchstens {capacity} passen.",
+    "drops_nothing": "{robot} trägt hier {carried} {object} und kann nicht {quantity} abgeben.",
+    "may_drop_nothing": "{robot} trägt auf einem der Wege zu diesem Schritt weniger als {quantity} {object}.",
+    "place_outside": "Dieser Ort liegt außerhalb der Karte. Ziehen Sie ihn hinein.",
+    "place_blocked": "{robot} passt hier nicht hin: Eine Wand oder eine Maschine ist zu nah.",
+    "place_unreachable": "{robot} findet keinen Weg zu diesem Ort.",
+    "calls_itself": "{function} ruft auf jedem Weg sich selbst auf und käme nie zum Ende.",
+    "shared_robot": "Die Zweige {first} und {second} fahren beide {robot}. Geben Sie einem einen anderen Roboter.",
+    # it works, but perhaps not as it is meant
+    "offline_device": "{device} ist offline. Das Programm kann laufen, wenn es wieder da ist.",
+    "no_robot_online": "Kein Roboter, der {methods} kann, ist online. Das Programm kann laufen, wenn einer da ist.",
+    "may_never_end": "Nichts Gemessenes entscheidet hier; diese Schritte wiederholen sich vielleicht ohne Ende.",
+    "never_runs": "Diese Bedingung ist nie wahr; diese Schritte laufen also nie.",
+    "always_true": "Diese Bedingung ist immer wahr; der andere Zweig läuft also nie.",
+    "draft": "Dieser Schritt hängt an nichts und läuft nicht. Verbinden oder löschen Sie ihn.",
+    "too_deep": "Dieser Schritt liegt zu tief in anderen und läuft nicht. Machen Sie aus einigen eine Funktion.",
+    # a script that was written by hand
+    "not_python": "Zeile {line}: Das ist nicht vollständig. {detail}",
+    "not_in_language": "Zeile {line}: {found} gehört nicht zur Sprache. {instead}",
+}  # fmt: skip
+
+FIX_TEXTS_DE: Final[Mapping[str, str]] = {
+    "set_to": "Auf {value} setzen",
+    "choose": "{value} wählen",
+    "remove": "{value} entfernen",
+    "join_at_end": "Am Ende des Programms anhängen",
+    "delete_step": "Schritt löschen",
+    "own_robot": "Zweig {value} bekommt einen eigenen Roboter",
+    "use_version": "Version {value} nehmen",
+    "make_end": "Stattdessen das Programm beenden",
+}

@@ -1,0 +1,98 @@
+from __future__ import annotations
+
+from string import Formatter
+
+import pytest
+
+from editor.language.diagnostics import Fix, Problem, put_into_words
+from editor.language.phrases import (
+    Amounts,
+    Driver,
+    Options,
+    Phrase,
+    Plural,
+    Quoted,
+    Robot,
+    Said,
+    Span,
+    TypeWord,
+    number_text,
+)
+from editor.language.texts import FIX_TEXTS, NOT_NOW, TEXTS
+from editor.language.texts_de import FIX_TEXTS_DE, TEXTS_DE
+
+
+def placeholders(text: str) -> set[str]:
+    return {name for _, name, _, _ in Formatter().parse(text) if name}
+
+
+def test_both_languages_have_the_same_codes() -> None:
+    assert TEXTS_DE.keys() == TEXTS.keys()
+    assert FIX_TEXTS_DE.keys() == FIX_TEXTS.keys()
+    assert TEXTS.keys() >= NOT_NOW
+
+
+def test_both_languages_have_the_same_placeholders() -> None:
+    english = {code: placeholders(text) for code, (_, text) in TEXTS.items()}
+    assert {code: placeholders(text) for code, text in TEXTS_DE.items()} == english
+    assert {code: placeholders(text) for code, text in FIX_TEXTS_DE.items()} == {
+        code: placeholders(text) for code, text in FIX_TEXTS.items()
+    }
+
+
+@pytest.mark.parametrize("code", TEXTS)
+def test_every_sentence_ends_and_has_a_severity(code: str) -> None:
+    severity, text = TEXTS[code]
+    assert severity in {"error", "warning"}
+    assert text.endswith((".", "}"))
+    assert TEXTS_DE[code].endswith((".", "}"))
+
+
+@pytest.mark.parametrize(
+    ("phrase", "english", "german"),
+    [
+        (Span(1, 30, "min"), "1 to 30 min", "1 bis 30 min"),
+        (Span(0.5, None, "m", ": "), ": 0.5 m or more", ": mindestens 0,5 m"),
+        (Span(None, 80, "%"), "80% or less", "höchstens 80%"),
+        (Span(None, None, "m", ": "), "", ""),
+        (Amounts(0), "1 or more", "1 oder mehr"),
+        (Amounts(1), "1", "1"),
+        (Amounts(2), "1 or 2", "1 oder 2"),
+        (Amounts(6), "1 to 6", "1 bis 6"),
+        (Plural("box"), "boxes", "Objekte „box“"),
+        (Plural("battery"), "batteries", "Objekte „battery“"),
+        (Plural(""), "objects", "Objekte"),
+        (Options(("box", "can"), "or"), "box or can", "box oder can"),
+        (Options(()), "nothing", "nichts"),
+        (Robot("TurtleBot 1"), "TurtleBot 1", "TurtleBot 1"),
+        (Robot("Arm", sort=True), "An Arm", "Ein Arm"),
+        (Robot("", sort=True), "A robot", "Ein Roboter"),
+        (Driver("carrier", bound=False), "the robot “carrier”", "den Roboter „carrier“"),
+        (TypeWord("a number", capital=True), "A number", "Eine Zahl"),
+        (Quoted("<"), "“<”", "„<“"),
+        (Said("The quantity"), "The quantity", "Die Menge"),
+    ],
+)
+def test_a_phrase_is_said_in_both_languages(phrase: Phrase, english: str, german: str) -> None:
+    assert (phrase.say("en"), phrase.say("de")) == (english, german)
+
+
+def test_numbers_have_the_comma_of_their_language() -> None:
+    assert [number_text(2.5, "en"), number_text(2.5, "de"), number_text(100.0, "de")] == ["2.5", "2,5", "100"]
+
+
+def test_a_problem_is_put_into_words_in_both_languages() -> None:
+    fix = Fix("set_to", "a", "quantity", 1, {"value": 1})
+    args = {"things": Plural("box"), "robot": Robot("TurtleBot", sort=True), "range": Amounts(2)}
+    said = put_into_words(Problem("missing_quantity", "a", "quantity", args, fix), 4)
+    assert said.messages == {
+        "en": "Enter how many boxes to carry. A TurtleBot carries 1 or 2 at a time.",
+        "de": "Geben Sie ein, wie viele Objekte „box“ zu tragen sind. Ein TurtleBot trägt 1 oder 2 auf einmal.",
+    }
+    assert (said.message, said.severity, said.when, said.line) == (said.messages["en"], "error", "ever", 4)
+    assert [fix.label_in("en"), fix.label_in("de")] == ["Set to 1", "Auf 1 setzen"]
+
+
+def test_what_only_the_site_as_it_is_prevents_is_told_apart() -> None:
+    assert put_into_words(Problem("offline_device", args={"device": "Curing Oven"}), None).when == "now"
+    assert put_into_words(Problem("retired_device", args={"device": "Curing Oven"}), None).when == "ever"
