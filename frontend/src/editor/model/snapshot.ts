@@ -51,7 +51,10 @@ export function changedBy(root: string, events: readonly Y.YEvent<Y.AbstractType
 function readMeta(doc: Y.Doc): Pick<ProgramDocument, "format" | "start_pos"> {
   const meta = doc.getMap("meta");
   const [format, start] = [meta.get("format"), meta.get("start_pos")];
-  return { format: typeof format === "number" ? format : EMPTY_DOCUMENT.format, start_pos: isPoint(start) ? start : null };
+  return {
+    format: typeof format === "number" ? format : EMPTY_DOCUMENT.format,
+    start_pos: isPoint(start) ? start : null,
+  };
 }
 
 /** Whatever another client wrote, what comes out has the shape of a step. */

@@ -3,7 +3,7 @@ import type { Chip } from "./chips";
 import { placeName, plainText, type Speaker } from "./words";
 import type { Place } from "../model/types";
 
-/** "4a, Pick-and-Drop, 1 × box from Painting Machine to Curing Oven, 1 error". */
+/** "4a, Pick-and-Drop, 1 × box from Painting Machine to Curing Oven, inside Try 4, 1 error". */
 export function chipLabel(chip: Chip, speaker: Speaker): string {
   const { t } = speaker;
   const step = speaker.document.steps[chip.id];
@@ -17,7 +17,15 @@ export function chipLabel(chip: Chip, speaker: Speaker): string {
         : chip.kind === "operate"
           ? t("announce.at", { place: name("device") })
           : "";
-  const problem = chip.problem ? t(`announce.${chip.problem}`) : "";
+  const problem =
+    chip.errors > 0
+      ? t("announce.problems", { count: chip.errors })
+      : chip.problem
+        ? t(`announce.${chip.problem}`)
+        : "";
+  const inside = chip.inside
+    ? t("announce.inside", { kind: t(`kind.${chip.inside.kind}`), number: chip.inside.number }).trim()
+    : "";
   const what = `${t(`kind.${chip.kind}`)}, ${text}${where ? ` ${where}` : ""}`;
-  return [chip.number, what, problem].filter(Boolean).join(", ");
+  return [chip.number, what, inside, problem].filter(Boolean).join(", ");
 }

@@ -30,7 +30,10 @@ export interface Chip {
   /** Inside a function's body: drawn smaller. */
   readonly inner: boolean;
   readonly draft: boolean;
+  /** The step whose branch it stands in, for those who hear the drawing. */
+  readonly inside: { readonly kind: string; readonly number: string } | null;
   readonly problem: "error" | "warning" | null;
+  readonly errors: number;
   readonly movesAdded: boolean;
 }
 
@@ -43,6 +46,7 @@ export function buildChip(id: string, step: Step, at: PixelPoint, input: ChipInp
   const { icon, family, shape } = kindOf(step.kind);
   const { compiled } = input;
   const number = compiled?.numbers[id] ?? "";
+  const found = compiled?.diagnostics.filter((each) => each.step === id) ?? [];
   const parts = chipText(step, speaker);
   const condition = step.kind === "if" || step.kind === "while" ? conditionText(step, speaker) : null;
   const inner = functionOf(speaker.document, id) !== null;
@@ -62,10 +66,17 @@ export function buildChip(id: string, step: Step, at: PixelPoint, input: ChipInp
     tagSide: "right",
     tagWidth: condition ? input.measure(plainText(condition), "mono") + 16 : 0,
     inner,
-    draft: !step.place,
-    problem: worst(compiled?.diagnostics.filter((each) => each.step === id) ?? []),
+    draft: !step.place && step.kind !== "comment",
+    inside: insideOf(step, compiled, speaker),
+    problem: worst(found),
+    errors: found.filter((each) => each.severity === "error").length,
     movesAdded: compiled?.added_moves.includes(id) ?? false,
   };
+}
+
+function insideOf(step: Step, compiled: ChipInput["compiled"], { document }: Speaker): Chip["inside"] {
+  const parent = step.place ? document.steps[step.place[0]] : undefined;
+  return step.place && parent ? { kind: parent.kind, number: compiled?.numbers[step.place[0]] ?? "" } : null;
 }
 
 function worst(diagnostics: readonly Pick<Diagnostic, "severity">[]): Chip["problem"] {
@@ -88,5 +99,5 @@ function chipSize(
 
 function partWidth(part: TextPart, measure: Measure): number {
   if (part.tone === "missing") return 17;
-  return measure(part.text, part.tone === "mono" ? "mono" : "chip");
+  return measure(part.text, part.tone === "mono" ? "mono" : "chip") + (part.swatch ? 14 : 0);
 }

@@ -6,6 +6,7 @@ import { branchesOf, PROGRAM, type BranchRef, type ProgramTree } from "../model/
 import type { Chip } from "./chips";
 import type { Frame } from "./frames";
 import { boxAt, elbow, elbowSideways } from "./geometry";
+import { isFramed } from "./kinds";
 import { endOf, functionOf, startOf } from "./routing";
 import type { Surroundings } from "./surroundings";
 import type { Translate } from "./words";
@@ -96,15 +97,17 @@ function branchLink(input: LinkInput, into: BranchRef, first: string | null): Li
   const { document, frames, t } = input;
   const from = boxOf(input, into.parent);
   const kind = document.steps[into.parent]?.kind ?? "";
-  const framed = kind === "while" || kind === "try";
-  if (!from || (framed && into.branch === "body" && (!first || frames.get(into.parent)?.holds.has(first)))) return null;
+  const bodyInside = isFramed(kind) && into.branch === "body";
+  if (!from || (bodyInside && (!first || frames.get(into.parent)?.holds.has(first)))) return null;
+  if (!first && !offersBranch(document, into)) return null;
   const target = first ? boxOf(input, first) : null;
   const tone = into.branch === "catch" ? "catch" : "branch";
-  const points = target ? branchWay(input, into, from, target) : stub(from, into.branch);
+  const exit = exitOf(input, into, from);
+  const points = target ? branchWay(into, exit, target) : stub(exit, into.branch);
   return {
     id: `${into.parent}/${into.branch}`,
     points,
-    word: branchWord(into.branch, kind, t),
+    word: branchWord(into.branch, kind, t) || null,
     tone,
     into,
     after: null,
@@ -113,18 +116,34 @@ function branchLink(input: LinkInput, into: BranchRef, first: string | null): Li
   };
 }
 
-/** The branches of one step leave it at different points: the second one sideways, parallel ones spread. */
-function branchWay(input: LinkInput, into: BranchRef, from: Box, target: Box): PixelPoint[] {
-  if (into.branch === "else") return elbowSideways(from, target);
-  const step = input.document.steps[into.parent];
-  if (step?.kind !== "parallel") return elbow(from, target);
-  const branches = branchesOf(step);
-  const width = (from.right - from.left) / branches.length;
-  const left = from.left + width * branches.indexOf(into.branch);
-  return elbow({ ...from, left, right: left + width }, target);
+/** An empty branch is drawn while it is offered: a Try may catch nothing, or have nothing to do at last. */
+function offersBranch(document: ProgramDocument, { parent, branch }: BranchRef): boolean {
+  const step = document.steps[parent];
+  if (step?.kind !== "try") return true;
+  return branch === "finally" ? step.params.finally === true : step.params.catch !== false;
 }
 
+function branchWay({ branch }: BranchRef, exit: Box, target: Box): PixelPoint[] {
+  return branch === "else" ? elbowSideways(exit, target) : elbow(exit, target);
+}
+
+/** The part of a step's outline that a branch leaves: Parallel's and Try's branches lie beside each other. */
+function exitOf(input: LinkInput, { parent, branch }: BranchRef, from: Box): Box {
+  const step = input.document.steps[parent];
+  if (step?.kind !== "parallel" && step?.kind !== "try") return from;
+  const branches = branchesOf(step).filter((each) => each !== "body" && isDrawn(input, { parent, branch: each }));
+  const width = (from.right - from.left) / Math.max(1, branches.length);
+  const left = from.left + width * Math.max(0, branches.indexOf(branch));
+  return branch === "body" ? from : { ...from, left, right: left + width };
+}
+
+function isDrawn({ document, tree }: LinkInput, into: BranchRef): boolean {
+  return tree.children(into.parent, into.branch).length > 0 || offersBranch(document, into);
+}
+
+/** What the arrow into a branch says; an event's arrow needs no word. */
 export function branchWord(branch: string, kind: string, t: Translate): string {
+  if (kind === "on_event") return "";
   return kind === "parallel" ? branch : t(`branch.${branch}`);
 }
 
@@ -137,15 +156,10 @@ function stub(box: Box, branch: string): PixelPoint[] {
       { x: across, y: box.top },
       { x: across, y: box.top - 44 },
     ];
-  if (branch === "then")
+  if (["then", "catch", "finally", "body"].includes(branch))
     return [
       { x: across, y: box.bottom },
-      { x: across, y: box.bottom + 44 },
-    ];
-  if (branch === "catch")
-    return [
-      { x: across, y: box.bottom },
-      { x: across, y: box.bottom + 40 },
+      { x: across, y: box.bottom + 42 },
     ];
   const side = branch === "a" ? -1 : 1;
   const edge = side < 0 ? box.left : box.right;

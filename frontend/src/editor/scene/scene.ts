@@ -8,6 +8,7 @@ import { buildChip, type Chip, type Measure, type TagSide } from "./chips";
 import { framesOf, type Frame } from "./frames";
 import { boxAt, edgeTowards, elbow, grown, leastCovering, legBoxes, nearestOn, overlaps } from "./geometry";
 import { hullsOf, type Hull } from "./hulls";
+import { isFramed } from "./kinds";
 import { separateLanes } from "./lanes";
 import { linksOf, type Link } from "./links";
 import { functionOf, waysOf, type RouteLookup, type RouteShape, type Way } from "./routing";
@@ -44,7 +45,7 @@ export function buildScene(input: SceneInput): Scene {
   const { document, surroundings, t } = input;
   const tree = readTree(document);
   const speaker: Speaker = { document, surroundings, t };
-  const shown = [...tree.reading, ...tree.loose].filter((id) => isShown(input, id));
+  const shown = [...tree.reading, ...tree.loose, ...commentsOf(document)].filter((id) => isShown(input, id));
   const ways = waysOf(document, tree, surroundings).filter((way) => shown.includes(way.step));
   const routes = shapeRoutes(ways, input.routes);
   const chips = new Map<string, Chip>();
@@ -53,7 +54,13 @@ export function buildScene(input: SceneInput): Scene {
     if (step)
       chips.set(
         id,
-        buildChip(id, step, chipPosition(step, isFramed(document, step) ? undefined : routes.get(id)), input, speaker),
+        buildChip(
+          id,
+          step,
+          chipPosition(step, standsInFrame(document, step) ? undefined : routes.get(id)),
+          input,
+          speaker,
+        ),
       );
   }
   for (const chip of chips.values())
@@ -135,9 +142,13 @@ export function routePoints(
 }
 
 /** Steps inside a frame stand beside its head, not on their routes. */
-function isFramed(document: ProgramDocument, step: Step): boolean {
+function standsInFrame(document: ProgramDocument, step: Step): boolean {
   const parent = step.pos && step.place?.[1] === "body" ? document.steps[step.place[0]] : undefined;
-  return parent?.kind === "while" || parent?.kind === "try";
+  return parent !== undefined && isFramed(parent.kind);
+}
+
+function commentsOf(document: ProgramDocument): string[] {
+  return Object.keys(document.steps).filter((id) => document.steps[id]?.kind === "comment");
 }
 
 /** Where a step's chip is drawn: its own position, brought onto its route where that is near. */

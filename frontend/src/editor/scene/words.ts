@@ -1,47 +1,51 @@
 /** What stands on a step's chip: a noun and an amount, a "?" where a value is still to be entered. */
-import type { Place, ProgramDocument, Step, Value } from "../model/types";
+import type { Place, Step, Value } from "../model/types";
+import { swatchOf } from "./swatches";
 import type { Surroundings } from "./surroundings";
+import { durationText, placeName, valueText, withUnit, type Speaker } from "./valueWords";
+
+export { durationText, placeName, unitText, valueText, withUnit } from "./valueWords";
+export type { Speaker, Translate } from "./valueWords";
 
 export interface TextPart {
   readonly text: string;
   readonly tone: "plain" | "missing" | "soft" | "mono";
-}
-
-/** A translator: catalogue key and values to text. */
-export type Translate = (key: string, values?: Record<string, unknown>) => string;
-
-export interface Speaker {
-  readonly t: Translate;
-  readonly surroundings: Surroundings;
-  readonly document: ProgramDocument;
+  /** A colour to show before the text that names it. */
+  readonly swatch?: string;
 }
 
 const MISSING: TextPart = { text: "?", tone: "missing" };
+/** Longer sentences are cut on the chip; the inspector and the list have the whole. */
+const LONGEST = 26;
+
+type Writer = (step: Step, speaker: Speaker) => readonly TextPart[];
+
+const WRITERS: Readonly<Record<string, Writer>> = {
+  move: moveText,
+  pick: loadText,
+  drop: loadText,
+  pick_and_drop: loadText,
+  operate: operateText,
+  wait: waitText,
+  call: callText,
+  if: (_step, { t }) => [plain(t("chip.if"))],
+  while: named,
+  parallel: named,
+  try: named,
+  break: named,
+  end: named,
+  repeat: repeatText,
+  for_each: forEachText,
+  set: setText,
+  ask: (step, speaker) => sentenceText("ask", step.params.question, speaker),
+  notify: (step, speaker) => sentenceText("notify", step.params.message, speaker),
+  return: returnText,
+  on_event: eventText,
+  comment: commentText,
+};
 
 export function chipText(step: Step, speaker: Speaker): readonly TextPart[] {
-  const { t } = speaker;
-  switch (step.kind) {
-    case "move":
-      return moveText(step, speaker);
-    case "pick":
-    case "drop":
-    case "pick_and_drop":
-      return loadText(step, speaker);
-    case "operate":
-      return operateText(step, speaker);
-    case "wait":
-      return waitText(step, speaker);
-    case "call":
-      return callText(step, speaker);
-    case "if":
-      return [plain(t("chip.if"))];
-    case "while":
-    case "parallel":
-    case "try":
-      return [plain(t(`kind.${step.kind}`))];
-    default:
-      return [plain(t("kind.unknown"))];
-  }
+  return WRITERS[step.kind]?.(step, speaker) ?? [plain(speaker.t("kind.unknown"))];
 }
 
 /** The condition of an If or a While for the tag beside it. */
@@ -52,6 +56,10 @@ export function conditionText(step: Step, speaker: Speaker): readonly TextPart[]
 
 function plain(text: string): TextPart {
   return { text, tone: "plain" };
+}
+
+function named(step: Step, { t }: Speaker): TextPart[] {
+  return [plain(t(`kind.${step.kind}`))];
 }
 
 function moveText(step: Step, speaker: Speaker): TextPart[] {
@@ -91,77 +99,90 @@ function waitText(step: Step, speaker: Speaker): TextPart[] {
   const { t } = speaker;
   if (step.params.until !== undefined && step.params.until !== null)
     return [plain(valueText(step.params.until as Value, speaker) ?? "?")];
-  const seconds = step.params.duration as Value;
-  if (typeof seconds === "number") return [plain(t("chip.wait", { time: durationText(seconds) }))];
-  const text = valueText(seconds ?? null, speaker);
+  const duration = step.params.duration as Value;
+  if (typeof duration === "number") return [plain(t("chip.wait", { time: durationText(duration) }))];
+  const text = valueText(duration ?? null, speaker);
   return text === null ? [plain(t("chip.wait_word")), MISSING] : [plain(t("chip.wait", { time: text }))];
+}
+
+function repeatText(step: Step, speaker: Speaker): TextPart[] {
+  const times = valueText(step.params.times as Value, speaker);
+  return [plain(speaker.t("chip.repeat")), times === null ? MISSING : plain(times), plain("×")];
+}
+
+function forEachText(step: Step, speaker: Speaker): TextPart[] {
+  const items = Array.isArray(step.params.items) ? (step.params.items as Value[]) : [];
+  const [first, second, ...rest] = items.map((each) => valueText(each, speaker) ?? "?");
+  const names = [first, second].filter((name) => name !== undefined).join(", ");
+  const variable = String(step.params.variable || "?");
+  return [
+    plain(speaker.t("chip.for_each", { variable })),
+    items.length === 0 ? MISSING : plain(rest.length > 0 ? `${names} +${rest.length}` : names),
+  ];
+}
+
+function setText(step: Step, speaker: Speaker): TextPart[] {
+  const name = step.params.variable ? plain(String(step.params.variable)) : MISSING;
+  return [name, plain("="), valuePart(step.params.value as Value, speaker)];
+}
+
+function valuePart(value: Value, speaker: Speaker): TextPart {
+  const text = valueText(value, speaker);
+  return text === null ? MISSING : { ...plain(shortened(text)), ...swatchOf(value) };
+}
+
+function sentenceText(word: "ask" | "notify", value: unknown, speaker: Speaker): TextPart[] {
+  const text = valueText(value as Value, speaker);
+  return [plain(speaker.t(`chip.${word}`)), text === null ? MISSING : { text: shortened(text), tone: "soft" }];
+}
+
+function returnText(step: Step, speaker: Speaker): TextPart[] {
+  const text = valueText(step.params.value as Value, speaker);
+  return [plain(speaker.t("chip.return")), ...(text === null ? [] : [plain(shortened(text))])];
+}
+
+function eventText(step: Step, speaker: Speaker): TextPart[] {
+  const text = valueText(step.params.condition as Value, { ...speaker, full: true });
+  return [plain(speaker.t("chip.when")), text === null ? MISSING : plain(text)];
+}
+
+function commentText(step: Step, { t }: Speaker): TextPart[] {
+  const text = typeof step.params.text === "string" ? step.params.text.trim() : "";
+  return [text ? plain(shortened(text, 44)) : { text: t("chip.comment"), tone: "soft" }];
+}
+
+function shortened(text: string, longest = LONGEST): string {
+  return text.length > longest ? `${text.slice(0, longest - 1).trimEnd()}…` : text;
 }
 
 function callText(step: Step, speaker: Speaker): TextPart[] {
   const definition = speaker.document.functions[String(step.params.function)];
   if (!definition) return [MISSING];
+  const result = step.params.result ? [plain(`${String(step.params.result)} =`)] : [];
   const args = (step.params.args ?? {}) as Record<string, Value | Place>;
-  const inner = definition.parameters.map((parameter) => {
-    const given = args[parameter.name] ?? (parameter.default as Value | Place | undefined) ?? null;
-    const text = placeName(given as Place, speaker) ?? valueText(given as Value, speaker);
-    return `${parameter.name}: ${text ?? "?"}`;
+  const given = definition.parameters.map((parameter) => {
+    const value = args[parameter.name] ?? (parameter.default as Value | Place | undefined) ?? null;
+    const text = placeName(value as Place, speaker) ?? valueText(value as Value, speaker);
+    return { name: parameter.name, text: text ?? "?", ...swatchOf(value as Value) };
   });
-  return [plain(definition.name), { text: `(${inner.join(", ")})`, tone: "soft" }];
+  return [...result, plain(definition.name), ...argumentParts(given)];
 }
 
-/** A place's name; null where it is not entered. */
-export function placeName(place: Place | null | undefined, speaker: Speaker): string | null {
-  if (typeof place !== "object" || place === null) return null;
-  if ("device" in place) return speaker.surroundings.devices.get(place.device)?.name ?? place.device;
-  if ("place" in place) return speaker.surroundings.places.get(place.place)?.name ?? place.place;
-  if ("point" in place) return `${place.point[0]}, ${place.point[1]}\u202fm`.replaceAll("-", "−");
-  return null;
-}
-
-const SIGNS: Readonly<Record<string, string>> = { "==": "=", "!=": "≠", "<=": "≤", ">=": "≥" };
-
-/** A value as people read it; null where it is not entered. */
-export function valueText(value: Value | undefined, speaker: Speaker): string | null {
-  if (value === null || value === undefined || value === "") return null;
-  if (typeof value === "number") return String(value).replace("-", "−");
-  if (typeof value === "boolean") return speaker.t(value ? "value.true" : "value.false");
-  if (typeof value === "string") return value;
-  if ("param" in value) return value.param;
-  if ("property" in value) return value.property[1];
-  if (!("op" in value)) return null;
-  const args = value.args.map((each) => valueText(each, speaker) ?? "?");
-  if (value.op === "not") return `${speaker.t("value.not")} ${args[0] ?? "?"}`;
-  const sign = value.op === "and" || value.op === "or" ? speaker.t(`value.${value.op}`) : (SIGNS[value.op] ?? value.op);
-  return args.join(` ${sign} `);
-}
-
-const UNITS: Readonly<Record<string, string>> = {
-  MIN: "min",
-  SEC: "s",
-  HR: "h",
-  DEG_C: "°C",
-  CEL: "°C",
-  PERCENT: "%",
-  M: "m",
-};
-
-export function unitText(unit: string | null | undefined): string {
-  if (!unit) return "";
-  return UNITS[unit] ?? UNITS[unit.toUpperCase()] ?? unit;
-}
-
-export function withUnit(text: string, unit: string | null | undefined): string {
-  const sign = unitText(unit);
-  return sign ? `${text}\u202f${sign}` : text;
-}
-
-/** Seconds as "1 min 6 s". */
-export function durationText(seconds: number): string {
-  const whole = Math.round(seconds * 10) / 10;
-  if (whole < 60) return `${whole}\u202fs`;
-  const minutes = Math.floor(whole / 60);
-  const rest = Math.round(whole - minutes * 60);
-  return rest ? `${minutes}\u202fmin ${rest}\u202fs` : `${minutes}\u202fmin`;
+/** "(minutes: 3, shade:" and then the colour with its name: a part of its own for each swatch. */
+function argumentParts(given: readonly { name: string; text: string; swatch?: string }[]): TextPart[] {
+  const parts: TextPart[] = [];
+  let text = "(";
+  given.forEach(({ name, text: value, swatch }, index) => {
+    const after = index < given.length - 1 ? ", " : "";
+    if (!swatch) {
+      text += `${name}: ${value}${after}`;
+      return;
+    }
+    parts.push({ text: `${text}${name}:`, tone: "soft" });
+    parts.push({ text: value, tone: "soft", swatch });
+    text = after.trim();
+  });
+  return [...parts, { text: `${text})`, tone: "soft" }];
 }
 
 export function plainText(parts: readonly TextPart[]): string {
