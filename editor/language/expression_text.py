@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from editor.language.plan import Constant, Expression, Operation, Reading, Variable
-from editor.language.quoting import quote
+from editor.language.plan import Constant, Expression, Located, Operation, Quantity, Reading, Variable
+from editor.language.quoting import escape, quote
+from editor.language.units import unit_symbol
 from editor.language.values import FUNCTIONS
 from registry.capability import Scalar
 
@@ -24,10 +25,21 @@ class Names(Protocol):
     def reading(self, device: str, property_name: str) -> str:
         """Return how a device's property is written."""
 
+    def located(self, located: Located) -> str:
+        """Return how a device, a named place, a role's robot or a zone is written."""
+
+    def quantity(self, quantity: Quantity) -> str:
+        """Return how a number with its unit is written."""
+
 
 def scalar_text(value: Scalar) -> str:
     """Return a single value as Python writes it."""
     return quote(value) if isinstance(value, str) else repr(value)
+
+
+def quantity_text(quantity: Quantity) -> str:
+    """Return a number with its unit as the script writes it."""
+    return f"quantity({scalar_text(quantity.value)}, {quote(unit_symbol(quantity.unit))})"
 
 
 def write_expression(expression: Expression, names: Names) -> str:
@@ -48,6 +60,12 @@ def _write(expression: Expression, names: Names, around: int) -> str:
             return names.reading(str(device), name)
         case Reading(device=device, property=name):
             return f"{_write(device, names, _ATOM)}.read({quote(name)})"
+        case Quantity():
+            return names.quantity(expression)
+        case Located(point=(x, y)):
+            return f"point({scalar_text(x)}, {scalar_text(y)})"
+        case Located():
+            return names.located(expression)
         case Operation():
             return _operation(expression, names, around)
 
@@ -55,7 +73,9 @@ def _write(expression: Expression, names: Names, around: int) -> str:
 def _operation(expression: Operation, names: Names, around: int) -> str:
     operator, arguments = expression.operator, expression.arguments
     if operator in FUNCTIONS:
-        return f"{operator}({', '.join(_write(argument, names, 0) for argument in arguments)})"
+        written = [_write(argument, names, 0) for argument in arguments]
+        formatted = _formatted(arguments, written) if operator == "text" else None
+        return formatted or f"{operator}({', '.join(written)})"
     if len(arguments) == 1:
         return _unary(operator, arguments[0], names, around)
     strength = _STRENGTH.get(operator, _COMPARISON)
@@ -70,3 +90,17 @@ def _unary(operator: str, argument: Expression, names: Names, around: int) -> st
     strength = _STRENGTH["not"] if operator == "not" else _NEGATION
     text = f"not {_write(argument, names, strength)}" if operator == "not" else f"-{_write(argument, names, strength)}"
     return f"({text})" if strength < around else text
+
+
+def _formatted(parts: tuple[Expression, ...], written: list[str]) -> str | None:
+    """Return a text of several parts as an f-string; None where one of them cannot stand in it."""
+    pieces: list[str] = []
+    for part, text in zip(parts, written, strict=True):
+        if isinstance(part, Constant) and isinstance(part.value, str):
+            pieces.append(escape(part.value).replace("{", "{{").replace("}", "}}"))
+            continue
+        inside = text.replace('"', "'") if "'" not in text else text
+        if any(character in inside for character in '"\\#{}'):
+            return None
+        pieces.append(f"{{{inside}}}")
+    return f'f"{"".join(pieces)}"'

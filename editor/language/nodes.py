@@ -217,8 +217,8 @@ class Parameter:
 
     name: str
     default: Scalar = None
-    type: str = field(default="", compare=False)
-    unit: str = field(default="", compare=False)
+    type: str = ""
+    unit: str = ""
 
 
 @dataclass(frozen=True, slots=True)

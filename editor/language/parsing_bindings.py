@@ -15,6 +15,7 @@ from editor.language.parsing_expressions import (
     quoted,
 )
 from editor.language.plan import Expression
+from editor.language.type_names import UnknownType, parse_type
 
 
 def parse_run(method: ast.FunctionDef, scope: Scope) -> None:
@@ -46,6 +47,8 @@ def parse_run(method: ast.FunctionDef, scope: Scope) -> None:
 def _binding(call: ast.Call, name: str) -> Binding:
     function = call.func
     if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Name) and function.value.id == "ctx":
+        if function.attr == "parameter":
+            return _parameter_binding(call, name)
         texts = [parse_scalar(argument) for argument in call.args]
         named = {keyword.arg: parse_scalar(keyword.value) for keyword in call.keywords}
         match function.attr, texts, named:
@@ -57,11 +60,33 @@ def _binding(call: ast.Call, name: str) -> Binding:
                 return Binding("place", place)
             case "any", _, {**rest} if not rest and all(isinstance(text, str) and text for text in texts):
                 return Binding("any", can=tuple(dict.fromkeys(str(text) for text in texts)))
-            case "parameter", [str() as given, *default], {**rest} if given == name and len(default) <= 1 and not rest:
-                return Binding("parameter", default=default[0] if default else None)
+            case "zone", [str() as zone], {**rest} if zone and not rest:
+                return Binding("zone", zone)
     raise Refused(
         call, quoted(call), 'Use ctx.get("robot01"), ctx.any("pick", "drop"), ctx.place("dock1") or ctx.parameter(…).'
     )
+
+
+def _parameter_binding(call: ast.Call, name: str) -> Binding:
+    """Read `ctx.parameter("count", 0, Number)`."""
+    match call.args:
+        case [ast.Constant(value=given), *rest] if given == name and len(rest) <= 2 and not call.keywords:
+            default = parse_scalar(rest[0]) if rest else None
+            kind, unit = read_type(rest[1] if len(rest) == 2 else None)
+            return Binding("parameter", default=default, type=kind, unit=unit)
+    raise Refused(call, quoted(call), f'Write self.{name} = ctx.parameter("{name}", 0, Number).')
+
+
+def read_type(node: ast.expr | None) -> tuple[str, str]:
+    """Return the type and the unit that stand in a script; both empty where there is none.
+
+    Raises:
+        Refused: it is no type of the language.
+    """
+    try:
+        return parse_type(node)
+    except UnknownType as error:
+        raise Refused(node or ast.Pass(), quoted(node or ast.Pass()), str(error)) from error
 
 
 def parse_parameters(method: ast.FunctionDef) -> tuple[n.Parameter, ...]:
@@ -73,9 +98,12 @@ def parse_parameters(method: ast.FunctionDef) -> tuple[n.Parameter, ...]:
     a = method.args
     if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or not a.args or a.args[0].arg != "self":
         raise Refused(method, "This form of parameters", f"Write def {method.name}(self, minutes):.")
-    names = [argument.arg for argument in a.args[1:]]
-    defaults = [None] * (len(names) - len(a.defaults)) + [parse_scalar(default) for default in a.defaults]
-    return tuple(n.Parameter(name, default) for name, default in zip(names, defaults, strict=True))
+    given = a.args[1:]
+    defaults = [None] * (len(given) - len(a.defaults)) + [parse_scalar(default) for default in a.defaults]
+    return tuple(
+        n.Parameter(argument.arg, default, *read_type(argument.annotation))
+        for argument, default in zip(given, defaults, strict=True)
+    )
 
 
 def parse_arguments(call: ast.Call, parameters: list[str], scope: Scope) -> n.Arguments:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from editor.language.names import snake_case
+from editor.language.names import ROBOT_METHODS, snake_case
 from editor.language.nodes import MISSING, NOWHERE, Point
-from editor.language.plan import Constant, Expression, PlaceRef, Reading, Variable
+from editor.language.plan import Constant, Expression, Located, PlaceRef, Quantity, Reading, Variable
 from editor.language.printing import member_name
 from editor.language.surroundings import Surroundings
-from editor.language.values import DEEPEST_EXPRESSION, FUNCTIONS, is_number, operation, plain
+from editor.language.units import UNITS, unit_code
+from editor.language.values import DEEPEST_EXPRESSION, FUNCTIONS, arity_fits, is_number, operation, plain
 from registry.capability import Description, Scalar
 
 _BINARY: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
@@ -35,11 +36,13 @@ class Refused(Exception):
 class Binding:
     """What `run` gives to an attribute of the task."""
 
-    kind: Literal["get", "any", "place", "parameter"]
+    kind: Literal["get", "any", "place", "parameter", "zone"]
     id: str = ""
     can: tuple[str, ...] = ()
     at: str | None = None
     default: Scalar = None
+    type: str = ""
+    unit: str = ""
 
 
 @dataclass(slots=True)
@@ -49,6 +52,10 @@ class Scope:
     surroundings: Surroundings
     bindings: dict[str, Binding] = field(default_factory=dict)
     locals: frozenset[str] = frozenset()
+    variables: frozenset[str] = frozenset()
+    """The variables of the program, which are attributes of the task."""
+    robots: frozenset[str] = frozenset()
+    """The attributes that some step drives as a robot."""
 
     def description(self, device_id: str | None) -> Description | None:
         """Return a device's description, if the site has the device."""
@@ -123,10 +130,7 @@ def _name(node: ast.Name, scope: Scope, depth: int) -> Expression:
 def _attribute(node: ast.Attribute, scope: Scope, depth: int) -> Expression:
     name = attribute_of_self(node)
     if name is not None:
-        binding = scope.bindings.get(name)
-        if binding is None or binding.kind != "parameter":
-            raise Refused(node, quoted(node), f"Write what is read of it, for example self.{name}.temperature.")
-        return Variable(name)
+        return _own_attribute(node, name, scope)
     device = parse_thing(node.value, scope)
     description = scope.description(device.device)
     names = [] if description is None else [spec.name for spec in description.properties]
@@ -137,19 +141,77 @@ def _attribute(node: ast.Attribute, scope: Scope, depth: int) -> Expression:
     return Reading(Constant(device.device), found)
 
 
+def _own_attribute(node: ast.Attribute, name: str, scope: Scope) -> Expression:
+    """Return what `self.name` stands for: a variable, or something that has a place."""
+    binding = scope.bindings.get(name)
+    if name in scope.variables or (binding is not None and binding.kind == "parameter"):
+        return Variable(name)
+    if name in scope.robots:
+        return Located(role=name)
+    match binding:
+        case Binding(kind="get", id=device):
+            return Located(device=device)
+        case Binding(kind="place", id=place):
+            return Located(place=place)
+        case Binding(kind="zone", id=zone):
+            return Located(zone=zone)
+    raise Refused(node, quoted(node), f'Give it in run: self.{name} = ctx.parameter("{name}", 0, Number).')
+
+
 def _call(node: ast.Call, scope: Scope, depth: int) -> Expression:
     function = node.func
-    if isinstance(function, ast.Name) and function.id in FUNCTIONS and not node.keywords:
-        if len(node.args) != FUNCTIONS[function.id]:
-            raise Refused(node, quoted(node), f"{function.id} takes {FUNCTIONS[function.id]} value(s).")
-        return operation(function.id, tuple(parse_expression(argument, scope, depth) for argument in node.args))
+    if isinstance(function, ast.Name) and not node.keywords:
+        if function.id in _MAKERS:
+            return _MAKERS[function.id](node)
+        if function.id in FUNCTIONS:
+            return _function(node, function.id, scope, depth)
     if isinstance(function, ast.Attribute) and function.attr == "read" and len(node.args) == 1:
         device, name = parse_thing(function.value, scope), parse_scalar(node.args[0])
         if isinstance(name, str) and name and device.device is not None:
             return Reading(Constant(device.device), name)
         if isinstance(name, str) and name and device.value is not None:
             return Reading(device.value, name)
-    raise Refused(node, quoted(node), f"In expressions only these can be called: {', '.join(FUNCTIONS)}.")
+    known = ", ".join((*FUNCTIONS, *_MAKERS))
+    raise Refused(node, quoted(node), f"In expressions only these can be called: {known}.")
+
+
+def _function(node: ast.Call, name: str, scope: Scope, depth: int) -> Expression:
+    if not arity_fits(name, len(node.args)):
+        least, most = FUNCTIONS[name]
+        wanted = str(least) if least == most else f"{least} or more"
+        raise Refused(node, quoted(node), f"{name} takes {wanted} value(s).")
+    return operation(name, tuple(parse_expression(argument, scope, depth) for argument in node.args))
+
+
+def _quantity(node: ast.Call) -> Expression:
+    match [parse_scalar(argument) for argument in node.args]:
+        case [value, str(unit)] if is_number(value) and unit_code(unit) in UNITS:
+            return Quantity(value, unit_code(unit))
+    units = ", ".join(unit.symbol for unit in UNITS.values())
+    raise Refused(node, quoted(node), f'Write quantity(10, "min"), with one of these units: {units}.')
+
+
+def _point(node: ast.Call) -> Expression:
+    match [parse_scalar(argument) for argument in node.args]:
+        case [x, y] if is_number(x) and is_number(y):
+            return Located(point=(x, y))
+    raise Refused(node, quoted(node), "Write a point as point(3.5, -8), in metres.")
+
+
+_MAKERS: Mapping[str, Callable[[ast.Call], Expression]] = {"quantity": _quantity, "point": _point}
+
+
+def _formatted(node: ast.JoinedStr, scope: Scope, depth: int) -> Expression:
+    """Return the text that an f-string stands for."""
+    return operation("text", tuple(_part(part, scope, depth) for part in node.values))
+
+
+def _part(part: ast.expr, scope: Scope, depth: int) -> Expression:
+    if isinstance(part, ast.FormattedValue):
+        if part.conversion != -1 or part.format_spec is not None:
+            raise Refused(part, quoted(part.value), "Between { and } write only the value.")
+        return parse_expression(part.value, scope, depth)
+    return parse_expression(part, scope, depth)
 
 
 def _bool_operation(node: ast.BoolOp, scope: Scope, depth: int) -> Expression:
@@ -190,6 +252,7 @@ _PARSERS: Mapping[type[ast.expr], Callable[..., Expression]] = {
     ast.UnaryOp: _unary_operation,
     ast.BinOp: _binary_operation,
     ast.Compare: _comparison,
+    ast.JoinedStr: _formatted,
 }
 
 
@@ -240,3 +303,16 @@ def parse_place(node: ast.expr, scope: Scope) -> PlaceRef:
     if isinstance(node, ast.Tuple) or (isinstance(node, ast.Constant) and node.value is None):
         return parse_thing(node, scope)
     raise Refused(node, quoted(node), "Write where it goes as self.oven.location, or as a point (x, y).")
+
+
+def robots_driven(module: ast.Module) -> frozenset[str]:
+    """Return the attributes of the task that some step drives as a robot: x of `self.x.pick(…)`."""
+    return frozenset(_driven(module))
+
+
+def _driven(module: ast.Module) -> Iterator[str]:
+    for node in ast.walk(module):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in ROBOT_METHODS:
+            name = attribute_of_self(node.func.value)
+            if name is not None:
+                yield name

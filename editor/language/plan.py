@@ -62,7 +62,7 @@ class Located:
     zone: str | None = None
 
 
-Expression = Constant | Variable | Reading | Operation
+Expression = Constant | Variable | Reading | Operation | Quantity | Located
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from editor.language.expression_text import scalar_text, write_expression
+from editor.language.expression_text import quantity_text, scalar_text, write_expression
 from editor.language.names import RESERVED_ATTRIBUTES, RESERVED_MEMBERS, snake_case, unique_name
 from editor.language.nodes import (
     Block,
@@ -27,9 +27,10 @@ from editor.language.nodes import (
     While,
 )
 from editor.language.numbering import letters_of
-from editor.language.plan import Expression, PlaceRef
+from editor.language.plan import Expression, Located, PlaceRef, Quantity
 from editor.language.quoting import quote
 from editor.language.surroundings import Surroundings
+from editor.language.type_names import write_type
 
 ERROR_CLASSES: Mapping[str, str] = {
     "refused": "Refused",
@@ -70,6 +71,10 @@ class Printer:
     """Methods of parallel branches that are still to be printed."""
     method_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
     property_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
+    zone_names: Mapping[str, str] = field(default_factory=dict)
+    """What people call the zones, by id."""
+    zones: dict[str, str] = field(default_factory=dict)
+    """Zones (by id) with their names in the script, in the order of first use."""
 
     def line(self, depth: int, text: str, step: str = "") -> None:
         """Add a line."""
@@ -99,6 +104,26 @@ class Printer:
             facts = self.surroundings.places.get(place.place or "")
             known = self._new_attribute(place, facts.name if facts else place.place or "")
         return known
+
+    def zone(self, zone_id: str) -> str:
+        """Return the attribute of a zone, giving it one at its first use."""
+        if zone_id not in self.zones:
+            attribute = unique_name(self.zone_names.get(zone_id) or zone_id, self.taken)
+            self.taken.add(attribute)
+            self.zones[zone_id] = f"self.{attribute}"
+        return self.zones[zone_id]
+
+    def located(self, located: Located) -> str:
+        """Return how a device, a named place, a role's robot or a zone is written."""
+        if located.device is not None:
+            return self.device(located.device)
+        if located.place is not None:
+            return self.named_place(PlaceRef(place=located.place))
+        return f"self.{located.role}" if located.role is not None else self.zone(located.zone or "")
+
+    def quantity(self, quantity: Quantity) -> str:
+        """Return how a number with its unit is written."""
+        return quantity_text(quantity)
 
     def _new_attribute(self, key: PlaceRef | str, name: str) -> str:
         attribute = unique_name(name, self.taken)
@@ -287,23 +312,36 @@ def _print_method(printer: Printer, name: str, parameters: tuple[Parameter, ...]
 def _signature(parameters: tuple[Parameter, ...]) -> list[str]:
     """Python wants a default behind every parameter that follows one with a default; None says that it has none."""
     written: list[str] = []
+    bare = True
     for parameter in parameters:
-        bare = parameter.default is None and not (written and "=" in written[-1])
-        written.append(parameter.name if bare else f"{parameter.name}={scalar_text(parameter.default)}")
+        kind = write_type(parameter.type, parameter.unit)
+        name = f"{parameter.name}: {kind}" if kind else parameter.name
+        bare = bare and parameter.default is None
+        default = f" = {scalar_text(parameter.default)}" if kind else f"={scalar_text(parameter.default)}"
+        written.append(name if bare else f"{name}{default}")
     return written
 
 
 def _print_run(printer: Printer) -> None:
     printer.line(1, "def run(self, ctx):")
     for parameter in printer.tree.parameters:
-        default = "" if parameter.default is None else f", {scalar_text(parameter.default)}"
-        printer.line(2, f"self.{parameter.name} = ctx.parameter({quote(parameter.name)}{default})")
+        printer.line(2, f"self.{parameter.name} = ctx.parameter({_given_to_parameter(parameter)})")
     for role in printer.tree.roles:
         printer.line(2, f"self.{role.name} = {_binding(role)}")
     for key, attribute in printer.attributes.items():
         get = f"ctx.get({quote(key)})" if isinstance(key, str) else f"ctx.place({quote(key.place or '')})"
         printer.line(2, f"{attribute} = {get}")
+    for zone, attribute in printer.zones.items():
+        printer.line(2, f"{attribute} = ctx.zone({quote(zone)})")
     printer.line(2, "self.new_task()")
+
+
+def _given_to_parameter(parameter: Parameter) -> str:
+    """Return `"count", 0, Number`; what is not known is left out at the end."""
+    kind = write_type(parameter.type, parameter.unit)
+    if kind:
+        return f"{quote(parameter.name)}, {scalar_text(parameter.default)}, {kind}"
+    return quote(parameter.name) + ("" if parameter.default is None else f", {scalar_text(parameter.default)}")
 
 
 def _binding(role: Role) -> str:

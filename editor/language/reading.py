@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.diagnostics import Fix, Problem, TextArguments
+from editor.language.ladder import FORMAT, format_of
 from editor.language.names import RESERVED_ATTRIBUTES, local_name, unique_name
 from editor.language.nodes import (
     MISSING,
@@ -31,12 +32,13 @@ from editor.language.nodes import (
 )
 from editor.language.outline import PROGRAM, Outline, Params, make_outline, mapping
 from editor.language.phrases import Options
-from editor.language.plan import Constant, Expression, PlaceRef
+from editor.language.plan import Expression, Located, PlaceRef
 from editor.language.type_names import settle_type
 from editor.language.values import UnknownParameter, plain, read_place, read_point, read_value
 from editor.language.walking import in_reading_order
 
 DEFAULT_ROLE = "robot"
+_DRIVING = frozenset({"move", "pick", "drop", "pick_and_drop"})
 FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
 
 
@@ -62,6 +64,18 @@ class _Reader:
     names: Mapping[str, str] = field(default_factory=dict)
     """The parameters that can be seen in the block being read."""
     problems: list[Problem] = field(default_factory=list)
+    _driven: frozenset[str] | None = None
+
+    def robot(self, role: str) -> Expression:
+        """Return what stands for the robot of a role: the role where steps drive it, else the device it is."""
+        if self._driven is None:
+            self._driven = _driven_roles(self.outline)
+        found = self.roles.get(role)
+        if found is None:
+            return MISSING
+        if role in self._driven:
+            return Located(role=found.name)
+        return MISSING if found.device is None else Located(device=found.device)
 
     def value(self, step: str, params: Params, name: str, field_name: str = "") -> Expression:
         """Return the expression in a parameter; what does not exist reads as missing, and is told."""
@@ -69,7 +83,7 @@ class _Reader:
         if value is None:
             return MISSING
         try:
-            return read_value(value, self.names)
+            return read_value(value, self.names, self.robot)
         except UnknownParameter as error:
             return self._unknown(step, field_name or name, error)
 
@@ -102,6 +116,15 @@ class _Reader:
         for step in outline.children.get((parent, branch), ()):
             nodes.extend(READERS[outline.kinds[step]](self, step, outline.params[step]))
         return tuple(nodes)
+
+
+def _driven_roles(outline: Outline) -> frozenset[str]:
+    """Return the ids of the roles that some step of the program drives."""
+    roots = [key for key in outline.children if key[0] not in outline.kinds]
+    steps = outline.with_inner(step for key in roots for step in outline.children[key])
+    params = [outline.params[step] for step in steps if outline.kinds[step] in _DRIVING]
+    wanted = (one.get("role") for one in params)
+    return frozenset(role if isinstance(role, str) and role else DEFAULT_ROLE for role in wanted)
 
 
 Reads = Callable[[_Reader, str, Params], tuple[Node, ...]]
@@ -154,8 +177,8 @@ def _arguments(reader: _Reader, step: str, params: Params) -> tuple[tuple[str, E
 
 def _wait(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
     if params.get("until") is None:
-        return (Wait(reader.value(step, params, "seconds"), step),)
-    timeout = reader.value(step, params, "timeout_s")
+        return (Wait(reader.value(step, params, "duration"), step),)
+    timeout = reader.value(step, params, "timeout")
     return (WaitUntil(reader.value(step, params, "until"), None if timeout == MISSING else timeout, step),)
 
 
@@ -220,7 +243,7 @@ READERS: Mapping[str, Reads] = {
 
 
 def read_document(document: object) -> Reading:
-    """Read a document (plain JSON, format 1); nothing in it makes this raise."""
+    """Read a document (plain JSON, format 2); nothing in it makes this raise."""
     whole = mapping(document)
     outline = make_outline(whole)
     parameters, global_names = _read_parameters(_by_id(whole.get("parameters")).items(), local=False)
@@ -238,6 +261,8 @@ def read_document(document: object) -> Reading:
             function.method, function.parameters, block, id=function.id, name=function.name
         )  # fmt: skip
     tree = in_reading_order(Tree(body, tuple(with_bodies.values()), tuple(roles.values()), parameters))
+    if format_of(document) > FORMAT:
+        reader.problems.append(Problem("newer_format", "", "format", {"format": format_of(document)}))
     return Reading(tree, outline, tuple(reader.problems))
 
 

@@ -74,7 +74,7 @@ def test_steps_that_did_not_change_keep_their_ids_and_places() -> None:
         "for i in [1]: pass",
         "lambda: 0",
         "self.wait([x for x in (1,)])",
-        "self.wait(f'{1}')",
+        "self.wait(f'{1!r}')",
         "self.wait((lambda: 1)())",
         "self.wait(60) if True else None",
         "exec('1')",
