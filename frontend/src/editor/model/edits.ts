@@ -16,8 +16,11 @@ export type Edit =
   | { readonly do: "set_zone"; readonly id: string; readonly value: Zone | null }
   | { readonly do: "set_start"; readonly pos: Position };
 
-/** A gesture's outcome: what to change, or the reason (a catalogue key) why nothing changes. */
-export type Decision = { readonly edits: readonly Edit[] } | { readonly refused: "cycle" | "one_branch" | "nothing" };
+/** Why a gesture changes nothing; a key of the catalogue. */
+export type Refusal = "cycle" | "one_branch" | "event" | "drafts" | "no_frame" | "not_inside" | "returns" | "nothing";
+
+/** A gesture's outcome: what to change, or why nothing changes. */
+export type Decision = { readonly edits: readonly Edit[] } | { readonly refused: Refusal };
 
 /** What the document is after the edits; the original stays as it is. */
 export function applyEdits(document: ProgramDocument, edits: readonly Edit[]): ProgramDocument {

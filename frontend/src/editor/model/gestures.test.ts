@@ -1,15 +1,18 @@
 import { expect, test } from "vitest";
 import { applyEdits, type Decision } from "./edits";
+import { wrapInFunction } from "./calls";
+import { clip, paste } from "./clipping";
 import {
   addStep,
   branchForNew,
-  clip,
   deleteSteps,
+  disconnect,
+  endOfBranch,
+  joinDrafts,
   joinSteps,
   moveStep,
-  paste,
+  moveSteps,
   shiftStep,
-  wrapInFunction,
 } from "./gestures";
 import { PROGRAM, readTree } from "./tree";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step, type StepKind } from "./types";
@@ -93,7 +96,12 @@ test("steps that are not neighbours do not become a function", () => {
 
 test("a pasted frame keeps its inside and its order under new ids", () => {
   let count = 0;
-  const { edits, added } = paste(program, clip(program, ["three", "loop"]), PROGRAM, () => `copy${(count += 1)}`);
+  const { edits, added } = paste(
+    program,
+    clip(program, ["three", "loop"]),
+    endOfBranch(program, PROGRAM),
+    () => `copy${(count += 1)}`,
+  );
   const pasted = applyEdits(program, edits);
   expect(body(pasted)).toEqual(["one", "loop", "three", ...added]);
   expect(added.map((id) => pasted.steps[id]?.kind)).toEqual(["while", "drop"]);
@@ -112,4 +120,55 @@ test("a step without a place is a draft, and of a circle the step with the small
   };
   expect(readTree(broken).drafts).toEqual(["a", "loose"]);
   expect(readTree(broken).loose).toEqual(["a", "b", "loose"]);
+});
+
+test("a step goes between two that people appended at the same time", () => {
+  const tied = {
+    ...program,
+    steps: {
+      ...program.steps,
+      twin: step("wait", ["program", "body", "C"]),
+      four: step("wait", ["program", "body", "D"]),
+    },
+  };
+  const decision = moveStep(tied, "one", PROGRAM, "three");
+  if ("refused" in decision) throw new Error(decision.refused);
+  expect(body(applyEdits(tied, decision.edits))).toEqual(["loop", "three", "one", "twin", "four"]);
+  expect(decision.edits.map((edit) => "id" in edit && edit.id)).toEqual(["twin", "one"]);
+});
+
+test("several steps move together and keep their order", () => {
+  const decision = moveSteps(program, ["one", "three"], { branch: { parent: "loop", branch: "body" }, after: "in1" });
+  expect(loop(after(decision))).toEqual(["in1", "one", "three", "in2"]);
+});
+
+test("a disconnected step is a draft with all inside it, and joins the end again", () => {
+  const apart = after(disconnect(program, ["loop", "in1"]));
+  expect([body(apart), readTree(apart).drafts, loop(apart)]).toEqual([["one", "three"], ["loop"], ["in1", "in2"]]);
+  const again = joinDrafts(apart, ["loop"]);
+  if ("refused" in again) throw new Error(again.refused);
+  expect(body(applyEdits(apart, again.edits))).toEqual(["one", "three", "loop"]);
+});
+
+test("a draft joined to a step comes before it; two drafts cannot be joined", () => {
+  const loose = { ...program, steps: { ...program.steps, x: step("wait", null), y: step("wait", null) } };
+  const before = joinSteps(loose, "x", "three");
+  if ("refused" in before) throw new Error(before.refused);
+  expect(body(applyEdits(loose, before.edits))).toEqual(["one", "loop", "x", "three"]);
+  const behind = joinSteps(loose, "in1", "y");
+  if ("refused" in behind) throw new Error(behind.refused);
+  expect(loop(applyEdits(loose, behind.edits))).toEqual(["in1", "y", "in2"]);
+  expect(joinSteps(loose, "x", "y")).toEqual({ refused: "drafts" });
+});
+
+test("events stand among the events only, comments nowhere", () => {
+  const more = {
+    ...program,
+    steps: { ...program.steps, hot: step("on_event", ["program", "events", "V"]), note: step("comment", null) },
+  };
+  expect(moveStep(more, "hot", PROGRAM, null)).toEqual({ refused: "event" });
+  expect(moveStep(more, "one", { parent: "program", branch: "events" }, null)).toEqual({ refused: "event" });
+  expect(moveStep(more, "note", PROGRAM, null)).toEqual({ refused: "nothing" });
+  const fresh = { id: "new", kind: "comment", pos: [0, 0], params: {} } as const;
+  expect(applyEdits(more, addStep(more, PROGRAM, fresh)).steps.new?.place).toBeNull();
 });

@@ -1,34 +1,63 @@
-/** What people do on the map and in the step list, as pure decisions about the document. */
-import type { FunctionDefinition, ProgramDocument, Step, StepKind } from "./types";
-import type { Decision, Edit, Position, StepPlace } from "./edits";
-import { keyBetween } from "./order";
-import { ancestors, outermost, PROGRAM, readTree, withDescendants, type BranchRef, type ProgramTree } from "./tree";
+/** How people change the order of steps, as pure decisions about the document. */
+import type { ProgramDocument, Step, StepKind } from "./types";
+import type { Decision, Edit, Position, Refusal, StepPlace } from "./edits";
+import { keysBetween } from "./order";
+import { ancestors, EVENTS, outermost, PROGRAM, readTree, withDescendants, type BranchRef } from "./tree";
 
 export type MakeId = () => string;
+
+/** A spot in the order: behind a step of a branch; null means at its beginning. */
+export interface Goal {
+  readonly branch: BranchRef;
+  readonly after: string | null;
+}
 
 /** Where a new step goes: the branch of the selected step, at its end; else the program. */
 export function branchForNew(document: ProgramDocument, selected: string | null): BranchRef {
   const place = selected ? document.steps[selected]?.place : null;
-  return place ? { parent: place[0], branch: place[1] } : PROGRAM;
+  return place && place[1] !== EVENTS.branch ? { parent: place[0], branch: place[1] } : PROGRAM;
 }
 
-export function placeAtEnd(document: ProgramDocument, branch: BranchRef): StepPlace {
-  return placeAfter(document, branch, readTree(document).children(branch.parent, branch.branch).at(-1) ?? null);
+export function endOfBranch(document: ProgramDocument, branch: BranchRef): Goal {
+  return { branch, after: readTree(document).children(branch.parent, branch.branch).at(-1) ?? null };
 }
 
-/** The place right behind `after` in the branch; null means at its beginning. */
-export function placeAfter(
+/** The branch that a step stands in, as the tree reads it; null for drafts. */
+export function branchOf(document: ProgramDocument, id: string): BranchRef | null {
+  const place = document.steps[id]?.place;
+  if (!place || !readTree(document).children(place[0], place[1]).includes(id)) return null;
+  return { parent: place[0], branch: place[1] };
+}
+
+export interface Room {
+  readonly places: readonly StepPlace[];
+  /** Neighbours with equal keys, left by people who appended at the same time, that make room. */
+  readonly shifted: readonly Edit[];
+}
+
+/** Places in a row for so many steps at a goal, not counting those that leave their own. */
+export function roomAt(
   document: ProgramDocument,
-  branch: BranchRef,
-  after: string | null,
-  ignore: ReadonlySet<string> = new Set(),
-): StepPlace {
-  const tree = readTree(document);
-  const ids = tree.children(branch.parent, branch.branch).filter((id) => !ignore.has(id));
-  const order = (id: string | undefined) => (id ? (document.steps[id]?.place?.[2] ?? null) : null);
-  const before = after ? order(after) : null;
-  const behind = ids.slice(after ? ids.indexOf(after) + 1 : 0).find((id) => (order(id) ?? "") > (before ?? ""));
-  return [branch.parent, branch.branch, keyBetween(before, order(behind))];
+  { branch: { parent, branch }, after }: Goal,
+  count: number,
+  leaving: ReadonlySet<string> = new Set(),
+): Room {
+  const ids = readTree(document)
+    .children(parent, branch)
+    .filter((id) => !leaving.has(id));
+  const order = (id: string | undefined) => (id === undefined ? null : (document.steps[id]?.place?.[2] ?? null));
+  const first = after ? ids.indexOf(after) + 1 : 0;
+  const before = order(ids[first - 1]);
+  for (let tied = 0; ; tied += 1) {
+    const next = order(ids[first + tied]);
+    const keys = keysBetween(before, next, count + tied);
+    if (!keys) continue;
+    const places = keys.map((key): StepPlace => [parent, branch, key]);
+    const shifted = places.slice(count).map((place, index): Edit => {
+      return { do: "set_place", id: ids[first + index] ?? "", place };
+    });
+    return { places: places.slice(0, count), shifted };
+  }
 }
 
 export interface NewStep {
@@ -38,30 +67,47 @@ export interface NewStep {
   readonly params: Readonly<Record<string, unknown>>;
 }
 
+/** A new step at the end of a branch, or of the events; a comment stands nowhere. */
 export function addStep(document: ProgramDocument, branch: BranchRef, fresh: NewStep): Edit[] {
-  const step: Step = {
-    kind: fresh.kind,
-    place: placeAtEnd(document, branch),
-    pos: fresh.pos,
-    params: fresh.params,
-  };
-  return [{ do: "add_step", id: fresh.id, step }];
+  const { id, ...step } = fresh;
+  if (fresh.kind === "comment") return [{ do: "add_step", id, step: { ...step, place: null } }];
+  const room = roomAt(document, endOfBranch(document, fresh.kind === "on_event" ? EVENTS : branch), 1);
+  return [...room.shifted, { do: "add_step", id, step: { ...step, place: room.places[0] ?? null } }];
 }
 
-/** Put a step, with all inside it, behind `after` in a branch; refused where it would stand in itself. */
+/** Put steps, with all inside them, one behind the other at a goal; refused where one would stand in itself. */
+export function moveSteps(document: ProgramDocument, ids: readonly string[], goal: Goal): Decision {
+  const { parent } = goal.branch;
+  const moving = new Set(ids);
+  if (ids.length === 0 || (goal.after !== null && moving.has(goal.after))) return { refused: "nothing" };
+  const refused = ids.map((id) => whyNot(document.steps[id], goal.branch)).find((each) => each !== null);
+  if (refused) return { refused };
+  if ([parent, ...ancestors(document, parent)].some((above) => moving.has(above))) return { refused: "cycle" };
+  const room = roomAt(document, goal, ids.length, moving);
+  const moves = ids.map((id, index): Edit => ({ do: "set_place", id, place: room.places[index] ?? null }));
+  return { edits: [...room.shifted, ...moves] };
+}
+
+/** Events begin by themselves, comments are for people: neither stands among the steps. */
+function whyNot(step: Step | undefined, branch: BranchRef): Refusal | null {
+  if (!step || step.kind === "comment") return "nothing";
+  const amongEvents = branch.parent === EVENTS.parent && branch.branch === EVENTS.branch;
+  return (step.kind === "on_event") === amongEvents ? null : "event";
+}
+
 export function moveStep(document: ProgramDocument, id: string, branch: BranchRef, after: string | null): Decision {
-  if (!document.steps[id] || after === id) return { refused: "nothing" };
-  if (branch.parent === id || ancestors(document, branch.parent).includes(id)) return { refused: "cycle" };
-  return { edits: [{ do: "set_place", id, place: placeAfter(document, branch, after, new Set([id])) }] };
+  return moveSteps(document, [id], { branch, after });
 }
 
-/** Drag a step's dot to another step: that one follows it. */
+/** Drag a step's dot to another step: that one follows it. From a draft: the draft goes before that one. */
 export function joinSteps(document: ProgramDocument, from: string, to: string): Decision {
-  const place = document.steps[from]?.place;
-  if (from === to || !place) return { refused: "nothing" };
-  return ancestors(document, from).includes(to)
-    ? { refused: "cycle" }
-    : moveStep(document, to, { parent: place[0], branch: place[1] }, from);
+  if (from === to) return { refused: "nothing" };
+  const [source, target] = [branchOf(document, from), branchOf(document, to)];
+  if (source)
+    return ancestors(document, from).includes(to) ? { refused: "cycle" } : moveStep(document, to, source, from);
+  if (!target) return { refused: "drafts" };
+  const siblings = readTree(document).children(target.parent, target.branch);
+  return moveStep(document, from, target, siblings[siblings.indexOf(to) - 1] ?? null);
 }
 
 /** Remove the steps with all inside them; their neighbours join by themselves. */
@@ -73,9 +119,8 @@ export function deleteSteps(document: ProgramDocument, ids: readonly string[]): 
 
 /** One place up or down among its neighbours. */
 export function shiftStep(document: ProgramDocument, id: string, by: -1 | 1): Decision {
-  const place = document.steps[id]?.place;
-  if (!place) return { refused: "nothing" };
-  const branch = { parent: place[0], branch: place[1] };
+  const branch = branchOf(document, id);
+  if (!branch) return { refused: "nothing" };
   const ids = readTree(document).children(branch.parent, branch.branch);
   const index = ids.indexOf(id);
   if (by === 1) {
@@ -85,116 +130,37 @@ export function shiftStep(document: ProgramDocument, id: string, by: -1 | 1): De
   return index > 0 ? moveStep(document, id, branch, ids[index - 2] ?? null) : { refused: "nothing" };
 }
 
-/** Make a function of the steps and call it where they stood; they must be neighbours in one branch. */
-export function wrapInFunction(
-  document: ProgramDocument,
-  ids: readonly string[],
-  fresh: { functionId: string; callId: string; name: string },
-): Decision {
-  const tree = readTree(document);
-  const chosen = sortByReading(tree, outermost(document, ids));
-  const first = chosen[0] ? document.steps[chosen[0]] : undefined;
-  if (!first?.place) return { refused: "nothing" };
-  const [parent, branch] = first.place;
-  const same = chosen.every((id) => {
-    const place = document.steps[id]?.place;
-    return place?.[0] === parent && place[1] === branch;
-  });
-  const siblings = tree.children(parent, branch);
-  const start = siblings.indexOf(chosen[0] ?? "");
-  const together = chosen.every((id, index) => siblings[start + index] === id);
-  if (!same || !together) return { refused: "one_branch" };
-  return { edits: wrapEdits(document, chosen, first, fresh) };
+/** Take steps out of the order: drafts, kept with all inside them. */
+export function disconnect(document: ProgramDocument, ids: readonly string[]): Decision {
+  const joined = outermost(document, ids).filter((id) => branchOf(document, id));
+  if (joined.length === 0) return { refused: "nothing" };
+  return { edits: joined.map((id): Edit => ({ do: "set_place", id, place: null })) };
 }
 
-function wrapEdits(
-  document: ProgramDocument,
-  chosen: readonly string[],
-  first: Step,
-  fresh: { functionId: string; callId: string; name: string },
-): Edit[] {
-  const call: Step = {
-    kind: "call",
-    place: first.place,
-    pos: middle(document, chosen),
-    params: { function: fresh.functionId, args: {} },
-  };
-  return [
-    { do: "set_function", id: fresh.functionId, value: { name: fresh.name, parameters: [] } },
-    ...chosen.map((id): Edit => {
-      const order = document.steps[id]?.place?.[2] ?? "V";
-      return { do: "set_place", id, place: [fresh.functionId, "body", order] };
-    }),
-    { do: "add_step", id: fresh.callId, step: call },
-  ];
+/** Join drafts at the end of the program, events among the events. */
+export function joinDrafts(document: ProgramDocument, ids: readonly string[]): Decision {
+  const { drafts } = readTree(document);
+  const chosen = drafts.filter((id) => ids.includes(id));
+  const isEvent = (id: string) => document.steps[id]?.kind === "on_event";
+  const parts = [
+    { branch: PROGRAM, ids: chosen.filter((id) => !isEvent(id)) },
+    { branch: EVENTS, ids: chosen.filter(isEvent) },
+  ].filter((part) => part.ids.length > 0);
+  if (parts.length === 0) return { refused: "nothing" };
+  const decisions = parts.map((part) => moveSteps(document, part.ids, endOfBranch(document, part.branch)));
+  const refused = decisions.find((each) => "refused" in each);
+  return refused ?? { edits: decisions.flatMap((each) => ("edits" in each ? each.edits : [])) };
 }
 
-function middle(document: ProgramDocument, ids: readonly string[]): Position {
-  const positions = ids.map((id) => document.steps[id]?.pos ?? [0, 0]);
-  const mean = (axis: 0 | 1) =>
-    Math.round((positions.reduce((sum, pos) => sum + pos[axis], 0) / Math.max(1, positions.length)) * 100) / 100;
-  return [mean(0), Math.round((mean(1) - 0.8) * 100) / 100];
-}
-
-function sortByReading(tree: ProgramTree, ids: readonly string[]): string[] {
-  return [...ids].sort((one, other) => tree.reading.indexOf(one) - tree.reading.indexOf(other));
-}
-
-/** Steps taken out of a document, with all inside them and the functions they call. */
-export interface Clipping {
-  readonly steps: Readonly<Record<string, Step>>;
-  readonly outer: readonly string[];
-  readonly functions: Readonly<Record<string, FunctionDefinition>>;
-}
-
-export function clip(document: ProgramDocument, ids: readonly string[]): Clipping {
-  const outer = sortByReading(readTree(document), outermost(document, ids));
-  const steps = pickSteps(document, withDescendants(document, outer));
-  return { steps, outer, functions: document.functions };
-}
-
-function pickSteps(document: ProgramDocument, ids: Iterable<string>): Record<string, Step> {
-  return Object.fromEntries(
-    [...ids].flatMap((id) => {
-      const step = document.steps[id];
-      return step ? [[id, step] as const] : [];
-    }),
-  );
-}
-
-/** Put copies with ids of their own at the end of a branch, a little beside the originals. */
-export function paste(
-  document: ProgramDocument,
-  clipping: Clipping,
-  branch: BranchRef,
-  makeId: MakeId,
-  offset: Position = [0.5, -0.5],
-): { edits: Edit[]; added: string[] } {
-  const fresh = new Map(Object.keys(clipping.steps).map((id) => [id, makeId()]));
-  let last = placeAtEnd(document, branch);
-  const edits: Edit[] = [];
-  for (const [id, step] of Object.entries(clipping.steps)) {
-    if (clipping.outer.includes(id)) continue;
-    const parent = fresh.get(step.place?.[0] ?? "");
-    const place: StepPlace | null = step.place && parent ? [parent, step.place[1], step.place[2]] : null;
-    edits.push({ do: "add_step", id: fresh.get(id) ?? id, step: moved({ ...step, place }, offset) });
-  }
-  for (const id of clipping.outer) {
-    const step = clipping.steps[id];
-    if (!step) continue;
-    edits.push({ do: "add_step", id: fresh.get(id) ?? id, step: moved({ ...step, place: last }, offset) });
-    last = [last[0], last[1], keyBetween(last[2], null)];
-  }
-  const missing = Object.entries(clipping.functions).filter(
-    ([id]) =>
-      !document.functions[id] && edits.some((edit) => edit.do === "add_step" && edit.step.params.function === id),
-  );
-  for (const [id, value] of missing) edits.push({ do: "set_function", id, value });
-  return { edits, added: clipping.outer.map((id) => fresh.get(id) ?? id) };
-}
-
-function moved(step: Step, offset: Position): Step {
-  const pos = step.pos ?? [0, 0];
-  const shift = (axis: 0 | 1) => Math.round((pos[axis] + offset[axis]) * 100) / 100;
-  return { ...step, pos: [shift(0), shift(1)] };
+/** Steps that stand next to each other in one branch, in their order; null where they do not. */
+export function neighbours(document: ProgramDocument, ids: readonly string[]): { steps: string[]; goal: Goal } | null {
+  const chosen = new Set(outermost(document, ids));
+  const [first] = chosen;
+  const branch = first === undefined ? null : branchOf(document, first);
+  if (!branch) return null;
+  const siblings = readTree(document).children(branch.parent, branch.branch);
+  const steps = siblings.filter((id) => chosen.has(id));
+  const start = siblings.indexOf(steps[0] ?? "");
+  const together = steps.length === chosen.size && steps.every((id, index) => siblings[start + index] === id);
+  return together ? { steps, goal: { branch, after: siblings[start - 1] ?? null } } : null;
 }

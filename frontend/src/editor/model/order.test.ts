@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { keyBetween } from "./order";
+import { keyBetween, keysBetween } from "./order";
 
 test("a key between two neighbours sorts between them", () => {
   const key = keyBetween("A", "B");
@@ -37,4 +37,18 @@ test("one can always go in between", () => {
 
 test("keys that are equal by accident give one behind both", () => {
   expect(keyBetween("V", "V") > "V").toBe(true);
+});
+
+test("keys in a row ascend between their ends; equal ends leave no room", () => {
+  const keys = keysBetween("A", "B", 20) ?? [];
+  expect(keys).toHaveLength(20);
+  expect([...keys].sort()).toEqual(keys);
+  expect(keys.every((key) => key > "A" && key < "B")).toBe(true);
+  expect(keysBetween("A", "A", 1)).toBeNull();
+  expect(keysBetween("B", "A", 1)).toBeNull();
+});
+
+test("there is room behind any key that somebody else wrote", () => {
+  for (const key of ["~", "", "z".repeat(40), "ä", "0"])
+    expect((keysBetween(key, null, 3) ?? [])[0] ?? "").not.toBe("");
 });

@@ -1,5 +1,7 @@
 /** Fractional keys: strings over 0-9A-Za-z that sort bytewise, so that a step goes between two others. */
 
+import { compareBytes } from "./outline";
+
 const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
 const LAST = DIGITS.length - 1;
 
@@ -7,6 +9,29 @@ const LAST = DIGITS.length - 1;
 export function keyBetween(before: string | null, after: string | null): string {
   if (before !== null && after !== null && before >= after) return keyBetween(before, null);
   return between(before ?? "", after);
+}
+
+/** So many keys in a row between the two; null where there is no room, as between two equal keys. */
+export function keysBetween(before: string | null, after: string | null, count: number): string[] | null {
+  const keys: string[] = [];
+  for (let last = before; keys.length < count;) {
+    const key = keyInRoom(last, after);
+    if (key === null) return null;
+    keys.push(key);
+    last = key;
+  }
+  return keys;
+}
+
+/** Keys that others wrote may hold any signs; a longer one always follows. */
+function keyInRoom(before: string | null, after: string | null): string | null {
+  const ordered = before === null || after === null || compareBytes(before, after) < 0;
+  const candidates = ordered ? [between(before ?? "", after), `${before ?? ""}V`] : [];
+  return candidates.find((key) => liesBetween(key, before, after)) ?? null;
+}
+
+function liesBetween(key: string, before: string | null, after: string | null): boolean {
+  return compareBytes(key, before ?? "") > 0 && (after === null || compareBytes(key, after) < 0);
 }
 
 function between(low: string, high: string | null): string {

@@ -1,6 +1,7 @@
 /** What the toolbar, the keys and the menus do; each is one gesture and one entry to undo. */
 import type { Edit, Position } from "../model/edits";
-import { addStep, branchForNew, clip, deleteSteps, paste, type NewStep } from "../model/gestures";
+import { clip, paste, type Clipping } from "../model/clipping";
+import { addStep, branchForNew, branchOf, deleteSteps, endOfBranch, type Goal, type NewStep } from "../model/gestures";
 import type { BranchRef } from "../model/tree";
 import type { ProgramDocument } from "../model/types";
 import { finish } from "./tool";
@@ -44,18 +45,27 @@ export function copySelected(document: ProgramDocument): void {
 
 export function pasteCopied(document: ProgramDocument, apply: Apply): void {
   const { clipboard } = useUi.getState();
-  if (!clipboard) return;
-  const { edits, added } = paste(document, clipboard, branchNow(document), makeId);
-  apply(edits);
-  select(added);
+  if (clipboard) putCopies(document, apply, clipboard);
 }
 
 export function duplicateSelected(document: ProgramDocument, apply: Apply): void {
   const { selected } = useUi.getState();
-  if (selected.length === 0) return;
-  const { edits, added } = paste(document, clip(document, selected), branchNow(document), makeId);
+  if (selected.length > 0) putCopies(document, apply, clip(document, selected));
+}
+
+/** Copies go behind the selected step, else to the end of the branch. */
+export function putCopies(document: ProgramDocument, apply: Apply, clipping: Clipping): void {
+  const { edits, added } = paste(document, clipping, goalNow(document), makeId);
   apply(edits);
   select(added);
+}
+
+function goalNow(document: ProgramDocument): Goal {
+  const { into, selected } = useUi.getState();
+  const last = selected.at(-1);
+  const branch = last === undefined ? null : branchOf(document, last);
+  const goal = branch && last !== undefined ? { branch, after: last } : null;
+  return into || !goal || branch?.branch === "events" ? endOfBranch(document, branchNow(document)) : goal;
 }
 
 export function nudgeSelected(document: ProgramDocument, apply: Apply, by: Position): void {
