@@ -10,18 +10,19 @@ import {
   towards,
   type PixelPoint,
 } from "@/map/routePath";
-import type { Frame } from "../scene/frames";
 import type { Hull } from "../scene/hulls";
 import type { Link } from "../scene/links";
 import type { RouteShape } from "../scene/routing";
 import type { Scene } from "../scene/scene";
+import { FrameShape } from "./FrameShape";
 import classes from "./stage.module.css";
-import type { StepState } from "./StepChip";
+import type { OtherPerson, StepState } from "./StepChip";
 
 export interface DrawingProps {
   scene: Scene;
   selected: ReadonlySet<string>;
   stateOf: (step: string) => StepState;
+  othersOn: ReadonlyMap<string, OtherPerson>;
   onSelectStep?: (step: string, add: boolean) => void;
   /** A press on a link or stub: the next step goes there. */
   onSelectLink?: (link: Link) => void;
@@ -57,7 +58,14 @@ export const Drawing = memo(function Drawing(props: DrawingProps) {
         <LinkShape key={link.id} link={link} {...props} />
       ))}
       {scene.frames.map((frame) => (
-        <FrameShape key={frame.id} frame={frame} state={stateOf(frame.id)} selected={selected.has(frame.id)} />
+        <FrameShape
+          key={frame.id}
+          frame={frame}
+          state={stateOf(frame.id)}
+          selected={selected.has(frame.id)}
+          problem={scene.chips.get(frame.id)?.problem ?? null}
+          other={props.othersOn.get(frame.id) ?? null}
+        />
       ))}
     </svg>
   );
@@ -137,27 +145,5 @@ function LinkWord({ link, word }: { link: Link; word: string }) {
     <text x={at.x + (flat ? 0 : 8)} y={at.y + (flat ? -7 : 4)} textAnchor={flat ? "middle" : "start"}>
       {word}
     </text>
-  );
-}
-
-function FrameShape({ frame, state, selected }: { frame: Frame; state: StepState; selected: boolean }) {
-  const { box } = frame;
-  return (
-    <g className={classes.frame} data-state={state ?? undefined} data-selected={selected || undefined}>
-      <rect
-        x={box.left}
-        y={box.top}
-        width={box.right - box.left}
-        height={box.bottom - box.top}
-        rx={frame.kind === "try" ? 20 : 12}
-      />
-      {frame.kind === "while" ? (
-        <path
-          className={classes.loop}
-          d="M5 -5.5 -1 0 5 5.5"
-          transform={`translate(${box.right - 30} ${box.bottom})`}
-        />
-      ) : null}
-    </g>
   );
 }

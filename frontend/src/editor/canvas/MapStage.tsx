@@ -174,6 +174,7 @@ function Stage(props: MapStageProps) {
             scene={scene}
             selected={looks.selected}
             stateOf={looks.stateOf}
+            othersOn={looks.othersOn}
             onSelectStep={props.onStep}
             {...props.lines}
           />

@@ -1,10 +1,10 @@
 /** A step on the map: number badge, icon, short text; its shape says what it is. */
 import { Box } from "lucide-react";
 import { memo, type CSSProperties } from "react";
-import { OctagonMark, TickMark } from "@/map/StatusMark";
 import { VipoIcon } from "@/map/VipoIcon";
 import type { Chip } from "../scene/chips";
 import type { TextPart } from "../scene/words";
+import { cornerMark } from "./cornerMark";
 import classes from "./stage.module.css";
 
 export type StepState = "planned" | "running" | "done" | "failed" | "skipped" | null;
@@ -41,7 +41,7 @@ export const StepChip = memo(function StepChip({ chip, selected, state, other, n
     >
       {chip.shape === "diamond" ? <Diamond chip={chip} /> : <Face chip={chip} />}
       <Corner chip={chip} state={state} />
-      {other ? <span className={classes.flag}>{other.initials}</span> : null}
+      {other && chip.shape !== "header" ? <span className={classes.flag}>{other.initials}</span> : null}
       {note ? (
         <span className={classes.note}>
           <VipoIcon name="move" size={12} />
@@ -97,6 +97,7 @@ function Parts({ parts }: { parts: readonly TextPart[] }) {
     <span className={classes.text}>
       {parts.map((part, index) => (
         <span key={index} data-tone={part.tone}>
+          {part.swatch ? <i className={classes.swatch} style={{ background: part.swatch }} /> : null}
           {part.text}
         </span>
       ))}
@@ -104,26 +105,13 @@ function Parts({ parts }: { parts: readonly TextPart[] }) {
   );
 }
 
-/** The badge on the corner: what state the step is in, told by its shape. */
+/** A frame's head leaves the badge to the frame's corner. */
 function Corner({ chip, state }: { chip: Chip; state: StepState }) {
-  const mark = cornerMark(chip, state);
+  const mark = chip.shape === "header" ? null : cornerMark(chip.problem, state);
   if (!mark) return null;
   return (
     <svg className={classes.corner} width={20} height={20} viewBox="-10 -10 20 20" aria-hidden="true">
       {mark}
     </svg>
   );
-}
-
-function cornerMark(chip: Chip, state: StepState) {
-  if (state === "failed" || (state === null && chip.problem === "error")) return <OctagonMark />;
-  if (state === "done") return <TickMark colour="var(--done)" />;
-  if (state === "running")
-    return (
-      <g fill="none" strokeWidth={3}>
-        <circle r={6.5} fill="var(--panel)" stroke="var(--busy-soft)" />
-        <circle r={6.5} stroke="var(--busy)" strokeDasharray="26 41" className={classes.turning} />
-      </g>
-    );
-  return null;
 }

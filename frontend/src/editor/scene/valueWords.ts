@@ -31,7 +31,15 @@ export function valueText(value: Value | undefined, speaker: Speaker): string | 
   return value === null || value === undefined || value === "" ? null : sayValue(value, speaker, 0);
 }
 
-const SIGNS: Readonly<Record<string, string>> = { "==": "=", "!=": "≠", "<=": "≤", ">=": "≥", "*": "×", "/": "÷", "-": "−" };
+const SIGNS: Readonly<Record<string, string>> = {
+  "==": "=",
+  "!=": "≠",
+  "<=": "≤",
+  ">=": "≥",
+  "*": "×",
+  "/": "÷",
+  "-": "−",
+};
 const LEVELS: Readonly<Record<string, number>> = {
   or: 1,
   and: 2,
