@@ -4,123 +4,145 @@ their devices.
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from string import ascii_lowercase
 
 from editor.language import nodes as n
-from editor.language.layout import Layout
-from editor.language.names import snake_case
-from editor.language.outline import PROGRAM, make_outline, mapping
+from editor.language.alignment import align
+from editor.language.grouping import Drawable, grouped
+from editor.language.keeping import (
+    Functions,
+    keep_functions,
+    keep_parameters,
+    keep_roles,
+    keep_values,
+    with_document_names,
+)
+from editor.language.ladder import FORMAT, climb
+from editor.language.layout import CHIP_HEIGHT_M, Layout
+from editor.language.ordering import keep_orders
+from editor.language.outline import PROGRAM, branches_of, make_outline, mapping
+from editor.language.positions import add_moves
+from editor.language.reading import read_document
 from editor.language.surroundings import Surroundings
-from editor.language.values import read_point, write_place, write_value
+from editor.language.values import read_point, write_argument, write_place, write_value
 
-_DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
 _Drawn = tuple[str, dict[str, object], tuple[tuple[str, n.Block], ...]]
 """Kind, parameters and branches of one step."""
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class _Drawer:
-    """The document so far, and what the previous one offers."""
+    """The ids of roles and functions by their names in a tree."""
 
-    tree: n.Tree
-    layout: Layout
-    taken: set[str]
-    known: dict[str, list[tuple[str, Mapping[str, object]]]]
-    """Kind and parameters → steps of the previous document that are just so, the first one last."""
-    steps: dict[str, object] = field(default_factory=dict)
-    function_ids: dict[str, str] = field(default_factory=dict)
-    role_ids: dict[str, str] = field(default_factory=dict)
-    count: int = 0
+    role_ids: Mapping[str, str]
+    function_ids: Mapping[str, str]
 
-    def block(self, parent: str, branch: str, block: n.Block) -> None:
-        """Draw the steps of one branch."""
-        drawn = list(_grouped(block))
-        width = 1 if len(drawn) < len(_DIGITS) else 3
-        for index, nodes in enumerate(drawn):
-            kind, params, branches = self._draw(nodes)
-            step, pos = self._place(kind, params, nodes[-1].step)
-            order = _order(index, width)
-            self.steps[step] = {"kind": kind, "place": [parent, branch, order], "pos": pos, "params": params}
-            for name, inner in branches:
-                self.block(step, name, inner)
-
-    def _draw(self, nodes: n.Block) -> _Drawn:
+    def draw(self, nodes: Sequence[Drawable]) -> _Drawn:
+        """Return the step that some nodes are."""
         loads = [node for node in nodes if isinstance(node, n.Pick | n.Drop)]
         if len(loads) == 2:
-            return _pick_and_drop(self, nodes)
-        if loads:
-            return DRAWERS[type(loads[0])](self, loads[0])
-        return DRAWERS[type(nodes[0])](self, nodes[0])
+            return _pick_and_drop(self, tuple(node for node in nodes if not isinstance(node, n.Event)))
+        node = loads[0] if loads else nodes[0]
+        return _event(self, node) if isinstance(node, n.Event) else DRAWERS[type(node)](self, node)
 
-    def _place(self, kind: str, params: dict[str, object], wanted: str) -> tuple[str, list[float]]:
-        """Return the step's id and position: those that it had, or new ones."""
-        alike = self.known.get(_fingerprint(kind, params), [])
-        same = next((item for item in alike if item[0] == wanted), alike[-1] if alike else None)
-        if same is not None:
-            alike.remove(same)
-            point = read_point(same[1].get("pos"))
-            return same[0], list(point) if point else self.layout.put(kind, params)
-        if wanted and wanted not in self.steps and wanted not in self.taken:
-            self.taken.add(wanted)
-            return wanted, self.layout.put(kind, params)
-        self.count += 1
-        while f"s{self.count}" in self.taken:
+
+@dataclass(frozen=True, slots=True)
+class _Before:
+    """The document before: its steps as they are, and what a script says of them."""
+
+    raw: Mapping[str, Mapping[str, object]]
+    said: Mapping[str, tuple[str, Mapping[str, object]]]
+    """Kind and parameters of each step that takes part in the program."""
+
+
+@dataclass(slots=True)
+class _Builder:
+    """The steps so far."""
+
+    drawer: _Drawer
+    before: _Before
+    layout: Layout
+    functions: Functions
+    names: Mapping[str, str]
+    """What the document calls the parameters that can be seen here."""
+    steps: dict[str, object] = field(default_factory=dict)
+    count: int = 0
+
+    def block(self, parent: str, branch: str, block: Sequence[Drawable]) -> None:
+        """Draw the steps of one branch."""
+        groups = [(nodes, self.drawer.draw(nodes)) for nodes in grouped(block)]
+        ids = [self._id(nodes[-1].step, drawn[0]) for nodes, drawn in groups]
+        orders = keep_orders([(step, self._order_before(step, parent, branch)) for step in ids])
+        for step, order, (_, drawn) in zip(ids, orders, groups, strict=True):
+            self._step(step, [parent, branch, order], drawn)
+
+    def _id(self, wanted: str, kind: str) -> str:
+        """Return the step's id: the one it had, unless it is taken or the step became one of another kind."""
+        known = self.before.said.get(wanted)
+        if not wanted or wanted in self.steps or (wanted in self.before.raw and (known is None or known[0] != kind)):
             self.count += 1
-        self.taken.add(f"s{self.count}")
-        return f"s{self.count}", self.layout.put(kind, params)
+            while f"s{self.count}" in self.steps or f"s{self.count}" in self.before.raw:
+                self.count += 1
+            wanted = f"s{self.count}"
+        self.steps[wanted] = {}
+        return wanted
+
+    def _order_before(self, step: str, parent: str, branch: str) -> str | None:
+        place = self.before.raw.get(step, {}).get("place")
+        same = isinstance(place, list | tuple) and len(place) == 3 and list(place[:2]) == [parent, branch]
+        return str(place[2]) if same and isinstance(place, list | tuple) else None
+
+    def _step(self, step: str, place: list[str], drawn: _Drawn) -> None:
+        kind, given, branches = drawn
+        raw = self.before.raw.get(step)
+        names = self.functions.names.get(self._method(given), {}) if kind == "call" else {}
+        says = self._named(given, names)
+        if raw is None:
+            self.layout.follow(self._first_known(branches))
+            body: dict[str, object] = {"kind": kind, "place": place, "pos": self.layout.put(kind, says)}
+            params = says
+        else:
+            self.layout.follow(read_point(raw.get("pos")))
+            body = {**raw, "place": place}
+            said = self._named(self.before.said[step][1], names)
+            params = keep_values(mapping(raw.get("params")), said, says)
+        if kind == "parallel":
+            letters = _letters(mapping(raw or {}).get("params"), len(branches))
+            branches = tuple((letter, inner) for letter, (_, inner) in zip(letters, branches, strict=True))
+            params = {**params, "branches": letters} if letters != _letters(params, None) else params
+        self.steps[step] = {**body, "params": params}
+        for name, inner in branches:
+            self.block(step, name, inner)
+
+    def _method(self, given: Mapping[str, object]) -> str:
+        wanted = given.get("function")
+        return next((method for method, key in self.drawer.function_ids.items() if key == wanted), "")
+
+    def _named(self, given: Mapping[str, object], arguments: Mapping[str, str]) -> dict[str, object]:
+        named = {key: with_document_names(value, self.names) for key, value in given.items()}
+        if arguments and "args" in named:
+            named["args"] = {arguments.get(key, key): value for key, value in mapping(named["args"]).items()}
+        return named
+
+    def _first_known(self, branches: tuple[tuple[str, n.Block], ...]) -> n.Point | None:
+        """Return where the first step stands that was there before and now stands in a new one."""
+        for _, block in branches:
+            for node in block:
+                point = read_point(self.before.raw.get(node.step, {}).get("pos"))
+                if point is not None:
+                    return point[0], point[1] + 3 * CHIP_HEIGHT_M
+        return None
 
 
-def _order(index: int, width: int) -> str:
-    digits = ""
-    for _ in range(width):
-        index, digit = divmod(index, len(_DIGITS))
-        digits = _DIGITS[digit] + digits
-    return f"{digits}V"
-
-
-def _fingerprint(kind: str, params: Mapping[str, object]) -> str:
-    return json.dumps([kind, params], sort_keys=True, default=str)
-
-
-def _grouped(block: n.Block) -> Iterator[n.Block]:
-    """Yield the nodes of each step: a move belongs to the pick or drop behind it, a pick to a drop of the same load."""
-    index = 0
-    while index < len(block):
-        length = _length(block[index:])
-        yield block[index : index + length]
-        index += length
-
-
-def _length(rest: n.Block) -> int:
-    """Return how many nodes the first step has."""
-    step = rest[0].step
-    if step:
-        return next((i for i, node in enumerate(rest) if node.step != step), len(rest))
-    start = 1 if isinstance(rest[0], n.Move) and not rest[0].route and _leads_to(rest[0], rest[1:]) else 0
-    if isinstance(rest[0], n.Move) and not start:
-        return 1
-    first, behind = rest[start], rest[start + 1 :]
-    if (
-        isinstance(first, n.Pick)
-        and len(behind) > 1
-        and isinstance(behind[0], n.Move)
-        and _leads_to(behind[0], behind[1:])
-    ):
-        drop = behind[1]
-        if isinstance(drop, n.Drop) and _load(first) == _load(drop):
-            return start + 3
-    return start + 1
-
-
-def _leads_to(move: n.Move, rest: n.Block) -> bool:
-    following = rest[0] if rest else None
-    return isinstance(following, n.Pick | n.Drop) and (following.role, following.at) == (move.role, move.to)
-
-
-def _load(node: n.Pick | n.Drop) -> tuple[object, ...]:
-    return node.role, node.object, node.quantity
+def _letters(params: object, count: int | None) -> list[str]:
+    """Return the names of a Parallel's branches: those that it has, as many as are needed."""
+    known = list(branches_of("parallel", mapping(params)))
+    if count is None or len(known) == count:
+        return known
+    spare = [letter for letter in ascii_lowercase if letter not in known]
+    return [*known, *spare][:count]
 
 
 def _kept(**params: object) -> dict[str, object]:
@@ -159,13 +181,13 @@ def _operate(drawer: _Drawer, node: n.Operate) -> _Drawn:
 
 
 def _wait(drawer: _Drawer, node: n.Wait) -> _Drawn:
-    return "wait", _kept(seconds=write_value(node.seconds)), ()
+    return "wait", _kept(duration=write_value(node.seconds)), ()
 
 
 def _wait_until(drawer: _Drawer, node: n.WaitUntil) -> _Drawn:
     until = write_value(node.condition)
     missing = {} if until is None else until
-    return "wait", {"until": missing, **_kept(timeout_s=write_value(node.timeout_s))}, ()
+    return "wait", {"until": missing, **_kept(timeout=write_value(node.timeout_s))}, ()
 
 
 def _if(drawer: _Drawer, node: n.If) -> _Drawn:
@@ -186,8 +208,12 @@ def _try(drawer: _Drawer, node: n.Try) -> _Drawn:
 
 
 def _call(drawer: _Drawer, node: n.Call) -> _Drawn:
-    arguments = {name: write_value(value) for name, value in node.arguments}
+    arguments = {name: write_argument(value) for name, value in node.arguments}
     return "call", _kept(function=drawer.function_ids.get(node.function), args=arguments), ()
+
+
+def _event(drawer: _Drawer, node: n.Event) -> _Drawn:
+    return "on_event", _kept(condition=write_value(node.condition), starts=node.starts), (("body", node.body),)
 
 
 DRAWERS: Mapping[type[n.Node], Callable[..., _Drawn]] = {
@@ -208,66 +234,67 @@ DRAWERS: Mapping[type[n.Node], Callable[..., _Drawn]] = {
 def tree_to_document(
     tree: n.Tree, surroundings: Surroundings, previous: Mapping[str, object] | None = None
 ) -> dict[str, object]:
-    """Return the document of a tree; steps that the previous document has, too, keep their ids and places there."""
-    old = mapping(previous)
+    """Return the document of a tree; what the previous document has, too, stays there as it is.
+
+    Steps that did not change, moved or changed a value keep their ids, positions and everything that no script
+    says; drafts, comments and zones stay. New steps stand near their devices.
+    """
+    old = mapping(climb(previous or {})) if previous else {}
+    tree_before = add_moves(read_document(old).tree, _standing(surroundings)) if old else n.Tree()
+    aligned = align(tree, tree_before) if old else tree
+    functions = keep_functions(aligned, tree_before, mapping(old.get("functions")), set(mapping(old.get("steps"))))
+    roles, role_ids = keep_roles(aligned, tree_before, mapping(old.get("roles")))
+    parameters, names = keep_parameters(aligned, tree_before, mapping(old.get("parameters")))
+    before = _look_back(old, tree_before)
     layout = Layout(surroundings)
-    drawer = _Drawer(tree, layout, set(make_outline(old).kinds), _known_steps(old, layout))
-    functions = _functions(tree, mapping(old.get("functions")), drawer)
-    roles = _roles(tree, mapping(old.get("roles")), drawer)
-    drawer.block(PROGRAM, "body", tree.body)
-    for function in tree.functions:
-        drawer.block(drawer.function_ids[function.method], "body", function.body)
+    for step in before.raw.values():
+        layout.occupy(read_point(step.get("pos")))
+    builder = _Builder(_Drawer(role_ids, functions.ids), before, layout, functions, names)
+    builder.block(PROGRAM, "body", aligned.body)
+    builder.block(PROGRAM, "events", aligned.events)
+    for function in aligned.functions:
+        builder.names = {**names, **functions.names[function.method]}
+        builder.block(functions.ids[function.method], "body", function.body)
     start = read_point(old.get("start_pos"))
     return {
-        "format": 1,
+        **old,
+        "format": FORMAT,
         "start_pos": list(start) if start else layout.start(),
-        "steps": drawer.steps,
-        "functions": functions,
+        "steps": _with_drafts(builder.steps, before, functions.document),
+        "functions": functions.document,
         "roles": roles,
-        "parameters": {p.name: _parameter(p) for p in tree.parameters},
+        "parameters": parameters,
         "zones": dict(mapping(old.get("zones"))),
     }
 
 
-def _known_steps(old: Mapping[str, object], layout: Layout) -> dict[str, list[tuple[str, Mapping[str, object]]]]:
-    outline, steps = make_outline(old), mapping(old.get("steps"))
-    known: dict[str, list[tuple[str, Mapping[str, object]]]] = {}
-    for name in sorted(outline.kinds, reverse=True):
-        step = mapping(steps.get(name))
-        params = outline.params[name]
-        known.setdefault(_fingerprint(outline.kinds[name], params), []).append((name, step))
-        point = read_point(step.get("pos"))
-        if point is not None:
-            layout.occupy(point)
-    return known
+def _standing(surroundings: Surroundings) -> dict[str, str]:
+    known = ((name, facts.standing_at) for name, facts in surroundings.devices.items())
+    return {name: at for name, at in known if at is not None}
 
 
-def _functions(tree: n.Tree, old: Mapping[str, object], drawer: _Drawer) -> dict[str, object]:
-    by_method = {snake_case(str(mapping(item).get("name", key))): key for key, item in sorted(old.items())}
-    functions: dict[str, object] = {}
-    for function in tree.functions:
-        key = function.id or by_method.get(function.method, function.method)
-        while key in functions or key == PROGRAM or key in drawer.taken:
-            key = f"{key}_"
-        drawer.function_ids[function.method] = key
-        before = mapping(old.get(key))
-        given = {"name": function.name or function.method, "parameters": [_parameter(p) for p in function.parameters]}
-        functions[key] = {**before, **given} if not before or function.id else {**given, **before}
-    return functions
+def _look_back(old: Mapping[str, object], tree: n.Tree) -> _Before:
+    roles = {role.name: role.id for role in tree.roles}
+    drawer = _Drawer(roles, {function.method: function.id for function in tree.functions})
+    said: dict[str, tuple[str, Mapping[str, object]]] = {}
+    left: list[Sequence[Drawable]] = [tree.body, tree.events, *(function.body for function in tree.functions)]
+    for block in left:
+        for nodes in grouped(block):
+            kind, params, branches = drawer.draw(nodes)
+            said[nodes[-1].step] = (kind, params)
+            left.extend(inner for _, inner in branches)
+    steps = mapping(old.get("steps"))
+    return _Before({str(name): mapping(step) for name, step in steps.items()}, said)
 
 
-def _parameter(parameter: n.Parameter) -> dict[str, object]:
-    kind = parameter.type or ("text" if isinstance(parameter.default, str) else "number")
-    body: dict[str, object] = {"name": parameter.name, "type": kind, "unit": parameter.unit}
-    return body if parameter.default is None else {**body, "default": parameter.default}
-
-
-def _roles(tree: n.Tree, old: Mapping[str, object], drawer: _Drawer) -> dict[str, object]:
-    by_name = {snake_case(str(mapping(item).get("name", key))): key for key, item in sorted(old.items())}
-    roles: dict[str, object] = dict(old)
-    for role in tree.roles:
-        key = role.id or by_name.get(role.name, role.name)
-        drawer.role_ids[role.name] = key
-        binding = {"can": list(role.can)} if role.device is None else {"device": role.device}
-        roles[key] = {"name": str(mapping(old.get(key)).get("name", role.name)), **binding}
-    return roles
+def _with_drafts(drawn: dict[str, object], before: _Before, functions: Mapping[str, object]) -> dict[str, object]:
+    """Return the steps with those that were no part of the program, which they do not become by this."""
+    kept = {name: dict(step) for name, step in before.raw.items() if name not in before.said}
+    steps: dict[str, object] = {**kept, **drawn}
+    outline = make_outline({"steps": steps, "functions": functions})
+    roots = [child for (parent, _), inner in outline.children.items() for child in inner
+             if parent == PROGRAM or parent in functions or parent in drawn]  # fmt: skip
+    for name in roots:
+        if name in kept:
+            steps[name] = {**kept[name], "place": None}
+    return steps

@@ -23,9 +23,15 @@ class Layout:
     taken: list[Point] = field(default_factory=list)
     last: Point = (1.0, -1.0)
 
-    def occupy(self, point: Point) -> None:
+    def occupy(self, point: Point | None) -> None:
         """Keep a place for a step that stands there already."""
-        self.taken.append(point)
+        if point is not None:
+            self.taken.append(point)
+
+    def follow(self, point: Point | None) -> None:
+        """Put the next step that has no place of its own below this one."""
+        if point is not None:
+            self.last = point
 
     def start(self) -> list[float]:
         """Return a place for the start."""
