@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from editor.language.plan import AnswerSpec
 from execution.mission import Mission
 from registry.capability import Scalar
 
@@ -41,6 +42,14 @@ class TimerFired:
 
 
 @dataclass(frozen=True, slots=True)
+class Answered:
+    """A person has answered a question; the value fits what was asked for."""
+
+    question: int
+    value: Scalar
+
+
+@dataclass(frozen=True, slots=True)
 class PauseAsked:
     """Ask for nothing new until resumed; what is under way settles."""
 
@@ -59,7 +68,7 @@ class CancelAsked:
     reason: str = ""
 
 
-Event = Facts | MissionDone | MissionFailed | TimerFired | PauseAsked | Resumed | CancelAsked
+Event = Facts | MissionDone | MissionFailed | TimerFired | Answered | PauseAsked | Resumed | CancelAsked
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +102,32 @@ class CancelTimer:
 
 
 @dataclass(frozen=True, slots=True)
+class AskPeople:
+    """Put a question to the people of the site; Answered is awaited."""
+
+    question: int
+    text: str
+    answer: AnswerSpec
+    step: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CancelQuestion:
+    """The question is withdrawn; no answer is awaited."""
+
+    question: int
+
+
+@dataclass(frozen=True, slots=True)
+class Tell:
+    """Tell the people of the site; `level` is info or warning."""
+
+    text: str
+    level: str = "info"
+    step: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class StepEntered:
     """A step of the program begins."""
 
@@ -123,4 +158,7 @@ class Finished:
     reason: str
 
 
-Action = Ask | Cancel | SetTimer | CancelTimer | StepEntered | StepLeft | StepFailed | Finished
+Action = (
+    Ask | Cancel | SetTimer | CancelTimer | AskPeople | CancelQuestion | Tell
+    | StepEntered | StepLeft | StepFailed | Finished
+)  # fmt: skip

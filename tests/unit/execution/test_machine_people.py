@@ -1,0 +1,214 @@
+"""Questions, notices, variables, events and stored states of the run machine."""
+
+import json
+
+from editor.language.plan import (
+    AnswerSpec,
+    AskPerson,
+    Assign,
+    Branch,
+    Constant,
+    End,
+    EventEnd,
+    EventEntry,
+    Instruction,
+    Invoke,
+    Jump,
+    Move,
+    Notify,
+    Operation,
+    PlaceRef,
+    Plan,
+    Reading,
+    Return,
+    TryBegin,
+    Variable,
+    Wait,
+)
+from execution import machine
+from execution import run_messages as r
+
+OVEN = PlaceRef(device="oven")
+HOT = Operation(">", (Reading(Constant("oven"), "temperature"), Constant(80)))
+ONE = Constant(1)
+
+
+def plan(*instructions, events=(), **parameters):
+    whole = tuple(i if isinstance(i, Instruction) else Instruction(i) for i in instructions)
+    return Plan(whole, {}, parameters, events=events)
+
+
+def reload(state):
+    return machine.from_json(json.loads(json.dumps(machine.to_json(state))))
+
+
+def heat(value):
+    return r.Facts({("oven", "temperature"): value})
+
+
+DRY = AskPerson(Constant("Is it dry?"), AnswerSpec("boolean"), "dry", True, Constant(600))
+
+
+def test_a_question_waits_for_its_answer_and_the_variable_takes_it():
+    program = plan(Instruction(DRY, "q"), Branch(Variable("dry"), 3), Instruction(Wait(ONE), "yes"), End())
+    state, actions = machine.start(program, {})
+    assert actions == (
+        r.StepEntered("q"),
+        r.SetTimer(1, 600),
+        r.AskPeople(1, "Is it dry?", AnswerSpec("boolean"), "q"),
+    )
+    assert machine.step(program, state, r.Answered(9, True)) == (state, ())
+    state, actions = machine.step(program, reload(state), r.Answered(1, True))
+    assert actions == (r.CancelTimer(1), r.StepLeft("q"), r.StepEntered("yes"), r.SetTimer(2, 1))
+    assert state.frames[0] == {"dry": True}
+
+
+def test_a_question_that_nobody_answers_is_withdrawn_and_timed_out():
+    program = plan(TryBegin(3, ("timed_out",)), Instruction(DRY, "q"), End(), Instruction(Wait(ONE), "late"), End())
+    state, _ = machine.start(program, {})
+    state, actions = machine.step(program, state, r.TimerFired(1))
+    why = "Nobody answered in time."
+    assert actions == (r.CancelQuestion(1), r.StepFailed("q", "timed_out", why), r.StepEntered("late"),
+                       r.SetTimer(2, 1))  # fmt: skip
+    assert machine.step(program, state, r.Answered(1, True)) == (state, ())
+
+
+def test_an_answer_while_paused_counts_when_the_run_goes_on():
+    program = plan(DRY, End())
+    state, _ = machine.start(program, {})
+    state, _ = machine.step(program, state, r.PauseAsked("Ada paused it"))
+    state, actions = machine.step(program, reload(state), r.Answered(1, False))
+    assert actions == ()
+    state, actions = machine.step(program, reload(state), r.Resumed())
+    assert actions == (r.CancelTimer(1), r.Finished("finished", ""))
+
+
+def test_a_cancelled_run_withdraws_its_question():
+    state, _ = machine.start(plan(DRY, End()), {})
+    _, actions = machine.step(plan(DRY, End()), state, r.CancelAsked("x"))
+    assert actions == (r.CancelQuestion(1), r.CancelTimer(1), r.Finished("cancelled", "x"))
+
+
+def test_people_are_told_and_the_program_goes_on():
+    program = plan(Instruction(Notify(Constant("Box done"), "warning"), "n"), End())
+    _, actions = machine.start(program, {})
+    told = r.Tell("Box done", "warning", "n")
+    assert actions == (r.StepEntered("n"), told, r.StepLeft("n"), r.Finished("finished", ""))
+
+
+def test_shared_variables_are_the_programs_others_are_of_the_call():
+    program = plan(
+        Invoke(2, "mix", {"n": Constant(2)}, "total", shared=True),
+        Wait(Operation("+", (Variable("total"), Variable("count")))),
+        Assign("count", Constant(10), shared=True),
+        Assign("n", Operation("*", (Variable("n"), Constant(3)))),
+        Return(Variable("n")),
+        count=0,
+    )
+    state, actions = machine.start(program, {})
+    assert actions == (r.SetTimer(2, 16),)
+    assert state.frames == {0: {"count": 10, "total": 6}}
+
+
+EVENT = EventEntry("e", 2, HOT)
+WATCH = plan(Instruction(Move("robot", OVEN), "m"), End(), Instruction(Wait(ONE), "w"), EventEnd(), events=(EVENT,))
+
+
+def test_an_event_runs_beside_the_program_each_time_its_condition_becomes_true():
+    state, _ = machine.start(WATCH, {})
+    state, actions = machine.step(WATCH, reload(state), heat(90))
+    assert actions == (r.StepEntered("e"), r.StepEntered("w"), r.SetTimer(4, 1))
+    state, actions = machine.step(WATCH, reload(state), heat(95))
+    assert actions == ()
+    state, actions = machine.step(WATCH, reload(state), r.TimerFired(4))
+    assert actions == (r.StepLeft("w"), r.StepLeft("e"))
+    assert machine.step(WATCH, state, heat(99))[1] == ()
+    state, _ = machine.step(WATCH, reload(state), heat(20))
+    state, actions = machine.step(WATCH, reload(state), heat(90))
+    assert actions[0] == r.StepEntered("e")
+
+
+def test_what_holds_at_the_beginning_is_no_becoming_true():
+    state, actions = machine.start(WATCH, {}, {("oven", "temperature"): 90})
+    assert actions == (r.StepEntered("m"), actions[1])
+    assert state.truths == {0: True}
+
+
+def test_events_end_with_the_program():
+    state, _ = machine.start(WATCH, {})
+    state, _ = machine.step(WATCH, state, heat(90))
+    _, actions = machine.step(WATCH, state, r.MissionDone(1))
+    over = "The program was over."
+    assert actions == (r.StepLeft("m"), r.CancelTimer(4), r.StepFailed("w", "cancelled", over),
+                       r.StepFailed("e", "cancelled", over), r.Finished("finished", ""))  # fmt: skip
+
+
+def test_a_failure_in_an_events_body_fails_the_run():
+    program = plan(Instruction(Move("robot", OVEN), "m"), End(), Wait(Constant(-1)), EventEnd(), events=(EVENT,))
+    state, _ = machine.start(program, {})
+    state, actions = machine.step(program, state, heat(90))
+    why = "It is told to wait -1 s; a wait cannot be less than nothing."
+    assert actions == (r.StepEntered("e"), r.StepFailed("e", "refused", why), r.Cancel(1),
+                       r.StepFailed("m", "cancelled", why), r.Finished("failed", why))  # fmt: skip
+    assert state.status == "failed"
+
+
+def test_an_event_watches_variables_too_and_two_that_chase_each_other_rest():
+    up = Operation("==", (Variable("n"), ONE))
+    events = (EventEntry("a", 4, up), EventEntry("b", 6, Operation("not", (up,))))
+    program = plan(Instruction(Wait(ONE), "w"), Assign("n", ONE, shared=True), Instruction(Wait(ONE), "x"), End(),
+                   Assign("n", Constant(0), shared=True), EventEnd(),
+                   Assign("n", ONE, shared=True), EventEnd(), events=events, n=0)  # fmt: skip
+    state, _ = machine.start(program, {})
+    state, actions = machine.step(program, state, r.TimerFired(1))
+    told = [action for action in actions if isinstance(action, r.StepEntered)]
+    assert told == [r.StepEntered("x"), r.StepEntered("a"), r.StepEntered("b"), r.StepEntered("a")]
+    assert actions[-1] == r.SetTimer(9, machine.YIELD_S)
+    assert state.status == "running"
+
+
+def test_an_event_that_starts_runs_is_not_looked_at_and_a_run_can_begin_there():
+    event = EventEntry("e", 2, HOT, "run")
+    program = plan(
+        Instruction(Move("robot", OVEN), "m"), End(), Instruction(Wait(ONE), "w"), EventEnd(), events=(event,)
+    )
+    state, _ = machine.start(program, {})
+    assert machine.step(program, state, heat(90))[1] == ()
+    state, actions = machine.start(program, {}, {("oven", "temperature"): 90}, entry=2)
+    assert actions == (r.StepEntered("e"), r.StepEntered("w"), r.SetTimer(1, 1))
+    _, actions = machine.step(program, state, r.TimerFired(1))
+    assert actions == (r.StepLeft("w"), r.StepLeft("e"), r.Finished("finished", ""))
+
+
+FORMAT_1 = {
+    "format": 1, "status": "running", "reason": "", "next_id": 3, "facts": [["oven", "temperature", 20]],
+    "frames": {"0": {"n": 1}, "1": {"minutes": 3}},
+    "threads": [{"id": 0, "at": 2, "leaf": "w", "open": ["c"], "waits_for": "timer", "waits_id": 2, "wake": None,
+                 "parent": None, "guards": [{"handler": 9, "kinds": ["failed"], "calls": 1, "open": 0}],
+                 "calls": [{"frame": 0, "back_to": -1, "result": None, "open": 0},
+                           {"frame": 1, "back_to": 1, "result": "n", "open": 1}]}],
+}  # fmt: skip
+
+
+def test_a_state_that_the_former_version_stored_goes_on():
+    program = plan(Instruction(Invoke(2, "mix", {}), enters=("c",), leaves=("c",)), End(),
+                   Instruction(Wait(Variable("minutes")), "w"), Return(Constant(7)))  # fmt: skip
+    state = machine.from_json(FORMAT_1)
+    assert machine.to_json(state)["format"] == 2
+    state, actions = machine.step(program, state, r.TimerFired(2))
+    assert actions == (r.StepLeft("w"), r.StepLeft("c"), r.Finished("finished", ""))
+    assert state.frames[0]["n"] == 7
+
+
+def test_recursion_through_branches_is_bounded_too():
+    from editor.language.plan import Fork, Join
+
+    program = plan(Fork((2,), 1), End(), Invoke(0, "again", {}), Join())
+    state, _ = machine.start(program, {})
+    for timer in range(1, 2000):
+        state, _ = machine.step(program, state, r.TimerFired(timer))
+    assert (state.status, state.reason) == ("failed", "“again” calls itself more than 100 times deep.")
+
+
+def test_a_jump_into_nowhere_ends_the_run():
+    assert machine.start(plan(Jump(77)), {})[0].status == "finished"
