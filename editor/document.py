@@ -15,7 +15,8 @@ from typing import Any
 from pycrdt import Doc, Map, TransactionEvent, merge_updates
 from pycrdt import get_state as state_of_update
 
-FORMAT = 1
+from editor.language.ladder import FIRST_FORMAT, FORMAT, climb, format_of
+
 ROOTS = ("meta", "steps", "functions", "roles", "parameters", "zones")
 _CONTENT = ROOTS[1:]
 EMPTY_UPDATE = b"\x00\x00"
@@ -60,11 +61,8 @@ class SharedDocument:
             self._base, self._log, self._log_bytes = self.encode(), [], 0
 
     def _restored(self) -> Doc[Any]:
-        document: Doc[Any] = Doc(allow_multithreading=True)
-        for name in ROOTS:
-            document.get(name, type=Map)
         try:
-            document.apply_update(merge([self._base, *self._log]))
+            document = _document_with(merge([self._base, *self._log]))
         except (ValueError, RuntimeError) as error:
             raise BadUpdate(str(error)) from error
         document.observe(self._on_change)
@@ -92,11 +90,63 @@ class SharedDocument:
         """Return the plain form (docs/architecture.md, "The document")."""
         plain = {name: _plain(self._document.get(name, type=Map).to_py() or {}) for name in ROOTS}
         meta = plain.pop("meta")
-        return {"format": meta.get("format", FORMAT), "start_pos": meta.get("start_pos"), **plain}
+        return {"format": meta.get("format", FIRST_FORMAT), "start_pos": meta.get("start_pos"), **plain}
+
+    def climb(self) -> bool:
+        """Bring the content to today's format, by the same update whoever does it; tell whether there was a need.
+
+        Old names that an old browser brings later are renamed by the next climb.
+        """
+        before = self.to_json()
+        after: Any = climb({**before, "format": FIRST_FORMAT})
+        if format_of(before) > FORMAT or after == before:
+            return False
+        copy = _document_with(self.encode(), _client_id(self.digest(), self.state()))
+        with copy.transaction():
+            copy.get("meta", type=Map)["format"] = after["format"]
+            steps = copy.get("steps", type=Map)
+            for name, step in sorted(after["steps"].items()):
+                if step != before["steps"][name]:
+                    _rewrite(steps, name, step)
+        self.apply(copy.get_update(self.state()))
+        return True
 
     def digest(self) -> str:
         """Return a hash of the content: two documents that hold the same have the same."""
         return digest_of(self.to_json())
+
+
+def _document_with(update: bytes, client_id: int | None = None) -> Doc[Any]:
+    document: Doc[Any] = Doc(client_id=client_id, allow_multithreading=True)
+    for name in ROOTS:
+        document.get(name, type=Map)
+    document.apply_update(update)
+    return document
+
+
+def _client_id(digest: str, state: bytes) -> int:
+    """Return an author for changes that follow from the content alone: the same wherever the content is the same."""
+    return int.from_bytes(hashlib.sha256(digest.encode() + state).digest()[:4])
+
+
+def _rewrite(steps: Any, name: str, wanted: Mapping[str, Any]) -> None:
+    """Give a step other parameters, one by one where they are shared one by one."""
+    step = steps[name]
+    params = step["params"] if isinstance(step, Map) else None
+    if not isinstance(step, Map):
+        steps[name] = wanted
+    elif not isinstance(params, Map):
+        step["params"] = wanted["params"]
+    else:
+        _set_all(params, wanted["params"])
+
+
+def _set_all(shared: Any, wanted: Mapping[str, Any]) -> None:
+    for name in sorted({*shared.keys(), *wanted}):
+        if name not in wanted:
+            del shared[name]
+        elif name not in shared.keys() or _plain(shared[name]) != wanted[name]:  # noqa: SIM118 - a Yjs map, no dict
+            shared[name] = wanted[name]
 
 
 def merge(updates: Iterable[bytes]) -> bytes:
@@ -127,6 +177,13 @@ def digest_of(document: Mapping[str, Any]) -> str:
 def empty_document() -> dict[str, Any]:
     """Return the plain form of a program without steps."""
     return {"format": FORMAT, "start_pos": None, **{name: {} for name in _CONTENT}}
+
+
+def climb_document(plain: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a plain document, or a library function's definition, in today's format."""
+    climbed = climb(plain)
+    assert isinstance(climbed, Mapping)
+    return dict(climbed)
 
 
 def encode_document(plain: Mapping[str, Any]) -> bytes:

@@ -10,9 +10,10 @@ from django.db import transaction
 from django.db.models import Count, Q, QuerySet
 
 from editor.checking import build_surroundings
-from editor.document import empty_document
+from editor.document import climb_document, empty_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.language import compile_document
+from editor.language.ladder import FORMAT
 from editor.models import LibraryFunction, LibraryVersion, Program
 from editor.programs import get_document
 from editor.views import LibraryView, view_author
@@ -23,7 +24,8 @@ MOST_NAME, MOST_DESCRIPTION = 120, 500
 def cut_out_function(document: Mapping[str, Any], function: str) -> dict[str, Any]:
     """Return a function of a plain document with its steps and the functions that it calls.
 
-    {function: {name, parameters, …}, id, functions: {id: …} of those called, steps: {id: …}}. Raises BadRequest.
+    {function: {name, parameters, …}, id, functions: {id: …} of those called, steps: {id: …}, format}.
+    Raises BadRequest.
     """
     functions = document["functions"]
     if function not in functions:
@@ -41,7 +43,7 @@ def cut_out_function(document: Mapping[str, Any], function: str) -> dict[str, An
                 wanted.append(called)
                 left.append(called)
     others = {other: functions[other] for other in wanted[1:]}
-    return {"id": function, "function": functions[function], "functions": others, "steps": steps}
+    return {"id": function, "function": functions[function], "functions": others, "steps": steps, "format": FORMAT}
 
 
 def _parent_of(step: Mapping[str, Any]) -> str | None:
@@ -79,7 +81,8 @@ def save_function(
 def print_function(definition: Mapping[str, Any], site: str) -> str:
     """Return the script of a function alone, as it reads in a program of the site."""
     functions = {definition["id"]: definition["function"], **definition["functions"]}
-    document = {**empty_document(), "functions": functions, "steps": definition["steps"]}
+    climbed = climb_document(definition)
+    document = {**empty_document(), "functions": functions, "steps": climbed["steps"]}
     return compile_document(document, build_surroundings(site=site)).script
 
 
@@ -126,5 +129,5 @@ def _view(row: LibraryFunction, version: LibraryVersion) -> LibraryView:
         used_in=used_in,
         updated_at=row.updated_at,
         script=version.script,
-        definition=version.definition,
+        definition=climb_document(version.definition),
     )

@@ -201,18 +201,19 @@ def new_revision() -> int:
 
 
 async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Callable[[OpenRoom], None]) -> OpenRoom:
-    """Load a program's document: the snapshot, the rows after it, and what the stream has beyond them.
+    """Load a program's document: the snapshot, the rows after it, what the stream has beyond them; in today's format.
 
     Raises NoSuchProgram, StreamLost, BadUpdate.
     """
     stored = await in_database(load_document)(program_id)
     tail, after = await _read_tail(stream, program_id)
     document = SharedDocument([*stored.updates, *tail])
+    climbed = document.climb()
     room = Room(program_id, stored.site, origin, document)
     room.saved_seq = stored.seq
     opened = OpenRoom(room, stream, after, on_end)
-    if tail:
-        _keep_what_only_the_stream_has(room, stored.updates)
+    if tail or climbed:
+        _keep_what_is_not_stored(room, stored.updates)
     opened.start()
     return opened
 
@@ -225,8 +226,8 @@ async def _read_tail(stream: RoomStream, program_id: str) -> tuple[list[bytes], 
     return updates, after
 
 
-def _keep_what_only_the_stream_has(room: Room, stored: tuple[bytes, ...]) -> None:
-    """A process that died between telling and keeping left changes that only the stream holds."""
+def _keep_what_is_not_stored(room: Room, stored: tuple[bytes, ...]) -> None:
+    """Keep what a process that died between telling and keeping left in the stream, and the climb to today's format."""
     kept = SharedDocument(stored)
     if kept.state() != room.document.state() or kept.digest() != room.document.digest():
         room.to_keep.append(Change(None, room.document.encode(kept.state())))

@@ -11,7 +11,7 @@ from django.db import transaction
 from django.utils import timezone
 
 from editor.checking import build_surroundings, check_program, compiled_json, fingerprint_of
-from editor.document import SharedDocument, digest_of, empty_document, encode_document
+from editor.document import SharedDocument, climb_document, digest_of, empty_document, encode_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.hub import flush_program
 from editor.language import Compiled, Surroundings, compile_document
@@ -43,7 +43,7 @@ def get_program(*, program_id: UUID | str) -> ProgramView:
 
 def create_program(*, site: str, name: str, document: Mapping[str, Any] | None = None, user: Any = None) -> ProgramView:
     """Make a program, empty or from a plain document. Raises BadRequest for a bad name."""
-    plain = dict(document or empty_document())
+    plain = climb_document(document or empty_document())
     data = encode_document(plain)
     site_id = _site_id(site)
     with transaction.atomic():
@@ -75,9 +75,11 @@ def delete_program(*, program_id: UUID | str) -> None:
 
 
 def get_document(*, program_id: UUID | str) -> dict[str, Any]:
-    """Return a program's document as it is now, as plain JSON. Raises NoSuchProgram."""
+    """Return a program's document as it is now, as plain JSON in today's format. Raises NoSuchProgram."""
     flush_program(str(program_id))
-    return SharedDocument(load_document(str(program_id)).updates).to_json()
+    document = SharedDocument(load_document(str(program_id)).updates)
+    document.climb()
+    return document.to_json()
 
 
 def get_compiled(*, program_id: UUID | str) -> dict[str, Any]:
@@ -183,7 +185,7 @@ def _version_view(row: Version) -> VersionView:
         number=row.number,
         author=view_author(row.author),
         message=row.message,
-        document=row.document,
+        document=climb_document(row.document),
         script=row.script,
         created_at=row.created_at,
     )

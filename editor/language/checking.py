@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from itertools import combinations
 
 from editor.language import nodes as n
 from editor.language.carrying import follow_loads
 from editor.language.check_context import Context
 from editor.language.check_devices import check_load_place, check_place, check_role, usable_device
+from editor.language.check_flow import check_flow
+from editor.language.check_parallel import check_branches, check_parallel
 from editor.language.check_values import check_argument, check_condition, check_quantity, check_value, has_missing
+from editor.language.check_variables import check_variables
 from editor.language.diagnostics import Fix, Problem, TextArguments
+from editor.language.outline import PROGRAM, Outline
 from editor.language.phrases import Options, Span
 from editor.language.plan import Constant
 from editor.language.reading import Reading
 from editor.language.surroundings import Surroundings
-from editor.language.typing_of_values import NUMBER, Kind, constant_value, is_measured, plain_type
-from editor.language.walking import functions_in_circles, needed_of_roles, roles_used, walk
+from editor.language.typing_of_values import NUMBER, Kind, constant_value, plain_type
+from editor.language.walking import needed_of_roles, walk
 from registry.capability import ParameterSpec
 
 
@@ -37,7 +40,9 @@ def check(reading: Reading, tree: n.Tree, surroundings: Surroundings) -> list[tu
         (p, key) for p, key in found if not (p.code.startswith("missing") and (p.step, p.field) in already)
     ]
     _check_roles(context)
-    _check_circles(context)
+    check_flow(context)
+    check_variables(context)
+    check_parallel(context)
     context.found.extend(follow_loads(tree, context.capacity, context.robot_name))
     _check_left_over(context, reading)
     return context.found
@@ -95,17 +100,17 @@ def _operate(context: Context, node: n.Operate) -> None:
 
 def _wait(context: Context, node: n.Wait) -> None:
     if has_missing(node.seconds):
-        context.tell(node, "missing_seconds", "seconds")
+        context.tell(node, "missing_seconds", "duration")
     else:
-        check_value(context, node, node.seconds, "seconds", Kind("number", "SEC"), "The time to wait")
-        _check_time(context, node, node.seconds, "seconds", "The time to wait")
+        check_value(context, node, node.seconds, "duration", Kind("number", "SEC"), "The time to wait")
+        _check_time(context, node, node.seconds, "duration", "The time to wait")
 
 
 def _wait_until(context: Context, node: n.WaitUntil) -> None:
     check_condition(context, node, node.condition, "until")
     if node.timeout_s is not None:
-        check_value(context, node, node.timeout_s, "timeout_s", NUMBER, "The time limit")
-        _check_time(context, node, node.timeout_s, "timeout_s", "The time limit")
+        check_value(context, node, node.timeout_s, "timeout", NUMBER, "The time limit")
+        _check_time(context, node, node.timeout_s, "timeout", "The time limit")
 
 
 def _check_time(context: Context, node: n.Node, value: object, field: str, subject: str) -> None:
@@ -126,11 +131,8 @@ def _while(context: Context, node: n.While) -> None:
     check_condition(context, node, node.condition, "condition")
     if has_missing(node.condition):
         return
-    always = constant_value(node.condition)
-    if always is False:
+    if constant_value(node.condition) is False:
         context.tell(node, "never_runs", "condition")
-    elif not is_measured(node.condition):
-        context.tell(node, "may_never_end", "condition")
 
 
 def _try(context: Context, node: n.Try) -> None:
@@ -138,16 +140,7 @@ def _try(context: Context, node: n.Try) -> None:
 
 
 def _parallel(context: Context, node: n.Parallel) -> None:
-    """Two branches cannot drive the same robot."""
-    drivers = [{context.robot_key(role): role for role in roles_used(b, context.tree)} for b in node.branches]
-    for (first, mine), (second, theirs) in combinations(enumerate(drivers), 2):
-        for key in sorted(mine.keys() & theirs.keys()):
-            details: TextArguments = {
-                "first": chr(97 + first),
-                "second": chr(97 + second),
-                "robot": context.driver_name(theirs[key]),
-            }
-            context.tell(node, "shared_robot", "branches", details)
+    check_branches(context, node)
 
 
 def _call(context: Context, node: n.Call) -> None:
@@ -194,20 +187,19 @@ def _check_roles(context: Context) -> None:
         check_role(context, first[role.name], role, needed[role.name])
 
 
-def _check_circles(context: Context) -> None:
-    circular = functions_in_circles(context.tree)
-    for function in context.tree.functions if circular else ():
-        if function.method in circular:
-            for node in walk(function.body):
-                if isinstance(node, n.Call) and node.function in circular:
-                    context.tell(node, "calls_itself", "function", {"function": function.name or function.method})
-
-
 def _check_left_over(context: Context, reading: Reading) -> None:
     outline = reading.outline
     if not context.tree.body:
         context.found.append((Problem("empty_program"), 0))
     for step in outline.drafts:
-        context.found.append((Problem("too_deep" if step in outline.too_deep else "draft", step, "place"), 0))
+        context.found.append((_left_over(outline, step), 0))
     for step in outline.unknown:
-        context.found.append((Problem("unknown_kind", step, "kind"), 0))
+        context.found.append((Problem("unknown_kind", step, "kind", fix=Fix("delete_step", step, "delete", None)), 0))
+
+
+def _left_over(outline: Outline, step: str) -> Problem:
+    """Return what to say of a step that is no part of the program; one that is joined to nothing may be joined."""
+    if step in outline.too_deep:
+        return Problem("too_deep", step, "place", fix=Fix("delete_step", step, "delete", None))
+    branch = "events" if outline.kinds[step] == "on_event" else "body"
+    return Problem("draft", step, "place", fix=Fix("join_at_end", step, "place", [PROGRAM, branch]))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from editor.language.checking import check
 from editor.language.compiling import compile_tree
 from editor.language.diagnostics import Diagnostic, Fix, Problem, arguments_to_json, put_into_words
+from editor.language.ladder import climb
 from editor.language.nodes import Block, Tree, blocks_of
 from editor.language.nodes import Move as MoveNode
 from editor.language.numbering import number_steps
@@ -38,8 +39,8 @@ class Compiled:
 
 
 def compile_document(document: object, surroundings: Surroundings) -> Compiled:
-    """Compile a document (plain JSON, format 1) for a site. Nothing in the document makes this raise."""
-    reading = read_document(document)
+    """Compile a document (plain JSON, of any format so far) for a site. Nothing in the document makes this raise."""
+    reading = read_document(climb(document))
     tree = add_moves(reading.tree, _standing(surroundings))
     numbering = number_steps(tree)
     numbers = numbering.numbers

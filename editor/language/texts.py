@@ -21,6 +21,13 @@ TEXTS: Final[Mapping[str, Text]] = {
     "missing_seconds": ("error", "Enter how long to wait, in seconds, or what to wait for."),
     "missing_function": ("error", "Choose the function to call."),
     "missing_function_argument": ("error", "Enter {argument} for {function}."),
+    "missing_times": ("error", "Enter how many times to repeat these steps."),
+    "missing_items": ("error", "Enter what to go through, one after the other."),
+    "missing_variable": ("error", "Give the variable a name."),
+    "missing_value": ("error", "Enter the value."),
+    "missing_question": ("error", "Enter what to ask."),
+    "missing_options": ("error", "Enter at least two answers to choose from."),
+    "missing_message": ("error", "Enter what to tell people."),
     "empty_program": ("error", "This program has no steps yet. Draw a Pick-and-Drop to begin."),
     # it speaks of something that does not exist
     "unknown_device": ("error", "There is no device {device} on this site. Choose another."),
@@ -32,6 +39,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "unknown_parameter": ("error", "There is no value called {parameter} here. Choose or enter another."),
     "unknown_role": ("error", "This program has no robot called {role}. Choose another."),
     "unknown_kind": ("error", "This step is of a kind that this version of VIPO does not know. Delete it."),
+    "newer_format": ("error", "This program was made with a newer VIPO. Update this one to run it."),
     # it cannot ever work
     "pending_device": ("error", "{device} waits for approval. An admin can approve it in the registry."),
     "retired_device": ("error", "{device} is no longer in use. Choose another."),
@@ -56,6 +64,13 @@ TEXTS: Final[Mapping[str, Text]] = {
     "place_blocked": ("error", "{robot} does not fit here: a wall or a machine is too near."),
     "place_unreachable": ("error", "{robot} finds no way to this place."),
     "calls_itself": ("error", "{function} calls itself on every way through it and would never end."),
+    "times_not_whole": ("error", "How many times must be a whole number, 0 or more."),
+    "return_outside_function": ("error", "Only a function can give something back. End the program instead."),
+    "break_outside_loop": ("error", "There is no loop around this step that could be left."),
+    "leaves_parallel": ("error", "This step would leave a branch of a Parallel. Let the branch come to its end."),
+    "leaves_finally": ("error", "This step would leave a Finally, which is always carried out whole."),
+    "gives_nothing": ("error", "{function} gives nothing back. Take no value from it, or give it a result."),
+    "returns_unasked": ("error", "{function} has no result. Give it one, or remove this value."),
     "shared_robot": ("error", "Branches {first} and {second} both drive {robot}. Give one of them another robot."),
     # it works, but perhaps not as it is meant
     "offline_device": ("warning", "{device} is offline. The program can run when it is back."),
@@ -65,6 +80,57 @@ TEXTS: Final[Mapping[str, Text]] = {
     "always_true": ("warning", "This condition is always true, so the other branch never runs."),
     "draft": ("warning", "This step is joined to nothing and will not run. Join it or delete it."),
     "too_deep": ("warning", "This step lies too deep inside others and will not run. Make a function of some of them."),
+    # the ways through a program
+    "never_reached": (
+        "warning",
+        "This step is never reached: what comes before it always ends here or goes on for "
+        "ever.",
+    ),
+    "never_ends": ("error", "These steps repeat for ever: the condition is always true and no step leaves the loop."),
+    "no_value_on_some_way": (
+        "error",
+        "{function} gives a value, but not on every way. End this way with a Return that has "
+        "one.",
+    ),
+    "unused_result": ("warning", "What {function} gives is not kept. Choose a variable for it."),
+    "unused_function": ("warning", "Nothing calls {function}, so its steps never run."),
+    "unused_variable": ("warning", "{variable} is set here and never used."),
+    "unset_variable": ("error", "{variable} has no value yet here. Set it before."),
+    "may_be_unset": ("warning", "{variable} has no value yet on one of the ways to this step. Set it before."),
+    "event_shares_robot": (
+        "warning",
+        "This runs beside the program, and both drive {robot}. Give one of them another "
+        "robot.",
+    ),
+    "branches_wait": (
+        "error",
+        "Branches {first} and {second} wait for each other, for {variable} and {other}. Set "
+        "one of them before waiting.",
+    ),
+    # functions of the library
+    "version_gone": (
+        "warning",
+        "Version {version} of {function} is no longer in the library. The copy in this "
+        "program still works.",
+    ),
+    "newer_version": (
+        "warning",
+        "The library has version {newest} of {function}; this program uses version "
+        "{version}.",
+    ),
+    "signature_changed": (
+        "warning",
+        "Version {newest} of {function} in the library takes other values: {parameters}. "
+        "Bring it in and enter them anew.",
+    ),
+    # machines on the floor, and zones
+    "station_unreachable": ("error", "{robot} finds no way to {device}, or no room to stand beside it."),
+    "place_in_keep_out": (
+        "error",
+        "This place lies in {zone}, which robots keep out of. Choose another, or change the "
+        "zone.",
+    ),
+    "zone_too_small": ("warning", "{zone} is smaller than {robot}, so it has no effect. Make it larger."),
     # a script that was written by hand
     "not_python": ("error", "Line {line}: this is not complete. {detail}"),
     "not_in_language": ("error", "Line {line}: {found} is not part of the language. {instead}"),

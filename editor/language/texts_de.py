@@ -19,6 +19,13 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "missing_seconds": "Geben Sie ein, wie lange gewartet wird, in Sekunden, oder worauf.",
     "missing_function": "Wählen Sie die Funktion, die aufgerufen wird.",
     "missing_function_argument": "Geben Sie {argument} für {function} ein.",
+    "missing_times": "Geben Sie ein, wie oft diese Schritte wiederholt werden.",
+    "missing_items": "Geben Sie ein, was der Reihe nach durchgegangen wird.",
+    "missing_variable": "Geben Sie der Variable einen Namen.",
+    "missing_value": "Geben Sie den Wert ein.",
+    "missing_question": "Geben Sie die Frage ein.",
+    "missing_options": "Geben Sie mindestens zwei Antworten zur Wahl ein.",
+    "missing_message": "Geben Sie ein, was mitgeteilt wird.",
     "empty_program": "Dieses Programm hat noch keine Schritte. Beginnen Sie mit Holen und Bringen.",
     # it speaks of something that does not exist
     "unknown_device": "An diesem Standort gibt es kein Gerät {device}. Wählen Sie ein anderes.",
@@ -30,6 +37,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "unknown_parameter": "Hier gibt es keinen Wert mit dem Namen {parameter}. Wählen oder schreiben Sie einen anderen.",
     "unknown_role": "Dieses Programm hat keinen Roboter mit dem Namen {role}. Wählen Sie einen anderen.",
     "unknown_kind": "Diese Art von Schritt kennt diese Version von VIPO nicht. Löschen Sie ihn.",
+    "newer_format": "Dieses Programm stammt aus einem neueren VIPO. Aktualisieren Sie dieses, um es auszuführen.",
     # it cannot ever work
     "pending_device": "{device} wartet auf Zulassung. Ein Administrator kann es im Register zulassen.",
     "retired_device": "{device} ist nicht mehr in Betrieb. Wählen Sie ein anderes Gerät.",
@@ -54,6 +62,13 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "place_blocked": "{robot} passt hier nicht hin: Eine Wand oder eine Maschine ist zu nah.",
     "place_unreachable": "{robot} findet keinen Weg zu diesem Ort.",
     "calls_itself": "{function} ruft auf jedem Weg sich selbst auf und käme nie zum Ende.",
+    "times_not_whole": "Wie oft, ist eine ganze Zahl ab 0.",
+    "return_outside_function": "Nur eine Funktion kann etwas zurückgeben. Beenden Sie stattdessen das Programm.",
+    "break_outside_loop": "Um diesen Schritt gibt es keine Schleife, die er verlassen könnte.",
+    "leaves_parallel": "Dieser Schritt würde einen parallelen Zweig verlassen. Lassen Sie den Zweig zu Ende gehen.",
+    "leaves_finally": "Dieser Schritt würde ein Finally verlassen, das immer ganz ausgeführt wird.",
+    "gives_nothing": "{function} gibt nichts zurück. Nehmen Sie nichts davon, oder geben Sie ihr ein Ergebnis.",
+    "returns_unasked": "{function} hat kein Ergebnis. Geben Sie der Funktion eines, oder entfernen Sie diesen Wert.",
     "shared_robot": "Die Zweige {first} und {second} fahren beide {robot}. Geben Sie einem einen anderen Roboter.",
     # it works, but perhaps not as it is meant
     "offline_device": "{device} ist offline. Das Programm kann laufen, wenn es wieder da ist.",
@@ -63,6 +78,49 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "always_true": "Diese Bedingung ist immer wahr; der andere Zweig läuft also nie.",
     "draft": "Dieser Schritt hängt an nichts und läuft nicht. Verbinden oder löschen Sie ihn.",
     "too_deep": "Dieser Schritt liegt zu tief in anderen und läuft nicht. Machen Sie aus einigen eine Funktion.",
+    # the ways through a program
+    "never_reached": "Dieser Schritt wird nie erreicht: Was davor kommt, endet immer hier oder geht ewig weiter.",
+    "never_ends": (
+        "Diese Schritte wiederholen sich ewig: Die Bedingung ist immer wahr, und kein Schritt "
+        "verlässt die Schleife."
+    ),
+    "no_value_on_some_way": (
+        "{function} gibt einen Wert zurück, aber nicht auf jedem Weg. Beenden Sie diesen Weg "
+        "mit einem Wert."
+    ),
+    "unused_result": "Was {function} zurückgibt, wird nicht behalten. Wählen Sie eine Variable dafür.",
+    "unused_function": "Nichts ruft {function} auf; diese Schritte laufen also nie.",
+    "unused_variable": "{variable} wird hier gesetzt und nie verwendet.",
+    "unset_variable": "{variable} hat hier noch keinen Wert. Setzen Sie die Variable vorher.",
+    "may_be_unset": (
+        "{variable} hat auf einem der Wege zu diesem Schritt noch keinen Wert. Setzen Sie die "
+        "Variable vorher."
+    ),
+    "event_shares_robot": (
+        "Das läuft neben dem Programm, und beide fahren {robot}. Geben Sie einem einen "
+        "anderen Roboter."
+    ),
+    "branches_wait": (
+        "Die Zweige {first} und {second} warten aufeinander, auf {variable} und {other}. "
+        "Setzen Sie eines davon vor dem Warten."
+    ),
+    # functions of the library
+    "version_gone": (
+        "Version {version} von {function} ist nicht mehr in der Bibliothek. Die Kopie in "
+        "diesem Programm geht weiterhin."
+    ),
+    "newer_version": "Die Bibliothek hat Version {newest} von {function}; dieses Programm verwendet Version {version}.",
+    "signature_changed": (
+        "Version {newest} von {function} in der Bibliothek braucht andere Werte: "
+        "{parameters}. Holen Sie sie und geben Sie diese neu ein."
+    ),
+    # machines on the floor, and zones
+    "station_unreachable": "{robot} findet keinen Weg zu {device} oder keinen Platz daneben.",
+    "place_in_keep_out": (
+        "Dieser Ort liegt in {zone}, wo kein Roboter hineinfährt. Wählen Sie einen anderen, "
+        "oder ändern Sie die Zone."
+    ),
+    "zone_too_small": "{zone} ist kleiner als {robot} und bewirkt deshalb nichts. Vergrößern Sie die Zone.",
     # a script that was written by hand
     "not_python": "Zeile {line}: Das ist nicht vollständig. {detail}",
     "not_in_language": "Zeile {line}: {found} gehört nicht zur Sprache. {instead}",

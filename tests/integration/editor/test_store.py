@@ -35,7 +35,7 @@ def drawing(name: str) -> bytes:
     return encode_document(
         {
             **empty_document(),
-            "steps": {name: {"kind": "wait", "place": ["program", "body", name], "params": {"seconds": 1}}},
+            "steps": {name: {"kind": "wait", "place": ["program", "body", name], "params": {"duration": 1}}},
         }
     )
 

@@ -14,7 +14,7 @@ def test_a_step_drawn_by_one_is_seen_by_another_and_kept(web: Web) -> None:
         clients.tell("add", name="ada", id="s1", x=4, y=-2.5)
         clients.tell("saved", name="ada")
         clients.tell("converged")
-        step = {"kind": "wait", "place": ["program", "body", "s1"], "pos": [4, -2.5], "params": {"seconds": 5}}
+        step = {"kind": "wait", "place": ["program", "body", "s1"], "pos": [4, -2.5], "params": {"duration": 5}}
         assert clients.tell("steps", name="bob")["steps"] == {"s1": step}
         assert clients.tell("problems")["problems"] == []
     web.wait_for_document(program, {"s1": step})

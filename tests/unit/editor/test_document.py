@@ -36,7 +36,8 @@ def test_a_plain_document_comes_back() -> None:
 
 
 def test_an_empty_document_has_all_its_parts() -> None:
-    assert SharedDocument().to_json() == empty_document()
+    assert SharedDocument([encode_document(empty_document())]).to_json() == empty_document()
+    assert SharedDocument().to_json() == {**empty_document(), "format": 1}
     assert SharedDocument([encode_document(empty_document())]).to_json() == empty_document()
 
 
@@ -120,3 +121,56 @@ def test_what_is_told_is_enough_to_follow() -> None:
             for change in leader.apply(update):
                 follower.apply(change)
         assert follower.digest() == leader.digest() == digest
+
+
+def old_document() -> SharedDocument:
+    steps = {"w": {"kind": "wait", "params": {"seconds": 5}}, "u": {"kind": "wait", "params": {"timeout_s": 9}}}
+    return SharedDocument([encode_document({"format": 1, "steps": steps})])
+
+
+def test_an_old_document_climbs_by_the_same_update_in_every_process() -> None:
+    first, second = old_document(), SharedDocument([old_document().encode()])
+    before = first.encode()
+    second = SharedDocument([before])
+    assert first.climb()
+    assert second.climb()
+    assert first.encode() == second.encode()
+    assert first.to_json()["format"] == 2
+    assert first.to_json()["steps"]["w"]["params"] == {"duration": 5}
+    assert first.to_json()["steps"]["u"]["params"] == {"timeout": 9}
+    assert not first.climb()
+    assert SharedDocument([before, first.encode(), second.encode()]).digest() == first.digest()
+
+
+def test_two_processes_that_climb_from_different_states_meet() -> None:
+    first = old_document()
+    second = SharedDocument([first.encode()])
+    steps = {"x": {"kind": "wait", "params": {"seconds": 1}}}
+    second.apply(encode_document({"format": 1, "steps": steps}))
+    assert first.climb()
+    assert second.climb()
+    third = SharedDocument([first.encode(), second.encode()])
+    assert third.to_json() == SharedDocument([second.encode(), first.encode()]).to_json()
+    assert third.to_json()["steps"]["x"]["params"] == {"duration": 1}
+    assert third.to_json()["steps"]["w"]["params"] == {"duration": 5}
+
+
+def test_a_document_of_a_later_format_does_not_climb() -> None:
+    document = SharedDocument([encode_document({"format": 9, "steps": {}})])
+    before = document.encode()
+    assert not document.climb()
+    assert document.encode() == before
+
+
+def test_steps_that_are_not_shared_piece_by_piece_climb_whole() -> None:
+    raw: Doc[Any] = Doc()
+    steps = raw.get("steps", type=Map)
+    steps["plain"] = {"kind": "wait", "params": {"seconds": 1}}
+    steps["half"] = Map({"kind": "wait", "params": {"seconds": 2}})
+    steps["odd"] = 5
+    document = SharedDocument([raw.get_update()])
+    assert document.climb()
+    assert {name: step for name, step in document.to_json()["steps"].items() if name != "odd"} == {
+        "plain": {"kind": "wait", "params": {"duration": 1}},
+        "half": {"kind": "wait", "params": {"duration": 2}},
+    }
