@@ -39,6 +39,12 @@ class Context:
         """Note a problem with a field of a node's step."""
         self.found.append((Problem(code, node.step, field_name, args or {}, fix), id(node)))
 
+    def tell_step(
+        self, step: str, code: str, field_name: str, args: TextArguments | None = None, fix: Fix | None = None
+    ) -> None:
+        """Note a problem with a step that has no node of its own."""
+        self.found.append((Problem(code, step, field_name, args or {}, fix), 0))
+
     def robots(self, role: str) -> tuple[Description, ...]:
         """Return the robots that can take the role."""
         if role not in self._robots:

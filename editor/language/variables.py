@@ -1,0 +1,75 @@
+"""Which variables the steps set and read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from editor.language import nodes as n
+from editor.language.plan import Expression, PlaceRef, Variable
+from editor.language.values import parts_of
+from editor.language.walking import walk
+
+
+def set_by(node: n.Node) -> str:
+    """Return the name of the variable that a step sets, empty when it sets none."""
+    if isinstance(node, n.Set | n.Ask):
+        return node.variable
+    return node.result if isinstance(node, n.Call) else ""
+
+
+def set_in(block: n.Block, functions: Mapping[str, n.Function]) -> frozenset[str]:
+    """Return the names that are set in a block and in the functions that it calls, theirs included."""
+    names: set[str] = set()
+    seen: set[str] = set()
+    left = [block]
+    while left:
+        for node in walk(left.pop()):
+            names.add(set_by(node))
+            if isinstance(node, n.Call) and node.function in functions and node.function not in seen:
+                seen.add(node.function)
+                left.append(functions[node.function].body)
+    return frozenset(names - {""})
+
+
+def read_by(node: n.Node) -> dict[str, str]:
+    """Return the names that a step itself reads, each with the field where it does."""
+    found: dict[str, str] = {}
+    for field, expression in values_of(node):
+        for part in parts_of(expression):
+            if isinstance(part, Variable):
+                found.setdefault(part.name, field)
+    return found
+
+
+_VALUES: Mapping[type[n.Node], tuple[tuple[str, str], ...]] = {
+    n.Move: (("to", "to"),),
+    n.Pick: (("at", ""), ("object", "object"), ("quantity", "quantity")),
+    n.Drop: (("at", ""), ("object", "object"), ("quantity", "quantity")),
+    n.Operate: (("device", "device"), ("arguments", "args")),
+    n.Call: (("arguments", "args"),),
+    n.Wait: (("seconds", "duration"),),
+    n.WaitUntil: (("condition", "until"), ("timeout_s", "timeout")),
+    n.If: (("condition", "condition"),),
+    n.While: (("condition", "condition"),),
+    n.Repeat: (("times", "times"),),
+    n.ForEach: (("items", "items"),),
+    n.Set: (("value", "value"),),
+    n.Return: (("value", "value"),),
+    n.Ask: (("question", "question"), ("timeout_s", "timeout")),
+    n.Notify: (("message", "message"),),
+}
+"""The attributes of nodes that hold values, with the fields of the step where they stand."""
+
+
+def values_of(node: n.Node) -> Iterator[tuple[str, Expression]]:
+    """Yield the values of a step, not those of the steps in it, each with its field."""
+    for attribute, field in _VALUES.get(type(node), ()):
+        value = getattr(node, attribute)
+        if attribute == "arguments":
+            yield from ((f"args.{name}", given) for name, given in value)
+        elif attribute == "items":
+            yield from ((field, item) for item in value)
+        else:
+            value = value.value if isinstance(value, PlaceRef) else value
+            if value is not None:
+                yield field or getattr(node, "place_field", ""), value
