@@ -9,6 +9,7 @@ from editor.language.diagnostics import fix_value
 from editor.language.phrases import Amounts, Options, Plural, Span
 from editor.language.plan import Constant, Expression
 from editor.language.typing_of_values import TYPE_WORDS, Kind, Typing, plain_type, unit_word
+from editor.language.units import same_dimension
 from editor.language.values import is_number, parts_of
 from registry.capability import ParameterSpec
 
@@ -34,7 +35,7 @@ def check_value(
     if kind.type and wanted.type and kind.type != plain_type(wanted.type):
         details = {"subject": subject, "wanted": TYPE_WORDS[wanted.type], "given": TYPE_WORDS[kind.type]}
         context.tell(node, "wrong_type", field, details)
-    elif kind.unit and wanted.unit and kind.unit != wanted.unit:
+    elif kind.unit and wanted.unit and not same_dimension(kind.unit, wanted.unit):
         units = {"subject": subject, "wanted": unit_word(wanted.unit), "given": unit_word(kind.unit)}
         context.tell(node, "wrong_unit", field, units)
     return len(context.found) == before

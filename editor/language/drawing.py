@@ -26,7 +26,7 @@ from editor.language.outline import PROGRAM, branches_of, make_outline, mapping
 from editor.language.positions import add_moves
 from editor.language.reading import read_document
 from editor.language.surroundings import Surroundings
-from editor.language.values import read_point, write_argument, write_place, write_value
+from editor.language.values import read_point, with_role_ids, write_argument, write_place, write_value
 
 _Drawn = tuple[str, dict[str, object], tuple[tuple[str, n.Block], ...]]
 """Kind, parameters and branches of one step."""
@@ -45,7 +45,8 @@ class _Drawer:
         if len(loads) == 2:
             return _pick_and_drop(self, tuple(node for node in nodes if not isinstance(node, n.Event)))
         node = loads[0] if loads else nodes[0]
-        return _event(self, node) if isinstance(node, n.Event) else DRAWERS[type(node)](self, node)
+        drawn = _event(self, node) if isinstance(node, n.Event) else DRAWERS[type(node)](self, node)
+        return drawn[0], dict(mapping(with_role_ids(drawn[1], self.role_ids))), drawn[2]
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
-from editor.language.plan import Constant, Expression, Operation, Reading, Variable
+from editor.language.plan import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.surroundings import Surroundings
-from editor.language.values import ARITHMETIC, COMPARISONS, FUNCTIONS, parts_of
+from editor.language.units import UNITS, same_dimension, unit_symbol
+from editor.language.values import COMPARISONS, parts_of
 from registry.capability import PropertySpec
 
-UNIT_WORDS: Mapping[str, str] = {
-    "MIN": "min", "SEC": "s", "HR": "h", "DEG_C": "°C", "PERCENT": "%", "M": "m", "MilliM": "mm",
-    "KiloGM": "kg", "BAR": "bar", "PA": "Pa", "L": "l", "MilliL": "ml",
-}  # fmt: skip
 TYPE_WORDS: Mapping[str, str] = {
     "number": "a number", "text": "a text", "boolean": "yes or no", "list": "a list", "object": "a kind of object",
-    "device": "a device", "place": "a place", "location": "a place",
+    "device": "a device", "place": "a place", "location": "a place", "zone": "a zone", "point": "a point",
 }  # fmt: skip
 _TEXT_LIKE = frozenset({"object", "device", "place", "location"})
 
@@ -41,12 +38,14 @@ class Mismatch:
 
 
 UNKNOWN_KIND = Kind()
-NUMBER, BOOLEAN = Kind("number"), Kind("boolean")
+NUMBER, TEXT, BOOLEAN = Kind("number"), Kind("text"), Kind("boolean")
+ZONE, POINT = Kind("zone"), Kind("point")
+METRES, SECONDS = Kind("number", "M"), Kind("number", "SEC")
 
 
 def unit_word(unit: str) -> str:
     """Return how people write a unit."""
-    return UNIT_WORDS.get(unit, unit)
+    return unit_symbol(unit)
 
 
 def property_spec(reading: Reading, surroundings: Surroundings) -> PropertySpec | None:
@@ -75,25 +74,52 @@ class Typing:
             case Reading():
                 spec = property_spec(expression, self.surroundings)
                 return UNKNOWN_KIND if spec is None else Kind(plain_type(spec.type), spec.unit)
+            case Quantity(unit=unit):
+                return self._quantity(unit)
+            case Located(zone=zone, point=point):
+                return ZONE if zone is not None else (TEXT if point is None else POINT)
             case Operation():
                 return self._operation(expression)
+
+    def _quantity(self, unit: str) -> Kind:
+        if unit not in UNITS:
+            self.mismatches.append(Mismatch("unknown_unit", {"unit": unit}))
+        return Kind("number", unit)
 
     def _operation(self, expression: Operation) -> Kind:
         name, arguments = expression.operator, expression.arguments
         kinds = [self.kind_of(argument) for argument in arguments]
-        if name in {"and", "or", "not"}:
+        if name in {"and", "or", "not", "count"}:
             for kind in kinds:
                 self._need(kind, "boolean", f"“{name}”")
-            return BOOLEAN
+            return NUMBER if name == "count" else BOOLEAN
         if name in COMPARISONS:
-            self._compare(name, kinds[0], kinds[1])
+            self._compare(name, expression, kinds[0], kinds[1])
             return BOOLEAN
+        if name in {"distance", "nearest"}:
+            for argument, kind in zip(arguments, kinds, strict=True):
+                self._need_place(argument, kind, name)
+            return METRES if name == "distance" else TEXT
+        if name in {"text", "now"}:
+            return TEXT if name == "text" else SECONDS
+        return self._reckoned(expression, kinds)
+
+    def _reckoned(self, expression: Operation, kinds: list[Kind]) -> Kind:
+        """Return the kind of a number that is worked out from numbers."""
+        name = expression.operator
         for kind in kinds:
             self._need(kind, "number", f"“{name}”")
-        unit = next((kind.unit for kind in kinds if kind.unit), "")
-        if name in {"+", "-", "min", "max"}:
-            self._same_unit(kinds)
-        return Kind("number", unit) if name in ARITHMETIC or name in FUNCTIONS else UNKNOWN_KIND
+        if name in {"*", "/"}:
+            return Kind("number", _unit_of_product(name, kinds[0].unit, kinds[1].unit))
+        self._same_unit(kinds)
+        return Kind("number", common_unit(expression.arguments, kinds))
+
+    def _need_place(self, argument: Expression, kind: Kind, name: str) -> None:
+        """Only a point, or something that is known by its id, has a place."""
+        written = isinstance(argument, Constant) or (isinstance(argument, Operation) and argument.operator != "nearest")
+        if kind.type not in {"", "text", "point"} or (written and kind.type):
+            words = {"subject": f"“{name}”", "wanted": TYPE_WORDS["place"], "given": TYPE_WORDS[kind.type]}
+            self.mismatches.append(Mismatch("wrong_type", words))
 
     def _need(self, kind: Kind, wanted: str, subject: str) -> None:
         if kind.type not in {"", wanted}:
@@ -102,13 +128,16 @@ class Typing:
                 Mismatch("wrong_type", {"subject": subject, "wanted": TYPE_WORDS[wanted], "given": given})
             )
 
-    def _compare(self, name: str, left: Kind, right: Kind) -> None:
+    def _compare(self, name: str, expression: Operation, left: Kind, right: Kind) -> None:
+        if right == ZONE and name in {"in", "not in"}:
+            self._need_place(expression.arguments[0], left, name)
+            return
         if not left.type or not right.type:
             return
         if name in {"in", "not in"}:
             fits = right.type == "list" or (left.type == right.type == "text")
         elif name in {"==", "!="}:
-            fits = left.type == right.type
+            fits = left.type == right.type and left.type not in {"zone", "point"}
         else:
             fits = left.type == right.type and left.type in {"number", "text"}
         if not fits:
@@ -118,10 +147,34 @@ class Typing:
             self._same_unit([left, right])
 
     def _same_unit(self, kinds: list[Kind]) -> None:
-        units = list(dict.fromkeys(kind.unit for kind in kinds if kind.unit))
-        if len(units) > 1:
-            words = {"subject": "The first value", "wanted": unit_word(units[0]), "given": unit_word(units[1])}
+        units = [kind.unit for kind in kinds if kind.unit]
+        other = next((unit for unit in units if not same_dimension(unit, units[0])), None)
+        if other is not None:
+            words = {"subject": "The first value", "wanted": unit_word(units[0]), "given": unit_word(other)}
             self.mismatches.append(Mismatch("wrong_unit", words))
+
+
+def common_unit(arguments: Sequence[Expression], kinds: Sequence[Kind]) -> str:
+    """Return the unit in which values meet: that of the first one that is measured or given, else the first."""
+    units = [kind.unit for kind in kinds if kind.unit]
+    if len(set(units)) <= 1:
+        return units[0] if units else ""
+    paired = zip(arguments, kinds, strict=True)
+    return next((kind.unit for argument, kind in paired if kind.unit and not is_written(argument)), units[0])
+
+
+def is_written(expression: Expression) -> bool:
+    """Tell whether nothing in an expression is measured or given: it says the same whenever it is asked."""
+    return all(
+        isinstance(part, Constant | Quantity) or (isinstance(part, Operation) and part.operator != "now")
+        for part in parts_of(expression)
+    )
+
+
+def _unit_of_product(name: str, left: str, right: str) -> str:
+    if name == "*":
+        return left or right if not (left and right) else ""
+    return left if not right else ""
 
 
 def plain_type(name: str) -> str:
@@ -139,6 +192,15 @@ def _constant_kind(value: object) -> Kind:
     return Kind("list") if isinstance(value, tuple) else UNKNOWN_KIND
 
 
+def is_measured(expression: Expression) -> bool:
+    """Tell whether the expression looks at anything that changes by itself: a device, a place, the time."""
+    return any(
+        isinstance(part, Reading) or (isinstance(part, Operation) and part.operator in {"now", "distance", "nearest"})
+        or (isinstance(part, Located) and part.role is not None)
+        for part in parts_of(expression)
+    )  # fmt: skip
+
+
 _COMPUTE: Mapping[str, Callable[[Any, Any], Any]] = {
     "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
     "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "min": min, "max": max,
@@ -149,11 +211,6 @@ _COMPUTE: Mapping[str, Callable[[Any, Any], Any]] = {
 _COMPUTE_ONE: Mapping[str, Callable[[Any], Any]] = {
     "-": operator.neg, "not": operator.not_, "abs": abs, "round": round,
 }  # fmt: skip
-
-
-def is_measured(expression: Expression) -> bool:
-    """Tell whether the expression looks at any device."""
-    return any(isinstance(part, Reading) for part in parts_of(expression))
 
 
 def constant_value(expression: Expression) -> object:
