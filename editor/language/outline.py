@@ -12,6 +12,9 @@ from dataclasses import dataclass
 from string import ascii_lowercase
 
 PROGRAM = "program"
+EVENTS = "events"
+COMMENT = "comment"
+"""The kind of what people write beside the program; it stands in no branch."""
 BRANCHES: Mapping[str, tuple[str, ...]] = {
     "move": (),
     "pick": (),
@@ -22,8 +25,17 @@ BRANCHES: Mapping[str, tuple[str, ...]] = {
     "call": (),
     "if": ("then", "else"),
     "while": ("body",),
-    "try": ("body", "catch"),
+    "repeat": ("body",),
+    "for_each": ("body",),
+    "try": ("body", "catch", "finally"),
     "parallel": (),
+    "set": (),
+    "ask": (),
+    "notify": (),
+    "end": (),
+    "return": (),
+    "break": (),
+    "on_event": ("body",),
 }
 """The kinds of steps and their branches; those of a Parallel are its own to name."""
 DEEPEST_STEP = 30
@@ -70,7 +82,11 @@ def mapping(value: object) -> Mapping[str, object]:
 
 def branches_of(kind: str, params: Params) -> tuple[str, ...]:
     """Return the branches of a step of that kind with those parameters."""
-    return BRANCHES[kind] if kind != "parallel" else _parallel_branches(params.get("branches"))
+    if kind == "parallel":
+        return _parallel_branches(params.get("branches"))
+    if kind == "try" and params.get("catch") is False:
+        return ("body", "finally")
+    return BRANCHES[kind]
 
 
 def _parallel_branches(value: object) -> tuple[str, ...]:
@@ -87,7 +103,9 @@ def make_outline(document: object) -> Outline:
     params = {name: mapping(raw[name].get("params")) for name in kinds}
     functions = frozenset(mapping(whole.get("functions")))
     places = {name: _place(raw[name].get("place")) for name in kinds}
-    sound = {name: place for name, place in places.items() if place and _leads_on(place, kinds, params, functions)}
+    sound = {
+        name: place for name, place in places.items() if place and _leads_on(name, place, kinds, params, functions)
+    }
     for name in _circle_breakers(sound):
         del sound[name]
     children = _children(sound)
@@ -96,7 +114,7 @@ def make_outline(document: object) -> Outline:
         sound = {name: place for name, place in sound.items() if name not in deep}
         children = _children(sound)
     drafts = tuple(sorted(kinds.keys() - sound.keys()))
-    unknown = tuple(sorted(raw.keys() - kinds.keys()))
+    unknown = tuple(sorted(name for name in raw.keys() - kinds.keys() if raw[name].get("kind") != COMMENT))
     return Outline(kinds, params, children, drafts, deep, unknown)
 
 
@@ -114,10 +132,15 @@ def _place(value: object) -> Place | None:
     return parent, branch, order
 
 
-def _leads_on(place: Place, kinds: Mapping[str, str], params: Mapping[str, Params], functions: frozenset[str]) -> bool:
+def _leads_on(
+    name: str, place: Place, kinds: Mapping[str, str], params: Mapping[str, Params], functions: frozenset[str]
+) -> bool:
     parent, branch, _ = place
+    is_event = kinds[name] == "on_event"
     if parent in kinds:
-        return branch in branches_of(kinds[parent], params[parent])
+        return not is_event and branch in branches_of(kinds[parent], params[parent])
+    if is_event:
+        return parent == PROGRAM and branch == EVENTS
     return branch == "body" and (parent == PROGRAM or parent in functions)
 
 

@@ -372,6 +372,17 @@ def _kinds() -> dict[str, dict[str, Any]]:
             {BODY: "a"},
             "x",
         ),
+        "catch_switched_off": case(
+            "a Try that catches nothing has no catch: what stands there is a draft",
+            {
+                "t": step("try", *BODY, "A", catch=False),
+                "a": wait("t", "body", "V"),
+                "b": wait("t", "catch", "V"),
+                "c": wait("t", "finally", "V"),
+            },
+            {BODY: "t", ("t", "body"): "a", ("t", "finally"): "c"},
+            "b",
+        ),
         "leaves_of_format_2": case(
             "set, ask, notify, end, return and break are steps without branches",
             {name: step(kind, *BODY, name) for name, kind in zip("abcdef", LEAVES, strict=True)}

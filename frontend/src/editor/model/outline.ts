@@ -47,6 +47,7 @@ export function isKnownKind(kind: string): boolean {
 /** The branches that a step of this kind has. */
 export function branchesOf(step: Step): readonly string[] {
   if (step.kind === "parallel") return parallelBranches(step.params.branches);
+  if (step.kind === "try" && step.params.catch === false) return ["body", "finally"];
   return isKnownKind(step.kind) ? BRANCHES[step.kind as keyof typeof BRANCHES] : [];
 }
 
