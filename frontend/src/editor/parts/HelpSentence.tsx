@@ -1,6 +1,6 @@
 /** One sentence at a time: what to do next with the tool in hand. */
 import { useOpenProgram } from "../state/context";
-import { askOf } from "../state/tool";
+import { askOf, type Ask, type Gesture } from "../state/tool";
 import { useUi } from "../state/ui";
 import classes from "./float.module.css";
 
@@ -16,11 +16,16 @@ export function HelpSentence() {
       ? into
         ? t("help.into", { branch: into.word })
         : null
-      : t(`help.${ask === "target" && gesture.tool === "drop" ? "drop_target" : ask}`);
+      : t(`help.${sentenceOf(ask, gesture)}`);
   if (!text) return null;
   return (
     <output className={classes.help} aria-live="polite">
       {text}
     </output>
   );
+}
+
+function sentenceOf(ask: Ask, gesture: Gesture): string {
+  if (ask === "target" && gesture.tool === "drop") return "drop_target";
+  return ask === "floor" && gesture.byKeyboard ? "floor_key" : ask;
 }

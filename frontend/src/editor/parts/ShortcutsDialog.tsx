@@ -7,6 +7,8 @@ import classes from "./dialogs.module.css";
 
 const KEYS: readonly [string, string][] = [
   ["V · H", "select"],
+  [".", "more"],
+  ["Enter", "enter"],
   ["Ctrl+Z · Ctrl+Shift+Z", "undo"],
   ["Ctrl+C · X · V · D", "copy"],
   ["Ctrl+A", "all"],
@@ -27,7 +29,7 @@ export function ShortcutsDialog() {
   return (
     <Modal opened={opened} onClose={() => useUi.setState({ dialog: null })} title={t("keys.title")}>
       <dl className={classes.keys}>
-        {KINDS.map((kind) => [
+        {KINDS.filter((kind) => kind.key).map((kind) => [
           <dt key={`${kind.kind}-key`}>{kind.key}</dt>,
           <dd key={kind.kind}>{t(`kind.${kind.kind}`)}</dd>,
         ])}

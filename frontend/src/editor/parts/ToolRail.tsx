@@ -7,7 +7,10 @@ import { KINDS, type Family } from "../scene/kinds";
 import { useOpenProgram } from "../state/context";
 import { takeTool } from "../state/tool";
 import { useUi } from "../state/ui";
+import { MoreTools } from "./MoreTools";
 import classes from "./rail.module.css";
+
+const COMMON = KINDS.filter((kind) => !kind.rare);
 
 export function ToolRail() {
   const { t, canEdit } = useOpenProgram();
@@ -20,14 +23,19 @@ export function ToolRail() {
         <Hand size={18} aria-hidden="true" />
       </Tool>
       {canEdit
-        ? KINDS.map((kind, index) => (
-            <FamilyGap key={kind.kind} first={KINDS[index - 1]?.family !== kind.family}>
+        ? COMMON.map((kind, index) => (
+            <FamilyGap key={kind.kind} first={COMMON[index - 1]?.family !== kind.family}>
               <Tool tool={kind.kind} letter={kind.key} label={t(`kind.${kind.kind}`)} family={kind.family}>
                 <VipoIcon name={kind.icon} size={18} />
               </Tool>
             </FamilyGap>
           ))
         : null}
+      {canEdit ? (
+        <FamilyGap first>
+          <MoreTools />
+        </FamilyGap>
+      ) : null}
     </div>
   );
 }

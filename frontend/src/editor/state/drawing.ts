@@ -5,6 +5,8 @@ import type { PixelPoint } from "@/map/routePath";
 import { ViewportCell } from "@/map/viewport";
 import { useRoutes } from "../canvas/useRoutes";
 import type { Load } from "../parts/LoadAsk";
+import type { ProgramDocument, StepKind } from "../model/types";
+import { freshName } from "../model/variables";
 import { frameAt, type Frame } from "../scene/frames";
 import { spotBelow, spotOnMachine, spotOnRoute } from "../scene/placing";
 import { keyOfWay } from "../scene/routing";
@@ -146,13 +148,29 @@ function createAtDevice(
   else useUi.setState({ gesture: withDevice(gesture, device.id) });
 }
 
-const FRESH_PARAMS: Readonly<Record<string, Record<string, unknown>>> = {
-  wait: {},
-  if: {},
-  while: {},
-  parallel: { branches: ["a", "b"] },
-  try: { kinds: [] },
-};
+/** What a fresh step of a kind that stands on the floor knows already; what cannot be guessed is left out. */
+function freshParams(kind: string, document: ProgramDocument): Record<string, unknown> | null {
+  switch (kind) {
+    case "parallel":
+      return { branches: ["a", "b"] };
+    case "try":
+      return { kinds: [] };
+    case "for_each":
+      return { variable: freshName(document, "item"), items: [] };
+    case "ask":
+      return { answer: { type: "boolean" }, variable: freshName(document, "answer") };
+    case "notify":
+      return { level: "info" };
+    case "on_event":
+      return { starts: "branch" };
+    case "comment":
+      return { text: "" };
+    default:
+      return PLAIN.includes(kind) ? {} : null;
+  }
+}
+
+const PLAIN = ["wait", "if", "while", "repeat", "set", "end", "return", "break"];
 
 /** The next step goes into the body of this frame. */
 export function goInto(open: OpenProgram, frame: Frame): void {
@@ -160,7 +178,7 @@ export function goInto(open: OpenProgram, frame: Frame): void {
   useUi.setState({ into: { branch: { parent: frame.id, branch: "body" }, link: `${frame.id}/body`, word } });
 }
 
-function createOnFloor(open: OpenProgram, gesture: Gesture, at: Point): void {
+export function createOnFloor(open: OpenProgram, gesture: Gesture, at: Point): void {
   const { document, apply } = open;
   const frame = frameAt(open.scene.frames, toPixels(at));
   if (frame) goInto(open, frame);
@@ -168,10 +186,15 @@ function createOnFloor(open: OpenProgram, gesture: Gesture, at: Point): void {
     createStep(document, apply, { kind: "move", pos: at, params: { role: "robot", to: nearestGoal(open, at) } });
     return;
   }
-  const params = FRESH_PARAMS[gesture.tool];
+  const params = freshParams(gesture.tool, document);
   if (!params) return;
-  const kind = gesture.tool as "wait";
-  createStep(document, apply, { kind, pos: insideFrame(open) ?? at, params });
+  const kind = gesture.tool as StepKind;
+  const apart = kind === "on_event" || kind === "comment";
+  const id = createStep(document, apply, { kind, pos: (apart ? null : insideFrame(open)) ?? at, params });
+  if (kind === "on_event")
+    useUi.setState({
+      into: { branch: { parent: id, branch: "body" }, link: `${id}/body`, word: open.t("kind.on_event") },
+    });
 }
 
 /** A step for a frame's body goes under what stands there already. */

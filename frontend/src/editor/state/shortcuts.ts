@@ -5,7 +5,9 @@ import type { Position } from "../model/edits";
 import { KINDS } from "../scene/kinds";
 import { copySelected, duplicateSelected, nudgeSelected, pasteCopied, removeSelected } from "./actions";
 import { useOpenProgram, type OpenProgram } from "./context";
-import { RESTING, stepBack, takeTool } from "./tool";
+import { createOnFloor } from "./drawing";
+import { freeSpot } from "./freeSpot";
+import { askOf, RESTING, stepBack, takeTool } from "./tool";
 import { say, select, showTab, useUi } from "./ui";
 
 export function useShortcuts(): void {
@@ -84,6 +86,11 @@ function plainKey(open: OpenProgram, event: KeyboardEvent): boolean {
       return remove(open);
     case "F8":
       return nextProblem(open, event.shiftKey ? -1 : 1);
+    case ".":
+      if (open.canEdit) useUi.setState({ more: true });
+      return open.canEdit;
+    case "Enter":
+      return enter(open, event.target);
     case "?":
       useUi.setState({ dialog: "shortcuts" });
       return true;
@@ -95,6 +102,20 @@ function plainKey(open: OpenProgram, event: KeyboardEvent): boolean {
     default:
       return false;
   }
+}
+
+/** The tool in hand sets its step down where there is room; without a tool the selected step is edited. */
+function enter(open: OpenProgram, target: EventTarget | null): boolean {
+  const { gesture, selected } = useUi.getState();
+  if (target instanceof HTMLElement && target.closest("button, a, [role=treeitem]")) return false;
+  if (open.canEdit && gesture.byKeyboard && askOf(gesture) === "floor") {
+    createOnFloor(open, gesture, freeSpot(open));
+    return true;
+  }
+  if (selected.length !== 1) return false;
+  useUi.setState({ inspector: true });
+  requestAnimationFrame(() => window.document.querySelector<HTMLElement>("[data-form] :is(input, textarea)")?.focus());
+  return true;
 }
 
 function escape(): boolean {

@@ -22,6 +22,8 @@ export interface EditorUi {
   fresh: string | null;
   drawer: { readonly open: boolean; readonly tab: DrawerTab };
   inspector: boolean;
+  /** The list of all constructs is open. */
+  more: boolean;
   dialog: Dialog;
   /** The function that "save_function" is about. */
   dialogFunction: string | null;
@@ -38,6 +40,7 @@ const START: EditorUi = {
   fresh: null,
   drawer: { open: true, tab: "script" },
   inspector: true,
+  more: false,
   dialog: null,
   dialogFunction: null,
   fieldPick: null,

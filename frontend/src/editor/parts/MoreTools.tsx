@@ -1,0 +1,115 @@
+/** All constructs by name, the rare ones first; what the rail has no room for is taken from here. */
+import { Popover, Tooltip } from "@mantine/core";
+import { Ellipsis } from "lucide-react";
+import { useState, type KeyboardEvent } from "react";
+import { VipoIcon } from "@/map/VipoIcon";
+import { KINDS, type Kind } from "../scene/kinds";
+import { useOpenProgram } from "../state/context";
+import { RESTING, takeTool } from "../state/tool";
+import { useUi } from "../state/ui";
+import classes from "./rail.module.css";
+
+const RARE_FIRST = [...KINDS].sort((one, other) => Number(other.rare ?? false) - Number(one.rare ?? false));
+
+export function MoreTools() {
+  const { t } = useOpenProgram();
+  const opened = useUi((ui) => ui.more);
+  const rareTool = useUi((ui) => KINDS.some((kind) => kind.rare && kind.kind === ui.gesture.tool));
+  const show = (more: boolean) => useUi.setState({ more });
+  return (
+    <Popover opened={opened} onChange={show} position="right-end" offset={14} trapFocus returnFocus shadow="md">
+      <Popover.Target>
+        <Tooltip label={`${t("more.label")} · .`} position="right" disabled={opened}>
+          <button
+            type="button"
+            className={classes.tool}
+            aria-label={t("more.label")}
+            aria-expanded={opened}
+            aria-pressed={rareTool}
+            aria-keyshortcuts="."
+            onClick={() => show(!opened)}
+          >
+            <Ellipsis size={18} aria-hidden="true" />
+          </button>
+        </Tooltip>
+      </Popover.Target>
+      <Popover.Dropdown p={0} aria-label={t("more.label")}>
+        <Search onDone={() => show(false)} />
+      </Popover.Dropdown>
+    </Popover>
+  );
+}
+
+function Search({ onDone }: { onDone: () => void }) {
+  const { t } = useOpenProgram();
+  const [text, setText] = useState("");
+  const [at, setAt] = useState(0);
+  const wanted = text.trim().toLowerCase();
+  const found = RARE_FIRST.filter(({ kind }) =>
+    `${t(`kind.${kind}`)} ${t(`about.${kind}`)}`.toLowerCase().includes(wanted),
+  );
+  const take = (kind: Kind | undefined, byKeyboard: boolean) => {
+    if (!kind) return;
+    useUi.setState({ gesture: takeTool(RESTING, kind.kind, byKeyboard) });
+    onDone();
+  };
+  const press = (event: KeyboardEvent) => {
+    if (event.key === "Enter") take(found[at], true);
+    else if (event.key === "ArrowDown") setAt(Math.min(found.length - 1, at + 1));
+    else if (event.key === "ArrowUp") setAt(Math.max(0, at - 1));
+    else return;
+    event.preventDefault();
+  };
+  return (
+    <div className={classes.more}>
+      <input
+        value={text}
+        role="combobox"
+        aria-expanded="true"
+        aria-controls="more-tools"
+        aria-activedescendant={found[at] ? `more-${found[at].kind}` : undefined}
+        aria-label={t("more.search")}
+        placeholder={t("more.search")}
+        data-autofocus
+        onChange={(event) => {
+          setText(event.target.value);
+          setAt(0);
+        }}
+        onKeyDown={press}
+      />
+      <ul id="more-tools" role="listbox" aria-label={t("more.label")}>
+        {found.map((kind, index) => (
+          <Row key={kind.kind} kind={kind} chosen={index === at} onTake={() => take(kind, false)} />
+        ))}
+        {found.length === 0 ? <li className={classes.none}>{t("more.none")}</li> : null}
+      </ul>
+    </div>
+  );
+}
+
+function Row({ kind, chosen, onTake }: { kind: Kind; chosen: boolean; onTake: () => void }) {
+  const { t } = useOpenProgram();
+  return (
+    <li
+      id={`more-${kind.kind}`}
+      role="option"
+      aria-selected={chosen}
+      ref={(row) => {
+        if (chosen) row?.scrollIntoView({ block: "nearest" });
+      }}
+      onPointerDown={(event) => {
+        event.preventDefault();
+        onTake();
+      }}
+    >
+      <span style={{ color: `var(--${kind.family})` }}>
+        <VipoIcon name={kind.icon} size={18} />
+      </span>
+      <span className={classes.what}>
+        <strong>{t(`kind.${kind.kind}`)}</strong>
+        <span>{t(`about.${kind.kind}`)}</span>
+      </span>
+      {kind.key ? <kbd>{kind.key}</kbd> : null}
+    </li>
+  );
+}
