@@ -9,8 +9,8 @@ from typing import Any
 
 from editor.errors import NoSuchProgram
 from editor.language import Compiled, compile_document, compiled_to_json
-from editor.language.surroundings import DeviceFacts, FloorFacts, PlaceFacts, Surroundings
-from editor.models import LibraryFunction, LibraryUse, Program
+from editor.language.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
+from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
 from registry import live
 from registry import services as registry
 from registry.capability import Description, Pose
@@ -28,7 +28,21 @@ def build_surroundings(*, site: str) -> Surroundings:
         place.id: PlaceFacts(place.id, place.name, _kind(place.kind), place.x, place.y, place.theta)
         for place in registry.list_places(site=site)
     }
-    return Surroundings(devices=devices, places=places, floor=_floor(site))
+    return Surroundings(devices=devices, places=places, floor=_floor(site), library=_library(site))
+
+
+def _library(site: str) -> dict[str, LibraryFacts]:
+    """Return the functions of the site's library with what each version is given."""
+    rows = LibraryVersion.objects.filter(function__site__slug=site).values_list(
+        "function_id", "function__name", "number", "definition__function__parameters"
+    )
+    names: dict[str, str] = {}
+    versions: dict[str, dict[int, tuple[tuple[str, str], ...]]] = {}
+    for function, name, number, parameters in rows:
+        names[str(function)] = name
+        given = tuple((str(item.get("name")), str(item.get("type", ""))) for item in parameters or ())
+        versions.setdefault(str(function), {})[number] = given
+    return {function: LibraryFacts(name, versions[function]) for function, name in names.items()}
 
 
 def _facts(view: registry.DeviceView, machines: Iterable[Description]) -> DeviceFacts:
@@ -80,7 +94,12 @@ def fingerprint_of(surroundings: Surroundings) -> str:
         (name, facts.lifecycle, facts.online, _without_pose(facts.description))
         for name, facts in sorted(surroundings.devices.items())
     ]
-    return hashlib.sha256(repr((devices, sorted(surroundings.places.items()))).encode()).hexdigest()
+    library = sorted((name, facts.name, sorted(facts.versions.items())) for name, facts in _known(surroundings).items())
+    return hashlib.sha256(repr((devices, sorted(surroundings.places.items()), library)).encode()).hexdigest()
+
+
+def _known(surroundings: Surroundings) -> Mapping[str, LibraryFacts]:
+    return surroundings.library or {}
 
 
 def _without_pose(description: Description) -> Description:

@@ -214,6 +214,7 @@ class FloorPlan:
         self._devices = tuple(devices)
         self.clearance_m = clearance_m(with_devices(grid, self._devices))
         self._regions: dict[float, NDArray[np.int32]] = {}
+        self._stations: dict[tuple[str, float], Pose | None] = {}
 
     def is_inside(self, x_m: float, y_m: float) -> bool:
         """Tell whether the point lies on the map."""
@@ -249,6 +250,20 @@ class FloorPlan:
         if sizes.size < 2:
             return np.zeros(labels.shape, dtype=np.bool_)
         return np.asarray(labels == 1 + int(np.argmax(sizes[1:])))
+
+    def station(self, device_id: str, radius_m: float) -> tuple[float, float] | None:
+        """Return where a robot of that radius stands to serve a machine; None when it has no room to."""
+        key = (device_id, radius_m)
+        if key not in self._stations:
+            found = next((device for device in self._devices if device.id == device_id), None)
+            floor = self.main_floor(radius_m)
+            self._stations[key] = None if found is None else _station(self, floor, found, radius_m)
+        pose = self._stations[key]
+        return None if pose is None else (pose.x, pose.y)
+
+    def has_machine(self, device_id: str) -> bool:
+        """Tell whether the machine stands on this floor."""
+        return any(device.id == device_id for device in self._devices)
 
     def is_open(self, floor: NDArray[np.bool_], pose: Pose) -> bool:
         """Tell whether the pose's cell belongs to the floor."""

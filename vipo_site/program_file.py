@@ -119,7 +119,7 @@ def _site(given: object, path: Path, site_path: Path | None) -> tuple[dict[str, 
         floor = _floor(site, plain)
     except UnreadableSite as error:
         raise UnreadableFile(f"{where}: {error}") from error
-    return site, Surroundings(plain.devices, plain.places, floor)
+    return site, Surroundings(plain.devices, plain.places, floor, plain.library)
 
 
 def _with_absolute_grid(site: dict[str, Any], where: Path) -> dict[str, Any]:

@@ -27,6 +27,8 @@ class Context:
     found: list[tuple[Problem, int]] = field(default_factory=list)
     functions: Mapping[str, n.Function] = field(init=False)
     roles: Mapping[str, n.Role] = field(init=False)
+    stations: dict[tuple[str, str], tuple[n.Point | None, ...]] = field(default_factory=dict)
+    """Where each robot of a role would stand to serve a device, as far as it was asked for."""
     _robots: dict[str, tuple[Description, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -8,7 +8,9 @@ from editor.language import nodes as n
 from editor.language.carrying import follow_loads
 from editor.language.check_context import Context
 from editor.language.check_devices import check_load_place, check_place, check_role, usable_device
+from editor.language.check_floor import check_floor
 from editor.language.check_flow import check_flow
+from editor.language.check_library import check_library
 from editor.language.check_parallel import check_branches, check_parallel
 from editor.language.check_values import check_argument, check_condition, check_quantity, check_value, has_missing
 from editor.language.check_variables import check_variables
@@ -23,10 +25,12 @@ from editor.language.walking import needed_of_roles, walk
 from registry.capability import ParameterSpec
 
 
-def check(reading: Reading, tree: n.Tree, surroundings: Surroundings) -> list[tuple[Problem, int]]:
+def check(
+    reading: Reading, tree: n.Tree, surroundings: Surroundings, document: object = None
+) -> list[tuple[Problem, int]]:
     """Return the problems of a program, each with the identity of its node (0: none); the order is always the same.
 
-    `tree` is the reading's tree with the moves that were put in.
+    `tree` is the reading's tree with the moves that were put in, `document` what was read.
     """
     context = Context(tree, surroundings)
     found = context.found
@@ -43,6 +47,8 @@ def check(reading: Reading, tree: n.Tree, surroundings: Surroundings) -> list[tu
     check_flow(context)
     check_variables(context)
     check_parallel(context)
+    check_library(context, document)
+    check_floor(context, document)
     context.found.extend(follow_loads(tree, context.capacity, context.robot_name))
     _check_left_over(context, reading)
     return context.found

@@ -45,7 +45,7 @@ def compile_document(document: object, surroundings: Surroundings) -> Compiled:
     numbering = number_steps(tree)
     numbers = numbering.numbers
     script = print_tree(tree, surroundings, numbers)
-    found = check(reading, tree, surroundings)
+    found = check(reading, tree, surroundings, document)
     diagnostics = _in_words(found, numbers, script)
     faulty = any(diagnostic.severity == "error" for diagnostic in diagnostics)
     plan = None if faulty else compile_tree(tree, surroundings, script.line_of)

@@ -47,6 +47,20 @@ class FloorFacts(Protocol):
     def is_reachable(self, from_xy: tuple[float, float], to_xy: tuple[float, float], radius_m: float) -> bool:
         """Tell whether a robot of that radius finds a way."""
 
+    def has_machine(self, device_id: str) -> bool:
+        """Tell whether the machine stands on this floor."""
+
+    def station(self, device_id: str, radius_m: float) -> tuple[float, float] | None:
+        """Return where a robot of that radius stands to serve a machine; None when it has no room to."""
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryFacts:
+    """A function of the site's library: what each of its versions is given, as (name, type) pairs."""
+
+    name: str
+    versions: Mapping[int, tuple[tuple[str, str], ...]] = field(default_factory=dict)
+
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
@@ -55,3 +69,5 @@ class Surroundings:
     devices: Mapping[str, DeviceFacts] = field(default_factory=dict)
     places: Mapping[str, PlaceFacts] = field(default_factory=dict)
     floor: FloorFacts | None = None
+    library: Mapping[str, LibraryFacts] | None = None
+    """The functions of the library by id; None: nobody knows them here."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from editor.language.surroundings import DeviceFacts, FloorFacts, PlaceFacts, Surroundings
+from editor.language.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
 from registry.capability import description_from_json, description_to_json
 
 LIFECYCLES = ("pending", "approved", "retired")
@@ -21,7 +21,18 @@ class UnreadableSite(ValueError):
 def surroundings_to_json(surroundings: Surroundings) -> dict[str, Any]:
     """Return a site as plain JSON: `devices` (canonical descriptions, with how they are) and `places`."""
     devices = [_device_to_json(facts) for _, facts in sorted(surroundings.devices.items())]
-    return {"devices": devices, "places": [_place_to_json(p) for _, p in sorted(surroundings.places.items())]}
+    body = {"devices": devices, "places": [_place_to_json(p) for _, p in sorted(surroundings.places.items())]}
+    if surroundings.library is not None:
+        body["library"] = [_library_to_json(name, facts) for name, facts in sorted(surroundings.library.items())]
+    return body
+
+
+def _library_to_json(name: str, facts: LibraryFacts) -> dict[str, Any]:
+    versions = [
+        {"number": number, "parameters": [{"name": given, "type": kind} for given, kind in parameters]}
+        for number, parameters in sorted(facts.versions.items())
+    ]
+    return {"id": name, "name": facts.name, "versions": versions}
 
 
 def _device_to_json(facts: DeviceFacts) -> dict[str, Any]:
@@ -51,7 +62,22 @@ def surroundings_from_json(body: object, floor: FloorFacts | None = None) -> Sur
         raise UnreadableSite("A site must be a JSON object with “devices” and “places”.")
     devices = [_device_from_json(item) for item in _listed(body, "devices")]
     places = [_place_from_json(item) for item in _listed(body, "places")]
-    return Surroundings({facts.description.id: facts for facts in devices}, {p.id: p for p in places}, floor)
+    library = dict(_library_from_json(item) for item in _listed(body, "library")) if "library" in body else None
+    return Surroundings({facts.description.id: facts for facts in devices}, {p.id: p for p in places}, floor, library)
+
+
+def _library_from_json(body: Mapping[str, Any]) -> tuple[str, LibraryFacts]:
+    name = body.get("id")
+    try:
+        versions = {
+            int(version["number"]): tuple((str(given["name"]), str(given["type"])) for given in version["parameters"])
+            for version in _listed(body, "versions")
+        }
+    except (KeyError, TypeError, ValueError) as error:
+        raise UnreadableSite(f"The versions of library function {name} cannot be read: {error}.") from error
+    if not isinstance(name, str) or not name:
+        raise UnreadableSite("A function of the library needs an id.")
+    return name, LibraryFacts(str(body.get("name", name)), versions)
 
 
 def _listed(body: Mapping[str, Any], name: str) -> list[Mapping[str, Any]]:

@@ -20,6 +20,12 @@ class WallInTheMiddle:
     def is_reachable(self, from_xy: tuple[float, float], to_xy: tuple[float, float], radius_m: float) -> bool:
         return (from_xy[0] < 10) == (to_xy[0] < 10)
 
+    def has_machine(self, device_id: str) -> bool:
+        return True
+
+    def station(self, device_id: str, radius_m: float) -> tuple[float, float] | None:
+        return (12.0, -3.0) if device_id == "paintMixer01" else (3.0, -3.0)
+
 
 def moves(*places: dict[str, Any]) -> dict[str, Any]:
     steps = {
