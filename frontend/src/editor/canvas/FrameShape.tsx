@@ -4,7 +4,7 @@ import type { Frame } from "../scene/frames";
 import { isLoop } from "../scene/kinds";
 import { cornerMark } from "./cornerMark";
 import classes from "./stage.module.css";
-import type { OtherPerson, StepState } from "./StepChip";
+import type { OtherPerson, StepState } from "./stepState";
 
 /** How far the outline of a selected frame stands off. */
 const GAP = 4;

@@ -6,15 +6,9 @@ import type { Chip } from "../scene/chips";
 import type { TextPart } from "../scene/words";
 import { cornerMark } from "./cornerMark";
 import classes from "./stage.module.css";
+import type { OtherPerson, StepState } from "./stepState";
 
-export type StepState = "planned" | "running" | "done" | "failed" | "skipped" | null;
-
-/** Somebody else who has the step selected. */
-export interface OtherPerson {
-  readonly name: string;
-  readonly initials: string;
-  readonly colour: string;
-}
+export type { OtherPerson, StepState } from "./stepState";
 
 export interface StepChipProps {
   chip: Chip;

@@ -3,7 +3,7 @@ import type { ReactNode } from "react";
 import { OctagonMark, TickMark } from "@/map/StatusMark";
 import type { Chip } from "../scene/chips";
 import classes from "./stage.module.css";
-import type { StepState } from "./StepChip";
+import type { StepState } from "./stepState";
 
 export function cornerMark(problem: Chip["problem"], state: StepState): ReactNode {
   if (state === "failed" || (state === null && problem === "error")) return <OctagonMark />;
