@@ -1,0 +1,31 @@
+/** The one grammar of values, asked of the server: text to value and back. */
+import { api } from "@/api/client";
+import type { Value } from "../../model/types";
+
+export interface ExpressionProblem {
+  readonly message: string;
+  readonly column: number;
+}
+
+export interface ReadExpression {
+  readonly value: Value;
+  readonly text: string;
+  readonly type: string;
+  readonly unit: string;
+  readonly problem: ExpressionProblem | null;
+}
+
+type Asked = { readonly text: string } | { readonly value: Value };
+
+/** A text that stands for nothing comes back with its problem; only silence and refusals throw. */
+export function readExpression(program: string, step: string, asked: Asked): Promise<ReadExpression> {
+  return api.post<ReadExpression>(`/programs/${program}/expression`, { ...asked, step });
+}
+
+/** Whole numbers, texts and the like need no server to be shown. */
+export function plainText(value: Value | undefined): string | null {
+  if (value === null || value === undefined) return "";
+  if (typeof value === "number") return String(value);
+  if (typeof value === "boolean") return value ? "True" : "False";
+  return null;
+}
