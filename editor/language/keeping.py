@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from editor.language import nodes as n
+from editor.language.names import snake_case
 from editor.language.outline import PROGRAM, mapping
 
 Plain = Mapping[str, object]
@@ -63,24 +64,26 @@ def keep_roles(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, obje
     """Return the document's roles, and the id of each role by its name in the script; unused roles stay."""
     roles: dict[str, object] = dict(old)
     ids: dict[str, str] = {}
+    used = {role.id: role for role in before.roles if role.id}
+    resting = {snake_case(_role_name(key, old)): key for key in sorted(old, reverse=True) if key not in used}
     for role in tree.roles:
-        former = next((item for item in before.roles if item.id and item.id == role.id), None)
-        key = role.id if former is not None and _may_be_called(role) else _free(_new_role_id(role), {*old, *roles})
+        former = used.get(role.id) if _may_be_called(role) and role.name not in resting else None
+        key = former.id if former else resting.get(role.name) or _free(role.name, {*old, *roles})
         ids[role.name] = key
         if former is None or (former.name, former.device, former.can) != (role.name, role.device, role.can):
-            name = mapping(old.get(key)).get("name") if former is not None and former.name == role.name else None
+            same = former.name == role.name if former else key in resting.values()
             binding: dict[str, object] = {"can": list(role.can)} if role.device is None else {"device": role.device}
-            roles[key] = {"name": _text(name) or role.name, **binding}
+            roles[key] = {"name": _role_name(key, old) if same else role.name, **binding}
     return roles, ids
+
+
+def _role_name(key: str, old: Plain) -> str:
+    return key if key == _DEFAULT_ROLE else _text(mapping(old.get(key)).get("name")) or key
 
 
 def _may_be_called(role: n.Role) -> bool:
     """The default role keeps its name always; under another name it is another role."""
-    return role.id != _DEFAULT_ROLE or role.name == _DEFAULT_ROLE
-
-
-def _new_role_id(role: n.Role) -> str:
-    return role.name if role.name != _DEFAULT_ROLE else _DEFAULT_ROLE
+    return (role.id == _DEFAULT_ROLE) == (role.name == _DEFAULT_ROLE)
 
 
 def _free(wanted: str, taken: set[str]) -> str:
