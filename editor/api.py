@@ -10,7 +10,7 @@ from django.http import HttpRequest
 from ninja import Field, Router, Schema
 
 from editor import services
-from editor.shapes import Compiled, Definition, Document, Parameters
+from editor.shapes import Compiled, Definition, Document, DrawnScriptShape, Parameters
 from editor.views import LibraryView, ProgramView, VersionView
 from registry import services as registry
 from registry.access import NotAMember, require
@@ -60,6 +60,16 @@ class VersionMessage(Schema):
     """What a version is about."""
 
     message: str = Field("", max_length=300)
+
+
+class ScriptText(Schema):
+    """A script as somebody edited it."""
+
+    text: str
+    base: dict[str, Any] | None = Field(
+        None, description="The document that it is drawn over; the current one if none."
+    )
+    shown: str | None = Field(None, description="The script from which the text was edited.")
 
 
 class FunctionToSave(Schema):
@@ -149,6 +159,13 @@ def show_compiled(request: HttpRequest, program: UUID) -> dict[str, Any]:
     """Show a program compiled for its site, as both are now."""
     _program(request, program, "viewer")
     return services.get_compiled(program_id=program)
+
+
+@router.post("/programs/{program}/script", response=DrawnScriptShape)
+def draw_script(request: HttpRequest, program: UUID, body: ScriptText) -> services.DrawnScript:
+    """Draw a script: the document that it would make of the program, or where it leaves the language."""
+    _program(request, program, "author")
+    return services.draw_script(program_id=program, text=body.text, base=body.base, shown=body.shown)
 
 
 @router.get("/programs/{program}/versions", response=list[VersionShape])

@@ -17,12 +17,14 @@ from editor.programs import (
     pin_version,
     rename_program,
 )
+from editor.scripts import DrawnScript, draw_script
 from editor.seeding import seed_programs
 from editor.views import AuthorView, LibraryView, ProgramView, VersionView
 
 __all__ = [
     "AuthorView",
     "BadRequest",
+    "DrawnScript",
     "EditorError",
     "LibraryView",
     "NoSuchProgram",
@@ -33,6 +35,7 @@ __all__ = [
     "compile_version_to_json",
     "create_program",
     "delete_program",
+    "draw_script",
     "get_compiled",
     "get_document",
     "get_function",

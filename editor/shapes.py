@@ -82,10 +82,22 @@ class DocumentShape(Schema):
     zones: dict[str, Any]
 
 
+Document = Annotated[dict[str, Any], Shown(DocumentShape)]
+MaybeDocument = Annotated[dict[str, Any] | None, Shown(DocumentShape | None)]
+
+
+class Words(Schema):
+    """A sentence in each language of the screens."""
+
+    en: str
+    de: str
+
+
 class FixShape(Schema):
     """A change that mends a problem: `field` of the step becomes `value`."""
 
     label: str
+    labels: Words
     label_code: str
     step: str
     field: str
@@ -100,6 +112,8 @@ class DiagnosticShape(Schema):
     step: str
     field: str
     message: str
+    messages: Words
+    when: Literal["now", "ever"] = Field(description="Whether it is so only as the site is at present.")
     args: dict[str, Any]
     line: int | None
     fix: FixShape | None
@@ -118,6 +132,34 @@ class CompiledShape(Schema):
     depth: dict[str, int]
 
 
+class ScriptProblem(Schema):
+    """Where a script leaves the language; lines and columns count from 1."""
+
+    code: str
+    line: int
+    column: int
+    end_line: int | None
+    end_column: int | None
+    message: str
+    messages: dict[str, str]
+    found: str
+    expected: str
+
+
+class DrawnScriptShape(Schema):
+    """What a script came to: `document` is what the program would be, null while the script is not valid or stale.
+
+    Stale: the base does not print as the script that was shown; `script` is then what it prints.
+    """
+
+    ok: bool
+    stale: bool
+    document: MaybeDocument
+    script: str
+    lines: list[str]
+    diagnostics: list[ScriptProblem]
+
+
 class DefinitionShape(Schema):
     """What a library function holds; `functions` are those that it calls."""
 
@@ -127,7 +169,6 @@ class DefinitionShape(Schema):
     steps: dict[str, StepShape]
 
 
-Document = Annotated[dict[str, Any], Shown(DocumentShape)]
 Compiled = Annotated[dict[str, Any], Shown(CompiledShape)]
 Definition = Annotated[dict[str, Any], Shown(DefinitionShape)]
 Parameters = Annotated[list[dict[str, Any]], Shown(list[ParameterDefinition])]

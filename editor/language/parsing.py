@@ -64,12 +64,13 @@ def parse_script(text: str, surroundings: Surroundings) -> Parsed:
         return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "It is nested too deeply."}),))
 
 
-def _diagnostic(code: str, line: int, column: int, args: Mapping[str, str]) -> Diagnostic:
-    return put_into_words(Problem(code, args={"line": line, **args}), line, column)
+def _diagnostic(code: str, line: int, column: int, args: Mapping[str, str | int]) -> Diagnostic:
+    return put_into_words(Problem(code, args={"line": line, "column": column, **args}), line, column)
 
 
 def _refusal(refused: Refused) -> Diagnostic:
-    args = {"found": refused.found, "instead": refused.instead}
+    end = {"end_line": refused.end_line, "end_column": refused.end_column}
+    args = {"found": refused.found, "instead": refused.instead, **end}
     return _diagnostic("not_in_language", refused.line, refused.column, args)
 
 

@@ -29,6 +29,8 @@ class Refused(Exception):
     def __init__(self, node: ast.AST, found: str, instead: str) -> None:
         super().__init__(found)
         self.line, self.column = getattr(node, "lineno", 1), getattr(node, "col_offset", 0) + 1
+        self.end_line = getattr(node, "end_lineno", None) or self.line
+        self.end_column = (getattr(node, "end_col_offset", None) or self.column) + 1
         self.found, self.instead = found, instead
 
 

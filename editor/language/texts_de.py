@@ -122,8 +122,8 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     ),
     "zone_too_small": "{zone} ist kleiner als {robot} und bewirkt deshalb nichts. Vergrößern Sie die Zone.",
     # a script that was written by hand
-    "not_python": "Zeile {line}: Das ist nicht vollständig. {detail}",
-    "not_in_language": "Zeile {line}: {found} gehört nicht zur Sprache. {instead}",
+    "not_python": "Zeile {line}, Spalte {column}: Das ist nicht vollständig. {detail}",
+    "not_in_language": "Zeile {line}, Spalte {column}: {found} gehört nicht zur Sprache. {instead}",
 }  # fmt: skip
 
 FIX_TEXTS_DE: Final[Mapping[str, str]] = {

@@ -96,14 +96,14 @@ def test_steps_that_did_not_change_keep_their_ids_and_places() -> None:
 def test_python_outside_the_language_is_refused_with_its_line(line: str) -> None:
     where, message = refusal("self.wait(60)", line)
     assert where == 4
-    assert message.startswith("Line 4: ")
+    assert message.startswith("Line 4, column ")
 
 
 def test_a_pick_at_an_unknown_place_says_what_to_put_before_it() -> None:
     where, message = refusal('self.robot.pick({"value": 1, "object": "box"})')
     assert (where, message) == (
         3,
-        "Line 3: A pick or drop at an unknown place is not part of the language. Put self.robot.move(…) before it.",
+        "Line 3, column 9: A pick or drop at an unknown place is not part of the language. Put self.robot.move(…) before it.",
     )
 
 
