@@ -23,15 +23,22 @@ def check_branches(context: Context, node: n.Parallel) -> None:
         for key in sorted(mine.keys() & theirs.keys()):
             names = {"first": _letter(first), "second": _letter(second)}
             robot = context.driver_name(theirs[key])
-            context.tell(node, "shared_robot", "branches", {**names, "robot": robot}, _own_robot(context, node, second))
+            context.tell(
+                node,
+                "shared_robot",
+                "branches",
+                {**names, "robot": robot},
+                _own_robot(context, node, second, theirs[key]),
+            )
 
 
-def _own_robot(context: Context, node: n.Parallel, branch: int) -> Fix | None:
+def _own_robot(context: Context, node: n.Parallel, branch: int, role: str) -> Fix | None:
     """Return the fix that gives a branch a role of its own; not where functions decide who drives."""
     if any(isinstance(inner, n.Call) for inner in walk(node.branches[branch])):
         return None
     letter = _letter(branch)
-    return Fix("own_robot", node.step, "robot_of", letter, {"value": letter})
+    value = {"branch": letter, "role": context.roles[role].id or role}
+    return Fix("own_robot", node.step, "robot_of", value, {"value": letter})
 
 
 def _letter(index: int) -> str:

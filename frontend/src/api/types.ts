@@ -191,8 +191,15 @@ export interface ProgramDocument {
   zones: Record<string, Zone>;
 }
 
+/** A sentence in each language of the screens. */
+export interface Words {
+  en: string;
+  de: string;
+}
+
 export interface DiagnosticFix {
   label: string;
+  labels: Words;
   label_code: string;
   step: string;
   field: string;
@@ -205,6 +212,8 @@ export interface Diagnostic {
   step: string;
   field: string;
   message: string;
+  messages: Words;
+  when: "now" | "ever";
   args: Record<string, unknown>;
   line: number | null;
   fix: DiagnosticFix | null;

@@ -1,5 +1,6 @@
 /** The editor: a program drawn on its map, by several people at once. */
 import { useEffect, useMemo, useState, useSyncExternalStore } from "react";
+import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { useCompiled, useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Site, User } from "@/api/types";
@@ -7,6 +8,7 @@ import { useSiteLive } from "@/live/site";
 import { useEditorText, useScene } from "./canvas/useScene";
 import { EditorWorkspace } from "./EditorWorkspace";
 import type { Edit } from "./model/edits";
+import { inLanguage } from "./model/problems";
 import { SharedProgram } from "./model/shared";
 import { useQuietDevices } from "./state/quietDevices";
 import { ProgramContext, type OpenProgram } from "./state/context";
@@ -87,6 +89,7 @@ function Loaded({ program, site, devices: live, shared, canEdit, user }: LoadedP
     collapsed,
   });
   const people = usePeople(shared);
+  const { language } = useTranslation().i18n;
   useShowSelection(
     shared,
     useMemo(() => (user ? { ...user } : undefined), [user]),
@@ -101,7 +104,7 @@ function Loaded({ program, site, devices: live, shared, canEdit, user }: LoadedP
       shared,
       document,
       compiled,
-      diagnostics: compiled?.diagnostics ?? [],
+      diagnostics: inLanguage(compiled?.diagnostics ?? [], language),
       scene,
       surroundings,
       speaker: { document, surroundings, t },
@@ -113,7 +116,7 @@ function Loaded({ program, site, devices: live, shared, canEdit, user }: LoadedP
         if (canEdit) shared.apply(edits);
       },
     };
-  }, [program, site, plan, devices, shared, document, compiled, parts, people, canEdit]);
+  }, [program, site, plan, devices, shared, document, compiled, parts, people, canEdit, language]);
   return (
     <ProgramContext value={open}>
       <EditorWorkspace />

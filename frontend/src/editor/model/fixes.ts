@@ -1,22 +1,81 @@
 /** A problem's remedy as edits of the document. */
 import type { Edit } from "./edits";
-import { deleteSteps, joinDrafts } from "./gestures";
+import { deleteSteps, joinDrafts, type MakeId } from "./gestures";
+import { withDescendants } from "./tree";
 import type { Fix, ProgramDocument } from "./types";
 
-/** `field` is a parameter's name, `args.name` inside one, or "place" / "" for the step itself. */
-export function fixEdits(document: ProgramDocument, fix: Fix): readonly Edit[] {
-  const { step: id, field, value } = fix;
-  const step = document.steps[id];
-  if (!step) return [];
-  if (field === "place") return joined(document, id);
-  if (field === "") return value === null ? deleteSteps(document, [id]) : [];
+const DEFAULT_ROLE = "robot";
+
+/** What a remedy may have to make: ids, and the name of the program's next robot. */
+export interface Fresh {
+  readonly makeId: MakeId;
+  readonly robotName: (number: number) => string;
+}
+
+type Remedy = (document: ProgramDocument, fix: Fix, fresh: Fresh) => readonly Edit[];
+
+/** The fields that are no parameter: the step itself, its place, its kind, the robot of one of its branches. */
+const REMEDIES: Readonly<Record<string, Remedy>> = {
+  place: joined,
+  delete: (document, fix) => deleteSteps(document, [fix.step]),
+  kind: changedKind,
+  robot_of: ownRobot,
+};
+
+/** `field` is one of the above, else a parameter's name, or `args.name` inside one. */
+export function fixEdits(document: ProgramDocument, fix: Fix, fresh: Fresh): readonly Edit[] {
+  if (!document.steps[fix.step]) return [];
+  return (REMEDIES[fix.field] ?? changedParameter)(document, fix, fresh);
+}
+
+/** The library's version that this remedy brings in; it is fetched first. */
+export function versionOf(fix: Fix): { function: string; library: string; version: number } | null {
+  if (fix.field !== "source.version" || typeof fix.value !== "object" || fix.value === null) return null;
+  const { function: id, library, version } = fix.value as Record<string, unknown>;
+  const whole = typeof id === "string" && typeof library === "string" && typeof version === "number";
+  return whole ? { function: id, library, version } : null;
+}
+
+function changedParameter(document: ProgramDocument, { step: id, field, value }: Fix): readonly Edit[] {
   const [name = "", inner] = field.split(".", 2);
   if (inner === undefined) return [{ do: "set_param", id, name, value }];
-  const whole = { ...(step.params[name] as Record<string, unknown> | undefined), [inner]: value };
+  const whole = { ...(document.steps[id]?.params[name] as Record<string, unknown> | undefined), [inner]: value };
   return [{ do: "set_param", id, name, value: whole }];
 }
 
-function joined(document: ProgramDocument, id: string): readonly Edit[] {
-  const decision = joinDrafts(document, [id]);
+function joined(document: ProgramDocument, { step }: Fix): readonly Edit[] {
+  const decision = joinDrafts(document, [step]);
   return "edits" in decision ? decision.edits : [];
+}
+
+function changedKind(document: ProgramDocument, { step: id, value }: Fix): readonly Edit[] {
+  const step = document.steps[id];
+  return step && typeof value === "string" ? [{ do: "add_step", id, step: { ...step, kind: value, params: {} } }] : [];
+}
+
+/** Every step of the branch that the role drives gets a new role, for any robot. */
+function ownRobot(document: ProgramDocument, fix: Fix, fresh: Fresh): readonly Edit[] {
+  const { branch, role } = fix.value as { branch: string; role: string };
+  const inBranch = ([, step]: [string, ProgramDocument["steps"][string]]) =>
+    step.place?.[0] === fix.step && step.place[1] === branch;
+  const roots = Object.entries(document.steps).filter(inBranch);
+  const ids = withDescendants(
+    document,
+    roots.map(([id]) => id),
+  );
+  const driven = [...ids].filter((id) => drivenBy(document, id) === role);
+  if (driven.length === 0) return [];
+  const id = fresh.makeId();
+  const count = new Set([DEFAULT_ROLE, ...Object.keys(document.roles)]).size;
+  return [
+    { do: "set_role", id, value: { name: fresh.robotName(count + 1), can: [] } },
+    ...driven.map((step): Edit => ({ do: "set_param", id: step, name: "role", value: id })),
+  ];
+}
+
+const DRIVING = new Set(["move", "pick", "drop", "pick_and_drop"]);
+
+function drivenBy(document: ProgramDocument, id: string): string | null {
+  const step = document.steps[id];
+  return step && DRIVING.has(step.kind) ? String(step.params.role ?? DEFAULT_ROLE) : null;
 }

@@ -1,9 +1,8 @@
 import { expect, test } from "vitest";
 import { applyEdits } from "./edits";
-import { fixEdits } from "./fixes";
-import { alreadyImported, importFunction, type CutOut } from "./library";
+import { alreadyImported, importFunction, replaceFunction, type CutOut } from "./library";
 import { readTree } from "./tree";
-import { EMPTY_DOCUMENT } from "./types";
+import { EMPTY_DOCUMENT, type ProgramDocument } from "./types";
 
 const cut: CutOut = {
   id: "f",
@@ -32,15 +31,23 @@ test("an imported function has new ids throughout and knows where it is from", (
   expect(alreadyImported(document, "lib", 4)).toBeNull();
 });
 
-test("a remedy sets the value inside the arguments and leaves the others", () => {
-  const step = { kind: "operate", place: null, params: { args: { time: null, shade: "teal" } } };
-  const document = { ...EMPTY_DOCUMENT, steps: { s: step } };
-  const edits = fixEdits(document, { label: "", step: "s", field: "args.time", value: 6 });
-  expect(applyEdits(document, edits).steps.s?.params).toEqual({ args: { time: 6, shade: "teal" } });
-});
-
-test("a draft is joined to the end of the program", () => {
-  const document = { ...EMPTY_DOCUMENT, steps: { s: { kind: "wait", place: null, params: {} } } };
-  const edits = fixEdits(document, { label: "", step: "s", field: "place", value: null });
-  expect(readTree(applyEdits(document, edits)).reading).toEqual(["s"]);
+test("another version takes the place of the function, and its calls stay", () => {
+  const document: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    functions: { mix: { name: "mixPaint", parameters: [], source: { library: "lib", version: 2 } } },
+    steps: {
+      old: { kind: "try", place: ["mix", "body", "A"], params: {} },
+      inner: { kind: "wait", place: ["old", "body", "A"], params: { duration: 1 } },
+      call: { kind: "call", place: ["program", "body", "A"], params: { function: "mix", args: {} } },
+    },
+  };
+  let count = 0;
+  const edits = replaceFunction(document, "mix", cut, { library: "lib", version: 3 }, () => `n${(count += 1)}`);
+  const after = applyEdits(document, edits);
+  expect(after.functions.mix?.source).toEqual({ library: "lib", version: 3 });
+  expect(after.steps.old).toBeUndefined();
+  expect(after.steps.inner).toBeUndefined();
+  expect(readTree(after).children("mix", "body")).toHaveLength(1);
+  expect(after.steps.call).toEqual(document.steps.call);
+  expect(replaceFunction(document, "gone", cut, { library: "lib", version: 3 }, () => "n")).toEqual([]);
 });

@@ -1,7 +1,7 @@
 /** Functions of the library brought into a document, with ids of their own. */
 import type { Edit } from "./edits";
 import type { FunctionDefinition, ProgramDocument, Step } from "./types";
-import type { MakeId } from "./gestures";
+import { deleteSteps, type MakeId } from "./gestures";
 
 /** A function cut out of a program: its body and the functions that it calls. */
 export interface CutOut {
@@ -24,15 +24,15 @@ export function alreadyImported(document: ProgramDocument, library: string, vers
   return found?.[0] ?? null;
 }
 
-export function importFunction(
-  cut: CutOut,
-  source: { readonly library: string; readonly version: number },
-  makeId: MakeId,
-): Imported {
-  const fresh = new Map<string, string>();
-  for (const id of [cut.id, ...Object.keys(cut.functions), ...Object.keys(cut.steps)]) fresh.set(id, makeId());
+export interface Source {
+  readonly library: string;
+  readonly version: number;
+}
+
+export function importFunction(cut: CutOut, source: Source, makeId: MakeId, functionId = makeId()): Imported {
+  const fresh = new Map<string, string>([[cut.id, functionId]]);
+  for (const id of [...Object.keys(cut.functions), ...Object.keys(cut.steps)]) fresh.set(id, makeId());
   const renamed = (id: string) => fresh.get(id) ?? id;
-  const functionId = renamed(cut.id);
   const steps = Object.entries(cut.steps).map(([id, step]): Edit => ({
     do: "add_step",
     id: renamed(id),
@@ -47,6 +47,19 @@ export function importFunction(
     functionId,
     edits: [{ do: "set_function", id: functionId, value: { ...cut.function, source } }, ...others, ...steps],
   };
+}
+
+/** The function's definition and body as another version of the library has them; its calls stay. */
+export function replaceFunction(
+  document: ProgramDocument,
+  functionId: string,
+  cut: CutOut,
+  source: Source,
+  makeId: MakeId,
+): readonly Edit[] {
+  if (!document.functions[functionId]) return [];
+  const body = Object.keys(document.steps).filter((id) => document.steps[id]?.place?.[0] === functionId);
+  return [...deleteSteps(document, body), ...importFunction(cut, source, makeId, functionId).edits];
 }
 
 function renameStep(step: Step, renamed: (id: string) => string): Step {

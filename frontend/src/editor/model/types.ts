@@ -97,8 +97,15 @@ export interface ProgramDocument {
   readonly zones: Readonly<Record<string, Zone>>;
 }
 
+/** A sentence in each language of the screens. */
+export interface Words {
+  readonly en: string;
+  readonly de: string;
+}
+
 export interface Fix {
   readonly label: string;
+  readonly labels?: Words;
   readonly label_code?: string;
   readonly step: string;
   readonly field: string;
@@ -111,6 +118,9 @@ export interface Diagnostic {
   readonly step: string;
   readonly field: string;
   readonly message: string;
+  readonly messages?: Words;
+  /** `now`: so only as the site is at present; `ever`: until the program changes. */
+  readonly when?: "now" | "ever";
   readonly line?: number | null;
   readonly fix?: Fix | null;
 }

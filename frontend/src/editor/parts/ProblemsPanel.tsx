@@ -1,64 +1,108 @@
 /** What is wrong, with the place, the line and, where one click helps, the remedy. */
 import { Button } from "@mantine/core";
 import { CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
-import { fixEdits } from "../model/fixes";
-import type { Diagnostic } from "../model/types";
+import { useTranslation } from "react-i18next";
+import { api } from "@/api/client";
+import type { LibraryFunction } from "@/api/types";
+import { fixEdits, versionOf } from "../model/fixes";
+import { replaceFunction, type CutOut } from "../model/library";
+import type { Diagnostic, Fix } from "../model/types";
+import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
-import { select, useUi } from "../state/ui";
+import { say, select, useUi } from "../state/ui";
 import classes from "./drawer.module.css";
 
 export function ProblemsPanel({ titled = false }: { titled?: boolean }) {
-  const { t, diagnostics } = useOpenProgram();
-  const errors = diagnostics.filter((each) => each.severity === "error").length;
+  const { diagnostics } = useOpenProgram();
+  const { t } = useTranslation();
+  const errors = diagnostics.filter((each) => each.severity === "error");
+  const warnings = diagnostics.filter((each) => each.severity === "warning");
   return (
-    <div className={classes.problems}>
-      {titled ? (
-        <h2 className={classes.heading}>
-          {t("drawer.problems")}
-          <span>{t("problems.count", { errors, warnings: diagnostics.length - errors })}</span>
-        </h2>
-      ) : null}
+    <div className={classes.problems} data-titled={titled || undefined}>
       {diagnostics.length === 0 ? (
         <p className={classes.nothing}>
           <CircleCheck size={20} aria-hidden="true" />
           {t("problems.none")}
         </p>
-      ) : (
-        <ul className={classes.list}>
-          {diagnostics.map((each, index) => (
-            <Problem key={`${each.code} ${each.step} ${each.field} ${index}`} problem={each} />
-          ))}
-        </ul>
-      )}
+      ) : null}
+      <Group title={t("problems.errors", { count: errors.length })} problems={errors} />
+      <Group title={t("problems.warnings", { count: warnings.length })} problems={warnings} />
     </div>
   );
 }
 
+function Group({ title, problems }: { title: string; problems: readonly Diagnostic[] }) {
+  if (problems.length === 0) return null;
+  return (
+    <section className={classes.group} aria-label={title}>
+      <h2 className={classes.heading}>{title}</h2>
+      <ul className={classes.list}>
+        {problems.map((each, index) => (
+          <Problem key={`${each.code} ${each.step} ${each.field} ${index}`} problem={each} />
+        ))}
+      </ul>
+    </section>
+  );
+}
+
 function Problem({ problem }: { problem: Diagnostic }) {
-  const { t, document, compiled, apply, canEdit } = useOpenProgram();
+  const { t: editor, document, compiled, canEdit } = useOpenProgram();
+  const { t } = useTranslation();
   const selected = useUi((ui) => problem.step !== "" && ui.selected.includes(problem.step));
   const number = compiled?.numbers[problem.step];
   const kind = document.steps[problem.step]?.kind;
-  const { fix } = problem;
   return (
     <li className={classes.problem} data-severity={problem.severity} data-selected={selected || undefined}>
       {problem.severity === "error" ? (
-        <OctagonAlert size={16} aria-label={t("announce.error")} />
+        <OctagonAlert size={16} aria-label={editor("announce.error")} />
       ) : (
-        <TriangleAlert size={16} aria-label={t("announce.warning")} />
+        <TriangleAlert size={16} aria-label={editor("announce.warning")} />
       )}
       <button type="button" className={classes.go} onClick={() => problem.step && select([problem.step])}>
         {problem.message}
       </button>
       <span className={classes.line}>{problem.line ?? ""}</span>
-      {number && kind ? (
-        <span className={classes.where}>{t("problems.where", { number, kind: t(`kind.${kind}`) })}</span>
-      ) : null}
-      {fix && canEdit ? (
-        <Button className={classes.fix} size="xs" variant="default" onClick={() => apply(fixEdits(document, fix))}>
-          {fix.label}
-        </Button>
-      ) : null}
+      <span className={classes.where}>
+        {number && kind ? t("problems.where", { number, kind: editor(`kind.${kind}`) }) : null}
+        {problem.when === "now" ? <em className={classes.now}>{t("problems.now")}</em> : null}
+      </span>
+      {problem.fix && canEdit ? <FixButton fix={problem.fix} /> : null}
     </li>
   );
+}
+
+function FixButton({ fix }: { fix: Fix }) {
+  const { document, apply } = useOpenProgram();
+  const { t } = useTranslation();
+  const bringVersion = useBringVersion();
+  const mend = () => {
+    const robotName = (number: number) => t("problems.robot", { number });
+    if (versionOf(fix)) void bringVersion(fix);
+    else apply(fixEdits(document, fix, { makeId, robotName }));
+  };
+  return (
+    <Button className={classes.fix} size="xs" variant="default" onClick={mend}>
+      {fix.label}
+    </Button>
+  );
+}
+
+/** Fetch the version of a library function that a remedy names, and put it in the place of the one here. */
+function useBringVersion() {
+  const { shared, apply } = useOpenProgram();
+  const { t } = useTranslation();
+  return async (fix: Fix) => {
+    const wanted = versionOf(fix);
+    if (!wanted) return;
+    const { library, version } = wanted;
+    try {
+      const found = await api.get<LibraryFunction>(`/library/${library}/versions/${version}`);
+      if (!found.definition) return;
+      const cut = found.definition as unknown as CutOut;
+      apply(replaceFunction(shared.getDocument(), wanted.function, cut, { library, version }, makeId));
+      say(t("problems.brought", { version }), true);
+    } catch (problem) {
+      say(problem instanceof Error ? problem.message : String(problem));
+    }
+  };
 }

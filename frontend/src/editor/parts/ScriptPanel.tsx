@@ -11,7 +11,7 @@ export function ScriptPanel() {
 }
 
 function ScriptText() {
-  const { compiled, t } = useOpenProgram();
+  const { compiled, diagnostics, t } = useOpenProgram();
   const selected = useUi((ui) => ui.selected);
   const place = useRef<HTMLDivElement>(null);
   const view = useRef<ScriptView | null>(null);
@@ -31,10 +31,10 @@ function ScriptText() {
         script: compiled.script,
         lines: compiled.lines,
         numbers: compiled.numbers,
-        diagnostics: compiled.diagnostics,
+        diagnostics,
         selected: new Set(selected),
         scrollTo: selected.at(-1) ?? null,
       });
-  }, [compiled, selected, label]);
+  }, [compiled, diagnostics, selected, label]);
   return <div ref={place} className={classes.script} />;
 }
