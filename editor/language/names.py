@@ -8,14 +8,15 @@ from collections.abc import Iterable
 from functools import lru_cache
 
 ROBOT_METHODS = ("move", "pick", "drop")
-CLOSED_FUNCTIONS = ("abs", "max", "min", "round")
-_OF_THE_TASK = {"new_task", "run", "wait", "parallel", "call"}
-_OF_ISSUES_TO_COME = {"repeat", "notify", "ask", "zone", "release", "parameters"}
-RESERVED_ATTRIBUTES = frozenset(_OF_THE_TASK | _OF_ISSUES_TO_COME)
-RESERVED_LOCALS = frozenset({"self", "ctx", "problem", "range", *CLOSED_FUNCTIONS})
+CLOSED_FUNCTIONS = ("abs", "count", "distance", "max", "min", "nearest", "now", "point", "quantity", "round")
+_OF_THE_TASK = {"new_task", "run", "wait", "parallel", "call", "set", "ask", "notify", "end"}
+_KEPT_FREE = {"repeat", "zone", "release", "parameters"}
+RESERVED_ATTRIBUTES = frozenset(_OF_THE_TASK | _KEPT_FREE)
+RESERVED_LOCALS = frozenset({"self", "ctx", "problem", "range", "_", *CLOSED_FUNCTIONS})
 RESERVED_MEMBERS = frozenset({*ROBOT_METHODS, "operate", "read", "location"})
 
 _BETWEEN = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+_OF_EVENTS = re.compile(r"when_e\d")
 _OTHER = re.compile(r"[^A-Za-z0-9]+")
 
 
@@ -27,7 +28,7 @@ def snake_case(name: str) -> str:
         return "unnamed"
     if words[0].isdigit():
         words = f"n{words}"
-    if words.startswith("branch_"):
+    if words.startswith("branch_") or _OF_EVENTS.match(words):
         words = f"the_{words}"
     return f"{words}_" if keyword.iskeyword(words) or keyword.issoftkeyword(words) else words
 
@@ -41,9 +42,20 @@ def unique_name(wanted: str, taken: Iterable[str]) -> str:
     return free
 
 
-def local_name(wanted: str, taken: Iterable[str]) -> str:
-    """Return a parameter's name in the script; a good Python name stays as it is."""
-    others = {*taken, *RESERVED_LOCALS}
-    if wanted.isascii() and wanted.isidentifier() and not keyword.iskeyword(wanted) and wanted not in others:
+def attribute_name(wanted: str, taken: Iterable[str]) -> str:
+    """Return the name of a value of the whole program, an attribute of the task; a good name stays as it is."""
+    others = frozenset(taken) | RESERVED_ATTRIBUTES
+    reserved = wanted.startswith("branch_") or _OF_EVENTS.match(wanted)
+    if not reserved and wanted not in others and _is_good(wanted):
         return wanted
     return unique_name(wanted, others)
+
+
+def local_name(wanted: str, taken: Iterable[str]) -> str:
+    """Return the name of a parameter or a variable in the script; a good Python name stays as it is."""
+    others = {*taken, *RESERVED_LOCALS}
+    return wanted if wanted not in others and _is_good(wanted) else unique_name(wanted, others)
+
+
+def _is_good(name: str) -> bool:
+    return name.isascii() and name.isidentifier() and not keyword.iskeyword(name)

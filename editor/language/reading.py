@@ -3,42 +3,54 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+from editor.language.answers import settle_answer
 from editor.language.diagnostics import Fix, Problem, TextArguments
 from editor.language.ladder import FORMAT, format_of
-from editor.language.names import RESERVED_ATTRIBUTES, local_name, unique_name
+from editor.language.names import RESERVED_ATTRIBUTES, attribute_name, local_name, unique_name
 from editor.language.nodes import (
     MISSING,
     NOWHERE,
+    Ask,
     Block,
+    Break,
     Call,
     Drop,
+    End,
+    Event,
+    ForEach,
     Function,
     If,
     Move,
     Node,
+    Notify,
     Operate,
     Parallel,
     Parameter,
     Pick,
     Point,
+    Repeat,
+    Return,
     Role,
+    Set,
     Tree,
     Try,
     Wait,
     WaitUntil,
     While,
 )
-from editor.language.outline import PROGRAM, Outline, Params, make_outline, mapping
+from editor.language.outline import EVENTS, PROGRAM, Outline, Params, make_outline, mapping
 from editor.language.phrases import Options
 from editor.language.plan import Expression, Located, PlaceRef
 from editor.language.type_names import settle_type
-from editor.language.values import UnknownParameter, plain, read_place, read_point, read_value
+from editor.language.values import Names, UnknownParameter, plain, read_place, read_point, read_value
 from editor.language.walking import in_reading_order
 
 DEFAULT_ROLE = "robot"
 _DRIVING = frozenset({"move", "pick", "drop", "pick_and_drop"})
+_SETTERS = {"set": "variable", "ask": "variable", "call": "result"}
+"""The kinds of steps that set a variable, with the parameter that names it."""
 FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
 
 
@@ -60,9 +72,8 @@ class _Reader:
     functions: dict[str, Function]
     """By id, still without their bodies."""
     argument_names: dict[str, dict[str, str]]
-    globals: Mapping[str, str]
-    names: Mapping[str, str] = field(default_factory=dict)
-    """The parameters that can be seen in the block being read."""
+    names: Names
+    """The parameters and variables that can be seen in the block being read."""
     problems: list[Problem] = field(default_factory=list)
     _driven: frozenset[str] | None = None
 
@@ -87,6 +98,11 @@ class _Reader:
         except UnknownParameter as error:
             return self._unknown(step, field_name or name, error)
 
+    def given(self, step: str, params: Params, name: str) -> Expression | None:
+        """Return the expression in a parameter that may also be left out."""
+        value = self.value(step, params, name)
+        return None if value == MISSING else value
+
     def place(self, step: str, params: Params, name: str) -> PlaceRef:
         """Return the place in a parameter; what does not exist reads as missing, and is told."""
         try:
@@ -108,6 +124,11 @@ class _Reader:
             self.problems.append(Problem("unknown_role", step, "role", {"role": name}, fix))
             name = DEFAULT_ROLE
         return self.roles[name].name
+
+    def variable(self, params: Params, name: str = "variable") -> str:
+        """Return the script name of the variable that a step sets, empty when it is still to be named."""
+        wanted = _text(params.get(name))
+        return self.names.get(wanted, "") if wanted else ""
 
     def block(self, parent: str, branch: str) -> Block:
         """Return the nodes of one branch."""
@@ -178,8 +199,8 @@ def _arguments(reader: _Reader, step: str, params: Params) -> tuple[tuple[str, E
 def _wait(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
     if params.get("until") is None:
         return (Wait(reader.value(step, params, "duration"), step),)
-    timeout = reader.value(step, params, "timeout")
-    return (WaitUntil(reader.value(step, params, "until"), None if timeout == MISSING else timeout, step),)
+    timeout = reader.given(step, params, "timeout")
+    return (WaitUntil(reader.value(step, params, "until"), timeout, step),)
 
 
 def _if(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
@@ -199,16 +220,19 @@ def _try(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
     named = params.get("kinds")
     wanted = named if isinstance(named, list | tuple) else ()
     kinds = tuple(kind for kind in FAILURE_KINDS if kind in wanted)
-    return (Try(kinds, reader.block(step, "body"), reader.block(step, "catch"), step=step),)
+    body, catch, final = (reader.block(step, branch) for branch in ("body", "catch", "finally"))
+    catches = params.get("catch") is not False
+    return (Try(kinds if catches else (), body, catch, final, catches, step),)
 
 
 def _call(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
     wanted = params.get("function")
     function = reader.functions.get(wanted) if isinstance(wanted, str) else None
+    result = reader.variable(params, "result")
     if function is None:
         if wanted is not None:
             reader.problems.append(Problem("unknown_function", step, "function"))
-        return (Call("", step=step),)
+        return (Call("", result=result, step=step),)
     names = reader.argument_names[function.id]
     given = mapping(params.get("args"))
     arguments: list[tuple[str, Expression]] = []
@@ -220,11 +244,56 @@ def _call(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
             options = Options(tuple(names))
             details: TextArguments = {"method": function.name, "argument": str(name), "options": options}
             reader.problems.append(Problem("unknown_argument", step, f"args.{name}", details))
-    return (Call(function.method, tuple(sorted(arguments, key=lambda pair: pair[0])), step=step),)
+    return (Call(function.method, tuple(sorted(arguments, key=lambda pair: pair[0])), result, step),)
 
 
 def _call_argument(reader: _Reader, step: str, given: Params, name: str) -> Expression:
     return reader.value(step, given, name, f"args.{name}")
+
+
+def _repeat(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (Repeat(reader.value(step, params, "times"), reader.block(step, "body"), step),)
+
+
+def _for_each(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    """The variable of the loop can be seen in its body, and hides what else has its name."""
+    listed, wanted = params.get("items"), _text(params.get("variable"))
+    items = listed if isinstance(listed, list | tuple) else ()
+    values = tuple(reader.value(step, {"items": item}, "items") for item in items)
+    outside = reader.names
+    if wanted:
+        hidden = (script for name, script in outside.items() if name != wanted)
+        reader.names = {**outside, wanted: local_name(wanted, hidden)}
+    body = reader.block(step, "body")
+    variable, reader.names = reader.variable(params), outside
+    return (ForEach(variable, values, body, step),)
+
+
+def _set(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (Set(reader.variable(params), reader.value(step, params, "value"), step),)
+
+
+def _ask(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    question, timeout = reader.value(step, params, "question"), reader.given(step, params, "timeout")
+    answer = settle_answer(mapping(params.get("answer")))
+    return (Ask(question, answer, reader.variable(params), timeout, step),)
+
+
+def _notify(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    level = "warning" if params.get("level") == "warning" else "info"
+    return (Notify(reader.value(step, params, "message"), level, step),)
+
+
+def _end(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (End(step),)
+
+
+def _return(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (Return(reader.given(step, params, "value"), step),)
+
+
+def _break(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
+    return (Break(step),)
 
 
 READERS: Mapping[str, Reads] = {
@@ -239,6 +308,14 @@ READERS: Mapping[str, Reads] = {
     "parallel": _parallel,
     "try": _try,
     "call": _call,
+    "repeat": _repeat,
+    "for_each": _for_each,
+    "set": _set,
+    "ask": _ask,
+    "notify": _notify,
+    "end": _end,
+    "return": _return,
+    "break": _break,
 }
 
 
@@ -246,24 +323,80 @@ def read_document(document: object) -> Reading:
     """Read a document (plain JSON, format 2); nothing in it makes this raise."""
     whole = mapping(document)
     outline = make_outline(whole)
-    parameters, global_names = _read_parameters(_by_id(whole.get("parameters")).items(), local=False)
-    taken = RESERVED_ATTRIBUTES | {parameter.name for parameter in parameters}
+    parameters, names = _read_parameters(_by_id(whole.get("parameters")).items())
+    taken = {*RESERVED_ATTRIBUTES, *names.values()}
     roles = _read_roles(_by_id(whole.get("roles")), taken)
     taken |= {role.name for role in roles.values()}
-    functions, argument_names = _read_functions(_by_id(whole.get("functions")), taken)
-    reader = _Reader(outline, roles, functions, argument_names, global_names, global_names)
-    body = reader.block(PROGRAM, "body")
-    with_bodies: dict[str, Function] = {}
-    for function in functions.values():
-        reader.names = {**global_names, **argument_names[function.id]}
-        block = reader.block(function.id, "body") if function.id not in outline.kinds else ()
-        with_bodies[function.method] = Function(
-            function.method, function.parameters, block, id=function.id, name=function.name
-        )  # fmt: skip
-    tree = in_reading_order(Tree(body, tuple(with_bodies.values()), tuple(roles.values()), parameters))
+    given = _by_id(whole.get("functions"))
+    functions = _read_functions(given, taken)
+    taken |= {function.method for function in functions.values()}
+    variables = _variables_by_root(outline)
+    for name in sorted(variables.get(PROGRAM, ())):
+        if name not in names:
+            names[name] = attribute_name(name, taken)
+            taken.add(names[name])
+    reader = _Reader(outline, roles, functions, {}, names)
+    for key, function in functions.items():
+        listed, reader.argument_names[key] = _read_arguments(given[key], names)
+        functions[key] = replace(function, parameters=listed)
+    body, events = reader.block(PROGRAM, "body"), _read_events(reader)
+    finished = [_with_body(reader, function, names, variables.get(key, ())) for key, function in functions.items()]
+    tree = in_reading_order(Tree(body, tuple(finished), tuple(roles.values()), parameters, events))
     if format_of(document) > FORMAT:
         reader.problems.append(Problem("newer_format", "", "format", {"format": format_of(document)}))
     return Reading(tree, outline, tuple(reader.problems))
+
+
+def _read_events(reader: _Reader) -> tuple[Event, ...]:
+    """Return the second entries; none of them sees what a function or a loop calls its own."""
+    events: list[Event] = []
+    for step in reader.outline.children.get((PROGRAM, EVENTS), ()):
+        params = reader.outline.params[step]
+        starts = "run" if params.get("starts") == "run" else "branch"
+        condition = reader.value(step, params, "condition")
+        events.append(Event(condition, reader.block(step, "body"), starts, step))
+    return tuple(events)
+
+
+def _with_body(reader: _Reader, function: Function, names: Names, variables: Iterable[str]) -> Function:
+    """Return a function with its steps, which see its parameters and its own variables before the program's."""
+    if function.id in reader.outline.kinds:
+        return function
+    seen = {**names, **reader.argument_names[function.id]}
+    for name in sorted(variables):
+        if name not in reader.argument_names[function.id]:
+            seen[name] = local_name(name, (script for other, script in seen.items() if other != name))
+    reader.names = seen
+    return replace(function, body=reader.block(function.id, "body"))
+
+
+def _variables_by_root(outline: Outline) -> dict[str, set[str]]:
+    """Return the names that are set in the program (its events, too) and in each function but no variables of loops.
+
+    What is set in the program belongs to the program, also where a function sets it.
+    """
+    found: dict[str, set[str]] = {}
+    setting = [(step, _text(outline.params[step].get(_SETTERS[kind]))) for step, kind in outline.kinds.items()
+               if kind in _SETTERS]  # fmt: skip
+    if not any(name for _, name in setting):
+        return found
+    parents = {child: parent for (parent, _), steps in outline.children.items() for child in steps}
+    for step, name in setting:
+        root = _root_of(step, name, outline, parents) if name else None
+        if root is not None:
+            found.setdefault(root, set()).add(name)
+    shared = found.get(PROGRAM, set())
+    return {root: names if root == PROGRAM else names - shared for root, names in found.items()}
+
+
+def _root_of(step: str, name: str, outline: Outline, parents: Mapping[str, str]) -> str | None:
+    """Return the program or the function that a step belongs to; None for a draft, or for a loop's own variable."""
+    here = parents.get(step)
+    while here is not None and here in outline.kinds:
+        if outline.kinds[here] == "for_each" and _text(outline.params[here].get("variable")) == name:
+            return None
+        here = parents.get(here)
+    return here
 
 
 def _by_id(value: object) -> dict[str, Mapping[str, object]]:
@@ -271,16 +404,22 @@ def _by_id(value: object) -> dict[str, Mapping[str, object]]:
 
 
 def _read_parameters(
-    given: Iterable[tuple[str, Mapping[str, object]]], *, local: bool
+    given: Iterable[tuple[str, Mapping[str, object]]], outside: Names | None = None
 ) -> tuple[tuple[Parameter, ...], dict[str, str]]:
-    """Return the parameters, and their names in the document with those in the script."""
+    """Return the parameters, and their names in the document with those in the script.
+
+    `outside` are the names that can be seen around a function; without them the parameters are the program's.
+    """
     parameters: list[Parameter] = []
     names: dict[str, str] = {}
     for key, item in given:
         wanted = _text(item.get("name")) or key
         if wanted and wanted not in names:
-            taken = set(names.values()) | (set() if local else RESERVED_ATTRIBUTES)
-            names[wanted] = local_name(wanted, taken)
+            if outside is None:
+                names[wanted] = attribute_name(wanted, names.values())
+            else:
+                hidden = (script for name, script in {**outside, **names}.items() if name != wanted)
+                names[wanted] = local_name(wanted, hidden)
             default, (kind, unit) = plain(item.get("default")), settle_type(item.get("type"), item.get("unit"))
             parameters.append(Parameter(names[wanted], default, kind, unit))
     return tuple(parameters), names
@@ -301,21 +440,23 @@ def _read_roles(given: Mapping[str, Mapping[str, object]], taken: Iterable[str])
     return roles
 
 
-def _read_functions(
-    given: Mapping[str, Mapping[str, object]], taken: Iterable[str]
-) -> tuple[dict[str, Function], dict[str, dict[str, str]]]:
+def _read_functions(given: Mapping[str, Mapping[str, object]], taken: Iterable[str]) -> dict[str, Function]:
+    """Return the functions by id, still without parameters and bodies."""
     functions: dict[str, Function] = {}
-    argument_names: dict[str, dict[str, str]] = {}
     used = set(taken)
     for key, item in given.items():
         name = _text(item.get("name")) or key
         method = unique_name(name, used)
         used.add(method)
-        listed = item.get("parameters")
-        items = [("", mapping(entry)) for entry in listed] if isinstance(listed, list | tuple) else []
-        parameters, argument_names[key] = _read_parameters(items, local=True)
-        functions[key] = Function(method, parameters, id=key, name=name)
-    return functions, argument_names
+        result = mapping(item.get("result"))
+        functions[key] = Function(method, (), (), *settle_type(result.get("type"), result.get("unit")), key, name)
+    return functions
+
+
+def _read_arguments(function: Mapping[str, object], names: Names) -> tuple[tuple[Parameter, ...], dict[str, str]]:
+    listed = function.get("parameters")
+    items = [("", mapping(entry)) for entry in listed] if isinstance(listed, list | tuple) else []
+    return _read_parameters(items, names)
 
 
 def _text(value: object) -> str:

@@ -21,7 +21,9 @@ def reading_order(tree: Tree) -> tuple[Function, ...]:
     by_method = {function.method: function for function in tree.functions}
     found: dict[str, Function] = {}
     uncalled = sorted(tree.functions, key=lambda function: function.method, reverse=True)
-    left = [*uncalled, *reversed(_called_in(tree.body, by_method))]
+    bodies = (tree.body, *(event.body for event in tree.events))
+    first = [function for body in bodies for function in _called_in(body, by_method)]
+    left = [*uncalled, *reversed(first)]
     while left:
         function = left.pop()
         if function.method not in found:
@@ -111,10 +113,10 @@ def roles_used(block: Block, tree: Tree) -> frozenset[str]:
 def in_reading_order(tree: Tree) -> Tree:
     """Put functions in the order of their first call, and roles in that of their first use; unused roles go."""
     functions = reading_order(tree)
-    needed = needed_of_roles((tree.body, *(function.body for function in functions)))
+    needed = needed_of_roles((tree.body, *(f.body for f in functions), *(event.body for event in tree.events)))
     by_name = {role.name: role for role in tree.roles}
     roles = (_fill(by_name[name], methods) for name, methods in needed.items())
-    return Tree(tree.body, functions, tuple(roles), tree.parameters)
+    return Tree(tree.body, functions, tuple(roles), tree.parameters, tree.events)
 
 
 def _fill(role: Role, needed: tuple[str, ...]) -> Role:

@@ -23,6 +23,13 @@ def read_zones(document: object) -> tuple[Zone, ...]:
     return tuple(zone for zone in read if zone is not None)
 
 
+def zone_names(document: object) -> dict[str, str]:
+    """Return what people call the zones, by id, whatever their shape."""
+    zones = mapping(mapping(document).get("zones"))
+    named = {str(key): mapping(item).get("name") for key, item in zones.items()}
+    return {key: name if isinstance(name, str) and name else key for key, name in named.items()}
+
+
 def _zone(name: str, item: Mapping[str, object]) -> Zone | None:
     rule, given, speed = RULES.get(str(item.get("rule"))), item.get("points"), item.get("speed_m_s")
     listed = [read_point(point) for point in given] if isinstance(given, list | tuple) else []
