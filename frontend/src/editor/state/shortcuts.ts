@@ -3,7 +3,7 @@ import { useEffect } from "react";
 import { shiftStep } from "../model/gestures";
 import type { Position } from "../model/edits";
 import { KINDS } from "../scene/kinds";
-import { copySelected, duplicateSelected, nudgeSelected, pasteCopied, removeSelected } from "./actions";
+import { duplicateSelected, nudgeSelected, removeSelected } from "./actions";
 import { useOpenProgram, type OpenProgram } from "./context";
 import { createOnFloor } from "./drawing";
 import { freeSpot } from "./freeSpot";
@@ -24,7 +24,7 @@ export function useShortcuts(): void {
   }, [open]);
 }
 
-function isTyping(target: EventTarget | null): boolean {
+export function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
   return (
     target.isContentEditable || target.closest("input, textarea, select, [role=combobox], [role=listbox]") !== null
@@ -42,19 +42,12 @@ function controlKey(open: OpenProgram, event: KeyboardEvent): boolean {
     useUi.setState({ dialog: "run" });
     return true;
   }
-  if (key === "c") copySelected(document);
   if (key === "a") select(open.scene.tree.reading);
   if (!canEdit) return key === "a";
   const actions: Record<string, () => void> = {
     z: () => (event.shiftKey ? shared.undo.redo() : shared.undo.undo()),
     y: () => shared.undo.redo(),
-    c: () => undefined,
     a: () => undefined,
-    x: () => {
-      copySelected(document);
-      removeSelected(document, apply);
-    },
-    v: () => pasteCopied(document, apply),
     d: () => duplicateSelected(document, apply),
     g: () => {
       if (useUi.getState().selected.length > 0) useUi.setState({ dialog: "function" });

@@ -1,0 +1,144 @@
+/** Corners on the map that are dragged, added between two others and taken away; by pointer and by keyboard. */
+import { useReactFlow } from "@xyflow/react";
+import { useState, type KeyboardEvent, type PointerEvent } from "react";
+import { toMetres, toPixels } from "@/map/projection";
+import type { PixelPoint } from "@/map/routePath";
+import type { Position } from "../model/edits";
+import { pushed, withCorner, withoutCorner } from "./corners";
+import classes from "./gestures.module.css";
+
+export interface CornerHandlesProps {
+  readonly points: readonly Position[];
+  /** A zone's outline, as against a route between two ends. */
+  readonly closed: boolean;
+  /** Where a route begins and ends; no handles of their own. */
+  readonly ends?: readonly [PixelPoint, PixelPoint];
+  readonly fewest: number;
+  readonly nameOf: (number: number) => string;
+  readonly nameOfNew: (number: number) => string;
+  readonly onChange: (points: readonly Position[]) => void;
+}
+
+const NUDGES: Readonly<Record<string, Position>> = {
+  ArrowLeft: [-0.1, 0],
+  ArrowRight: [0.1, 0],
+  ArrowUp: [0, 0.1],
+  ArrowDown: [0, -0.1],
+};
+
+export function CornerHandles(props: CornerHandlesProps) {
+  const { points, onChange, fewest } = props;
+  const flow = useReactFlow();
+  const [held, setHeld] = useState<{ at: number; points: readonly Position[] } | null>(null);
+  const shown = held?.points ?? points;
+  const hold = (event: PointerEvent<SVGElement>, at: number, from: readonly Position[]) => {
+    event.stopPropagation();
+    event.currentTarget.setPointerCapture(event.pointerId);
+    setHeld({ at, points: from });
+  };
+  const drag = (event: PointerEvent) => {
+    if (!held) return;
+    const to = toMetres(flow.screenToFlowPosition({ x: event.clientX, y: event.clientY }));
+    setHeld({ ...held, points: held.points.map((point, index) => (index === held.at ? to : point)) });
+  };
+  const release = () => {
+    if (held) onChange(held.points);
+    setHeld(null);
+  };
+  const press = (event: KeyboardEvent, at: number) => {
+    const way = NUDGES[event.key];
+    if (way) onChange(pushed(points, at, way));
+    else if ((event.key === "Delete" || event.key === "Backspace") && points.length > fewest)
+      onChange(withoutCorner(points, at));
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  return (
+    <g className="nopan nodrag" onPointerMove={drag} onPointerUp={release} onPointerCancel={() => setHeld(null)}>
+      {held ? <path className={classes.changing} d={outlineOf(props, shown)} /> : null}
+      {shown.map((point, at) => (
+        <Corner
+          key={at}
+          at={toPixels(point)}
+          name={props.nameOf(at + 1)}
+          onHold={(event) => hold(event, at, shown)}
+          onKey={(event) => press(event, at)}
+          onRemove={() => points.length > fewest && onChange(withoutCorner(points, at))}
+        />
+      ))}
+      {held ? null : <Between {...props} onHold={hold} />}
+    </g>
+  );
+}
+
+function outlineOf({ closed, ends }: CornerHandlesProps, points: readonly Position[]): string {
+  const all = [...(ends ? [ends[0]] : []), ...points.map(toPixels), ...(ends ? [ends[1]] : [])];
+  return `M${all.map(({ x, y }) => `${x} ${y}`).join("L")}${closed ? "Z" : ""}`;
+}
+
+interface CornerProps {
+  at: PixelPoint;
+  name: string;
+  onHold: (event: PointerEvent<SVGElement>) => void;
+  onKey: (event: KeyboardEvent) => void;
+  onRemove: () => void;
+}
+
+function Corner({ at, name, onHold, onKey, onRemove }: CornerProps) {
+  return (
+    <rect
+      className={classes.handle}
+      x={at.x - 5.5}
+      y={at.y - 5.5}
+      width={11}
+      height={11}
+      rx={2.5}
+      role="button"
+      tabIndex={0}
+      aria-label={name}
+      onPointerDown={onHold}
+      onDoubleClick={onRemove}
+      onKeyDown={onKey}
+    >
+      <title>{name}</title>
+    </rect>
+  );
+}
+
+type Hold = (event: PointerEvent<SVGElement>, at: number, from: readonly Position[]) => void;
+
+/** A dot on the middle of each side: drag it, or press Enter on it, for one corner more. */
+function Between({ points, closed, ends, nameOfNew, onChange, onHold }: CornerHandlesProps & { onHold: Hold }) {
+  const all = [...(ends ? [ends[0]] : []), ...points.map(toPixels), ...(ends ? [ends[1]] : [])];
+  const following = closed ? [...all.slice(1), ...all.slice(0, 1)] : all.slice(1);
+  return following.map((b, index) => {
+    const a = all[index] ?? b;
+    if (Math.hypot(b.x - a.x, b.y - a.y) < 34) return null;
+    const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
+    const at = ends ? index : index + 1;
+    const more = withCorner(points, at, toMetres(middle));
+    return (
+      <circle
+        key={index}
+        className={classes.handle}
+        data-between
+        cx={middle.x}
+        cy={middle.y}
+        r={4.5}
+        role="button"
+        tabIndex={0}
+        aria-label={nameOfNew(at)}
+        onPointerDown={(event) => onHold(event, at, more)}
+        onKeyDown={(event) => {
+          if (event.key !== "Enter" && event.key !== " ") return;
+          event.preventDefault();
+          event.stopPropagation();
+          onChange(more);
+        }}
+      >
+        <title>{nameOfNew(at)}</title>
+      </circle>
+    );
+  });
+}

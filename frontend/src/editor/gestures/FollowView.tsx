@@ -1,0 +1,59 @@
+/** One's own view shown to the others, and somebody else's view followed until one moves the map oneself. */
+import { useEffect } from "react";
+import { toMetres, toPixels } from "@/map/projection";
+import { useStage } from "../canvas/stageContext";
+import type { SharedProgram } from "../model/shared";
+import { useOpenProgram } from "../state/context";
+import { useGestures } from "./store";
+import { viewFrom, zoomFor, type SharedView } from "./views";
+
+const TELL_EVERY_MS = 150;
+
+export function FollowView() {
+  const { shared } = useOpenProgram();
+  useTellView(shared);
+  useFollow(shared);
+  return null;
+}
+
+function useTellView(shared: SharedProgram): void {
+  const { viewport, pane } = useStage();
+  useEffect(() => {
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    const tell = () => {
+      timer = undefined;
+      const { x, y, zoom } = viewport.get();
+      const centre = toMetres({ x: (pane.width / 2 - x) / zoom, y: (pane.height / 2 - y) / zoom });
+      const width = Math.round((toMetres({ x: pane.width / zoom, y: 0 })[0] ?? 0) * 10) / 10;
+      shared.awareness.setLocalStateField("view", [...centre, width]);
+    };
+    const soon = () => (timer ??= setTimeout(tell, TELL_EVERY_MS));
+    soon();
+    const stop = viewport.subscribe(soon);
+    return () => {
+      stop();
+      clearTimeout(timer);
+    };
+  }, [shared, viewport, pane.width, pane.height]);
+}
+
+function useFollow(shared: SharedProgram): void {
+  const { flow, pane } = useStage();
+  const following = useGestures((ui) => ui.following);
+  useEffect(() => {
+    if (following === null) return;
+    let last: SharedView | null = null;
+    const go = () => {
+      const state = shared.awareness.getStates().get(following) as { view?: unknown } | undefined;
+      if (!state) useGestures.setState({ following: null });
+      const view = viewFrom(state?.view);
+      if (!view || view.join() === last?.join()) return;
+      last = view;
+      const at = toPixels([view[0], view[1]]);
+      void flow.setCenter(at.x, at.y, { zoom: zoomFor(view, pane.width), duration: TELL_EVERY_MS });
+    };
+    go();
+    shared.awareness.on("change", go);
+    return () => shared.awareness.off("change", go);
+  }, [shared, following, flow, pane.width]);
+}

@@ -1,0 +1,82 @@
+/** Steps that somebody else took away while this person had them selected: still there to be kept. */
+import { useEffect } from "react";
+import type * as Y from "yjs";
+import { toPixels } from "@/map/projection";
+import { FloatAt } from "../canvas/FloatAt";
+import { clip } from "../model/clipping";
+import type { Edit } from "../model/edits";
+import type { SharedProgram } from "../model/shared";
+import { useOpenProgram } from "../state/context";
+import { select, useUi } from "../state/ui";
+import classes from "./gestures.module.css";
+import { useGestures, type Ghost } from "./store";
+
+const MOST_TOLD = 40;
+
+export function Ghosts() {
+  const { shared, canEdit } = useOpenProgram();
+  const ghosts = useGestures((ui) => ui.ghosts);
+  useEffect(() => watchRemovals(shared), [shared]);
+  return canEdit ? ghosts.map((ghost) => <GhostCard key={ghost.id} ghost={ghost} />) : null;
+}
+
+/** Tells the others what this person removes, and keeps what others remove of what is selected here. */
+function watchRemovals(shared: SharedProgram): () => void {
+  const steps = shared.doc.getMap("steps");
+  const note = (event: Y.YMapEvent<unknown>) => {
+    const gone = [...event.changes.keys].filter(([, change]) => change.action === "delete").map(([id]) => id);
+    if (gone.length === 0) return;
+    if (event.transaction.local) shared.awareness.setLocalStateField("removed", gone.slice(0, MOST_TOLD));
+    else keepGhosts(shared, gone);
+  };
+  steps.observe(note);
+  return () => steps.unobserve(note);
+}
+
+/** The document that others read is still the one before: it is read anew only when the transaction has ended. */
+function keepGhosts(shared: SharedProgram, gone: readonly string[]): void {
+  const before = shared.getDocument();
+  const lost = useUi.getState().selected.filter((id) => gone.includes(id) && Object.hasOwn(before.steps, id));
+  if (lost.length === 0) return;
+  const fresh = lost.map((id): Ghost => ({ id, clipping: clip(before, [id]) }));
+  useGestures.setState(({ ghosts }) => ({ ghosts: [...ghosts.filter(({ id }) => !lost.includes(id)), ...fresh] }));
+  select(useUi.getState().selected.filter((id) => !gone.includes(id)));
+}
+
+function GhostCard({ ghost }: { ghost: Ghost }) {
+  const { document, apply, shared, people, t } = useOpenProgram();
+  const step = ghost.clipping.steps[ghost.id];
+  const back = Object.hasOwn(document.steps, ghost.id);
+  useEffect(() => {
+    if (back) letGo(ghost.id);
+  }, [back, ghost.id]);
+  const remover = people.find((person) => !person.me && removedBy(shared, person.client).includes(ghost.id));
+  if (!step || back) return null;
+  const keep = () => {
+    apply(Object.entries(ghost.clipping.steps).map(([id, each]): Edit => ({ do: "add_step", id, step: each })));
+    letGo(ghost.id);
+    select([ghost.id]);
+  };
+  return (
+    <FloatAt at={toPixels(step.pos ?? [1, -1])}>
+      <div className={classes.ghost} role="alert">
+        {remover ? t("gesture.ghost.by", { name: remover.name }) : t("gesture.ghost.by_somebody")}
+        <button type="button" onClick={keep}>
+          {t("gesture.ghost.keep")}
+        </button>
+        <button type="button" onClick={() => letGo(ghost.id)}>
+          {t("gesture.ghost.let_go")}
+        </button>
+      </div>
+    </FloatAt>
+  );
+}
+
+function letGo(id: string): void {
+  useGestures.setState(({ ghosts }) => ({ ghosts: ghosts.filter((each) => each.id !== id) }));
+}
+
+function removedBy(shared: SharedProgram, client: number): readonly unknown[] {
+  const state = shared.awareness.getStates().get(client) as { removed?: unknown } | undefined;
+  return Array.isArray(state?.removed) ? state.removed : [];
+}

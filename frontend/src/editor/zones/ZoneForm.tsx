@@ -1,0 +1,98 @@
+/** The inspector of a zone: its name, its rule, its speed. */
+import { NumberInput, Radio, TextInput } from "@mantine/core";
+import { Trash2, X } from "lucide-react";
+import { useEffect, useState } from "react";
+import { IconButton } from "@/design/IconButton";
+import { VipoIcon } from "@/map/VipoIcon";
+import { useGestures } from "../gestures/store";
+import inspector from "../inspector/inspector.module.css";
+import type { Zone } from "../model/types";
+import { useOpenProgram } from "../state/context";
+import { useUi } from "../state/ui";
+import { changeZone, removeZone, selectZone } from "./drawing";
+import { areaOf, soundZones, ZONE_RULES } from "./shape";
+
+export function ZoneForm() {
+  const { document } = useOpenProgram();
+  const id = useGestures((ui) => ui.zone);
+  const steps = useUi((ui) => ui.selected.length);
+  const [, zone] = soundZones(document).find(([each]) => each === id) ?? [null, null];
+  useEffect(() => useUi.subscribe((ui) => ui.selected.length > 0 && useGestures.setState({ zone: null })), []);
+  return id !== null && zone && steps === 0 ? <Panel key={id} id={id} zone={zone} /> : null;
+}
+
+function Panel({ id, zone }: { id: string; zone: Zone }) {
+  const open = useOpenProgram();
+  const { t, canEdit } = open;
+  const area = `${areaOf(zone.points).toFixed(1)}\u202fm²`;
+  return (
+    <aside className={inspector.panel} aria-label={t("gesture.zone.label")}>
+      <header className={inspector.head}>
+        <span className={inspector.icon} style={{ color: "var(--note)", background: "var(--note-soft)" }}>
+          <VipoIcon name="zone" size={20} />
+        </span>
+        <span className={inspector.title}>
+          <h2>{t("gesture.zone.label")}</h2>
+          <span>{zone.name}</span>
+        </span>
+        {canEdit ? (
+          <IconButton label={t("gesture.zone.delete")} onClick={() => removeZone(open, id)}>
+            <Trash2 size={16} aria-hidden="true" />
+          </IconButton>
+        ) : null}
+        <IconButton label={t("gesture.zone.close")} onClick={() => selectZone(null)}>
+          <X size={17} aria-hidden="true" />
+        </IconButton>
+      </header>
+      <div className={inspector.body} data-form>
+        <NameField id={id} zone={zone} />
+        <Radio.Group
+          label={t("gesture.zone.rule")}
+          value={zone.rule}
+          onChange={(rule) => changeZone(open, id, { rule: rule as Zone["rule"] })}
+        >
+          <div className={inspector.field} style={{ marginTop: 8 }}>
+            {ZONE_RULES.map((rule) => (
+              <Radio key={rule} value={rule} label={t(`gesture.zone.${rule}`)} disabled={!canEdit} />
+            ))}
+          </div>
+        </Radio.Group>
+        {zone.rule === "slow" ? (
+          <NumberInput
+            label={t("gesture.zone.speed")}
+            value={zone.speed_m_s ?? ""}
+            min={0.05}
+            max={2}
+            step={0.05}
+            decimalScale={2}
+            disabled={!canEdit}
+            onChange={(speed) => changeZone(open, id, { speed_m_s: typeof speed === "number" ? speed : null })}
+          />
+        ) : null}
+        <p className={inspector.now}>{t("gesture.zone.corners", { count: zone.points.length, area })}</p>
+      </div>
+    </aside>
+  );
+}
+
+/** Written down when the field is left, so that a name is one entry to undo. */
+function NameField({ id, zone }: { id: string; zone: Zone }) {
+  const open = useOpenProgram();
+  const [name, setName] = useState(zone.name);
+  useEffect(() => setName(zone.name), [zone.name]);
+  const keep = () => {
+    const next = name.trim();
+    if (next && next !== zone.name) changeZone(open, id, { name: next });
+    else setName(zone.name);
+  };
+  return (
+    <TextInput
+      label={open.t("gesture.zone.name")}
+      value={name}
+      disabled={!open.canEdit}
+      onChange={(event) => setName(event.currentTarget.value)}
+      onBlur={keep}
+      onKeyDown={(event) => event.key === "Enter" && keep()}
+    />
+  );
+}
