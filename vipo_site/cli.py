@@ -11,9 +11,20 @@ from typing import Any, NoReturn
 
 from editor.language import compile_document, compiled_to_json, plan_to_json
 from editor.language.compiled import Compiled, diagnostic_to_json
+from editor.language.phrases import LANGUAGES, Language
 from vipo_site.program_file import FaultyScript, ProgramFile, UnreadableFile, read_program_file
 
 CLEAN, FAULTY, UNUSABLE = 0, 1, 2
+_WORDS: Mapping[Language, Mapping[str, tuple[str, ...]]] = {
+    "en": {
+        "errors": ("error", "errors"), "warnings": ("warning", "warnings"),
+        "step": ("step",), "line": ("line",), "program": ("program",),
+    },
+    "de": {
+        "errors": ("Fehler", "Fehler"), "warnings": ("Hinweis", "Hinweise"),
+        "step": ("Schritt",), "line": ("Zeile",), "program": ("Programm",),
+    },
+}  # fmt: skip
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -27,7 +38,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if options.json:
             _write_json({"diagnostics": [diagnostic_to_json(diagnostic) for diagnostic in error.diagnostics]})
         else:
-            _complain(str(error))
+            for diagnostic in error.diagnostics:
+                _complain(f"{error.path}: {diagnostic.message_in(options.lang)}")
         return FAULTY
     except UnreadableFile as error:
         _complain(str(error))
@@ -53,6 +65,7 @@ def _parser() -> argparse.ArgumentParser:
         sub.add_argument("file", type=Path, help="a program file (.json), a document (.json) or a script (.py)")
         sub.add_argument("--site", type=Path, help="the site file, when the program file names none")
         sub.add_argument("--json", action="store_true", help="write JSON for machines")
+        sub.add_argument("--lang", choices=LANGUAGES, default="en", help="the language of what the checks say (en)")
         sub.set_defaults(command=command)
         if name == "rehearse":
             sub.add_argument("--seed", type=int, default=0, help="another seed, another course of chance (0)")
@@ -67,10 +80,11 @@ def _check(program: ProgramFile, options: argparse.Namespace) -> int:
     if options.json:
         _write_json(compiled_to_json(compiled))
         return _code(compiled)
-    for line in _report(compiled):
+    for line in _report(compiled, options.lang):
         _write(line)
     errors, warnings = _counts(compiled)
-    _write(f"{program.name}: {_count(errors, 'error')}, {_count(warnings, 'warning')}.")
+    words = _WORDS[options.lang]
+    _write(f"{program.name}: {_count(errors, *words['errors'])}, {_count(warnings, *words['warnings'])}.")
     return _code(compiled)
 
 
@@ -80,7 +94,7 @@ def _script(program: ProgramFile, options: argparse.Namespace) -> int:
         _write_json({key: compiled_to_json(compiled)[key] for key in ("script", "lines", "numbers")})
     else:
         sys.stdout.write(compiled.script)
-        _complain_of_errors(compiled)
+        _complain_of_errors(compiled, options.lang)
     return _code(compiled)
 
 
@@ -89,7 +103,7 @@ def _plan(program: ProgramFile, options: argparse.Namespace) -> int:
     if compiled.plan is None:
         if options.json:
             _write_json({"diagnostics": compiled_to_json(compiled)["diagnostics"]})
-        _complain_of_errors(compiled)
+        _complain_of_errors(compiled, options.lang)
         return FAULTY
     body = plan_to_json(compiled.plan)
     if options.json:
@@ -104,7 +118,7 @@ def _plan(program: ProgramFile, options: argparse.Namespace) -> int:
 def _rehearse(program: ProgramFile, options: argparse.Namespace) -> int:
     compiled = _compile(program)
     if compiled.plan is None:
-        _complain_of_errors(compiled)
+        _complain_of_errors(compiled, options.lang)
         return FAULTY
     # imported late: rehearsing loads the physics, the other commands do not need it
     from execution.rehearsal import rehearse_program
@@ -136,26 +150,27 @@ def _counts(compiled: Compiled) -> tuple[int, int]:
     return severities.count("error"), severities.count("warning")
 
 
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}" if number == 1 else f"{number} {word}s"
+def _count(number: int, one: str, many: str) -> str:
+    return f"{number} {one if number == 1 else many}"
 
 
 def _code(compiled: Compiled) -> int:
     return FAULTY if compiled.plan is None else CLEAN
 
 
-def _report(compiled: Compiled) -> list[str]:
-    lines = []
+def _report(compiled: Compiled, language: Language) -> list[str]:
+    lines, words = [], _WORDS[language]
     for d in compiled.diagnostics:
-        where = f"step {compiled.numbers[d.step]}" if d.step in compiled.numbers else d.step or "program"
-        line = f", line {d.line}" if d.line else ""
-        lines.append(f"{d.severity}: {where}{line}: {d.message} [{d.code}]")
+        where = f"{words['step'][0]} {compiled.numbers[d.step]}" if d.step in compiled.numbers else d.step
+        line = f", {words['line'][0]} {d.line}" if d.line else ""
+        severity = words["errors" if d.severity == "error" else "warnings"][0]
+        lines.append(f"{severity}: {where or words['program'][0]}{line}: {d.message_in(language)} [{d.code}]")
     return lines
 
 
-def _complain_of_errors(compiled: Compiled) -> None:
-    for line in _report(compiled):
-        if line.startswith("error"):
+def _complain_of_errors(compiled: Compiled, language: Language) -> None:
+    for line in _report(compiled, language):
+        if line.startswith(_WORDS[language]["errors"][0]):
             _complain(line)
 
 

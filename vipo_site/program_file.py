@@ -34,6 +34,7 @@ class FaultyScript(UnreadableFile):
 
     def __init__(self, path: Path, diagnostics: tuple[Diagnostic, ...]) -> None:
         super().__init__("\n".join(f"{path}: {diagnostic.message}" for diagnostic in diagnostics))
+        self.path = path
         self.diagnostics = diagnostics
 
 

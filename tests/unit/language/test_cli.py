@@ -54,6 +54,20 @@ def test_errors_in_a_program_give_code_1(tmp_path: Path, capsys: pytest.CaptureF
     assert main(["rehearse", str(path)]) == 1
 
 
+def test_the_checks_speak_german_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "program.json"
+    path.write_text(json.dumps({"vipo": 1, "name": "Nichts", "document": {}, "site": {"devices": []}}))
+    assert main(["check", str(path), "--lang", "de"]) == 1
+    assert capsys.readouterr().out == (
+        "Fehler: Programm: Dieses Programm hat noch keine Schritte. Beginnen Sie mit Holen und Bringen. "
+        "[empty_program]\nNichts: 1 Fehler, 0 Hinweise.\n"
+    )
+    script = tmp_path / "bad.py"
+    script.write_text("import os\n")
+    assert main(["script", str(script), "--site", SITE, "--lang", "de"]) == 1
+    assert "Zeile 1, Spalte 1: " in capsys.readouterr().err
+
+
 def test_a_script_outside_the_language_gives_code_1(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "bad.py"
     path.write_text("import os\n")
