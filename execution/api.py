@@ -12,8 +12,12 @@ from execution import services
 from execution.errors import NotFound, NoWay
 from execution.programs import prepare, site_of_program
 from execution.shapes import (
+    AnswerQuestion,
+    ArmedShape,
+    ArmProgram,
     AskRoute,
     AskRoutes,
+    QuestionShape,
     RehearsalShape,
     RouteShape,
     RunEventShape,
@@ -110,6 +114,39 @@ def cancel_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
     """Cancel a run."""
     _require_here(request, services.site_of_run(run_id=run), "operator", "run")
     return services.cancel_run(run_id=run, by=_who(request))
+
+
+@router.get("/sites/{slug:site}/questions", response=list[QuestionShape])
+def list_questions(request: HttpRequest, site: str, run: UUID | None = None) -> list[dict[str, Any]]:
+    """Return the site's open questions, or all of one run."""
+    _require(request, site, "viewer")
+    return services.list_questions(site=site, run_id=run)
+
+
+@router.post("/questions/{uuid:question}/answer", response=QuestionShape)
+def answer_question(request: HttpRequest, question: UUID, body: AnswerQuestion) -> dict[str, Any]:
+    """Answer a question; the first answer counts."""
+    _require_here(request, services.site_of_question(question_id=question), "operator", "question")
+    return services.answer_question(question_id=question, value=body.value, by=_who(request))
+
+
+@router.get("/sites/{slug:site}/armed", response=list[ArmedShape])
+def list_armed(request: HttpRequest, site: str) -> list[dict[str, Any]]:
+    """Return the programs that start by themselves."""
+    _require(request, site, "viewer")
+    return services.list_armed(site=site)
+
+
+@router.post("/programs/{uuid:program}/arm", response=list[ArmedShape])
+def arm_program(request: HttpRequest, program: UUID, body: ArmProgram) -> list[dict[str, Any]]:
+    """Let a program, as it is drawn now, start by itself, or not any more; returns all that do so at its site."""
+    site = site_of_program(program_id=program)
+    _require_here(request, site, "operator", "program")
+    if body.on:
+        services.arm_program(prepared=prepare(program_id=program, user=request.user, parameters={}), by=_who(request))
+    else:
+        services.disarm_program(program_id=program, site=site)
+    return services.list_armed(site=site)
 
 
 @router.post("/sites/{slug:site}/stop", response=Stop)

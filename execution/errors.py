@@ -4,6 +4,8 @@ ExecutionError
  ├── NotFound: no such run, rehearsal or program here
  ├── NotReady: the program has errors and cannot be carried out
  ├── NotPossibleNow: the run is over, the site is stopped
+ ├── AlreadyAnswered: somebody else was quicker
+ ├── AnswerNotFitting: the answer is not what was asked for
  └── NoWay: there is no route
 """
 
@@ -37,6 +39,20 @@ class NotPossibleNow(ExecutionError):
 
     code = "not_possible_now"
     status = 409
+
+
+class AlreadyAnswered(ExecutionError):
+    """Somebody else has answered the question."""
+
+    code = "already_answered"
+    status = 409
+
+
+class AnswerNotFitting(ExecutionError):
+    """The answer is not what was asked for."""
+
+    code = "answer_not_fitting"
+    status = 422
 
 
 class StepConflict(ExecutionError):

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from editor.language import plan as p
-from execution.expressions import EvaluationError, NoReading
+from execution.expressions import EvaluationError, NoReading, in_words
 from execution.mission import Mission, MissionKind, Target
 from execution.run_ending import begin_guard, end_guard, end_run, finish, rethrow, unwind
 from execution.run_flow import end, end_thread, fork, invoke, leave_function
@@ -272,8 +272,5 @@ def _ask_people(turn: Turn, thread: Thread, action: p.AskPerson) -> Thread:
 
 
 def _text(turn: Turn, thread: Thread, message: p.Expression) -> str:
-    """Return what people are told, on one line of reasonable length."""
-    value = turn.scalar(thread, message)
-    if isinstance(value, bool):
-        value = "yes" if value else "no"
-    return (value if isinstance(value, str) else f"{value:g}" if value is not None else "").strip()[:500]
+    """Return what people are told, in a reasonable length."""
+    return in_words(turn.scalar(thread, message)).strip()[:500]

@@ -38,6 +38,8 @@ class Run(models.Model):
     steps = models.JSONField(default=dict)
     roles = models.JSONField(default=dict)
     next_seq = models.PositiveIntegerField(default=1)
+    entry = models.PositiveIntegerField(default=0)
+    notices = models.JSONField(default=dict)
     started_by = models.CharField(max_length=120, blank=True)
     created_at = models.DateTimeField()
     started_at = models.DateTimeField(null=True)
@@ -210,6 +212,53 @@ class SiteStop(models.Model):
 
     def __str__(self) -> str:
         return f"stop of {self.site_id}"
+
+
+class Question(models.Model):
+    """Something that a run asks the people of its site; `number` is what the run calls it."""
+
+    class State(models.TextChoices):
+        """The life of a question."""
+
+        OPEN = "open"
+        ANSWERED = "answered"
+        WITHDRAWN = "withdrawn"
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4)
+    run = models.ForeignKey(Run, on_delete=models.CASCADE, related_name="questions")
+    number = models.PositiveIntegerField()
+    step = models.CharField(max_length=64, blank=True)
+    text = models.CharField(max_length=500)
+    answer = models.JSONField(default=dict)
+    state = models.CharField(max_length=10, choices=State.choices, default=State.OPEN)
+    value = models.JSONField(null=True)
+    asked_at = models.DateTimeField()
+    answered_by = models.CharField(max_length=120, blank=True)
+    answered_at = models.DateTimeField(null=True)
+
+    class Meta:
+        """A run asks each of its questions once."""
+
+        constraints = [models.UniqueConstraint(fields=["run", "number"], name="one_question_per_number")]
+        indexes = [models.Index(fields=["state"])]
+
+    def __str__(self) -> str:
+        return self.text
+
+
+class ArmedProgram(models.Model):
+    """A program that starts by itself; `truths` remembers by event whether its condition held."""
+
+    program = models.UUIDField(primary_key=True)
+    site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="armed_programs")
+    prepared = models.JSONField(default=dict)
+    truths = models.JSONField(default=dict)
+    epoch = models.PositiveIntegerField(default=0)
+    by = models.CharField(max_length=120)
+    at = models.DateTimeField()
+
+    def __str__(self) -> str:
+        return f"armed {self.program}"
 
 
 class Lease(models.Model):

@@ -7,6 +7,7 @@ from math import hypot
 from typing import Any
 
 from execution import run_messages as r
+from execution.expressions import in_words
 from execution.monitor import FootprintMonitor
 from execution.traffic import messages as m
 from execution.traffic.layout import Layout
@@ -110,6 +111,10 @@ class Recorder:
                          "started_s": round(t_s, 2), "ended_s": None, "status": "running"}  # fmt: skip
                 self._open_steps[step] = entry
                 self.steps.append(entry)
+            case r.AskPeople(step=step, text=text):
+                self._say(t_s, step, "", f"Asked: {text}")
+            case r.Tell(step=step, text=text):
+                self._say(t_s, step, "", f"Told: {text}")
             case r.StepLeft(step=step):
                 self._close_step(t_s, step, "done")
             case r.StepFailed(step=step, kind=kind, why=why):
@@ -127,6 +132,11 @@ class Recorder:
         """Take down something that the real run would have met too."""
         self.errors.append({"t": round(t_s, 2), "step": step, "kind": kind, "message": message})
         self._say(t_s, step, "", message)
+
+    def note_answer(self, t_s: float, step: str, answer: Scalar) -> None:
+        """Take down what the rehearsal has answered in people's stead."""
+        shown = in_words(answer) or "nothing"
+        self._say(t_s, step, "", f"The rehearsal answers by itself: {shown}")
 
     def note_floor(self, t_s: float, action: m.Action) -> None:
         """Take down what traffic does."""

@@ -11,11 +11,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from editor.language import compile_document
-from editor.language.plan import Plan, RoleBinding
+from editor.language.plan import AnswerSpec, Plan, RoleBinding
 from editor.language.surroundings import PlaceFacts
 from execution import machine
 from execution import run_messages as r
-from execution.expressions import watched_properties
+from execution.places import ROLE
+from execution.plan_needs import Facts, clock_fact, needs_of, position_facts
 from execution.program_site import read_site
 from execution.recording import Recorder
 from execution.traffic import floor
@@ -35,6 +36,12 @@ RESTING_S = 0.5
 LIMIT_S = 4 * 3600.0
 ACTION_LIMIT = 200_000
 PROGRESS_EVERY_S = 5.0
+DAY_BEGINS_S = 8 * 3600.0
+"""A rehearsal begins at eight in the morning."""
+REPLY_S = 1.0
+"""How long a question is open before the rehearsal answers it."""
+LOOK_ROUND_S = 1.0
+"""How often a program is told the time and where robots are, if it asks for them."""
 Progress = Callable[[float], None]
 
 
@@ -75,7 +82,9 @@ class _Rehearsal:
     def __init__(self, plan: Plan, layout: Layout, world: World, limit_s: float, on_progress: Progress | None) -> None:
         self.plan, self.layout, self.world, self.limit_s = plan, layout, world, limit_s
         self.recorder = Recorder(layout, world.readings())
-        self.watched = watched_properties(plan)
+        self.needs = needs_of(plan)
+        self.looked_at = 0.0
+        self.replies: list[tuple[float, r.Answered]] = []
         self.floor = floor.start(layout, NAMESPACE)
         self.run_events: list[r.Event] = []
         self.floor_events: list[m.Event] = []
@@ -88,7 +97,8 @@ class _Rehearsal:
         self.left: set[str] = set()
 
     def run(self, parameters: Mapping[str, Scalar]) -> dict[str, Any]:
-        facts = {(d, n): v for d, values in self.world.readings().items() for n, v in values.items()}
+        facts: Facts = {(d, n): v for d, values in self.world.readings().items() for n, v in values.items()}
+        facts |= self._stations() | self._surroundings()
         self._report_poses()
         self.state, actions = machine.start(self.plan, parameters, facts)
         self._do_run(actions)
@@ -119,6 +129,10 @@ class _Rehearsal:
         events = self.world.advance(dt_s)
         self.recorder.look(self.world.time_s, dt_s, self.world.robots(), self.world.busy())
         happened = [self._take(event) for event in events]
+        if self.world.time_s - self.looked_at >= LOOK_ROUND_S - 1e-9:
+            self.looked_at = self.world.time_s
+            happened.append(self._look_round())
+        happened += [self._reply() for due_s, _ in list(self.replies) if due_s <= self.world.time_s + 1e-9]
         while self.timers and self.timers[0][0] <= self.world.time_s + 1e-9:
             _, timer = heapq.heappop(self.timers)
             if timer not in self.dropped_timers:
@@ -132,10 +146,33 @@ class _Rehearsal:
             case Ack(command=command, status=status, why=why, result=result):
                 self.floor_events.append(m.CommandAnswered(command, status, why, result))
                 return True
-            case PropertyChanged(device=device, name=name, value=value) if name in self.watched:
+            case PropertyChanged(device=device, name=name, value=value) if name in self.needs.properties:
                 self.run_events.append(r.Facts({(device, name): value}))
                 return True
         return False
+
+    def _reply(self) -> bool:
+        self.run_events.append(self.replies.pop(0)[1])
+        return True
+
+    def _stations(self) -> Facts:
+        """Return where machines and places are, which never changes."""
+        devices = ((d.id, d.pose.x, d.pose.y) for d in self.layout.devices.values())
+        places = ((spot.id, spot.x, spot.y) for spot in self.layout.places.values())
+        return position_facts((*devices, *places)) if self.needs.positions else {}
+
+    def _surroundings(self) -> Facts:
+        """Return the time of day and where robots are, as far as the program asks for them."""
+        facts: Facts = clock_fact(DAY_BEGINS_S + self.world.time_s) if self.needs.clock else {}
+        if self.needs.positions:
+            facts |= position_facts((name, r.pose.x, r.pose.y) for name, r in self.world.robots().items())
+        return facts
+
+    def _look_round(self) -> bool:
+        news = {key: value for key, value in self._surroundings().items() if self.state.facts.get(key) != value}
+        if news:
+            self.run_events.append(r.Facts(news))
+        return bool(news)
 
     def _report_poses(self) -> None:
         for name, robot in self.world.robots().items():
@@ -160,6 +197,8 @@ class _Rehearsal:
             self.recorder.note_floor(now, action)
             if isinstance(action, m.SendCommand):
                 self.world.command(action.device, action.method, action.arguments, action.id)
+            elif isinstance(action, m.RoleBound):
+                self.run_events.append(r.Facts({(ROLE, action.role): action.robot}))
             elif isinstance(action, m.MissionOver) and action.kind:
                 self.run_events.append(r.MissionFailed(action.mission, action.kind, action.why))
             elif isinstance(action, m.MissionOver):
@@ -181,6 +220,10 @@ class _Rehearsal:
                     heapq.heappush(self.timers, (now + seconds, timer))
                 case r.CancelTimer(timer=timer):
                     self.dropped_timers.add(timer)
+                case r.AskPeople(question=question, answer=spec, step=step):
+                    answer = pretend_answer(spec)
+                    self.recorder.note_answer(now, step, answer)
+                    self.replies.append((now + REPLY_S, r.Answered(question, answer)))
                 case r.StepLeft(step=step):
                     self.left.add(step)
                 case r.Finished():
@@ -201,6 +244,19 @@ class _Rehearsal:
             return
         self.recorder.error(now, "", "timed_out", why)
         self.finished = r.Finished("failed", why)
+
+
+def pretend_answer(spec: AnswerSpec) -> Scalar:
+    """Return what a rehearsal answers by itself: yes, the first option, the least number or 1, no text."""
+    match spec.type:
+        case "boolean":
+            return True
+        case "choice":
+            return spec.options[0] if spec.options else ""
+        case "number":
+            least = 1.0 if spec.minimum is None else spec.minimum
+            return least if spec.maximum is None else min(least, spec.maximum)
+    return ""
 
 
 def rehearse_program(

@@ -13,19 +13,21 @@ from django.db import transaction
 
 from editor.language import plan_from_json
 from editor.language.plan import Plan, RoleBinding
-from execution import inbox, machine
+from execution import inbox, machine, notices, questions
 from execution import run_messages as r
 from execution.errors import StepConflict
-from execution.expressions import watched_properties
 from execution.journal import Journal, describe
 from execution.mission import mission_to_json
 from execution.models import InboxEvent, Run, Timer
+from execution.places import ROLE
+from execution.plan_needs import Needs, needs_of
+from execution.run_facts import facts_of
 from execution.run_state import RunState
 from registry import services as registry
 from registry.capability import Scalar
 
 PLANS_KEPT = 64
-_plans: OrderedDict[UUID, Plan] = OrderedDict()
+_plans: OrderedDict[UUID, tuple[Plan, Needs]] = OrderedDict()
 OPEN = (Run.Status.PENDING, Run.Status.RUNNING, Run.Status.PAUSED)
 
 
@@ -37,11 +39,11 @@ def advance_run(run_id: UUID | str) -> bool:
         if run is None:
             return False
         events = inbox.waiting(inbox.run_target(run.id))
-        plan = _plan(run.id)
-        facts = _facts(plan, run.site.slug)
+        plan, needs = _plan(run.id)
+        facts = facts_of(needs, run, datetime.now(UTC))
         journal = Journal(run, datetime.now(UTC), _names(run.site.slug))
         state = _fold(_Step(run, plan, journal), facts, events)
-        _write(run, state, journal)
+        _write(run, plan, state, journal)
         inbox.mark_taken(events)
         inbox.crash_point("run_before_commit")
     inbox.crash_point("run_after_commit")
@@ -55,21 +57,14 @@ class _Step:
         self.run, self.plan, self.journal = run, plan, journal
 
 
-def _plan(run_id: UUID) -> Plan:
-    """Return a run's plan, which never changes."""
+def _plan(run_id: UUID) -> tuple[Plan, Needs]:
+    """Return a run's plan, which never changes, with what it needs to know."""
     if run_id not in _plans:
-        _plans[run_id] = plan_from_json(Run.objects.values_list("plan", flat=True).get(id=run_id))
+        plan = plan_from_json(Run.objects.values_list("plan", flat=True).get(id=run_id))
+        _plans[run_id] = (plan, needs_of(plan))
         while len(_plans) > PLANS_KEPT:
             _plans.popitem(last=False)
     return _plans[run_id]
-
-
-def _facts(plan: Plan, slug: str) -> dict[tuple[str, str], Scalar]:
-    watched = watched_properties(plan)
-    if not watched:
-        return {}
-    devices = registry.list_devices(site=slug)
-    return {(d.id, name): value for d in devices for name, value in d.readings.items() if name in watched}
 
 
 def _names(slug: str) -> dict[str, str]:
@@ -81,8 +76,8 @@ def _fold(step: _Step, facts: Mapping[tuple[str, str], Scalar], events: list[Inb
     run = step.run
     if run.state is None:
         run.started_at = step.journal.now
-        step.journal.say("run", f"{run.started_by or 'Somebody'} started run {run.number}.", code="started")
-        state, actions = machine.start(step.plan, run.parameters, facts)
+        _say_started(step)
+        state, actions = machine.start(step.plan, run.parameters, facts, run.entry)
         _do(step, actions)
     else:
         state = machine.from_json(run.state)
@@ -94,6 +89,15 @@ def _fold(step: _Step, facts: Mapping[tuple[str, str], Scalar], events: list[Inb
         if event is not None:
             state = _tell(step, state, event)
     return state
+
+
+def _say_started(step: _Step) -> None:
+    run, by = step.run, step.run.started_by or "Somebody"
+    if run.entry:
+        text = f"Run {run.number} started by itself; {by} has armed the program."
+        step.journal.say("run", text, code="started_itself", by=by, number=run.number)
+    else:
+        step.journal.say("run", f"{by} started run {run.number}.", code="started", by=by, number=run.number)
 
 
 def _tell(step: _Step, state: RunState, event: r.Event) -> RunState:
@@ -123,6 +127,13 @@ def _event(step: _Step, data: Mapping[str, Any]) -> r.Event | None:
             return r.Resumed()
         case "cancel":
             return r.CancelAsked(data["reason"])
+        case "role_bound":
+            step.journal.note(data)
+            return r.Facts({(ROLE, data["role"]): data["robot"]})
+        case "answered":
+            text = f"{data['by']} answered: {questions.in_short(data['value'])}."
+            step.journal.say("question", text, step=data["step"], code="answered", by=data["by"], value=data["value"])
+            return r.Answered(data["question"], data["value"])
     step.journal.note(data)
     return None
 
@@ -145,8 +156,16 @@ def _do(step: _Step, actions: tuple[r.Action, ...]) -> None:
                 Timer.objects.create(run=run, timer=timer, due_at=due_at)
             case r.CancelTimer(timer=timer):
                 Timer.objects.filter(run=run, timer=timer).delete()
+            case r.AskPeople(step=name, text=text):
+                journal.say("question", text, step=name, code="asked")
+                questions.ask(run, action, journal.now)
+            case r.CancelQuestion(question=number):
+                questions.withdraw(run, number)
+            case r.Tell():
+                notices.tell(run, journal, action)
             case r.Finished(status=status, reason=reason):
                 run.ended_at = journal.now
+                notices.say_held(run, journal)
                 journal.say("run", describe(status, reason), code=status)
                 _post_site(run, "over", {"type": "run_over", "run": str(run.id)})
             case _:
@@ -157,14 +176,17 @@ def _post_site(run: Run, key: str, payload: Mapping[str, Any]) -> None:
     inbox.post(inbox.site_target(run.site.slug), [(f"{run.id}:{key}", payload)])
 
 
-def _write(run: Run, state: RunState, journal: Journal) -> None:
+def _write(run: Run, plan: Plan, state: RunState, journal: Journal) -> None:
     """Write the new state, if nobody else has advanced the run meanwhile."""
+    waits = any(thread.waits_for == "until" for thread in state.threads.values())
+    watches = waits or any(event.starts == "branch" for event in plan.events)
     written = Run.objects.filter(id=run.id, epoch=run.epoch).update(
         state=machine.to_json(state),
         status=state.status,
         reason=state.reason[:500],
         epoch=run.epoch + 1,
-        watches=any(thread.waits_for == "until" for thread in state.threads.values()),
+        watches=watches,
+        notices=run.notices,
         steps=journal.steps,
         roles=journal.roles,
         next_seq=journal.seq,

@@ -46,6 +46,7 @@ class Turn:
         self.next_id = state.next_id
         self.truths = dict(state.truths)
         self.ending = state.ending
+        self.zones = {zone.id: zone.points for zone in plan.zones}
         self.actions: list[Action] = []
         self.started: set[int] = set()
         """Events that have begun in this turn."""
@@ -98,15 +99,15 @@ class Turn:
 
     def scalar(self, thread: Thread, expression: p.Expression) -> Scalar:
         """Return what an expression is worth in a thread."""
-        return evaluate_scalar(expression, self.variables(thread), self.facts)
+        return evaluate_scalar(expression, self.variables(thread), self.facts, self.zones)
 
     def number(self, thread: Thread, expression: p.Expression) -> float:
         """Return what an expression that gives a number is worth in a thread."""
-        return evaluate_number(expression, self.variables(thread), self.facts)
+        return evaluate_number(expression, self.variables(thread), self.facts, self.zones)
 
     def holds(self, thread: Thread | None, condition: p.Expression) -> bool:
         """Tell whether a condition holds in a thread, or with the program's variables."""
-        return is_true(condition, self.variables(thread) if thread else self.frames[MAIN], self.facts)
+        return is_true(condition, self.variables(thread) if thread else self.frames[MAIN], self.facts, self.zones)
 
     def seconds(self, thread: Thread, expression: p.Expression) -> float:
         """Return a time to wait in seconds."""

@@ -22,15 +22,15 @@ from registry import live
 EVENTS_AT_ONCE = 1000
 
 
-def start_run(*, prepared: Prepared, by: str) -> dict[str, Any]:
-    """Start a run of a program that was checked; a worker takes it from here.
+def start_run(*, prepared: Prepared, by: str, entry: int = 0) -> dict[str, Any]:
+    """Start a run of a program that was checked; a worker takes it from here. `entry` is where it begins.
 
     Raises:
         NotPossibleNow: the site is stopped.
     """
     if is_stopped(site=prepared.site):
         raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.")
-    return _announce(prepared, _create_numbered(prepared, by))
+    return _announce(prepared, _create_numbered(prepared, by, entry))
 
 
 def _announce(prepared: Prepared, row: Run) -> dict[str, Any]:
@@ -40,18 +40,18 @@ def _announce(prepared: Prepared, row: Run) -> dict[str, Any]:
     return view
 
 
-def _create_numbered(prepared: Prepared, by: str) -> Run:
+def _create_numbered(prepared: Prepared, by: str, entry: int) -> Run:
     """Write the row; when another run took the number at the same time, try the next."""
     for _ in range(5):
         try:
             with transaction.atomic():
-                return _create(prepared, by)
+                return _create(prepared, by, entry)
         except IntegrityError:
             continue
     raise NotPossibleNow("Many runs are being started at once. Try again in a moment.")
 
 
-def _create(prepared: Prepared, by: str) -> Run:
+def _create(prepared: Prepared, by: str, entry: int) -> Run:
     site = site_id(prepared.site)
     last = Run.objects.filter(site_id=site).aggregate(last=Max("number"))["last"] or 0
     return Run.objects.create(
@@ -64,6 +64,7 @@ def _create(prepared: Prepared, by: str) -> Run:
         document=prepared.document,
         compiled=prepared.compiled,
         plan=prepared.plan,
+        entry=entry,
         started_by=by,
         created_at=datetime.now(UTC),
     )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from execution.arming import arm_program, disarm_program, list_armed, start_armed
 from execution.clockwork import run_ticker
 from execution.devices import record_device_change
-from execution.errors import ExecutionError, NotFound, NotPossibleNow, NotReady
+from execution.errors import AlreadyAnswered, AnswerNotFitting, ExecutionError, NotFound, NotPossibleNow, NotReady
 from execution.outbox import OutgoingCommand, claim_commands, mark_commands_sent, record_ack, resend_commands
 from execution.planning import plan_routes
 from execution.programs import Prepared
+from execution.questions import answer_question, list_questions, site_of_question
 from execution.rehearsals import get_rehearsal, start_rehearsal
 from execution.runs import (
     cancel_run,
@@ -23,6 +25,8 @@ from execution.stops import StopView, is_stopped, list_stops, press_stop, reset_
 from execution.ticking import tick
 
 __all__ = [
+    "AlreadyAnswered",
+    "AnswerNotFitting",
     "ExecutionError",
     "NotFound",
     "NotPossibleNow",
@@ -30,12 +34,17 @@ __all__ = [
     "OutgoingCommand",
     "Prepared",
     "StopView",
+    "answer_question",
+    "arm_program",
     "cancel_run",
     "claim_commands",
+    "disarm_program",
     "get_rehearsal",
     "get_run",
     "is_stopped",
+    "list_armed",
     "list_events",
+    "list_questions",
     "list_runs",
     "list_stops",
     "mark_commands_sent",
@@ -48,7 +57,9 @@ __all__ = [
     "reset_stop",
     "resume_run",
     "run_ticker",
+    "site_of_question",
     "site_of_run",
+    "start_armed",
     "start_rehearsal",
     "start_run",
     "tick",

@@ -110,6 +110,55 @@ class RunEventShape(Schema):
     args: dict[str, Any]
 
 
+class AnswerShape(Schema):
+    """What a question may be answered with; `options` for a choice, limits for a number."""
+
+    type: Literal["boolean", "number", "text", "choice"]
+    unit: str
+    minimum: float | None
+    maximum: float | None
+    options: list[str]
+
+
+class QuestionShape(Schema):
+    """Something that a run asks the people of its site; `value` is the answer once there is one."""
+
+    id: str
+    run: str
+    run_number: int
+    program: RunProgram
+    site: str
+    step: str
+    text: str
+    answer: AnswerShape
+    state: Literal["open", "answered", "withdrawn"]
+    value: Scalar | None
+    asked_at: str
+    answered_by: str
+    answered_at: str | None
+
+
+class AnswerQuestion(Schema):
+    """The answer: yes or no, a number, a text, or one of the options."""
+
+    value: Annotated[Any, Shown(Scalar)]
+
+
+class ArmProgram(Schema):
+    """Whether the program shall start by itself."""
+
+    on: bool
+
+
+class ArmedShape(Schema):
+    """A program that starts by itself, in the version that was armed."""
+
+    program: str
+    version: int
+    by: str
+    at: str
+
+
 class RehearsalError(Schema):
     """Something that the real run would meet, too."""
 

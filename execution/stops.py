@@ -10,7 +10,7 @@ from django.db import transaction
 
 from execution import inbox
 from execution.floor_stepping import site_id
-from execution.models import Run, SiteStop
+from execution.models import ArmedProgram, Run, SiteStop
 from execution.run_stepping import OPEN
 from registry import live
 from registry import services as registry
@@ -43,6 +43,7 @@ def press_stop(*, site: str, by: str) -> StopView:
         row = _lock(site)
         if not row.active:
             _latch(row, site, active=True, by=by)
+            _disarm_all(site)
             reason = f"{by} stopped all devices of the site"
             for run in Run.objects.filter(site__slug=site, status__in=OPEN).values_list("id", flat=True):
                 inbox.post(inbox.run_target(run), [(f"stop:{run}:{uuid4()}", {"type": "pause", "reason": reason})])
@@ -58,6 +59,12 @@ def reset_stop(*, site: str, by: str) -> StopView:
             _latch(row, site, active=False, by=by)
             inbox.post(inbox.site_target(site), [(f"reset:{uuid4()}", {"type": "stop_reset"})])
     return StopView(site, row.active, row.by, row.at)
+
+
+def _disarm_all(site: str) -> None:
+    """No program starts by itself after a stop until somebody arms it again."""
+    if ArmedProgram.objects.filter(site__slug=site).delete()[0]:
+        transaction.on_commit(lambda: live.publish(site, {"type": "armed", "programs": []}))
 
 
 def _lock(site: str) -> SiteStop:

@@ -9,6 +9,7 @@ from datetime import datetime, timedelta
 from django.db import transaction
 
 from execution import inbox
+from execution.arming import start_armed
 from execution.models import FloorState, InboxEvent, Lease, Rehearsal, Run, Timer
 from execution.outbox import drop_stale_controls
 from registry import live
@@ -39,6 +40,7 @@ class Ticker:
         fire_timers(now)
         if self._is_due("sites", TICK_SITES_S, now):
             hint_active_sites()
+            start_armed(now)
         if self._is_due("sweep", SWEEP_S, now):
             sweep(now)
             for view in registry.mark_stale(now=now):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from execution.models import Rehearsal, Run, RunEvent
+from execution.models import ArmedProgram, Question, Rehearsal, Run, RunEvent
 
 
 def run_to_json(run: Run) -> dict[str, Any]:
@@ -40,6 +40,32 @@ def event_to_json(event: RunEvent) -> dict[str, Any]:
         "code": event.code,
         "args": event.args,
     }
+
+
+def question_to_json(question: Question) -> dict[str, Any]:
+    """Return a question with its answer, if there is one."""
+    run = question.run
+    return {
+        "id": str(question.id),
+        "run": str(run.id),
+        "run_number": run.number,
+        "program": {"id": str(run.program), "name": run.program_name},
+        "site": run.site.slug,
+        "step": question.step,
+        "text": question.text,
+        "answer": question.answer,
+        "state": question.state,
+        "value": question.value,
+        "asked_at": question.asked_at.isoformat(),
+        "answered_by": question.answered_by,
+        "answered_at": question.answered_at.isoformat() if question.answered_at else None,
+    }
+
+
+def armed_to_json(armed: ArmedProgram) -> dict[str, Any]:
+    """Return which version of a program starts by itself, and who wanted that."""
+    version = armed.prepared["version"]
+    return {"program": str(armed.program), "version": version, "by": armed.by, "at": armed.at.isoformat()}
 
 
 def rehearsal_to_json(rehearsal: Rehearsal) -> dict[str, Any]:

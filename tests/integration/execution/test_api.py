@@ -78,6 +78,9 @@ def all_calls(program, run, rehearsal):
         ("post", f"/runs/{run}/pause"): "operator",
         ("post", f"/runs/{run}/resume"): "operator",
         ("post", f"/runs/{run}/cancel"): "operator",
+        ("get", f"/sites/{SITE}/questions"): "viewer",
+        ("get", f"/sites/{SITE}/armed"): "viewer",
+        ("post", f"/programs/{program}/arm", '{"on": false}'): "operator",
         ("post", f"/sites/{SITE}/stop/reset"): "operator",
         ("post", f"/sites/{SITE}/stop"): "viewer",
     }

@@ -3,22 +3,30 @@ import json
 import pytest
 
 from editor.language.plan import (
+    AnswerSpec,
+    AskPerson,
     Branch,
     Constant,
     Drop,
     End,
+    EventEnd,
+    EventEntry,
     Fork,
     Instruction,
     Join,
     Jump,
+    Located,
     Move,
+    Notify,
     Operation,
     Pick,
     PlaceRef,
     Plan,
     Reading,
     RoleBinding,
+    Variable,
     Wait,
+    WaitUntil,
 )
 from execution.monitor import FootprintMonitor
 from execution.rehearsal import Conditions, rehearse
@@ -115,6 +123,66 @@ def test_a_condition_looks_at_the_readings_of_the_pretend_devices():
     plan = Plan((Instruction(Branch(hot, 2)), Instruction(Jump(0)), Instruction(End())))
     result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
     assert (result["ok"], result["duration_s"]) == (True, 0.0)
+
+
+def test_questions_are_answered_by_the_rehearsal_which_says_so():
+    pieces = AnswerSpec("number", minimum=3, maximum=5)
+    plan = Plan(
+        (
+            Instruction(AskPerson(Constant("Dry?"), AnswerSpec(), "dry", True), "q"),
+            Instruction(AskPerson(Constant("How many?"), pieces, "many", True), "q2"),
+            Instruction(Branch(Variable("dry"), 0)),
+            Instruction(Wait(Operation("*", (Variable("many"), Constant(10)))), "w"),
+            Instruction(Notify(Constant("Done"), "info"), "n"),
+            Instruction(End()),
+        )
+    )
+    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    assert (result["ok"], result["duration_s"]) == (True, 32.0)
+    assert [line["text"] for line in result["log"]] == [
+        "Asked: Dry?", "The rehearsal answers by itself: yes", "Asked: How many?",
+        "The rehearsal answers by itself: 3", "Told: Done",
+    ]  # fmt: skip
+
+
+def test_a_program_that_asks_for_ever_is_stopped():
+    plan = Plan((Instruction(AskPerson(Constant("Go on?"), AnswerSpec())), Instruction(Jump(0))))
+    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=Conditions("kinematic", limit_s=60))
+    assert result["ok"] is False
+
+
+def test_a_rehearsal_begins_at_eight_and_knows_where_robots_are():
+    late = Operation(">=", (Operation("now", ()), Constant(8 * 3600 + 20)))
+    near = Operation("<", (Operation("distance", (Located(role="robot"), Located(device="paintInventory01"))),
+                           Constant(2)))  # fmt: skip
+    plan = Plan(
+        (
+            Instruction(WaitUntil(late, None), "late"),
+            Instruction(Move("robot", SHELF), "m"),
+            Instruction(Branch(near, 0)),
+            Instruction(End()),
+        ),
+        ROLES,
+    )
+    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    assert (result["ok"], result["errors"]) == (True, [])
+    assert [step["ended_s"] for step in result["steps"] if step["step"] == "late"] == [20.0]
+    assert len(result["steps"]) == 2
+
+
+def test_an_event_of_the_program_happens_in_a_rehearsal_too():
+    late = Operation(">=", (Operation("now", ()), Constant(8 * 3600 + 5)))
+    plan = Plan(
+        (
+            Instruction(Wait(Constant(20)), "w"),
+            Instruction(End()),
+            Instruction(Notify(Constant("Five seconds past"), "info"), "n"),
+            Instruction(EventEnd()),
+        ),
+        events=(EventEntry("e", 2, late),),
+    )
+    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    assert [(line["t"], line["text"]) for line in result["log"]] == [(5.0, "Told: Five seconds past")]
 
 
 def test_the_monitor_finds_robots_that_pass_too_near_between_two_looks():

@@ -1,0 +1,104 @@
+"""Programs that start by themselves."""
+
+from datetime import UTC, datetime
+from uuid import uuid4
+
+import pytest
+
+from editor.language import plan_to_json
+from editor.language.plan import Constant, End, EventEnd, EventEntry, Instruction, Operation, Plan, Reading, Wait
+from execution import arming, services
+from execution.models import ArmedProgram, Run, RunEvent
+from registry.models import Device
+
+pytestmark = pytest.mark.django_db(transaction=True)
+SITE, OVEN = "painting-factory", "curingOven01"
+HOT = Operation(">", (Reading(Constant(OVEN), "temperature"), Constant(80)))
+PLAN = Plan(
+    (
+        Instruction(Wait(Constant(1)), "main"),
+        Instruction(End()),
+        Instruction(Wait(Constant(5)), "cool"),
+        Instruction(EventEnd()),
+    ),
+    reads=((OVEN, "temperature"),),
+    events=(EventEntry("e", 2, HOT, "run"),),
+)
+
+
+def arm(plan=PLAN):
+    prepared = services.Prepared(uuid4(), SITE, "Cool down", 3, {}, {}, plan_to_json(plan), {})
+    return services.arm_program(prepared=prepared, by="Ada")
+
+
+def heat(value):
+    Device.objects.filter(id=OVEN).update(properties={"temperature": value})
+
+
+def look():
+    return services.start_armed(datetime.now(UTC))
+
+
+def test_a_run_starts_at_the_events_body_when_the_condition_becomes_true(factory):
+    heat(20)
+    armed = arm()
+    assert (armed["version"], armed["by"]) == (3, "Ada")
+    assert look() == 0
+    heat(90)
+    assert look() == 1
+    factory.go(lambda: Run.objects.get().status == "finished", limit_s=20)
+    run = Run.objects.get()
+    assert (set(run.steps), str(run.program)) == ({"e", "cool"}, armed["program"])
+    first = RunEvent.objects.filter(run=run).first()
+    assert (first.code, first.text) == ("started_itself", "Run 1 started by itself; Ada has armed the program.")
+
+
+def test_what_is_true_already_starts_nothing_and_while_a_run_is_under_way_none_is_added(factory):
+    heat(90)
+    arm()
+    assert look() == 0
+    heat(20)
+    assert look() == 0
+    heat(90)
+    assert look() == 1
+    heat(20)
+    look()
+    heat(90)
+    assert look() == 0
+    assert Run.objects.count() == 1
+
+
+def test_two_tickers_that_see_the_same_start_one_run(factory):
+    heat(20)
+    arm()
+    seen = [ArmedProgram.objects.select_related("site").get() for _ in range(3)]
+    heat(90)
+    assert sum(arming._look_at(row, datetime.now(UTC)) for row in seen) == 1
+    assert Run.objects.count() == 1
+
+
+def test_stop_all_disarms_until_somebody_arms_again(factory):
+    heat(20)
+    arm()
+    services.press_stop(site=SITE, by="Otto")
+    assert services.list_armed(site=SITE) == []
+    heat(90)
+    assert look() == 0
+    with pytest.raises(services.NotPossibleNow, match="The site is stopped"):
+        arm()
+    services.reset_stop(site=SITE, by="Ada")
+    assert (look(), Run.objects.count()) == (0, 0)
+
+
+def test_a_program_that_nothing_starts_cannot_be_armed(factory):
+    with pytest.raises(services.NotReady, match="Nothing starts this program by itself"):
+        arm(Plan((Instruction(End()),)))
+    assert ArmedProgram.objects.count() == 0
+
+
+def test_a_disarmed_program_starts_no_more(factory):
+    heat(20)
+    armed = arm()
+    services.disarm_program(program_id=armed["program"], site=SITE)
+    heat(90)
+    assert (look(), services.list_armed(site=SITE)) == (0, [])
