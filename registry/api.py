@@ -20,9 +20,9 @@ from ninja.utils import check_csrf
 from registry import people, services
 from registry.access import require
 from registry.capability import Pose
+from registry.describing import write_description
 from registry.models import User
-from registry.ontology import write_description
-from registry.rdf_text import CONTENT_TYPES
+from registry.rdf_text import CONTENT_TYPES, DescriptionForm
 from registry.ros_map import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap, write_pgm, write_yaml
 from registry.shapes import DeviceEdit, DeviceEventShape, DeviceShape, MapShape, Me, SignIn, SiteShape
 from registry.views import device_to_json, site_to_json
@@ -189,10 +189,11 @@ def show_history(request: HttpRequest, slug: str, device_id: str) -> list[dict[s
 
 
 @router.get("/sites/{slug}/devices/{device_id}/rdf", openapi_extra=_sends(*CONTENT_TYPES.values()))
-def show_rdf(request: HttpRequest, slug: str, device_id: str, format: str = "turtle") -> HttpResponse:
-    """Send a device's description as `turtle`, `nt` or `json-ld`."""
+def show_rdf(request: HttpRequest, slug: str, device_id: str, format: DescriptionForm = "turtle") -> HttpResponse:
+    """Send a device's description as `turtle`, `n-triples`, `json-ld`, `td` or the `paper`'s message."""
     require(signed_in(request), slug, "viewer")
-    text = write_description(services.get_device(site=slug, device_id=device_id).canonical, format)
+    device = services.get_device(site=slug, device_id=device_id)
+    text = write_description(device.canonical, format, broker=settings.VIPO_BROKER_URL)
     return HttpResponse(text, content_type=f"{CONTENT_TYPES[format]}; charset=utf-8")
 
 

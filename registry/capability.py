@@ -1,4 +1,4 @@
-"""What a device says it is and can do: the canonical description that every RDF form is turned into."""
+"""What a device says it is and can do: the canonical description that every form is turned into."""
 
 from __future__ import annotations
 
@@ -117,6 +117,8 @@ class DeviceState:
     properties: Mapping[str, Scalar] = field(default_factory=dict)
 
 
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
+_IMAGE = re.compile(r"https?://[^\s<>\"{}|\\^`]+")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 _WORD = re.compile(r"[A-Za-z0-9_.-]{0,64}")
 MOST_PROPERTIES = MOST_METHODS = 64
@@ -181,12 +183,21 @@ def _faults_of_numbers(d: Description) -> Iterator[str]:
 def _faults_of_words(d: Description) -> Iterator[str]:
     if not d.id or not _WORD.fullmatch(d.id):
         yield "Its id must be 1 to 64 letters, digits, '_', '.' or '-'."
-    if not 1 <= len(d.name) <= 100 or len(d.description) > 1000 or len(d.image) > 500:
+    if not d.name.strip() or len(d.name) > 100 or len(d.description) > 1000 or len(d.image) > 500:
         yield "Its name must have 1 to 100 characters, its description at most 1000, its image's address at most 500."
+    if "\n" in d.name or "\t" in d.name or any(_CONTROL.search(text) for text in (d.name, d.description, *_titles(d))):
+        yield "Its name, description and titles must not hold control characters."
+    if d.image and not _IMAGE.fullmatch(d.image):
+        yield "Its image must be an address that begins with http:// or https://, or be left out."
     if not _WORD.fullmatch(d.device_class) or not _WORD.fullmatch(d.site):
         yield "Its class and site must be words of at most 64 letters, digits, '_', '.' or '-'."
     if len(d.gives) + len(d.takes) > 64 or not all(w and _WORD.fullmatch(w) for w in (*d.gives, *d.takes)):
         yield "What it gives and takes must be words, 64 at most."
+
+
+def _titles(d: Description) -> Iterator[str]:
+    yield from (spec.title for spec in d.properties)
+    yield from (method.title for method in d.methods)
 
 
 def _faults_of_properties(d: Description) -> Iterator[str]:
@@ -196,6 +207,8 @@ def _faults_of_properties(d: Description) -> Iterator[str]:
     yield from _faults_of_names([m.name for m in d.methods], "method")
     for spec in d.properties:
         yield from _faults_of_value(spec)
+        if len(spec.title) > 100:
+            yield f"Its property {spec.name[:64]!r} has a title of more than 100 characters."
 
 
 def _faults_of_method(device_id: str, method: MethodSpec) -> Iterator[str]:
@@ -229,3 +242,5 @@ def _faults_of_value(spec: PropertySpec | ParameterSpec) -> Iterator[str]:
         yield f"{spec.name[:64]!r} has limits that are not numbers in order."
     if len(spec.options) > 64 or any(len(o) > 64 for o in spec.options):
         yield f"{spec.name[:64]!r} has more than 64 options, or one of more than 64 characters."
+    if len(set(spec.options)) != len(spec.options) or any(not o or _CONTROL.search(o) for o in spec.options):
+        yield f"{spec.name[:64]!r} has an option that is empty, comes twice, or holds control characters."

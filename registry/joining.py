@@ -7,7 +7,7 @@ updates, and what is older than what is known is ignored by (boot, seq).
 from __future__ import annotations
 
 import hmac
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from datetime import datetime, timedelta
 
 from django.conf import settings
@@ -15,11 +15,11 @@ from django.db import transaction
 from django.utils import timezone
 
 from registry.capability import Description, DeviceState, Pose, description_from_json, description_to_json
+from registry.describing import Reading, canonical_hash, read, source_hash
 from registry.errors import RegistryError
 from registry.live import publish
 from registry.models import Device, DeviceEvent, Site, User
-from registry.ontology import canonical_hash, read_description, source_hash
-from registry.rdf_text import detect_content_type
+from registry.rdf_text import CONTENT_TYPES
 from registry.sites import find_site, secret_hash
 from registry.views import DeviceEventView, DeviceView, changed_fields, view_of
 from registry.wire import is_device_id, parse_presence, parse_state
@@ -68,11 +68,11 @@ def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> Devic
     if known.update(last_seen_at=at):
         device = known.get()
         return view_of(device, device.site.slug)
-    description = read_description(payload, device_id=device_id)
+    reading = read(payload, device_id=device_id)
     with transaction.atomic():
-        device = _lock_or_make(device_id, description.site, at)
+        device = _lock_or_make(device_id, reading.description.site, at)
         before = view_of(device, device.site.slug) if device.description else None
-        _describe(device, description, payload, digest, at)
+        _describe(device, reading, payload, digest, at)
         after = view_of(device, device.site.slug)
         _announce(before, after)
     return after
@@ -98,17 +98,20 @@ def _site_for(slug: str) -> Site:
     return site
 
 
-def _describe(device: Device, description: Description, payload: bytes, digest: str, at: datetime) -> None:
+def _describe(device: Device, reading: Reading, payload: bytes, digest: str, at: datetime) -> None:
     """Write the description into the row and its history; called under the row's lock."""
+    description = reading.description
     text = _difference(description_from_json(device.description) if device.description else None, description)
     device.description = description_to_json(description)
     device.description_hash = canonical_hash(description)
-    device.source, device.source_hash, device.source_type = payload, digest, detect_content_type(payload)
+    device.source, device.source_hash, device.source_type = payload, digest, CONTENT_TYPES[reading.form]
     device.first_seen_at = device.first_seen_at or at
     device.last_seen_at = at
     device.save()
     if text:
         _write_event(device, at, "described", text)
+    if text and reading.notes:
+        _write_event(device, at, "mended", " ".join(reading.notes))
 
 
 def _difference(before: Description | None, after: Description) -> str:
@@ -123,7 +126,7 @@ def _difference(before: Description | None, after: Description) -> str:
         words.append(f"calls itself {after.name}")
     if before.pose != after.pose:
         words.append(f"says it stands at {after.pose.x:.2f}, {after.pose.y:.2f}")
-    if not words and before != after:
+    if not words and replace(before, done=after.done) != after:
         words.append("changed its description")
     told = "; ".join(words)[:300]
     return told[:1].upper() + told[1:]

@@ -5,11 +5,10 @@ Nothing is ever fetched: JSON-LD contexts are the pinned ones or written out, an
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Iterable, Iterator, Mapping
 from math import isfinite
 from typing import Any, cast
+from typing import Literal as LiteralType
 
 from rdflib import RDF, XSD, BNode, Graph, Literal, Namespace, URIRef
 from rdflib.exceptions import Error as RdfError
@@ -26,10 +25,8 @@ from registry.capability import (
     PropertySpec,
     Size,
     ValueType,
-    description_to_json,
-    find_faults,
 )
-from registry.rdf_text import CONTENT_TYPES, NAMESPACES, BadDescription, detect_content_type, pinned_json, plain_text
+from registry.rdf_text import NAMESPACES, BadDescription, Fault, check_turtle, pin_contexts, place_in
 from registry.wire import down_topic
 
 VIPO = Namespace(NAMESPACES["vipo"])
@@ -57,59 +54,52 @@ _PARSER_FAILURES = (
 )
 
 
-def source_hash(payload: bytes) -> str:
-    """Return what tells whether a payload was seen before: hashing takes a microsecond, parsing a millisecond."""
-    return hashlib.sha256(payload).hexdigest()
+def describe_turtle(text: str) -> Description:
+    """Return what Turtle, and N-Triples as a part of it, says of one device. Raises BadDescription."""
+    return _describe(graph_of_turtle(text))
 
 
-def canonical_hash(description: Description) -> str:
-    """Return the hash of a description's meaning, the same for every form it comes in."""
-    body = json.dumps(description_to_json(description), sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(body.encode()).hexdigest()
+def describe_json_ld(body: Any) -> Description:
+    """Return what a JSON-LD value says of one device. Raises BadDescription."""
+    return _describe(graph_of_json_ld(body))
 
 
-def read_description(payload: bytes, *, device_id: str | None = None) -> Description:
-    """Return the canonical description of a payload; it must speak of `device_id` when that is given.
+def graph_of_turtle(text: str) -> Graph:
+    """Return the triples of a text. Raises BadDescription."""
+    check_turtle(text)
+    try:
+        return _bounded(Graph().parse(data=text, format="turtle"))
+    except _PARSER_FAILURES as error:
+        raise BadDescription(_parser_fault(text, error)) from error
 
-    Raises BadDescription.
-    """
-    content_type = detect_content_type(payload)
-    graph = _graph_of_json_ld(payload) if content_type == CONTENT_TYPES["json-ld"] else _graph_of_turtle(payload)
+
+def graph_of_json_ld(body: Any) -> Graph:
+    """Return the triples of a JSON-LD value; nothing is fetched for it. Raises BadDescription."""
+    pinned = pin_contexts(body)
+    try:
+        return _bounded(to_rdf(pinned, Graph(), base=""))
+    except _PARSER_FAILURES as error:
+        raise BadDescription("The description is not JSON-LD: the parser could not follow it.") from error
+
+
+def _bounded(graph: Graph) -> Graph:
     if len(graph) > MOST_TRIPLES:
         raise BadDescription(f"The description has {len(graph)} triples; {MOST_TRIPLES} is the most.")
-    description = _describe(graph, device_id)
-    if faults := find_faults(description):
-        raise BadDescription("The description cannot be believed. " + " ".join(faults[:5]))
-    return description
-
-
-def _graph_of_turtle(payload: bytes) -> Graph:
-    text = plain_text(payload)
-    try:
-        return Graph().parse(data=text, format="turtle")
-    except _PARSER_FAILURES as error:
-        raise BadDescription(f"The description is not RDF (Turtle, N-Triples or JSON-LD). {_reason(error)}") from error
-
-
-def _graph_of_json_ld(payload: bytes) -> Graph:
-    pinned = pinned_json(payload)
-    try:
-        graph: Graph = to_rdf(pinned, Graph(), base="")
-    except _PARSER_FAILURES as error:
-        raise BadDescription(f"The description is not JSON-LD. {_reason(error)}") from error
     return graph
 
 
-def _reason(error: BaseException) -> str:
-    line = getattr(error, "lines", None)
-    return f"The parser stopped at line {line + 1}." if isinstance(line, int) else "The parser could not follow it."
+def _parser_fault(text: str, error: BaseException) -> Fault:
+    says = "The description is not RDF (Turtle, N-Triples or JSON-LD)"
+    at, why = getattr(error, "_i", None), getattr(error, "_why", "")
+    if not isinstance(at, int):
+        return Fault(f"{says}: the parser could not follow it.")
+    line, column = place_in(text, min(at, len(text)))
+    return Fault(f"{says}: {str(why).rstrip('.')[:120]}.", line, column)
 
 
-def _describe(graph: Graph, device_id: str | None) -> Description:
+def _describe(graph: Graph) -> Description:
     subject, kind = _the_device(graph)
     said_id = _one_text(graph, subject, DCT.identifier)
-    if device_id is not None and said_id != device_id:
-        raise BadDescription(f"The description is of {said_id[:64]!r}, but it came on the topic of {device_id!r}.")
     radius = _one_number(graph, subject, VIPO.radius, 0.0)
     return Description(
         id=said_id,
@@ -125,7 +115,7 @@ def _describe(graph: Graph, device_id: str | None) -> Description:
         simulated=_one_truth(graph, subject, VIPO.simulated, default=False),
         gives=_words(graph, subject, VIPO.gives),
         takes=_words(graph, subject, VIPO.takes),
-        capacity=int(_one_number(graph, subject, VIPO.capacity, 0.0)),
+        capacity=_one_whole(graph, subject, VIPO.capacity),
         radius_m=radius,
         speed_m_s=_one_number(graph, subject, VIPO.speed, 0.0),
         properties=tuple(_properties(graph, subject)),
@@ -162,6 +152,13 @@ def _one_text(graph: Graph, subject: Node, predicate: URIRef) -> str:
 def _one_number(graph: Graph, subject: Node, predicate: URIRef, default: float) -> float:
     found = _one(graph, subject, predicate)
     return default if found is None else _as_number(found, predicate)
+
+
+def _one_whole(graph: Graph, subject: Node, predicate: URIRef) -> int:
+    number = _one_number(graph, subject, predicate, 0.0)
+    if not number.is_integer():
+        raise BadDescription(f"The description needs a whole number for {_short(predicate)}.")
+    return int(number)
 
 
 def _as_number(node: Node, predicate: URIRef) -> float:
@@ -267,19 +264,19 @@ def _parameter(graph: Graph, node: Node) -> ParameterSpec:
     return ParameterSpec(**_value_fields(graph, node), required=_one_truth(graph, node, VIPO.required, default=True))
 
 
-def write_description(description: Description, form: str = "turtle") -> str:
-    """Return a description as `turtle`, `nt` or `json-ld`; the same description always gives the same text."""
-    graph = _graph_of(description)
+def write_rdf(description: Description, form: LiteralType["turtle", "n-triples", "json-ld"]) -> str:
+    """Return a description as RDF; the same description always gives the same text."""
+    graph = graph_of(description)
     if form == "json-ld":
         context = {k: str(v) for k, v in PREFIXES.items()}
         return str(graph.serialize(format="json-ld", context=context, indent=2, sort_keys=True))
-    if form not in CONTENT_TYPES:
-        raise BadDescription(f"There is no form {form[:20]!r}. Ask for turtle, nt or json-ld.")
-    text = str(graph.serialize(format=form))
-    return "".join(sorted(text.splitlines(keepends=True))) if form == "nt" else text
+    if form == "turtle":
+        return str(graph.serialize(format="turtle"))
+    return "".join(sorted(str(graph.serialize(format="nt")).splitlines(keepends=True)))
 
 
-def _graph_of(d: Description) -> Graph:
+def graph_of(d: Description) -> Graph:
+    """Return the triples that say what a description says."""
     graph = Graph(bind_namespaces="none")
     for prefix, namespace in (*PREFIXES.items(), ("rdf", RDF)):
         graph.bind(prefix, namespace)

@@ -1,13 +1,24 @@
-"""The outside of an RDF payload: which form it is in, what is refused at sight, and no context from elsewhere."""
+"""The outside of a description: which form it is in, what is refused at sight, and no context from elsewhere."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
 
 from registry.errors import RegistryError
-from registry.wire import MAX_BYTES, BadMessage, parse_json
+from registry.wire import MAX_BYTES, MAX_DEPTH, BadMessage, parse_json
 
+DescriptionForm = Literal["turtle", "n-triples", "json-ld", "td", "paper"]
+FORMS: tuple[DescriptionForm, ...] = get_args(DescriptionForm)
+CONTENT_TYPES: Mapping[DescriptionForm, str] = {
+    "turtle": "text/turtle",
+    "n-triples": "application/n-triples",
+    "json-ld": "application/ld+json",
+    "td": "application/td+json",
+    "paper": "text/plain",
+}
 NAMESPACES: Mapping[str, str] = {
     "vipo": "urn:vipo:ns#",
     "td": "https://www.w3.org/2019/wot/td#",
@@ -19,30 +30,70 @@ NAMESPACES: Mapping[str, str] = {
 }
 CONTEXT = "urn:vipo:context"
 PINNED_CONTEXTS: Mapping[str, Mapping[str, str]] = {CONTEXT: NAMESPACES}
-CONTENT_TYPES = {"turtle": "text/turtle", "nt": "application/n-triples", "json-ld": "application/ld+json"}
+TD_CONTEXT = "https://www.w3.org/2022/wot/td/v1.1"
+TD_CONTEXTS = frozenset({TD_CONTEXT, "https://www.w3.org/2019/wot/td/v1"})
+PAPER_KEYS = frozenset(
+    {"id", "name", "description", "location", "size", "imgurl", "done", "properties", "methods", "kind"}
+)
+_MARKUP = re.compile(rb"\s*<(?:\?xml|!DOCTYPE|!--|rdf:)", re.IGNORECASE)
+_FIRST_LINE = re.compile(r"(?m)^(?:---)?[ \t]*(?!#|---)(\S.*)$")
+_PAPER_LINE = re.compile(r"\"?([A-Za-z][A-Za-z_ -]*?)\"?\s*(?::(?:\s|$|[\"'\[])|$)")
+_TRIPLE = re.compile(r"\s*(?:(?:<[^>]*>|_:\S+)\s+<[^>]*>\s.*\.\s*)?(?:#.*)?")
+_BRACKET = re.compile(
+    r'"""(?:[^"\\]|\\.|"(?!""))*+(?:"""|\\?\Z)'
+    r"|'''(?:[^'\\]|\\.|'(?!''))*+(?:'''|\\?\Z)"
+    r'|"(?:[^"\\\n]|\\.)*+"?'
+    r"|'(?:[^'\\\n]|\\.)*+'?"
+    r"|<[^<>\s]*>|#[^\n]*|[\[(]|[\])]",
+    re.DOTALL,
+)
+_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]|\\U0000[dD][89a-fA-F]")
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One thing that is wrong: a sentence, and where it is: a line and column from 1, or a path into JSON."""
+
+    text: str
+    line: int = 0
+    column: int = 0
+    path: str = ""
+
+    @property
+    def sentence(self) -> str:
+        """The sentence with its place."""
+        if self.line:
+            return f"{self.text} See line {self.line}, column {self.column}."
+        return f"{self.text} See {self.path}." if self.path else self.text
 
 
 class BadDescription(RegistryError):
-    """A description that cannot be read or believed; the sentence says why."""
+    """A description that cannot be read or believed; `faults` say why, each in a sentence with its place."""
 
     code = "bad_description"
     status = 422
 
+    def __init__(self, *faults: Fault | str) -> None:
+        self.faults = tuple(Fault(fault) if isinstance(fault, str) else fault for fault in faults)
+        super().__init__(" ".join(fault.sentence for fault in self.faults[:5]))
 
-def detect_content_type(payload: bytes) -> str:
-    """Return the content type that a payload looks like; raises BadDescription for what is refused at sight."""
-    if len(payload) > MAX_BYTES:
-        raise BadDescription(f"The description has {len(payload)} bytes; {MAX_BYTES} is the most.")
-    start = payload.lstrip()[:200]
-    if start.startswith((b"<?xml", b"<rdf:", b"<!DOCTYPE", b"<!--")) or b"<rdf:RDF" in payload[:4000]:
-        raise BadDescription("The description is RDF/XML, which is not accepted. Send Turtle, N-Triples or JSON-LD.")
-    return CONTENT_TYPES["json-ld"] if start[:1] in (b"{", b"[") else CONTENT_TYPES["turtle"]
+
+def form_of(payload: bytes) -> DescriptionForm:
+    """Return the form that a payload is in; raises BadDescription for what is refused at sight."""
+    text = plain_text(payload)
+    if is_json(text):
+        return form_of_json(read_json(text))
+    return form_of_text(text)
 
 
 def plain_text(payload: bytes) -> str:
-    """Return a payload's text; raises BadDescription for NUL and for literals that hold markup."""
+    """Return a payload's text. Raises BadDescription for what is too long, XML, not UTF-8, or holds NUL or markup."""
+    if len(payload) > MAX_BYTES:
+        raise BadDescription(f"The description has {len(payload)} bytes; {MAX_BYTES} is the most.")
+    if _MARKUP.match(payload.removeprefix(b"\xef\xbb\xbf")) or b"<rdf:RDF" in payload:
+        raise BadDescription("The description is RDF/XML, which is not accepted. Send Turtle, N-Triples or JSON-LD.")
     try:
-        text = payload.decode("utf-8")
+        text = payload.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise BadDescription("The description is not UTF-8.") from error
     if "\0" in text or "\\u0000" in text or "\\U00000000" in text:
@@ -52,24 +103,77 @@ def plain_text(payload: bytes) -> str:
     return text
 
 
-def pinned_json(payload: bytes) -> Any:
-    """Return a JSON-LD payload with the pinned contexts written out. Raises BadDescription."""
-    plain_text(payload)
+def is_json(text: str) -> bool:
+    """Tell whether a description is written as JSON: no other form begins with a brace, and Turtle's `[` has no `"`."""
+    start = text.lstrip()
+    return start.startswith("{") or bool(re.match(r"\[\s*(?:\{|\]\s*$)", start))
+
+
+def form_of_json(body: Any) -> DescriptionForm:
+    """Return which form a JSON value is: a Thing Description names its context, the paper's message has no `@`."""
+    fields = body if isinstance(body, dict) else {}
+    context = fields.get("@context")
+    named = context if isinstance(context, list) else [context]
+    if any(isinstance(name, str) and name in TD_CONTEXTS for name in named):
+        return "td"
+    keys = {paper_key(key) for key in fields}
+    return "paper" if keys & PAPER_KEYS and not any(key.startswith("@") for key in fields) else "json-ld"
+
+
+def form_of_text(text: str) -> DescriptionForm:
+    """Return which form a text is: the paper's message begins with one of its keys, where Turtle needs a prefix."""
+    first = _FIRST_LINE.search(text)
+    found = _PAPER_LINE.match(first.group(1)) if first else None
+    if found and paper_key(found.group(1)) in PAPER_KEYS:
+        return "paper"
+    triples = first is not None and all(_TRIPLE.fullmatch(line) for line in text.splitlines())
+    return "n-triples" if triples else "turtle"
+
+
+def paper_key(key: str) -> str:
+    """Return a key of the paper's message without what its spelling differs in: case, `_`, `-` and spaces."""
+    return re.sub(r"[_\s-]", "", key).lower()
+
+
+def check_turtle(text: str) -> None:
+    """Refuse Turtle that is nested too deep, or that writes half a surrogate pair. Raises BadDescription."""
+    depth = 0
+    for found in _BRACKET.finditer(text):
+        mark = found.group()
+        depth += (mark in "[(") - (mark in "])")
+        if depth > MAX_DEPTH:
+            line, column = place_in(text, found.start())
+            raise BadDescription(
+                Fault(f"The description is not RDF that is accepted: it is nested over {MAX_DEPTH} deep.", line, column)
+            )
+    if half := _SURROGATE.search(text):
+        line, column = place_in(text, half.start())
+        raise BadDescription(Fault("The description holds half of a surrogate pair. Remove it.", line, column))
+
+
+def place_in(text: str, at: int) -> tuple[int, int]:
+    """Return the line and column of a position, both from 1."""
+    return text.count("\n", 0, at) + 1, at - text.rfind("\n", 0, at)
+
+
+def read_json(text: str) -> Any:
+    """Return the JSON value of a description. Raises BadDescription."""
     try:
-        return _pin(parse_json(payload))
+        return parse_json(text.encode())
     except BadMessage as error:
-        raise BadDescription(f"The description is not JSON-LD. {error.detail}") from error
+        told = error.reason.removeprefix("The message ")
+        raise BadDescription(Fault(f"The description {told}", error.line, error.column)) from error
 
 
-def _pin(value: Any) -> Any:
+def pin_contexts(value: Any) -> Any:
     """Put the pinned contexts in place of their names, and refuse every other one: a name would be fetched."""
     if isinstance(value, list):
-        return [_pin(v) for v in value]
+        return [pin_contexts(v) for v in value]
     if not isinstance(value, dict):
         return value
     if "@import" in value:
         raise BadDescription("The description imports a JSON-LD context. Write the context out.")
-    return {k: _pin_context(v) if k == "@context" else _pin(v) for k, v in value.items()}
+    return {k: _pin_context(v) if k == "@context" else pin_contexts(v) for k, v in value.items()}
 
 
 def _pin_context(context: Any) -> Any:
@@ -77,6 +181,6 @@ def _pin_context(context: Any) -> Any:
         return [_pin_context(c) for c in context]
     if isinstance(context, str):
         if context not in PINNED_CONTEXTS:
-            raise BadDescription(f"The JSON-LD context {context[:100]!r} is not known here. Use {CONTEXT!r}.")
+            raise BadDescription(f"The description's context {context[:100]!r} is not known here. Use {CONTEXT!r}.")
         return dict(PINNED_CONTEXTS[context])
-    return _pin(context)
+    return pin_contexts(context)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
@@ -28,6 +29,10 @@ class BadMessage(RegistryError):
 
     code = "bad_message"
     status = 422
+
+    def __init__(self, reason: str, line: int = 0, column: int = 0) -> None:
+        self.reason, self.line, self.column = reason, line, column
+        super().__init__(f"{reason} See line {line}, column {column}." if line else reason)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +88,7 @@ def parse_json(payload: bytes, *, max_bytes: int = MAX_BYTES) -> Any:
             text, object_pairs_hook=_unique, parse_constant=_no_constant, parse_float=_finite, parse_int=_whole
         )
     except json.JSONDecodeError as error:
-        raise BadMessage(f"The message is not JSON: {error.msg} at character {error.pos}.") from error
+        raise BadMessage(f"The message is not JSON: {error.msg.lower()}.", error.lineno, error.colno) from error
     _check_text(value)
     return value
 
@@ -100,7 +105,8 @@ def _check_depth(text: str) -> None:
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) != len(pairs):
-        raise BadMessage("The message names a key twice.")
+        twice = Counter(name for name, _ in pairs).most_common(1)[0][0]
+        raise BadMessage(f"The message names the key {twice[:64]!r} twice.")
     return found
 
 

@@ -10,7 +10,7 @@ from registry.demo import devices as demo
 from registry.demo.factory import make_grid, read_plan
 from registry.errors import RegistryError
 from registry.floor import Grid
-from registry.ontology import read_description, write_description
+from registry.describing import read_description, write_description
 
 
 class NothingToSimulate(RegistryError):

@@ -126,6 +126,7 @@ VIPO_MQTT = {
     "tls": os.environ.get("VIPO_MQTT_TLS", "1" if SERVED else "0") == "1",
     "ca": os.environ.get("VIPO_MQTT_CA", ""),
 }
+VIPO_BROKER_URL = os.environ.get("VIPO_BROKER_URL", "" if SERVED else f"mqtt://127.0.0.1:{VIPO_MQTT['port']}/")
 VIPO_DEFAULT_SITE = os.environ.get("VIPO_DEFAULT_SITE", "painting-factory")
 VIPO_SPEED = float(os.environ.get("VIPO_SPEED", "1"))
 VIPO_DEMO = os.environ.get("VIPO_DEMO", "") == "1"

@@ -8,7 +8,7 @@ from typing import Any
 
 from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
 from registry.demo.factory import FOLDER, read_plan
-from registry.ontology import write_description
+from registry.describing import write_description
 from registry.wire import down_topic
 
 SITE = "painting-factory"

@@ -12,9 +12,9 @@ import pytest
 
 from registry import services
 from registry.capability import Description, MethodSpec, Pose, PropertySpec, Size
+from registry.describing import write_description
 from registry.floor import Grid
 from registry.models import User
-from registry.ontology import write_description
 
 NOW = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
 PASSWORD = "correct-horse-9"

@@ -11,8 +11,8 @@ from django.core.files.uploadedfile import SimpleUploadedFile
 from django.test import Client
 
 from registry import services
+from registry.describing import read_description
 from registry.models import Membership, Site, User
-from registry.ontology import read_description
 
 from .conftest import MIXER, NOW, PASSWORD, ROLES, come, describe, say
 
@@ -248,7 +248,7 @@ def test_a_decided_device_is_not_decided_again(browser: Callable[[str], Client])
     assert client.post("/api/sites/hall/devices/nothing/approve").status_code == 404
 
 
-@pytest.mark.parametrize("form", ["turtle", "nt", "json-ld"])
+@pytest.mark.parametrize("form", ["turtle", "n-triples", "json-ld", "td", "paper"])
 def test_a_description_can_be_had_as_rdf(browser: Callable[[str], Client], form: str) -> None:
     describe()
     answer = browser("viewer").get(f"/api/sites/hall/devices/mixer1/rdf?format={form}")

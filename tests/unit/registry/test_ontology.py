@@ -22,7 +22,8 @@ from registry.capability import (
     find_faults,
 )
 from registry.demo.devices import describe_devices
-from registry.ontology import BadDescription, canonical_hash, read_description, write_description
+from registry.describing import canonical_hash, read_description, write_description
+from registry.rdf_text import BadDescription
 
 MIXER = Description(
     "mixer1",
@@ -63,14 +64,14 @@ TURTLE = """
 """
 
 
-@pytest.mark.parametrize("form", ["turtle", "nt", "json-ld"])
+@pytest.mark.parametrize("form", ["turtle", "n-triples", "json-ld"])
 def test_a_description_survives_every_form(form: str) -> None:
     for description in (MIXER, *describe_devices()):
         assert read_description(write_description(description, form).encode(), device_id=description.id) == description
 
 
 def test_the_same_description_gives_the_same_text_and_hash() -> None:
-    again = read_description(write_description(MIXER, "nt").encode())
+    again = read_description(write_description(MIXER, "n-triples").encode())
     assert write_description(again) == write_description(MIXER)
     assert canonical_hash(again) == canonical_hash(MIXER)
     assert canonical_hash(replace(MIXER, name="other")) != canonical_hash(MIXER)
@@ -193,7 +194,7 @@ def test_too_many_methods_are_refused() -> None:
 @settings(max_examples=100, deadline=None)
 @given(st.data())
 def test_a_damaged_description_brings_no_more_than_a_refusal(data: st.DataObject) -> None:
-    text = bytearray(write_description(MIXER, data.draw(st.sampled_from(["turtle", "json-ld", "nt"]))).encode())
+    text = bytearray(write_description(MIXER, data.draw(st.sampled_from(["turtle", "json-ld", "n-triples"]))).encode())
     for _ in range(data.draw(st.integers(1, 4))):
         at = data.draw(st.integers(0, len(text) - 1))
         text[at : at + data.draw(st.integers(0, 5))] = data.draw(st.binary(max_size=4))

@@ -1,0 +1,100 @@
+"""The one door for descriptions: any form in, the canonical description out, and the other way round."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass
+
+from registry.capability import Description, description_to_json, find_faults
+from registry.ontology import describe_json_ld, describe_turtle, write_rdf
+from registry.paper_message import describe_message, read_message, write_message
+from registry.rdf_text import (
+    FORMS,
+    BadDescription,
+    DescriptionForm,
+    Fault,
+    form_of_json,
+    form_of_text,
+    is_json,
+    plain_text,
+    read_json,
+)
+from registry.td_schema import check_thing
+from registry.thing import describe_thing, write_thing
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What was read: the description, the form it came in, and what was mended or left out on the way."""
+
+    description: Description
+    form: DescriptionForm
+    notes: tuple[str, ...] = ()
+
+
+def source_hash(payload: bytes) -> str:
+    """Return what tells whether a payload was seen before: hashing takes a microsecond, parsing a millisecond."""
+    return hashlib.sha256(payload).hexdigest()
+
+
+def canonical_hash(description: Description) -> str:
+    """Return the hash of a description's meaning, the same for every form it comes in."""
+    body = json.dumps(description_to_json(description), sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(body.encode()).hexdigest()
+
+
+def read(payload: bytes, *, device_id: str | None = None) -> Reading:
+    """Read a description in whatever form it is; it must speak of `device_id` when that is given.
+
+    Raises BadDescription.
+    """
+    text = plain_text(payload)
+    reading = _read_json_form(text) if is_json(text) else _read_text_form(text)
+    description = reading.description
+    if device_id is not None and description.id != device_id:
+        raise BadDescription(
+            f"The description is of {description.id[:64]!r}, but it came on the topic of {device_id!r}. Use one id."
+        )
+    if faults := find_faults(description):
+        raise BadDescription("The description cannot be believed.", *(Fault(fault) for fault in faults))
+    return reading
+
+
+def _read_json_form(text: str) -> Reading:
+    body = read_json(text)
+    form = form_of_json(body)
+    if form == "td":
+        check_thing(body)
+        return Reading(describe_thing(body), form)
+    if form == "paper":
+        return Reading(*describe_message(body))
+    return Reading(describe_json_ld(body), form)
+
+
+def _read_text_form(text: str) -> Reading:
+    form = form_of_text(text)
+    if form == "paper":
+        message = read_message(text)
+        return Reading(*describe_message(message.body, message.places, message.notes))
+    return Reading(describe_turtle(text), form)
+
+
+def read_description(payload: bytes, *, device_id: str | None = None) -> Description:
+    """Return only the description of a payload. Raises BadDescription."""
+    return read(payload, device_id=device_id).description
+
+
+def write_description(description: Description, form: str = "turtle", *, broker: str = "") -> str:
+    """Return a description in a form; `broker` is the address for a Thing's links, such as mqtt://host:1883/.
+
+    The same description always gives the same text. Raises BadDescription for a form that there is not.
+    """
+    match form:
+        case "turtle" | "n-triples" | "json-ld":
+            return write_rdf(description, form)
+        case "td":
+            return write_thing(description, broker)
+        case "paper":
+            return write_message(description)
+    raise BadDescription(f"There is no form {form[:20]!r}. Ask for {', '.join(FORMS)}.")

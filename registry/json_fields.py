@@ -1,0 +1,120 @@
+"""JSON read with suspicion: every field has a path, and a refusal says where it is and what it needs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NoReturn
+
+from registry.rdf_text import BadDescription, Fault
+
+
+@dataclass(frozen=True, slots=True)
+class Fields:
+    """An object of a description; `places` says on which line and column a path stands, where that is known."""
+
+    body: Mapping[str, Any]
+    path: str = ""
+    places: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+
+    def path_of(self, key: str) -> str:
+        """Return the path of a field, written as a JSON pointer."""
+        return f"{self.path}/{key.replace('~', '~0').replace('/', '~1')}"
+
+    def refuse(self, key: str, reason: str) -> NoReturn:
+        """Say what is wrong with a field. Raises BadDescription."""
+        path = self.path_of(key)
+        line, column = self.places.get(path) or self.places.get(self.path) or (0, 0)
+        raise BadDescription(Fault(f"The description {reason}.", line, column, path))
+
+    def need(self, key: str, what: str) -> NoReturn:
+        """Say what a field must hold. Raises BadDescription."""
+        self.refuse(key, f"needs {what} for {key}")
+
+    def has(self, key: str) -> bool:
+        """Tell whether the field is given and not null."""
+        return self.body.get(key) is not None
+
+    def text(self, key: str) -> str:
+        """Return a text, empty when it is not given."""
+        value = self.body.get(key)
+        if value is None:
+            return ""
+        if not isinstance(value, str):
+            self.need(key, "text in quotes")
+        return value
+
+    def number(self, key: str) -> float | None:
+        """Return a number, None when it is not given."""
+        value = self.body.get(key)
+        if value is None:
+            return None
+        if not _is_number(value):
+            self.need(key, "a number")
+        return float(value)
+
+    def whole(self, key: str) -> int:
+        """Return a whole number, 0 when it is not given."""
+        value = self.number(key) or 0.0
+        if not value.is_integer():
+            self.need(key, "a whole number")
+        return int(value)
+
+    def truth(self, key: str, *, default: bool) -> bool:
+        """Return true or false."""
+        value = self.body.get(key)
+        if value is None:
+            return default
+        if not isinstance(value, bool):
+            self.need(key, "true or false")
+        return value
+
+    def numbers(self, key: str) -> list[float]:
+        """Return a list of numbers, empty when it is not given."""
+        values = self.body.get(key)
+        if values is None:
+            return []
+        if not isinstance(values, list) or not all(_is_number(value) for value in values):
+            self.need(key, "a list of numbers")
+        return [float(value) for value in values]
+
+    def words(self, key: str) -> tuple[str, ...]:
+        """Return a list of texts, empty when it is not given."""
+        values = self.body.get(key)
+        if values is None:
+            return ()
+        if not isinstance(values, list) or not all(isinstance(value, str) for value in values):
+            self.need(key, "a list of texts")
+        return tuple(values)
+
+    def inside(self, key: str) -> Fields:
+        """Return an object within this one, empty when it is not given."""
+        value = self.body.get(key)
+        if value is None:
+            value = {}
+        if not isinstance(value, dict):
+            self.need(key, "an object")
+        return Fields(value, self.path_of(key), self.places)
+
+    def named(self, key: str) -> Iterator[tuple[str, Fields]]:
+        """Return the objects of an object by their names, in the order in which they stand."""
+        group = self.inside(key)
+        for name in group.body:
+            yield name, group.inside(name)
+
+    def each(self, key: str) -> Iterator[Fields]:
+        """Return the objects of a list."""
+        values = self.body.get(key)
+        if values is None:
+            values = []
+        if not isinstance(values, list):
+            self.need(key, "a list")
+        group = Fields({str(i): value for i, value in enumerate(values)}, self.path_of(key), self.places)
+        for position, value in enumerate(values):
+            if not isinstance(value, dict):
+                group.need(str(position), "an object")
+            yield group.inside(str(position))
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

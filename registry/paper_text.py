@@ -1,0 +1,176 @@
+"""The text of the paper's message (its Figure 5): lines of `key: value`, mended only where one reading is possible."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NoReturn
+
+from registry.rdf_text import BadDescription, Fault, paper_key
+from registry.wire import BadMessage, parse_json
+
+KEYS = (
+    *("id", "name", "description", "kind", "device_class", "site", "location", "size", "imgUrl", "done", "simulated"),
+    *("gives", "takes", "capacity", "radius", "speed", "properties", "methods"),
+    *("value", "type", "unit", "minimum", "maximum", "options", "title"),
+    *("vipo_msg_type", "topic_name", "parameters", "required"),
+)
+SECTIONS = frozenset({"properties", "methods", "parameters"})
+_SPELLINGS: Mapping[str, str] = {paper_key(key): key for key in KEYS}
+_LINE = re.compile(r"""(?P<key>"?[A-Za-z][A-Za-z_ -]*"?)\s*:(?:\s+(?P<value>\S.*))?""")
+_NO_COLON = re.compile(r"""(?P<key>[A-Za-z][A-Za-z_-]*)\s*(?P<value>["'].*)?""")
+_OTHER_QUOTE = re.compile(r"""(?P<open>["']?)(?P<text>[^"'\\]*)(?P<close>["']?)""")
+_PLAIN_START = re.compile(r"[^\[{0-9+.-]|[0-9]*[A-Za-z]")
+
+
+@dataclass(frozen=True, slots=True)
+class MessageText:
+    """A message as JSON, where each path of it stands, and what was mended to read it."""
+
+    body: dict[str, Any]
+    places: Mapping[str, tuple[int, int]]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    number: int
+    indent: int
+    begins: bool
+    key: str
+    value: str
+    column: int
+
+
+@dataclass(slots=True)
+class _Reader:
+    """Gathers places and notes while the lines become JSON."""
+
+    places: dict[str, tuple[int, int]] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+
+    def refuse(self, line: _Line, reason: str) -> NoReturn:
+        raise BadDescription(Fault(f"The description {reason}.", line.number, line.column))
+
+
+def read_text(text: str) -> MessageText:
+    """Return what a message's text says. Raises BadDescription with the line for what has no single meaning."""
+    reader = _Reader()
+    lines = list(_lines(text, reader))
+    body = _mapping(reader, lines, "")
+    return MessageText(body, reader.places, tuple(reader.notes))
+
+
+def _lines(text: str, reader: _Reader) -> Iterator[_Line]:
+    begins, outer = False, 0
+    for number, raw in enumerate(text.split("\n"), 1):
+        line = raw.expandtabs(2).rstrip()
+        content = line.lstrip(" ")
+        if not content or content.startswith(("#", "---")):
+            continue
+        indent = len(line) - len(content)
+        if content.startswith("-"):
+            begins, outer = True, indent
+            content = content[1:].lstrip(" ")
+            if not content:
+                continue
+            indent = len(line) - len(content)
+        yield _line(reader, number, max(indent, outer + 1) if begins else indent, begins, content)
+        begins = False
+
+
+def _line(reader: _Reader, number: int, indent: int, begins: bool, content: str) -> _Line:
+    found = _LINE.fullmatch(content)
+    bare = None if found else _NO_COLON.fullmatch(content)
+    match = found or bare
+    written = match.group("key").strip('"').strip() if match else ""
+    key = _SPELLINGS.get(paper_key(written), written)
+    value = ((match.group("value") if match else "") or "").strip()
+    column = indent + content.find(value) + 1 if value else indent + 1
+    line = _Line(number, indent, begins, key, value, column)
+    if match is None or (bare and key not in KEYS) or (bare and not value and key not in SECTIONS):
+        reader.refuse(line, f"has a line that is not `key: value`: {content[:40]!r}")
+    if bare:
+        reader.notes.append(f"Line {number}: put a colon behind {key}.")
+    if key != written:
+        reader.notes.append(f"Line {number}: read {written!r} as {key}.")
+    return line
+
+
+def _mapping(reader: _Reader, lines: list[_Line], path: str) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for line, inner in _blocks(reader, lines):
+        place = f"{path}/{line.key}"
+        if line.key in found:
+            reader.refuse(line, f"says {line.key} twice")
+        reader.places[place] = (line.number, line.column)
+        if line.key in SECTIONS and not line.value:
+            found[line.key] = _items(reader, inner, place)
+        elif inner:
+            reader.refuse(inner[0], f"has a line that is set in under {line.key}, which holds no list")
+        elif not line.value:
+            reader.refuse(line, f"needs a value for {line.key}")
+        else:
+            found[line.key] = _value(reader, line)
+    return found
+
+
+def _blocks(reader: _Reader, lines: list[_Line]) -> Iterator[tuple[_Line, list[_Line]]]:
+    """Return each line of the outermost level with the lines that are set in under it."""
+    at = 0
+    while at < len(lines):
+        end = at + 1
+        while end < len(lines) and lines[end].indent > lines[0].indent:
+            end += 1
+        if lines[at].indent != lines[0].indent:
+            reader.refuse(lines[at], "has a line that is set in less than the lines before it")
+        yield lines[at], lines[at + 1 : end]
+        at = end
+
+
+def _items(reader: _Reader, lines: list[_Line], path: str) -> list[dict[str, Any]]:
+    """Split a section where a dash, or without dashes where the key `name`, begins its next entry."""
+    if not lines:
+        return []
+    outer = lines[0].indent
+    dashed = any(line.begins for line in lines if line.indent == outer)
+    groups: list[list[_Line]] = []
+    for line in lines:
+        if line.indent == outer and (line.begins if dashed else line.key == "name"):
+            groups.append([])
+        if not groups:
+            reader.refuse(line, f"needs name as the first line of each of its {path.rpartition('/')[2]}")
+        groups[-1].append(line)
+    items = []
+    for position, group in enumerate(groups):
+        place = f"{path}/{position}"
+        reader.places[place] = (group[0].number, group[0].column)
+        items.append(_mapping(reader, group, place))
+    return items
+
+
+def _value(reader: _Reader, line: _Line) -> Any:
+    text = line.value
+    if text in ("True", "False"):
+        return text == "True"
+    try:
+        return parse_json(text.encode())
+    except BadMessage as error:
+        mended = _mended(text)
+        if mended is None or "not JSON" not in error.reason:
+            told = error.reason.removeprefix("The message ")
+            reader.refuse(line, f"{told.rstrip('.')} in the value of {line.key}")
+        reader.notes.append(f"Line {line.number}: put the value of {line.key} in quotes: {mended!r}.")
+        return mended
+
+
+def _mended(text: str) -> str | None:
+    """Return the text of a value whose quotes are missing or differ; None when it could mean several things."""
+    found = _OTHER_QUOTE.fullmatch(text)
+    if found is None:
+        return None
+    quoted = found.group("open") or found.group("close")
+    if not quoted and not _PLAIN_START.match(text):
+        return None
+    return found.group("text").strip() if quoted else text
