@@ -70,9 +70,7 @@ export class SharedProgram {
   apply(edits: readonly Edit[]): void {
     if (edits.length === 0) return;
     this.undo.stopCapturing();
-    this.doc.transact(() => {
-      for (const edit of edits) applyToDoc(this.doc, edit);
-    }, this.#origin);
+    applyEditsToDoc(this.doc, edits, this.#origin);
     this.undo.stopCapturing();
   }
 
@@ -131,6 +129,13 @@ export class SharedProgram {
     this.#saving = { ...this.#saving, ...change };
     for (const listener of this.#savingListeners) listener();
   }
+}
+
+/** Apply edits as one transaction. */
+export function applyEditsToDoc(doc: Y.Doc, edits: readonly Edit[], origin: unknown = null): void {
+  doc.transact(() => {
+    for (const edit of edits) applyToDoc(doc, edit);
+  }, origin);
 }
 
 function applyToDoc(doc: Y.Doc, edit: Edit): void {
