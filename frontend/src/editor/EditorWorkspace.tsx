@@ -16,6 +16,9 @@ import { RunDialog } from "./parts/RunDialog";
 import { SaveFunctionDialog } from "./parts/SaveFunctionDialog";
 import { ShortcutsDialog } from "./parts/ShortcutsDialog";
 import { ToolRail } from "./parts/ToolRail";
+import { StepMenu } from "./gestures/StepMenu";
+import { useGestureInput } from "./gestures/useGestureInput";
+import { ZoneForm } from "./zones/ZoneForm";
 import { useShortcuts } from "./state/shortcuts";
 import { useUi } from "./state/ui";
 
@@ -23,10 +26,13 @@ const FITTED: Insets = { left: 100, right: 336, top: 34, bottom: 300 };
 
 export function EditorWorkspace() {
   useShortcuts();
+  useGestureInput();
   const small = useMediaQuery("(max-width: 1179px)") ?? false;
   const drawerOpen = useUi((ui) => ui.drawer.open);
   const selected = useUi((ui) => ui.selected.length > 0);
-  const inspector = useUi((ui) => ui.inspector) && selected;
+  const resting = useUi((ui) => ui.gesture.tool === "select");
+  // The program itself is shown beside a resting hand only: while something is drawn the map needs the room.
+  const inspector = useUi((ui) => ui.inspector) && (selected || (resting && !small));
   const insets = useMemo<Insets>(
     () =>
       small
@@ -47,6 +53,8 @@ export function EditorWorkspace() {
         <HelpSentence />
         <Toast />
         {inspector ? <Inspector /> : null}
+        <ZoneForm />
+        <StepMenu />
         <Drawer small={small} />
       </main>
       <RunDialog />

@@ -1,22 +1,26 @@
 /** The inspector: the selected step's values, each with its problems under it. */
 import { CircleAlert, Copy, Trash2, X } from "lucide-react";
-import { useMemo } from "react";
+import { useMemo, type ReactNode } from "react";
 import { Button } from "@mantine/core";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/map/VipoIcon";
+import { knownNames } from "../model/variables";
 import { kindOf } from "../scene/kinds";
-import { functionOf } from "../scene/routing";
 import { duplicateSelected, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
 import { CallForm } from "./CallForm";
 import { ConditionForm } from "./ConditionForm";
+import { CommentForm, EventForm, ForEachForm, TryForm } from "./flowForms";
 import { LoadForm } from "./LoadForm";
 import { OperateForm } from "./OperateForm";
-import { MoveForm, ParallelForm, TryForm, WaitForm } from "./smallForms";
+import { AskForm, NotifyForm } from "./messageForms";
+import { ProgramPanel } from "./ProgramPanel";
+import { MoveForm, ParallelForm, WaitForm } from "./smallForms";
 import classes from "./inspector.module.css";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./stepEditor";
+import { RepeatForm, ReturnForm, Sentence, SetForm } from "./valueForms";
 
 export function Inspector() {
   const { document } = useOpenProgram();
@@ -24,7 +28,7 @@ export function Inspector() {
   const id = selected.at(-1);
   const step = id ? document.steps[id] : undefined;
   if (selected.length > 1) return <Several count={selected.length} />;
-  return id && step ? <One key={id} id={id} /> : null;
+  return id && step ? <One key={id} id={id} /> : <ProgramPanel />;
 }
 
 function One({ id }: { id: string }) {
@@ -32,11 +36,10 @@ function One({ id }: { id: string }) {
   const step = document.steps[id];
   const editor = useMemo<StepEditor | null>(() => {
     if (!step) return null;
-    const scope = functionOf(document, id);
     return {
       id,
       step,
-      parameters: scope ? (document.functions[scope]?.parameters ?? []) : [],
+      parameters: knownNames(document, id),
       disabled: !canEdit,
       set: (name, value) => apply([{ do: "set_param", id, name, value }]),
       showEditing: (editing) => shared.awareness.setLocalStateField("editing", editing ? id : null),
@@ -48,6 +51,10 @@ function One({ id }: { id: string }) {
       <StepPanel />
     </StepEditorContext>
   );
+}
+
+function homeless(kind: string): string {
+  return kind === "comment" ? "about.comment" : "steps.draft";
 }
 
 function StepPanel() {
@@ -68,13 +75,15 @@ function StepPanel() {
         </span>
         <span className={classes.title}>
           <h2>{t(`kind.${step.kind}`)}</h2>
-          <span>{step.place ? `${t("inspector.step", { number: number ?? "…" })}${where}` : t("steps.draft")}</span>
+          <span>
+            {step.place ? `${t("inspector.step", { number: number ?? "…" })}${where}` : t(homeless(step.kind))}
+          </span>
         </span>
         <IconButton label={t("inspector.close")} onClick={() => useUi.setState({ inspector: false })}>
           <X size={17} aria-hidden="true" />
         </IconButton>
       </header>
-      <div className={classes.body}>
+      <div className={classes.body} data-form>
         <Summary />
         <Editing />
         <Form kind={step.kind} />
@@ -84,30 +93,37 @@ function StepPanel() {
   );
 }
 
+const FORMS: Readonly<Record<string, () => ReactNode>> = {
+  pick_and_drop: LoadForm,
+  pick: LoadForm,
+  drop: LoadForm,
+  move: MoveForm,
+  operate: OperateForm,
+  wait: WaitForm,
+  if: ConditionOfStep,
+  while: ConditionOfStep,
+  repeat: RepeatForm,
+  for_each: ForEachForm,
+  parallel: ParallelForm,
+  try: TryForm,
+  call: CallForm,
+  set: SetForm,
+  ask: AskForm,
+  notify: NotifyForm,
+  return: ReturnForm,
+  on_event: EventForm,
+  comment: CommentForm,
+  end: () => <Sentence of="end" />,
+  break: () => <Sentence of="break" />,
+};
+
 function Form({ kind }: { kind: string }) {
-  switch (kind) {
-    case "pick_and_drop":
-    case "pick":
-    case "drop":
-      return <LoadForm />;
-    case "move":
-      return <MoveForm />;
-    case "operate":
-      return <OperateForm />;
-    case "wait":
-      return <WaitForm />;
-    case "if":
-    case "while":
-      return <ConditionForm field="condition" />;
-    case "parallel":
-      return <ParallelForm />;
-    case "try":
-      return <TryForm />;
-    case "call":
-      return <CallForm />;
-    default:
-      return null;
-  }
+  const Chosen = FORMS[kind];
+  return Chosen ? <Chosen /> : null;
+}
+
+function ConditionOfStep() {
+  return <ConditionForm field="condition" />;
 }
 
 /** "1 field needs a value". */

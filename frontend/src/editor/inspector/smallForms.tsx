@@ -1,15 +1,16 @@
-/** Forms of the constructs that ask for little: Move, Wait, Parallel, Try. */
-import { Button, Checkbox, SegmentedControl } from "@mantine/core";
+/** Forms of the constructs that ask for little: Move, Wait, Parallel. */
+import { Button, SegmentedControl } from "@mantine/core";
 import { Minus, Plus } from "lucide-react";
 import { branchesOf } from "../model/tree";
-import type { Place, Value } from "../model/types";
+import type { Place } from "../model/types";
 import { useOpenProgram } from "../state/context";
 import { ConditionForm } from "./ConditionForm";
-import { PlaceField, ValueField } from "./fields";
+import { PlaceField } from "./fields";
 import classes from "./inspector.module.css";
 import { RouteNote } from "./LoadForm";
 import { RoleField } from "./RoleField";
 import { useStepEditor } from "./stepEditor";
+import { WrittenValue } from "./valueForms";
 
 export function MoveForm() {
   const { t } = useOpenProgram();
@@ -32,7 +33,7 @@ export function MoveForm() {
 
 export function WaitForm() {
   const { t, apply } = useOpenProgram();
-  const { id, step, set, disabled } = useStepEditor();
+  const { id, step, disabled } = useStepEditor();
   const until = "until" in step.params;
   const choose = (mode: string) =>
     apply(
@@ -62,26 +63,10 @@ export function WaitForm() {
       {until ? (
         <>
           <ConditionForm field="until" />
-          <ValueField
-            label={t("wait.limit")}
-            field="timeout"
-            unit="s"
-            minimum={1}
-            value={step.params.timeout as Value}
-            onChange={(value) => set("timeout", value)}
-            placeholder={t("wait.no_limit")}
-          />
+          <WrittenValue label={t("wait.limit")} field="timeout" wanted="number" placeholder={t("wait.no_limit")} />
         </>
       ) : (
-        <ValueField
-          label={t("wait.seconds")}
-          field="duration"
-          unit="s"
-          minimum={0}
-          value={step.params.duration as Value}
-          onChange={(value) => set("duration", value)}
-          placeholder={t("wait.example")}
-        />
+        <WrittenValue label={t("wait.seconds")} field="duration" wanted="number" placeholder={t("wait.example")} />
       )}
     </>
   );
@@ -118,32 +103,5 @@ export function ParallelForm() {
       </div>
       <p className={classes.now}>{t("parallel.note")}</p>
     </div>
-  );
-}
-
-const TRY_KINDS = ["refused", "failed", "timed_out", "offline", "blocked", "cancelled"];
-
-export function TryForm() {
-  const { t } = useOpenProgram();
-  const { step, set, disabled } = useStepEditor();
-  const kinds = Array.isArray(step.params.kinds) ? step.params.kinds.map(String) : [];
-  return (
-    <Checkbox.Group
-      label={t("try.label")}
-      description={kinds.length === 0 ? t("try.any") : undefined}
-      value={kinds}
-      onChange={(next) =>
-        set(
-          "kinds",
-          TRY_KINDS.filter((kind) => next.includes(kind)),
-        )
-      }
-    >
-      <div className={classes.field} style={{ marginTop: 8 }}>
-        {TRY_KINDS.map((kind) => (
-          <Checkbox key={kind} value={kind} label={t(`try.${kind}`)} disabled={disabled} />
-        ))}
-      </div>
-    </Checkbox.Group>
   );
 }

@@ -5,7 +5,7 @@ import type { Parameter, Step } from "../model/types";
 export interface StepEditor {
   readonly id: string;
   readonly step: Step;
-  /** Parameters of the function whose body the step stands in. */
+  /** Names that the step can read, nearest first: loop variables, parameters, what is set. */
   readonly parameters: readonly Parameter[];
   readonly disabled: boolean;
   readonly set: (name: string, value: unknown) => void;

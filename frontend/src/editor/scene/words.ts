@@ -4,7 +4,7 @@ import { swatchOf } from "./swatches";
 import type { Surroundings } from "./surroundings";
 import { durationText, placeName, valueText, withUnit, type Speaker } from "./valueWords";
 
-export { durationText, placeName, unitText, valueText, withUnit } from "./valueWords";
+export { durationText, placeName, UNIT_CHOICES, unitText, valueText, withUnit } from "./valueWords";
 export type { Speaker, Translate } from "./valueWords";
 
 export interface TextPart {

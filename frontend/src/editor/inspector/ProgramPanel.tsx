@@ -1,0 +1,123 @@
+/** The program itself, while no step is selected: its parameters, its robots, its variables and zones. */
+import { X } from "lucide-react";
+import { IconButton } from "@/design/IconButton";
+import { VipoIcon } from "@/map/VipoIcon";
+import { namesSet } from "../model/variables";
+import { changeProgramParameter } from "../model/renaming";
+import { unitText } from "../scene/words";
+import { makeId } from "../state/actions";
+import { useOpenProgram } from "../state/context";
+import { select, useUi } from "../state/ui";
+import { AddParameter } from "./FunctionForm";
+import classes from "./inspector.module.css";
+import { ParameterCard } from "./ParameterCard";
+import { RolesSection } from "./RolesSection";
+import { Section } from "./Section";
+
+export function ProgramPanel() {
+  const { t, program } = useOpenProgram();
+  return (
+    <aside className={classes.panel} aria-label={t("program.label")}>
+      <header className={classes.head}>
+        <span className={classes.title}>
+          <h2>{t("program.label")}</h2>
+          <span>{program.name}</span>
+        </span>
+        <IconButton label={t("inspector.close")} onClick={() => useUi.setState({ inspector: false })}>
+          <X size={17} aria-hidden="true" />
+        </IconButton>
+      </header>
+      <div className={classes.body} data-form>
+        <Parameters />
+        <hr className={classes.line} />
+        <RolesSection />
+        <hr className={classes.line} />
+        <Variables />
+        <Zones />
+      </div>
+    </aside>
+  );
+}
+
+function Parameters() {
+  const { t, document, apply, canEdit } = useOpenProgram();
+  const parameters = Object.entries(document.parameters);
+  return (
+    <Section title={t("program.parameters")} note={t("program.parameters_note")}>
+      {parameters.map(([id, parameter]) => (
+        <ParameterCard
+          key={id}
+          parameter={parameter}
+          disabled={!canEdit}
+          onChange={(next) => apply(changeProgramParameter(document, id, next))}
+          onRemove={() => apply([{ do: "set_parameter", id, value: null }])}
+        />
+      ))}
+      <AddParameter
+        taken={Object.values(document.parameters)}
+        disabled={!canEdit}
+        onAdd={(value) => apply([{ do: "set_parameter", id: makeId(), value }])}
+      />
+    </Section>
+  );
+}
+
+/** Variables need no declaration: what is set anywhere is listed with the steps that set it. */
+function Variables() {
+  const { t, document, compiled } = useOpenProgram();
+  const names = namesSet(document, null);
+  if (names.length === 0) return null;
+  const setters = (name: string) =>
+    Object.entries(document.steps)
+      .filter(([, step]) => step.params.variable === name || step.params.result === name)
+      .map(([id]) => id);
+  return (
+    <Section title={t("program.variables")}>
+      <ul className={classes.names}>
+        {names.map((each) => (
+          <li key={each.name}>
+            <code>{each.name}</code>
+            <span className={classes.grow}>
+              {[t(`type.${each.type}`), unitText(each.unit)].filter(Boolean).join(", ")}
+            </span>
+            {setters(each.name).map((id) => (
+              <button
+                key={id}
+                type="button"
+                aria-label={goLabel(t, compiled?.numbers[id])}
+                onClick={() => select([id])}
+              >
+                {compiled?.numbers[id] ?? "–"}
+              </button>
+            ))}
+          </li>
+        ))}
+      </ul>
+    </Section>
+  );
+}
+
+function goLabel(t: (key: string, values?: Record<string, unknown>) => string, number: string | undefined): string {
+  return t("inspector.step", { number: number ?? "–" });
+}
+
+function Zones() {
+  const { t, document } = useOpenProgram();
+  const zones = Object.entries(document.zones);
+  if (zones.length === 0) return null;
+  return (
+    <Section title={t("program.zones")}>
+      <ul className={classes.names}>
+        {zones.map(([id, zone]) => (
+          <li key={id}>
+            <span style={{ color: "var(--note)", display: "inline-flex" }}>
+              <VipoIcon name="zone" size={16} />
+            </span>
+            <span className={classes.grow}>{zone.name}</span>
+            <span>{t(`zone_rule.${zone.rule}`)}</span>
+          </li>
+        ))}
+      </ul>
+    </Section>
+  );
+}

@@ -1,0 +1,108 @@
+/** The robots of the program: each is one robot by name, or any that can do what is asked. */
+import { ActionIcon, Button, MultiSelect, Select } from "@mantine/core";
+import { Plus, Trash2 } from "lucide-react";
+import type { Role } from "../model/types";
+import { makeId } from "../state/actions";
+import { useOpenProgram } from "../state/context";
+import classes from "./inspector.module.css";
+import { NamedField } from "./NamedField";
+import { Section } from "./Section";
+
+const ANY = ":any";
+/** The role that every program has. */
+const FIRST = "robot";
+
+export function RolesSection() {
+  const { t, document, apply, canEdit } = useOpenProgram();
+  const roles = [FIRST, ...Object.keys(document.roles).filter((id) => id !== FIRST)];
+  const add = () =>
+    apply([
+      { do: "set_role", id: makeId(), value: { name: t("role.numbered", { number: roles.length + 1 }), can: [] } },
+    ]);
+  return (
+    <Section title={t("program.robots")} note={t("program.robots_note")}>
+      {roles.map((id) => (
+        <RoleCard key={id} id={id} role={document.roles[id] ?? {}} />
+      ))}
+      <Button
+        variant="default"
+        size="xs"
+        className={classes.between}
+        leftSection={<Plus size={14} aria-hidden="true" />}
+        disabled={!canEdit}
+        onClick={add}
+      >
+        {t("role.add")}
+      </Button>
+    </Section>
+  );
+}
+
+function RoleCard({ id, role }: { id: string; role: Role }) {
+  const { t, document, apply, canEdit } = useOpenProgram();
+  const name = role.name ?? t("role.default");
+  const used = Object.values(document.steps).some((step) => step.params.role === id);
+  const store = (value: Role | null) => apply([{ do: "set_role", id, value }]);
+  return (
+    <div className={classes.comparison} role="group" aria-label={name}>
+      <div className={classes.row}>
+        <span className={classes.grow}>
+          <NamedField
+            label={t("role.name")}
+            hidden
+            value={name}
+            disabled={!canEdit}
+            onChange={(next) => store({ ...role, name: next })}
+          />
+        </span>
+        {id === FIRST ? null : (
+          <ActionIcon
+            variant="subtle"
+            color="gray"
+            size={34}
+            aria-label={t("call.remove_parameter", { name })}
+            title={used ? t("role.used") : undefined}
+            disabled={!canEdit || used}
+            onClick={() => store(null)}
+          >
+            <Trash2 size={15} aria-hidden="true" />
+          </ActionIcon>
+        )}
+      </div>
+      <Binding name={name} role={role} store={store} />
+    </div>
+  );
+}
+
+function Binding({ name, role, store }: { name: string; role: Role; store: (role: Role) => void }) {
+  const { t, devices, canEdit } = useOpenProgram();
+  const robots = devices.filter((device) => device.kind === "robot" && device.lifecycle === "approved");
+  const methods = [...new Set(robots.flatMap((robot) => robot.methods.map((each) => each.name)))].sort();
+  const bind = (device: string | null) =>
+    store(device && device !== ANY ? { name, device } : { name, can: role.can ?? [] });
+  return (
+    <>
+      <Select
+        aria-label={t("role.who", { role: name })}
+        data={[
+          { value: ANY, label: t("role.any") },
+          ...robots.map((robot) => ({ value: robot.id, label: robot.name })),
+        ]}
+        value={role.device ?? ANY}
+        onChange={bind}
+        allowDeselect={false}
+        disabled={!canEdit}
+      />
+      {role.device ? null : (
+        <MultiSelect
+          aria-label={t("role.can", { role: name })}
+          placeholder={role.can?.length ? undefined : t("role.can_what_is_needed")}
+          data={methods}
+          value={[...(role.can ?? [])]}
+          onChange={(can) => store({ name, can })}
+          disabled={!canEdit}
+        />
+      )}
+    </>
+  );
+}
