@@ -18,6 +18,7 @@ from editor.language.positions import add_moves
 from editor.language.printing import Script, print_tree
 from editor.language.reading import read_document
 from editor.language.surroundings import Surroundings
+from editor.language.zones import zone_names
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +45,7 @@ def compile_document(document: object, surroundings: Surroundings) -> Compiled:
     tree = add_moves(reading.tree, _standing(surroundings))
     numbering = number_steps(tree)
     numbers = numbering.numbers
-    script = print_tree(tree, surroundings, numbers)
+    script = print_tree(tree, surroundings, numbers, zone_names(document))
     found = check(reading, tree, surroundings, document)
     diagnostics = _in_words(found, numbers, script)
     faulty = any(diagnostic.severity == "error" for diagnostic in diagnostics)
@@ -65,7 +66,7 @@ def _standing(surroundings: Surroundings) -> dict[str, str]:
 
 def _added_moves(tree: Tree) -> tuple[str, ...]:
     found: dict[str, None] = {}
-    left: list[Block] = [tree.body, *(function.body for function in tree.functions)]
+    left: list[Block] = [tree.body, *(f.body for f in tree.functions), *(event.body for event in tree.events)]
     for block in left:
         for node in block:
             if isinstance(node, MoveNode):

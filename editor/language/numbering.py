@@ -2,7 +2,8 @@
 
 A step of the program has its place in the order. Inside a step each branch has a letter; the only step of a
 branch bears just the letter (4a), several are counted after it (6a.1, 6a.2). The steps of a function are
-counted behind the number of its first call (1b.1), or behind f1, f2 … while nobody calls it.
+counted behind the number of its first call (1b.1), or behind f1, f2 … while nobody calls it. Events are
+e1, e2 …, their steps e1.1, e1.2 ….
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from string import ascii_lowercase
 
-from editor.language.nodes import Block, Call, If, Node, Parallel, Tree, Try, While
+from editor.language.nodes import Block, Call, ForEach, If, Node, Parallel, Repeat, Tree, Try, While
 
 _PARTS = re.compile(r"[0-9]+|[a-z]")
 
@@ -22,10 +23,10 @@ def letters_of(node: Node) -> Iterator[tuple[str, Block]]:
     match node:
         case If(then=then, otherwise=otherwise):
             yield from (("a", then), ("b", otherwise))
-        case While(body=body):
+        case While(body=body) | Repeat(body=body) | ForEach(body=body):
             yield "a", body
-        case Try(body=body, catch=catch):
-            yield from (("a", body), ("c", catch))
+        case Try(body=body, catch=catch, final=final):
+            yield from (("a", body), ("c", catch), ("f", final))
         case Parallel(branches=branches):
             yield from zip(ascii_lowercase, branches, strict=False)
 
@@ -63,6 +64,9 @@ def number_steps(tree: Tree) -> Numbering:
     """Return the numbers of a tree's steps; a function's steps stand behind its first call, or last of all."""
     numbering = Numbering()
     numbering.block(tree.body, "", 0)
+    for index, event in enumerate(tree.events, start=1):
+        numbering.numbers[event.step], numbering.depths[event.step] = f"e{index}", 0
+        numbering.block(event.body, f"e{index}.", 1)
     uncalled = 0
     for function in tree.functions:
         number, depth = numbering.first_calls.get(function.method, ("", -1))
@@ -77,7 +81,7 @@ def number_steps(tree: Tree) -> Numbering:
 
 
 def _reading_key(number: str) -> list[tuple[int, str]]:
-    """Sort 2 before 10, 1b before 1b.1, and the functions that nobody calls last."""
+    """Sort 2 before 10, 1b before 1b.1, events behind the program, the functions that nobody calls last."""
     parts = _PARTS.findall(number)
     key = [(int(part), "") if part.isdigit() else (0, part) for part in parts]
-    return [(1 if parts[0] == "f" else 0, ""), *key]
+    return [({"e": 1, "f": 2}.get(parts[0], 0), ""), *key]

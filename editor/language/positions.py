@@ -6,38 +6,54 @@ gives the picks and drops of a parsed script their places.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 
 from editor.language.nodes import (
     NOWHERE,
+    Ask,
     Block,
+    Break,
     Call,
     Drop,
+    End,
+    ForEach,
     Function,
     If,
     Move,
     Node,
     Parallel,
     Pick,
+    Repeat,
+    Return,
     Role,
+    Set,
     Tree,
     Try,
     While,
 )
-from editor.language.plan import PlaceRef
+from editor.language.plan import PlaceRef, Variable
+from editor.language.variables import set_in
 from editor.language.walking import callees_first, functions_in_circles, roles_used, walk
 
 Standing = dict[str, PlaceRef]
 """Role → where its robot stands; a role that is not in it may stand anywhere."""
 
 
+_Composite = If | While | Repeat | ForEach | Parallel | Try
+
+
 @dataclass(slots=True)
 class _Follower:
-    """The walk over one tree; `settle` is True for a parsed script, whose picks get the place of their robot."""
+    """The walk over one tree; `settle` is True for a parsed script, whose picks get the place of their robot.
+
+    Where a block is never left at its end, what stands after it is None.
+    """
 
     moved: Mapping[str, frozenset[str]]
     """Function → the roles whose robot it moves."""
+    functions: Mapping[str, Function]
     circular: frozenset[str]
     settle: bool
     initial: Standing
@@ -46,10 +62,14 @@ class _Follower:
     homeless: list[Pick | Drop] = field(default_factory=list)
     """Picks and drops of a script before which no move is known."""
     exits: dict[str, Standing] = field(default_factory=dict)
+    breaks: list[list[Standing]] = field(default_factory=list)
+    """For each loop around, innermost last, where the robots stand at the steps that leave it."""
+    returns: list[Standing] = field(default_factory=list)
 
-    def block(self, block: Block, standing: Standing) -> tuple[Block, Standing]:
+    def block(self, block: Block, standing: Standing) -> tuple[Block, Standing | None]:
         """Return the block with its moves, and where the robots stand after it."""
         nodes: list[Node] = []
+        ends = False
         for node in block:
             if isinstance(node, Move):
                 standing = {**standing, node.role: node.to}
@@ -57,14 +77,27 @@ class _Follower:
             elif isinstance(node, Pick | Drop):
                 standing = self._load(node, standing, nodes)
             elif isinstance(node, Call):
-                standing = self._call(node, standing)
+                standing = _without_values(self._call(node, standing), {node.result})
                 nodes.append(node)
-            elif isinstance(node, If | While | Parallel | Try):
-                inner, standing = self._composite(node, standing)
+            elif isinstance(node, Set | Ask):
+                standing = _without_values(standing, {node.variable})
+                nodes.append(node)
+            elif isinstance(node, _Composite):
+                inner, after = self._composite(node, standing)
+                ends, standing = ends or after is None, after or {}
                 nodes.append(inner)
             else:
                 nodes.append(node)
-        return tuple(nodes), standing
+                if isinstance(node, End | Return | Break):
+                    self._leave(node, standing)
+                    ends, standing = True, {}
+        return tuple(nodes), None if ends else standing
+
+    def _leave(self, node: End | Return | Break, standing: Standing) -> None:
+        if isinstance(node, Return):
+            self.returns.append(standing)
+        elif isinstance(node, Break) and self.breaks:
+            self.breaks[-1].append(standing)
 
     def _load(self, node: Pick | Drop, standing: Standing, nodes: list[Node]) -> Standing:
         here = standing.get(node.role)
@@ -86,47 +119,97 @@ class _Follower:
         if here is not None and here.device is not None and here == self.initial.get(role):
             self.relied_on[role] = here.device
 
-    def _composite(self, node: If | While | Parallel | Try, before: Standing) -> tuple[Node, Standing]:
+    def _composite(self, node: _Composite, before: Standing) -> tuple[Node, Standing | None]:
         match node:
             case If(then=then, otherwise=otherwise):
                 first, after_first = self.block(then, before)
                 second, after_second = self.block(otherwise, before)
                 return replace(node, then=first, otherwise=second), _agreed(after_first, after_second)
-            case While(body=body):
-                entry = _without(before, self.movers(body))
-                inner, after = self.block(body, entry)
-                return replace(node, body=inner), _agreed(before, after)
-            case Try(body=body, catch=catch):
-                inner, after = self.block(body, before)
-                handler, after_catch = self.block(catch, _without(before, self.movers(body)))
-                return replace(node, body=inner, catch=handler), _agreed(after, after_catch)
+            case Try():
+                return self._try(node, before)
             case Parallel(branches=branches):
-                followed = [self.block(branch, before) for branch in branches]
+                followed = [self.block(branch, self._beside(branches, branch, before)) for branch in branches]
                 return replace(node, branches=tuple(b for b, _ in followed)), self._joined(branches, followed, before)
+        return self._loop(node, before)
+
+    def _loop(self, node: While | Repeat | ForEach, before: Standing) -> tuple[Node, Standing | None]:
+        """A loop is left before its body, after it, or by a step in it."""
+        self.breaks.append([])
+        own = {node.variable} if isinstance(node, ForEach) else set()
+        inner, after = self.block(node.body, _without_values(self._after_some_of(node.body, before), own))
+        ways_out = self.breaks.pop()
+        over = _agreed(before, after)
+        for way_out in ways_out:
+            over = _agreed(over, way_out)
+        return replace(node, body=inner), None if over is None else _without_values(over, own)
+
+    def _try(self, node: Try, before: Standing) -> tuple[Node, Standing | None]:
+        """The catch begins anywhere in the body, the final part anywhere in both; it changes every way out."""
+        ways_out = [*self.breaks[-1:], self.returns]
+        marks = [len(way_out) for way_out in ways_out]
+        body, after = self.block(node.body, before)
+        unsure = self._after_some_of(node.body, before)
+        handler, after_catch = self.block(node.catch, unsure)
+        if node.catches:
+            after = _agreed(after, after_catch)
+        if not node.final:
+            return replace(node, body=body, catch=handler), after
+        for way_out, mark in zip(ways_out, marks, strict=True):
+            way_out[mark:] = [self._after_some_of(node.final, standing) for standing in way_out[mark:]]
+        final, after_final = self.block(node.final, self._after_some_of(node.catch, unsure))
+        whole = replace(node, body=body, catch=handler, final=final)
+        if after is None or after_final is None:
+            return whole, None
+        movers = self.movers(node.final)
+        moved = {role: place for role, place in after_final.items() if role in movers}
+        return whole, {**self._after_some_of(node.final, after), **moved}
 
     def _joined(
-        self, branches: tuple[Block, ...], followed: list[tuple[Block, Standing]], before: Standing
-    ) -> Standing:
+        self, branches: tuple[Block, ...], followed: list[tuple[Block, Standing | None]], before: Standing
+    ) -> Standing | None:
         """After a Parallel each robot stands where the one branch that moved it left it."""
         movers = [self.movers(branch) for branch in branches]
-        result = _without(before, frozenset[str]().union(*movers))
+        result = before
+        for branch in branches:
+            result = self._after_some_of(branch, result)
         for moved, (_, after) in zip(movers, followed, strict=True):
+            if after is None:
+                return None
             alone = [role for role in moved if sum(role in others for others in movers) == 1]
-            result.update({role: after[role] for role in alone if role in after})
-        return result
+            result = {**result, **{role: after[role] for role in alone if role in after}}
+        return self._without_set_in(branches, result)
+
+    def _beside(self, branches: tuple[Block, ...], branch: Block, before: Standing) -> Standing:
+        return self._without_set_in([other for other in branches if other is not branch], before)
+
+    def _without_set_in(self, blocks: Iterable[Block], standing: Standing) -> Standing:
+        if not self._looks_up(standing):
+            return standing
+        return _without_values(standing, {name for block in blocks for name in set_in(block, self.functions)})
+
+    def _looks_up(self, standing: Standing) -> bool:
+        return any(place.value is not None for place in standing.values())
+
+    def _after_some_of(self, block: Block, standing: Standing) -> Standing:
+        """Return what is still known when the block was carried out in part."""
+        return self._without_set_in([block], _without(standing, self.movers(block)))
 
     def _call(self, node: Call, standing: Standing) -> Standing:
         """After a call a robot stands where the function leaves it, unless an argument decides that."""
         exits = self.exits.get(node.function, {})
         known = {role: place for role, place in exits.items() if place.value is None}
-        return {**_without(standing, self.moved.get(node.function, frozenset())), **known}
+        kept = _without(standing, self.moved.get(node.function, frozenset()))
+        return {**self._without_set_in([(node,)], kept), **known}
 
     def function(self, function: Function) -> Function:
         """Follow a function's body; where the robots stand when it is called is not known in it."""
+        self.returns = []
         body, after = self.block(function.body, {})
+        for standing in self.returns:
+            after = _agreed(after, standing)
         moved = self.moved[function.method]
         if function.method not in self.circular:
-            self.exits[function.method] = {role: place for role, place in after.items() if role in moved}
+            self.exits[function.method] = {role: place for role, place in (after or {}).items() if role in moved}
         return replace(function, body=body)
 
     def movers(self, block: Block) -> frozenset[str]:
@@ -140,7 +223,16 @@ def _without(standing: Standing, roles: frozenset[str]) -> Standing:
     return {role: place for role, place in standing.items() if role not in roles}
 
 
-def _agreed(first: Standing, second: Standing) -> Standing:
+def _without_values(standing: Standing, names: AbstractSet[str]) -> Standing:
+    """Return what is known when these variables have other values."""
+    known = standing.items()
+    return {r: p for r, p in known if not isinstance(p.value, Variable) or p.value.name not in names}
+
+
+def _agreed(first: Standing | None, second: Standing | None) -> Standing | None:
+    """Return what holds where two ways meet; one that leads nowhere has no say."""
+    if first is None or second is None:
+        return second if first is None else first
     return {role: place for role, place in first.items() if second.get(role) == place}
 
 
@@ -163,12 +255,14 @@ def settle_places(tree: Tree) -> tuple[Tree, tuple[Pick | Drop, ...]]:
 def _follow(tree: Tree, initial: Standing, *, settle: bool) -> tuple[Tree, tuple[Pick | Drop, ...]]:
     circular = functions_in_circles(tree) if tree.functions else frozenset()
     moved = {function.method: roles_used(function.body, tree) for function in tree.functions}
-    follower = _Follower(moved, circular, settle, initial)
+    functions = {function.method: function for function in tree.functions}
+    follower = _Follower(moved, functions, circular, settle, initial)
     finished = {function.method: follower.function(function) for function in callees_first(tree)}
     body, _ = follower.block(tree.body, initial)
+    events = tuple(replace(event, body=follower.block(event.body, {})[0]) for event in tree.events)
     roles = tuple(_with_place(role, follower.relied_on.get(role.name)) for role in tree.roles)
     done = tuple(finished[function.method] for function in tree.functions)
-    return Tree(body, done, roles, tree.parameters), tuple(follower.homeless)
+    return Tree(body, done, roles, tree.parameters, events), tuple(follower.homeless)
 
 
 def _with_place(role: Role, at: str | None) -> Role:

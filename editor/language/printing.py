@@ -8,18 +8,28 @@ from dataclasses import dataclass, field
 from editor.language.expression_text import quantity_text, scalar_text, write_expression
 from editor.language.names import RESERVED_ATTRIBUTES, RESERVED_MEMBERS, snake_case, unique_name
 from editor.language.nodes import (
+    Ask,
     Block,
+    Break,
     Call,
     Drop,
+    End,
+    Event,
+    ForEach,
+    Function,
     If,
     Move,
     Node,
+    Notify,
     Operate,
     Parallel,
     Parameter,
     Pick,
     Point,
+    Repeat,
+    Return,
     Role,
+    Set,
     Tree,
     Try,
     Wait,
@@ -29,6 +39,7 @@ from editor.language.nodes import (
 from editor.language.numbering import letters_of
 from editor.language.plan import Expression, Located, PlaceRef, Quantity
 from editor.language.quoting import quote
+from editor.language.scopes import local_variables, program_variables
 from editor.language.surroundings import Surroundings
 from editor.language.type_names import write_type
 
@@ -66,9 +77,9 @@ class Printer:
     attributes: dict[PlaceRef | str, str] = field(default_factory=dict)
     """Devices (by id) and places, with their names in the script, in the order of first use."""
     locals: tuple[str, ...] = ()
-    """The parameters of the method being printed."""
-    branches: list[tuple[str, Block]] = field(default_factory=list)
-    """Methods of parallel branches that are still to be printed."""
+    """The parameters and variables that belong to the method being printed, or to a loop in it."""
+    branches: list[tuple[str, tuple[str, ...], Block]] = field(default_factory=list)
+    """Methods of parallel branches that are still to be printed, each with what it can see."""
     method_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
     property_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
     zone_names: Mapping[str, str] = field(default_factory=dict)
@@ -132,7 +143,7 @@ class Printer:
         return self.attributes[key]
 
     def variable(self, name: str) -> str:
-        """Return a parameter as it is written here: the method's own, or the program's."""
+        """Return a parameter or a variable as it is written here: the method's or loop's own, or the program's."""
         return name if name in self.locals else f"self.{name}"
 
     def reading(self, device: str, property_name: str) -> str:
@@ -245,9 +256,9 @@ def _while(printer: Printer, node: While, depth: int) -> None:
 
 def _parallel(printer: Printer, node: Parallel, depth: int) -> None:
     number = printer.numbers[node.step].replace(".", "_")
-    names = [(f"branch_{number}{letter}", block) for letter, block in letters_of(node)]
+    names = [(f"branch_{number}{letter}", printer.locals, block) for letter, block in letters_of(node)]
     printer.branches.extend(names)
-    references = [f"self.{name}" for name, _ in names]
+    references = [f"self.{name}" for name, _, _ in names]
     handed_on = [f"{name}={name}" for name in printer.locals]
     printer.line(depth, f"self.parallel({', '.join([*references, *handed_on])})", node.step)
 
@@ -255,16 +266,73 @@ def _parallel(printer: Printer, node: Parallel, depth: int) -> None:
 def _try(printer: Printer, node: Try, depth: int) -> None:
     printer.line(depth, "try:", node.step)
     printer.block(node.body, depth + 1)
-    classes = [ERROR_CLASSES[kind] for kind in node.kinds] or ["TaskError"]
-    caught = classes[0] if len(classes) == 1 else f"({', '.join(classes)})"
-    printer.line(depth, f"except {caught} as problem:", node.step)
-    printer.block(node.catch, depth + 1)
+    if node.catches:
+        classes = [ERROR_CLASSES[kind] for kind in node.kinds] or ["TaskError"]
+        caught = classes[0] if len(classes) == 1 else f"({', '.join(classes)})"
+        printer.line(depth, f"except {caught} as problem:", node.step)
+        printer.block(node.catch, depth + 1)
+    if node.final or not node.catches:
+        printer.line(depth, "finally:", node.step)
+        printer.block(node.final, depth + 1)
 
 
 def _call(printer: Printer, node: Call, depth: int) -> None:
     arguments = ", ".join(f"{name}={printer.value(value)}" for name, value in node.arguments)
     text = f"self.{node.function}({arguments})" if node.function else "self.call(None)"
+    printer.line(depth, _taken(printer, node.result, text), node.step)
+
+
+def _taken(printer: Printer, variable: str, text: str) -> str:
+    """Return a call whose value goes into a variable, if there is one."""
+    return f"{printer.variable(variable)} = {text}" if variable else text
+
+
+def _repeat(printer: Printer, node: Repeat, depth: int) -> None:
+    printer.line(depth, f"for _ in range({printer.value(node.times)}):", node.step)
+    printer.block(node.body, depth + 1)
+
+
+def _for_each(printer: Printer, node: ForEach, depth: int) -> None:
+    items = ", ".join(map(printer.value, node.items))
+    printer.line(depth, f"for {node.variable or '_'} in [{items}]:", node.step)
+    outside = printer.locals
+    if node.variable and node.variable not in outside:
+        printer.locals = (*outside, node.variable)
+    printer.block(node.body, depth + 1)
+    printer.locals = outside
+
+
+def _set(printer: Printer, node: Set, depth: int) -> None:
+    value = printer.value(node.value)
+    text = f"{printer.variable(node.variable)} = {value}" if node.variable else f"self.set(None, {value})"
     printer.line(depth, text, node.step)
+
+
+def _ask(printer: Printer, node: Ask, depth: int) -> None:
+    answer = node.answer
+    limits = {"minimum": answer.minimum, "maximum": answer.maximum}
+    given = [printer.value(node.question), f"type={quote(answer.type)}"]
+    given += [f"unit={quote(answer.unit)}"] if answer.unit else []
+    given += [f"{name}={scalar_text(limit)}" for name, limit in limits.items() if limit is not None]
+    given += [f"options=[{', '.join(map(quote, answer.options))}]"] if answer.options else []
+    given += [] if node.timeout_s is None else [f"timeout={printer.value(node.timeout_s)}"]
+    printer.line(depth, _taken(printer, node.variable, f"self.ask({', '.join(given)})"), node.step)
+
+
+def _notify(printer: Printer, node: Notify, depth: int) -> None:
+    printer.line(depth, f"self.notify({printer.value(node.message)}, level={quote(node.level)})", node.step)
+
+
+def _end(printer: Printer, node: End, depth: int) -> None:
+    printer.line(depth, "self.end()", node.step)
+
+
+def _return(printer: Printer, node: Return, depth: int) -> None:
+    printer.line(depth, "return" if node.value is None else f"return {printer.value(node.value)}", node.step)
+
+
+def _break(printer: Printer, node: Break, depth: int) -> None:
+    printer.line(depth, "break", node.step)
 
 
 PRINTERS: Mapping[type[Node], Callable[..., None]] = {
@@ -279,34 +347,57 @@ PRINTERS: Mapping[type[Node], Callable[..., None]] = {
     Parallel: _parallel,
     Try: _try,
     Call: _call,
+    Repeat: _repeat,
+    ForEach: _for_each,
+    Set: _set,
+    Ask: _ask,
+    Notify: _notify,
+    End: _end,
+    Return: _return,
+    Break: _break,
 }
 
 
-def print_tree(tree: Tree, surroundings: Surroundings, numbers: Mapping[str, str]) -> Script:
-    """Return the script of a tree whose steps have these numbers."""
+def print_tree(
+    tree: Tree, surroundings: Surroundings, numbers: Mapping[str, str], zone_names: Mapping[str, str] | None = None
+) -> Script:
+    """Return the script of a tree whose steps have these numbers; zones are called by `zone_names`, by id."""
     names = {role.name for role in tree.roles} | {function.method for function in tree.functions}
-    taken = RESERVED_ATTRIBUTES | names | {parameter.name for parameter in tree.parameters}
-    printer = Printer(tree, surroundings, numbers, set(taken))
+    shared = program_variables(tree)
+    taken = RESERVED_ATTRIBUTES | names | shared | {parameter.name for parameter in tree.parameters}
+    printer = Printer(tree, surroundings, numbers, set(taken), zone_names=zone_names or {})
     printer.line(0, "class Task(object):")
-    _print_method(printer, "new_task", (), tree.body)
+    _print_method(printer, "def new_task(self):", tree.body)
     for function in tree.functions:
-        _print_method(printer, function.method, function.parameters, function.body)
+        own = (*(parameter.name for parameter in function.parameters), *local_variables(function, shared))
+        _print_method(printer, _heading(function), function.body, own)
+    for event in tree.events:
+        _print_method(printer, f"def {_event_method(printer, event)}(self):", event.body, step=event.step)
     _print_run(printer)
     return Script("\n".join(printer.texts) + "\n", tuple(printer.steps), printer.line_of)
 
 
-def _print_method(printer: Printer, name: str, parameters: tuple[Parameter, ...], body: Block) -> None:
-    """Print a method, and behind it those of the parallel branches in it."""
-    given = _signature(parameters)
-    printer.locals = tuple(parameter.name for parameter in parameters)
-    left: list[tuple[str, list[str], Block]] = [(name, given, body)]
+def _heading(function: Function) -> str:
+    result = write_type(function.result_type, function.result_unit)
+    given = ", ".join(["self", *_signature(function.parameters)])
+    return f"def {function.method}({given}) -> {result}:" if result else f"def {function.method}({given}):"
+
+
+def _event_method(printer: Printer, event: Event) -> str:
+    return f"when_{printer.numbers[event.step]}"
+
+
+def _print_method(printer: Printer, heading: str, body: Block, own: tuple[str, ...] = (), step: str = "") -> None:
+    """Print a method that calls some names its own, and behind it those of the parallel branches in it."""
+    left: list[tuple[str, tuple[str, ...], Block]] = [(heading, own, body)]
     while left:
-        method, arguments, block = left.pop()
-        printer.line(1, f"def {method}({', '.join(['self', *arguments])}):")
-        printer.branches = []
+        first_line, printer.locals, block = left.pop()
+        printer.line(1, first_line, step)
+        printer.branches, step = [], ""
         printer.block(block, 2)
         printer.line(0, "")
-        left.extend((branch, list(printer.locals), inner) for branch, inner in reversed(printer.branches))
+        branches = [(f"def {name}({', '.join(['self', *seen])}):", seen, b) for name, seen, b in printer.branches]
+        left.extend(reversed(branches))
 
 
 def _signature(parameters: tuple[Parameter, ...]) -> list[str]:
@@ -324,6 +415,8 @@ def _signature(parameters: tuple[Parameter, ...]) -> list[str]:
 
 def _print_run(printer: Printer) -> None:
     printer.line(1, "def run(self, ctx):")
+    printer.locals = ()
+    watched = [(event, printer.value(event.condition)) for event in printer.tree.events]
     for parameter in printer.tree.parameters:
         printer.line(2, f"self.{parameter.name} = ctx.parameter({_given_to_parameter(parameter)})")
     for role in printer.tree.roles:
@@ -333,6 +426,10 @@ def _print_run(printer: Printer) -> None:
         printer.line(2, f"{attribute} = {get}")
     for zone, attribute in printer.zones.items():
         printer.line(2, f"{attribute} = ctx.zone({quote(zone)})")
+    for event, condition in watched:
+        printer.line_of[id(event)] = len(printer.texts) + 1
+        when = "ctx.start_when" if event.starts == "run" else "ctx.when"
+        printer.line(2, f"{when}({condition}, self.{_event_method(printer, event)})", event.step)
     printer.line(2, "self.new_task()")
 
 
