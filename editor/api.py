@@ -10,6 +10,7 @@ from django.http import HttpRequest
 from ninja import Field, Router, Schema
 
 from editor import services
+from editor.expression_shapes import ExpressionShape, ExpressionToRead
 from editor.shapes import Compiled, Definition, Document, DrawnScriptShape, Parameters
 from editor.views import LibraryView, ProgramView, VersionView
 from registry import services as registry
@@ -166,6 +167,16 @@ def draw_script(request: HttpRequest, program: UUID, body: ScriptText) -> servic
     """Draw a script: the document that it would make of the program, or where it leaves the language."""
     _program(request, program, "author")
     return services.draw_script(program_id=program, text=body.text, base=body.base, shown=body.shown)
+
+
+@router.post("/programs/{program}/expression", response=ExpressionShape)
+def read_expression(request: HttpRequest, program: UUID, body: ExpressionToRead) -> services.ExpressionView:
+    """Read a value that an author writes as one line, or print one for whoever may look."""
+    if body.text is None:
+        _program(request, program, "viewer")
+        return services.print_expression(program_id=program, value=body.value, step=body.step, names=body.names)
+    _program(request, program, "author")
+    return services.read_expression(program_id=program, text=body.text, step=body.step, names=body.names)
 
 
 @router.get("/programs/{program}/versions", response=list[VersionShape])

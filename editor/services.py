@@ -2,6 +2,7 @@
 
 from editor.checking import build_surroundings
 from editor.errors import BadRequest, EditorError, NoSuchProgram
+from editor.expressions import ExpressionView, print_expression, read_expression
 from editor.library import get_function, save_function, search_library
 from editor.programs import (
     compile_version,
@@ -26,6 +27,7 @@ __all__ = [
     "BadRequest",
     "DrawnScript",
     "EditorError",
+    "ExpressionView",
     "LibraryView",
     "NoSuchProgram",
     "ProgramView",
@@ -44,6 +46,8 @@ __all__ = [
     "list_programs",
     "list_versions",
     "pin_version",
+    "print_expression",
+    "read_expression",
     "rename_program",
     "save_function",
     "search_library",

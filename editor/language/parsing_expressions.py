@@ -270,8 +270,8 @@ def parse_thing(node: ast.expr, scope: Scope) -> PlaceRef:
         return PlaceRef(device=binding.id)
     if binding is not None and binding.kind == "place":
         return PlaceRef(place=binding.id)
-    if binding is not None and binding.kind == "parameter":
-        return PlaceRef(value=Variable(name or ""))
+    if name is not None and (name in scope.variables or (binding is not None and binding.kind == "parameter")):
+        return PlaceRef(value=Variable(name))
     if isinstance(node, ast.Name) and node.id in scope.locals:
         return PlaceRef(value=Variable(node.id))
     if isinstance(node, ast.Constant) and node.value is None:
