@@ -2,7 +2,7 @@
 import { useCallback, useMemo } from "react";
 import { liveRobots } from "@/live/robots";
 import { isRobot } from "@/map/device";
-import type { Insets, Point } from "@/map/projection";
+import type { Insets } from "@/map/projection";
 import { toPixels } from "@/map/projection";
 import type { NodeLooks } from "./canvas/buildNodes";
 import { MapControls } from "./canvas/MapControls";
@@ -16,16 +16,24 @@ import { goInto, useDrawing } from "./state/drawing";
 import { moveChips } from "./state/moving";
 import { cursorShower, othersOn } from "./state/presence";
 import { askOf, stepBack, suits, type Gesture } from "./state/tool";
-import { say, select, toggleSelected, useUi } from "./state/ui";
-import { joinSteps } from "./model/gestures";
+import { select, toggleSelected, useUi } from "./state/ui";
+import { swapBranches } from "./model/framing";
+import { FollowView } from "./gestures/FollowView";
+import { Ghosts } from "./gestures/Ghosts";
+import { joinByDot } from "./gestures/joining";
+import { RouteBends } from "./gestures/RouteBends";
+import { settle } from "./gestures/settle";
+import { useGestures } from "./gestures/store";
 import { Cursors } from "./parts/Cursors";
 import { DevicePalette } from "./parts/DevicePalette";
 import { LoadAsk } from "./parts/LoadAsk";
 import { PreviewLine } from "./parts/PreviewLine";
+import { pressZoneTool, ZONE_TOOL } from "./zones/drawing";
+import { EditorZones, ZoneHandles } from "./zones/ZoneLayer";
 
 export function EditorMap({ insets, fitInsets }: { insets: Insets; fitInsets: Insets }) {
   const open = useOpenProgram();
-  const { plan, devices, scene, shared, t, document, apply, canEdit } = open;
+  const { plan, devices, scene, shared, t, document, canEdit } = open;
   const gesture = useUi((ui) => ui.gesture);
   const into = useUi((ui) => ui.into);
   const looks = useLooks(gesture);
@@ -33,11 +41,6 @@ export function EditorMap({ insets, fitInsets }: { insets: Insets; fitInsets: In
   const showCursor = useMemo(() => cursorShower(shared), [shared]);
   const pressStep = useCallback((step: string, add: boolean) => (add ? toggleSelected(step) : select([step])), []);
   const back = () => useUi.setState({ gesture: stepBack(gesture), fieldPick: null });
-  const join = (from: string, to: string) => {
-    const decision = joinSteps(document, from, to);
-    if ("edits" in decision) apply(decision.edits);
-    else say(t(`refused.${decision.refused}`));
-  };
   const pressDevice = (device: string) => {
     const { fieldPick } = useUi.getState();
     if (fieldPick) {
@@ -54,6 +57,11 @@ export function EditorMap({ insets, fitInsets }: { insets: Insets; fitInsets: In
   };
   const pressFloor = (press: StagePress) => {
     const ask = askOf(gesture);
+    if (gesture.tool === ZONE_TOOL) {
+      pressZoneTool(open, press.at);
+      return;
+    }
+    useGestures.setState({ zone: null });
     if (ask === "floor" || ask === "goal") drawing.takeFloor(press.at);
     else if (ask === "nothing") pressResting(press);
     else back();
@@ -70,29 +78,41 @@ export function EditorMap({ insets, fitInsets }: { insets: Insets; fitInsets: In
       mode={gesture.tool === "pan" ? "pan" : gesture.tool === "select" ? "select" : "draw"}
       lines={{
         chosenLink: into?.link ?? null,
+        onSwap: canEdit ? (step) => settle(open, swapBranches(document, step)) : undefined,
+        swapLabel: t("gesture.swap"),
         onSelectLink: canEdit
           ? (link) => useUi.setState({ into: { branch: link.into, link: link.id, word: link.word ?? t("then") } })
           : undefined,
       }}
-      onStep={pressStep}
+      onStep={gesture.tool === ZONE_TOOL ? undefined : pressStep}
       onEditStep={(step) => {
         select([step]);
         toggleHull(document.steps[step]?.params.function);
       }}
-      onDevice={pressDevice}
+      onDevice={(device, press) => (gesture.tool === ZONE_TOOL ? pressZoneTool(open, press.at) : pressDevice(device))}
       onDeviceDown={drawing.dragFrom}
       onDeviceUp={drawing.dragTo}
       onFloor={pressFloor}
       onBack={back}
-      onMove={(moved: readonly { id: string; at: Point }[]) => moveChips(open, moved)}
+      onMove={(moved) => moveChips(open, moved)}
       onSelectMany={select}
-      onJoin={join}
+      onJoin={(from, to, at) => joinByDot(open, from, to, at)}
+      onOwnPan={() => useGestures.setState({ following: null })}
       onPointer={(at) => {
         showCursor(at);
         drawing.pointer.set({ ...toPixels(at), zoom: 1 });
       }}
-      plane={<PreviewLine from={drawing.from} route={drawing.preview} pointer={drawing.pointer} />}
+      under={<EditorZones />}
+      plane={
+        <>
+          <PreviewLine from={drawing.from} route={drawing.preview} pointer={drawing.pointer} />
+          <RouteBends />
+          <ZoneHandles pointer={drawing.pointer} />
+        </>
+      }
     >
+      <FollowView />
+      <Ghosts />
       <Cursors shared={shared} />
       <DevicePalette onChoose={pressDevice} />
       {drawing.askAt ? <LoadAsk at={drawing.askAt} loads={drawing.loads} onChoose={drawing.takeLoad} /> : null}

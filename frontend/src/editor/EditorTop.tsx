@@ -11,6 +11,7 @@ import { Crumb, TopBar } from "@/app/TopBar";
 import { Avatar } from "@/design/Avatar";
 import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
+import { FollowButton } from "./gestures/FollowButton";
 import { useOpenProgram } from "./state/context";
 import { say, select, showTab, useUi } from "./state/ui";
 import classes from "./top.module.css";
@@ -113,16 +114,22 @@ function People() {
   const { people, t } = useOpenProgram();
   return (
     <>
-      {people.slice(0, 6).map((person) => (
-        <Avatar
-          key={person.client}
-          name={person.name}
-          initials={person.initials}
-          colour={person.colour}
-          live
-          title={person.me ? t("you", { name: person.name }) : person.name}
-        />
-      ))}
+      {people
+        .slice(0, 6)
+        .map((person) =>
+          person.me ? (
+            <Avatar
+              key={person.client}
+              name={person.name}
+              initials={person.initials}
+              colour={person.colour}
+              live
+              title={t("you", { name: person.name })}
+            />
+          ) : (
+            <FollowButton key={person.client} person={person} />
+          ),
+        )}
     </>
   );
 }

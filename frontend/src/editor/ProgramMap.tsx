@@ -10,6 +10,7 @@ import type { OtherPerson, StepState } from "./canvas/StepChip";
 import { useScene } from "./canvas/useScene";
 import type { Compiled, ProgramDocument } from "./model/types";
 import { chipLabel } from "./scene/announce";
+import { Zones } from "./zones/ZoneLayer";
 import type { SiteDevice } from "./scene/surroundings";
 
 export interface ProgramMapProps {
@@ -69,6 +70,7 @@ export function ProgramMap(props: ProgramMapProps) {
       insets={props.insets ?? NO_INSETS}
       label={t("map_label")}
       mode="pan"
+      under={<Zones document={props.document} t={t} />}
       onStep={(step) => onSelect?.(step)}
       onDevice={(device) => props.onSelectDevice?.(device)}
       onFloor={() => onSelect?.(null)}

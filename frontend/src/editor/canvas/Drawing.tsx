@@ -27,6 +27,9 @@ export interface DrawingProps {
   /** A press on a link or stub: the next step goes there. */
   onSelectLink?: (link: Link) => void;
   chosenLink?: string | null;
+  /** A press on the word of an If's arrow: true and false change their steps. */
+  onSwap?: (step: string) => void;
+  swapLabel?: string;
 }
 
 export const Drawing = memo(function Drawing(props: DrawingProps) {
@@ -105,7 +108,8 @@ function HullShape({ hull }: { hull: Hull }) {
   );
 }
 
-function LinkShape({ link, selected, stateOf, onSelectLink, chosenLink }: { link: Link } & DrawingProps) {
+function LinkShape(props: { link: Link } & DrawingProps) {
+  const { link, selected, stateOf, onSelectLink, chosenLink } = props;
   const [end, before] = [link.points.at(-1), link.points.at(-2)];
   if (!end || !before) return null;
   const near = [link.from, link.to].some((step) => step !== null && selected.has(step));
@@ -121,15 +125,21 @@ function LinkShape({ link, selected, stateOf, onSelectLink, chosenLink }: { link
     >
       <path d={line} />
       <path d="M-6 -4.5 0 0 -6 4.5" className={classes.arrow} transform={turned(end, before)} />
-      {link.word ? <LinkWord link={link} word={link.word} /> : null}
       {link.to === null ? <circle cx={end.x} cy={end.y} r={5} className={classes.stubEnd} /> : null}
       {onSelectLink ? (
         <path className={classes.hit} d={line} onClick={() => onSelectLink(link)}>
           <title>{link.word ?? ""}</title>
         </path>
       ) : null}
+      {link.word ? <LinkWord link={link} word={link.word} onSwap={swapOf(props)} label={props.swapLabel} /> : null}
     </g>
   );
+}
+
+/** Only the words of an If can change places. */
+function swapOf({ link, onSwap }: { link: Link } & DrawingProps): (() => void) | undefined {
+  const { parent, branch } = link.into;
+  return onSwap && link.from === parent && (branch === "then" || branch === "else") ? () => onSwap(parent) : undefined;
 }
 
 function turned(end: PixelPoint, before: PixelPoint): string {
@@ -137,13 +147,20 @@ function turned(end: PixelPoint, before: PixelPoint): string {
 }
 
 /** The word stands beside the first stretch of its arrow. */
-function LinkWord({ link, word }: { link: Link; word: string }) {
+function LinkWord({ link, word, onSwap, label }: { link: Link; word: string; onSwap?: () => void; label?: string }) {
   const at = pointAlong(link.points, Math.min(24, pathLength(link.points) / 2));
   if (!at) return null;
   const flat = Math.abs(at.angle) < 45 || Math.abs(at.angle) > 135;
   return (
-    <text x={at.x + (flat ? 0 : 8)} y={at.y + (flat ? -7 : 4)} textAnchor={flat ? "middle" : "start"}>
+    <text
+      className={onSwap ? classes.swap : undefined}
+      x={at.x + (flat ? 0 : 8)}
+      y={at.y + (flat ? -7 : 4)}
+      textAnchor={flat ? "middle" : "start"}
+      onClick={onSwap}
+    >
       {word}
+      {onSwap ? <title>{label}</title> : null}
     </text>
   );
 }

@@ -3,7 +3,6 @@ import {
   ConnectionMode,
   ReactFlow,
   ReactFlowProvider,
-  SelectionMode,
   useReactFlow,
   ViewportPortal,
   type Node,
@@ -32,11 +31,15 @@ import type { SiteDevice } from "../scene/surroundings";
 import type { Scene } from "../scene/scene";
 import { buildNodes, DEVICE_PREFIX, START_ID, type NodeLooks } from "./buildNodes";
 import { Drawing, type DrawingProps } from "./Drawing";
+import { Guides } from "../gestures/Guides";
+import { joinTarget, pointOf } from "../gestures/joining";
+import { useSnapping } from "../gestures/useSnapping";
 import { JoinLine } from "./JoinLine";
 import { nodeTypes, type StageNode } from "./nodes";
 import classes from "./stage.module.css";
 import { StageContext, type StageHandle } from "./stageContext";
-import { useMovingNodes } from "./useMovingNodes";
+import { useBoxDirection } from "./useBoxDirection";
+import { useMovingNodes, type MovedNode } from "./useMovingNodes";
 
 export interface StagePress {
   readonly at: Point;
@@ -53,7 +56,7 @@ export interface MapStageProps {
   insets: Insets;
   label: string;
   mode: "select" | "pan" | "draw";
-  lines?: Pick<DrawingProps, "onSelectLink" | "chosenLink">;
+  lines?: Pick<DrawingProps, "onSelectLink" | "chosenLink" | "onSwap" | "swapLabel">;
   onStep?: (step: string, add: boolean) => void;
   onEditStep?: (step: string) => void;
   onDevice?: (device: string, press: StagePress) => void;
@@ -61,12 +64,17 @@ export interface MapStageProps {
   onDeviceUp?: (device: string) => void;
   onFloor?: (press: StagePress) => void;
   onBack?: () => void;
-  onMove?: (moved: readonly { id: string; at: Point }[]) => void;
+  onMove?: (moved: readonly MovedNode[]) => void;
   onMoveStart?: (at: Point) => void;
   onSelectMany?: (steps: readonly string[]) => void;
-  onJoin?: (from: string, to: string) => void;
+  /** A dot let go over a step; `at` in pixels of the window. */
+  onJoin?: (from: string, to: string, at: { x: number; y: number }) => void;
+  /** This person moved the map, as against the program. */
+  onOwnPan?: () => void;
   onPointer?: (at: Point) => void;
-  /** More in the map's plane (drawing pixels). */
+  /** In the map's plane (drawing pixels), under all that is drawn. */
+  under?: ReactNode;
+  /** More in the map's plane. */
   plane?: ReactNode;
   /** More over the map, not moving with it. */
   children?: ReactNode;
@@ -87,7 +95,9 @@ function Stage(props: MapStageProps) {
   const [viewport] = useState(() => new ViewportCell());
   const [lod, setLod] = useState<"full" | "icon" | "dot">("full");
   const built = useMemo(() => buildNodes(scene, devices, looks, plan?.places), [scene, devices, looks, plan]);
-  const moving = useMovingNodes(built, props.onMove, props.onSelectMany);
+  const snapping = useSnapping(scene, devices, viewport);
+  const moving = useMovingNodes(built, props.onMove, props.onSelectMany, snapping.snapTo);
+  const box = useBoxDirection();
   const fit = useCallback(
     (animate: boolean) => {
       if (!plan || size.width === 0) return;
@@ -105,8 +115,12 @@ function Stage(props: MapStageProps) {
     at: toMetres(flow.screenToFlowPosition({ x: event.clientX, y: event.clientY })),
     add: event.shiftKey,
   });
-  const onJoinEnd: OnConnectEnd = (_event, state) => {
-    if (state.fromNode && state.toNode) props.onJoin?.(state.fromNode.id, state.toNode.id);
+  const onJoinEnd: OnConnectEnd = (event, state) => {
+    const at = pointOf(event);
+    const from = state.fromNode?.id;
+    if (from === undefined || !at) return;
+    const to = joinTarget(scene.chips, from, flow.screenToFlowPosition(at), viewport.get().zoom);
+    if (to !== null) props.onJoin?.(from, to, at);
   };
   return (
     <div
@@ -117,6 +131,10 @@ function Stage(props: MapStageProps) {
       role="application"
       aria-label={props.label}
       onPointerMove={props.onPointer ? (event) => props.onPointer?.(press(event).at) : undefined}
+      onPointerMoveCapture={(event) => {
+        snapping.watch(event);
+        box.watch(event);
+      }}
       onPointerUp={(event) => {
         const device = deviceUnder(event);
         if (device) props.onDeviceUp?.(device);
@@ -134,7 +152,11 @@ function Stage(props: MapStageProps) {
         onNodesChange={moving.onNodesChange}
         onNodeDragStop={moving.onDragStop}
         onSelectionDragStop={moving.onSelectionDragStop}
-        onSelectionEnd={moving.onSelectionEnd}
+        onSelectionStart={box.begin}
+        onSelectionEnd={() => {
+          box.end();
+          moving.onSelectionEnd();
+        }}
         onNodeClick={(event, node) => clickNode(props, node, press(event))}
         onNodeDoubleClick={(_event, node) => node.type === "step" && props.onEditStep?.(node.id)}
         onPaneClick={(event) => props.onFloor?.(press(event))}
@@ -145,14 +167,15 @@ function Stage(props: MapStageProps) {
         onConnectEnd={onJoinEnd}
         connectionLineComponent={JoinLine}
         connectionMode={ConnectionMode.Loose}
-        connectionRadius={24}
-        onMove={(_event, view) => {
+        connectionRadius={0}
+        onMove={(event, view) => {
+          if (event) props.onOwnPan?.();
           viewport.set(view);
           setLod(view.zoom < 0.35 ? "dot" : view.zoom < 0.6 ? "icon" : "full");
         }}
         onInit={() => viewport.set(flow.getViewport())}
         selectionOnDrag={mode === "select" && looks.editable}
-        selectionMode={SelectionMode.Full}
+        selectionMode={box.mode}
         panOnDrag={mode === "pan" || !looks.editable ? true : [1]}
         panActivationKeyCode="Space"
         selectionKeyCode={null}
@@ -170,6 +193,7 @@ function Stage(props: MapStageProps) {
         proOptions={{ hideAttribution: true }}
       >
         <ViewportPortal>
+          {props.under}
           <Drawing
             scene={scene}
             selected={looks.selected}
@@ -179,6 +203,7 @@ function Stage(props: MapStageProps) {
             {...props.lines}
           />
           {props.plane}
+          <Guides guides={moving.guides} />
         </ViewportPortal>
       </ReactFlow>
       {props.robots ? <RobotLayer source={props.robots} viewport={viewport} trails={props.trails ?? false} /> : null}

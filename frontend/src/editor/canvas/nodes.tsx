@@ -33,6 +33,7 @@ function Start({ data }: NodeProps<StartFlowNode>) {
     <div className={classes.start}>
       <Play size={14} strokeWidth={2} aria-hidden="true" />
       <span>{data.label}</span>
+      <Handle type="source" position={Position.Bottom} className={classes.dot} />
     </div>
   );
 }

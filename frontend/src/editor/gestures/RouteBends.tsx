@@ -25,9 +25,7 @@ export function RouteBends() {
         fewest={0}
         nameOf={(number) => t("gesture.route.bend", { number })}
         nameOfNew={(number) => t("gesture.route.new_bend", { number })}
-        onChange={(points) =>
-          apply([{ do: "set_param", id, name: "route", value: points.length > 0 ? points : null }])
-        }
+        onChange={(points) => apply([{ do: "set_param", id, name: "route", value: points.length > 0 ? points : null }])}
       />
     </svg>
   );

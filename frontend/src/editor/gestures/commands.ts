@@ -89,7 +89,12 @@ export const COMMANDS: readonly Command[] = [
   decided("join", "", joinDrafts),
   decided("disconnect", "", disconnect),
   decided("automatic", "", one(automatic)),
-  acting("copy", "Ctrl+C", (open) => copyToSystem(open, false), (_open, selected) => selected.length > 0),
+  acting(
+    "copy",
+    "Ctrl+C",
+    (open) => copyToSystem(open, false),
+    (_open, selected) => selected.length > 0,
+  ),
   acting("cut", "Ctrl+X", (open) => copyToSystem(open, true)),
   acting("duplicate", "Ctrl+D", ({ document, apply }) => duplicateSelected(document, apply)),
   acting("delete", "Delete", ({ document, apply, t }) => {

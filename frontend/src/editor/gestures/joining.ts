@@ -17,16 +17,17 @@ import { useGestures, type MenuItem } from "./store";
 const REACH = 24;
 
 /** The step within reach of the pointer, the nearest of several. */
-export function joinTarget(
-  chips: Scene["chips"],
-  from: string,
-  point: PixelPoint,
-  zoom: number,
-): string | null {
+export function joinTarget(chips: Scene["chips"], from: string, point: PixelPoint, zoom: number): string | null {
   const near = [...chips.values()]
     .filter((chip) => chip.id !== from && inside(grown(chip.box, REACH / zoom), point))
     .map((chip) => ({ id: chip.id, far: Math.hypot(chip.at.x - point.x, chip.at.y - point.y) }));
   return near.sort((one, other) => one.far - other.far)[0]?.id ?? null;
+}
+
+/** Where a pointer or a finger was, pixels of the window. */
+export function pointOf(event: MouseEvent | TouchEvent): { x: number; y: number } | null {
+  const pointer = "changedTouches" in event ? event.changedTouches[0] : event;
+  return pointer ? { x: pointer.clientX, y: pointer.clientY } : null;
 }
 
 function inside(box: Box, { x, y }: PixelPoint): boolean {
@@ -51,6 +52,10 @@ export function joinByDot(open: OpenProgram, from: string, to: string, at: { x: 
     label: branchWord(branch, step.kind, t),
     run: () => settle(open, moveStep(document, to, { parent: from, branch }, null)),
   }));
-  const behind = { id: "after", label: t("gesture.join.after"), run: () => settle(open, decideJoin(document, from, to)) };
+  const behind = {
+    id: "after",
+    label: t("gesture.join.after"),
+    run: () => settle(open, decideJoin(document, from, to)),
+  };
   useGestures.setState({ menu: { at, label: t("gesture.join.which"), items: [...into, behind] } });
 }

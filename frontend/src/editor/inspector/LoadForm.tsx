@@ -6,6 +6,8 @@ import type { Place, Value } from "../model/types";
 import { waysOf } from "../scene/routing";
 import { durationText } from "../scene/words";
 import { knownRoute } from "../canvas/useRoutes";
+import { RouteChoice } from "../gestures/RouteChoice";
+import { drawnRoute } from "../model/drawnRoute";
 import { useOpenProgram } from "../state/context";
 import { PlaceField, ValueField } from "./fields";
 import classes from "./inspector.module.css";
@@ -91,17 +93,21 @@ export function RouteNote() {
   const route = way ? knownRoute(site.slug, plan?.version, way.key) : null;
   if (!way) return null;
   const length = route ? `${route.length_m.toFixed(1)}\u202fm` : "";
+  if (drawnRoute(document.steps[id])) return <RouteChoice />;
   return (
-    <div className={classes.added}>
-      <VipoIcon name="move" size={16} />
-      <strong>
-        {t(
-          compiled?.added_moves.includes(id) || document.steps[id]?.kind === "pick_and_drop"
-            ? "move_added"
-            : "field.route",
-        )}
-      </strong>
-      <span>{route ? t("field.length", { length, time: durationText(route.seconds) }) : t("field.no_route")}</span>
-    </div>
+    <>
+      <RouteChoice />
+      <div className={classes.added}>
+        <VipoIcon name="move" size={16} />
+        <strong>
+          {t(
+            compiled?.added_moves.includes(id) || document.steps[id]?.kind === "pick_and_drop"
+              ? "move_added"
+              : "field.route",
+          )}
+        </strong>
+        <span>{route ? t("field.length", { length, time: durationText(route.seconds) }) : t("field.no_route")}</span>
+      </div>
+    </>
   );
 }

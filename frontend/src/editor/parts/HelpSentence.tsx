@@ -1,4 +1,6 @@
 /** One sentence at a time: what to do next with the tool in hand. */
+import { useGestures } from "../gestures/store";
+import { ZONE_TOOL } from "../zones/drawing";
 import { useOpenProgram } from "../state/context";
 import { askOf, type Ask, type Gesture } from "../state/tool";
 import { useUi } from "../state/ui";
@@ -10,13 +12,16 @@ export function HelpSentence() {
   const into = useUi((ui) => ui.into);
   const pick = useUi((ui) => ui.fieldPick);
   const ask = askOf(gesture);
+  const corners = useGestures((ui) => ui.corners.length);
   const text = pick
     ? t("help.field")
-    : ask === "nothing" || ask === "load" || ask === "function"
-      ? into
-        ? t("help.into", { branch: into.word })
-        : null
-      : t(`help.${sentenceOf(ask, gesture)}`);
+    : gesture.tool === ZONE_TOOL
+      ? t(corners > 0 ? "gesture.zone.help_more" : "gesture.zone.help_first")
+      : ask === "nothing" || ask === "load" || ask === "function"
+        ? into
+          ? t("help.into", { branch: into.word })
+          : null
+        : t(`help.${sentenceOf(ask, gesture)}`);
   if (!text) return null;
   return (
     <output className={classes.help} aria-live="polite">

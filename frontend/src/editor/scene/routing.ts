@@ -1,7 +1,8 @@
 /** Which ways a program drives, so that their routes can be asked for and drawn. */
 import { isRobot } from "@/map/device";
-import { toMetres } from "@/map/projection";
+import { toMetres, type Point } from "@/map/projection";
 import type { PixelPoint } from "@/map/routePath";
+import { drawnRoute } from "../model/drawnRoute";
 import type { Place, ProgramDocument, Step } from "../model/types";
 import { ancestors, type ProgramTree } from "../model/tree";
 import { spotOf, type Spot, type Surroundings } from "./surroundings";
@@ -12,6 +13,8 @@ export interface Way {
   readonly to: Spot;
   /** Equal for ways that have the same route. */
   readonly key: string;
+  /** The bends that somebody drew, metres; null where the server finds the way. */
+  readonly drawn: readonly Point[] | null;
 }
 
 export interface RouteShape {
@@ -37,7 +40,7 @@ export function waysOf(document: ProgramDocument, tree: ProgramTree, surrounding
       startOf(step, document, surroundings, scope) ?? standing.get(role) ?? homeOf(step, document, surroundings);
     const to = endOf(step, document, surroundings, scope);
     if (from && to && (step.kind === "pick_and_drop" || step.kind === "move"))
-      ways.push({ step: id, from, to, key: keyOfWay(from, to) });
+      ways.push({ step: id, from, to, key: keyOfWay(from, to), drawn: drawnRoute(step) });
     if (to && !isInCatch(document, id)) standing.set(role, to);
   }
   return ways;

@@ -116,13 +116,20 @@ function isShown(input: SceneInput, id: string): boolean {
 
 /** Steps that drive the same way share its line. */
 function shapeRoutes(ways: readonly Way[], lookup: RouteLookup): Map<string, RouteShape> {
-  const different = [...new Map(ways.map((way) => [way.key, way])).values()];
+  const lineOf = (way: Way) => way.key + (way.drawn ? JSON.stringify(way.drawn) : "");
+  const pathOf = (way: Way) => way.drawn ?? lookup(way.key);
+  const different = [...new Map(ways.map((way) => [lineOf(way), way])).values()];
   const lanes = separateLanes(
-    different.map((way) => routePoints(way, lookup(way.key))),
+    different.map((way) => routePoints(way, pathOf(way))),
     different.map((way) => ({ start: way.from.box !== null, end: way.to.box !== null })),
   );
-  const lines = new Map(different.map((way, index) => [way.key, lanes[index] ?? []]));
-  return new Map(ways.map(({ step, key }) => [step, { step, points: lines.get(key) ?? [], guessed: !lookup(key) }]));
+  const lines = new Map(different.map((way, index) => [lineOf(way), lanes[index] ?? []]));
+  return new Map(
+    ways.map((way) => {
+      const points = lines.get(lineOf(way)) ?? [];
+      return [way.step, { step: way.step, points, guessed: !pathOf(way) }];
+    }),
+  );
 }
 
 /** From edge to edge: the planned way between the outlines of what it joins. */

@@ -1,17 +1,21 @@
 /** Chips let go on the map: moved, put into a link, or put into a frame. */
 import { toPixels, type Point } from "@/map/projection";
+import type { PixelPoint } from "@/map/routePath";
+import type { MovedNode } from "../canvas/useMovingNodes";
 import type { Edit } from "../model/edits";
+import { liftOut } from "../model/framing";
 import { moveStep } from "../model/gestures";
 import { withDescendants } from "../model/tree";
 import { frameAt } from "../scene/frames";
-import { nearestOn } from "../scene/geometry";
+import { boxAt, gap, nearestOn } from "../scene/geometry";
 import { START_ID } from "../canvas/buildNodes";
 import type { OpenProgram } from "./context";
 import { say } from "./ui";
 
 const ON_LINK = 14;
+const OUTSIDE = 24;
 
-export function moveChips(open: OpenProgram, moved: readonly { id: string; at: Point }[]): void {
+export function moveChips(open: OpenProgram, moved: readonly MovedNode[]): void {
   const { document, apply } = open;
   const start = moved.find((each) => each.id === START_ID);
   const steps = moved.filter((each) => document.steps[each.id]);
@@ -19,7 +23,7 @@ export function moveChips(open: OpenProgram, moved: readonly { id: string; at: P
   for (const { id, at } of steps) edits.push({ do: "set_pos", id, pos: at });
   edits.push(...carried(open, steps));
   const [only] = steps;
-  if (steps.length === 1 && only) edits.push(...joined(open, only.id, only.at));
+  if (steps.length === 1 && only) edits.push(...joined(open, only.id, only.pointed));
   apply(edits);
 }
 
@@ -41,7 +45,7 @@ function carried(open: OpenProgram, moved: readonly { id: string; at: Point }[])
   });
 }
 
-/** Dropped on a dotted link: inserted there. Dropped into a frame: the last in it. */
+/** Dropped on a dotted link: inserted there. Dropped into a frame: the last in it. Dragged out of one: behind it. */
 function joined(open: OpenProgram, id: string, at: Point): readonly Edit[] {
   const { document, scene, t } = open;
   const point = toPixels(at);
@@ -59,9 +63,19 @@ function joined(open: OpenProgram, id: string, at: Point): readonly Edit[] {
           after: scene.tree.children(frame.id, "body").at(-1) ?? null,
         }
       : null;
-  if (!goal) return [];
+  if (!goal) return draggedOut(open, id, point);
   const decision = moveStep(document, id, goal.branch, goal.after);
   if ("edits" in decision) return decision.edits;
   if (decision.refused === "cycle") say(t("refused.cycle"));
   return [];
+}
+
+/** A chip that stood inside its frame and now stands well outside it follows the frame. */
+function draggedOut({ document, scene, t }: OpenProgram, id: string, point: PixelPoint): readonly Edit[] {
+  const frame = scene.frames.find((each) => each.holds.has(id));
+  if (!frame || gap(frame.box, boxAt(point, 0, 0)) < OUTSIDE) return [];
+  const decision = liftOut(document, [id]);
+  if (!("edits" in decision)) return [];
+  say(t("gesture.lifted", { frame: t(`kind.${frame.kind}`) }), true);
+  return decision.edits;
 }
