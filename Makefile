@@ -4,7 +4,7 @@ BIN := .venv/bin
 SOURCES := vipo_site registry editor simulation execution tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
-.PHONY: demo test check bench openapi format frontend setup setup-dev servers clean
+.PHONY: demo test check bench checks-page openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
 	@exec $(BIN)/python -m vipo_site.demo
@@ -64,6 +64,9 @@ test: setup-dev servers frontend
 openapi: setup-dev
 	$(BIN)/python manage.py openapi
 	cd frontend && npm run --silent api
+
+checks-page: setup-dev
+	$(BIN)/python -m editor.language.checks_page > docs/language/checks.md.new && mv docs/language/checks.md.new docs/language/checks.md
 
 bench: setup-dev
 	$(BIN)/python -m bench

@@ -1,0 +1,127 @@
+"""What each check means, in a sentence for its page, and the order in which the page shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+_ENTERED: Final = {
+    "missing_quantity": "A Pick, a Drop or a Pick-and-Drop does not say how many.",
+    "missing_object": "It does not say what is carried; the machine's own objects are offered.",
+    "missing_source": "It does not say at which machine the robot picks up.",
+    "missing_target": "It does not say at which machine the robot drops.",
+    "missing_destination": "A Move does not say where to.",
+    "missing_machine": "An Operate names no machine.",
+    "missing_method": "An Operate does not say what the machine does.",
+    "missing_argument": "A method needs a value that is not there.",
+    "missing_condition": "An If, a While, a Wait or an event has no whole condition.",
+    "missing_seconds": "A Wait says neither how long nor for what.",
+    "missing_function": "A Call names no function.",
+    "missing_function_argument": "A Call leaves out a parameter that has no default.",
+    "missing_times": "A Repeat does not say how often.",
+    "missing_items": "A For-each has nothing to go through.",
+    "missing_variable": "A Set names no variable.",
+    "missing_value": "A Set has no value.",
+    "missing_question": "An Ask has no question.",
+    "missing_options": "An Ask for a choice offers fewer than two answers.",
+    "missing_message": "A Notify says nothing.",
+    "empty_program": "Nothing is joined to the beginning.",
+}
+_UNKNOWN: Final = {
+    "unknown_device": "A step or a value names a device that the site does not have.",
+    "unknown_place": "A step names a place that the map does not have.",
+    "unknown_method": "The device's description does not list this method.",
+    "unknown_property": "The device's description does not list this property.",
+    "unknown_argument": "The method or the function has no parameter of this name.",
+    "unknown_function": "The function that is called was deleted.",
+    "unknown_parameter": "A value names a variable or a parameter that nothing sets and nobody gives.",
+    "unknown_role": "The step's robot was deleted from the program; it is read as the robot that every program has.",
+    "unknown_kind": "A newer version of VIPO, or another program, has drawn this step.",
+    "newer_format": "The document was written by a newer version; nothing in it is changed.",
+}
+_DEVICES: Final = {
+    "pending_device": "The device has announced itself, and nobody has approved it yet.",
+    "retired_device": "The device was taken out of use.",
+    "not_a_robot": "A role is bound to a device that is no robot.",
+    "robot_as_place": "A pick or a drop happens at machines only.",
+    "cannot_do": "The robot of this role lacks a method that its steps need.",
+    "no_robot_can": "No approved robot has all the methods that the role needs.",
+    "not_given": "The machine does not list this object among those that it gives.",
+    "not_taken": "The machine does not list this object among those that it takes.",
+    "offline_device": "No message has come from the device lately; everything else about it is right.",
+    "no_robot_online": "There are robots that could take this role, and all of them are offline.",
+}
+_VALUES: Final = {
+    "wrong_type": "A text stands where a number is needed, or the like.",
+    "not_comparable": "The two sides are of different types, or have no order.",
+    "wrong_unit": "The two units measure different things, so neither can be converted into the other.",
+    "out_of_range": "The number is below or above what the description declares.",
+    "not_an_option": "The description lists the values that are allowed.",
+    "quantity_not_positive": "Nobody can carry none, or half an object.",
+    "quantity_above_capacity": "The largest robot that can take the role holds fewer.",
+    "times_not_whole": "A Repeat counts whole rounds.",
+}
+_CARRYING: Final = {
+    "carrying_too_much": "Followed along all ways to this step, the robot is full on each of them.",
+    "may_carry_too_much": "On one of the ways to this step the robot is full already.",
+    "drops_nothing": "On every way to this step the robot carries less.",
+    "may_drop_nothing": "On one of the ways to this step the robot carries less.",
+}
+_FLOOR: Final = {
+    "place_outside": "The point lies off the map.",
+    "place_blocked": "The clearance at the point is smaller than the robot's radius.",
+    "place_unreachable": "No robot of the role finds a way from where it stands.",
+    "station_unreachable": "No side of the machine has room for a robot of the role, or no way leads there.",
+    "place_in_keep_out": "The goal, or the place beside the machine, lies in a zone that robots keep out of.",
+    "zone_too_small": "The zone's area is smaller than that of the smallest robot.",
+}
+_WAYS: Final = {
+    "never_reached": "The first step behind a Return, a Break, an End, an endless loop or a call that never comes back.",
+    "never_ends": "The condition of a While is constantly true, and neither Break, Return nor End stands in it.",
+    "may_never_end": "What the condition of a While looks at is neither measured nor set while it repeats.",
+    "never_runs": "The condition is constantly false.",
+    "always_true": "The condition is constantly true.",
+    "calls_itself": "Every way through the function calls it again; a call that only some ways make is allowed.",
+    "return_outside_function": "A Return stands in the program's own body.",
+    "break_outside_loop": "A Break stands in no loop of its own function or branch.",
+    "leaves_parallel": "A Return or a Break would leave one branch while the others go on.",
+    "leaves_finally": "A Return or a Break would leave the branch that is carried out whatever happens.",
+    "draft": "The step is drawn and not joined.",
+    "too_deep": "More than 30 levels lie above the step.",
+}
+_FUNCTIONS: Final = {
+    "gives_nothing": "A Call takes a value, and the function has no result.",
+    "returns_unasked": "A Return has a value, and its function has no result.",
+    "no_value_on_some_way": "The function has a result, and a way through it ends without one.",
+    "unused_result": "The function has a result, and the Call does not take it.",
+    "unused_function": "Neither the program, an event nor a function that they call calls it.",
+    "unused_variable": "A Set, an Ask or a Call sets it, and no value reads it.",
+    "unset_variable": "No way to this step sets the variable.",
+    "may_be_unset": "Some ways to this step set the variable and others do not.",
+    "version_gone": "The function was copied from a version that the library no longer has.",
+    "newer_version": "The library has a newer version with the same parameters.",
+    "signature_changed": "The library has a newer version with other parameters, so the calls have to be looked at.",
+}
+_AT_ONCE: Final = {
+    "shared_robot": "Two branches of a Parallel, with the functions that they call, drive one robot.",
+    "event_shares_robot": "An event that runs beside the program drives a robot that the program drives, too.",
+    "branches_wait": "Each of two branches waits for a variable that only the other one sets, after its own waiting.",
+}
+_SCRIPTS: Final = {
+    "not_python": "The text of a script is not Python, or not whole.",
+    "not_in_language": "It is Python outside the closed part that VIPO reads; nothing of it is ever run.",
+}
+_SECTIONS: Final = (
+    ("Still to be entered", _ENTERED),
+    ("Does not exist", _UNKNOWN),
+    ("Devices and robots", _DEVICES),
+    ("Values", _VALUES),
+    ("What is carried", _CARRYING),
+    ("The floor", _FLOOR),
+    ("Ways through the program", _WAYS),
+    ("Functions and variables", _FUNCTIONS),
+    ("Things that happen at once", _AT_ONCE),
+    ("Scripts written by hand", _SCRIPTS),
+)
+MEANINGS: Final[Mapping[str, str]] = {code: text for _, section in _SECTIONS for code, text in section.items()}
+GROUPS: Final = tuple((title, tuple(section)) for title, section in _SECTIONS)
