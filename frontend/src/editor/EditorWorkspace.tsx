@@ -12,6 +12,7 @@ import { FunctionDialog } from "./parts/FunctionDialog";
 import { HelpSentence } from "./parts/HelpSentence";
 import { LibraryDialog } from "./parts/LibraryDialog";
 import { EmptyProgram, Toast } from "./parts/Overlays";
+import { ProgramButton } from "./parts/ProgramButton";
 import { RunDialog } from "./parts/RunDialog";
 import { SaveFunctionDialog } from "./parts/SaveFunctionDialog";
 import { ShortcutsDialog } from "./parts/ShortcutsDialog";
@@ -52,6 +53,7 @@ export function EditorWorkspace() {
         <EmptyProgram />
         <HelpSentence />
         <Toast />
+        <ProgramButton />
         {inspector ? <Inspector /> : null}
         <ZoneForm />
         <StepMenu />

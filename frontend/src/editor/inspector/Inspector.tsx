@@ -5,6 +5,7 @@ import { Button } from "@mantine/core";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/map/VipoIcon";
+import { useGestures } from "../gestures/store";
 import { knownNames } from "../model/variables";
 import { kindOf } from "../scene/kinds";
 import { duplicateSelected, removeSelected } from "../state/actions";
@@ -25,10 +26,12 @@ import { RepeatForm, ReturnForm, Sentence, SetForm } from "./valueForms";
 export function Inspector() {
   const { document } = useOpenProgram();
   const selected = useUi((ui) => ui.selected);
+  const zone = useGestures((ui) => ui.zone);
   const id = selected.at(-1);
   const step = id ? document.steps[id] : undefined;
   if (selected.length > 1) return <Several count={selected.length} />;
-  return id && step ? <One key={id} id={id} /> : <ProgramPanel />;
+  if (id && step) return <One key={id} id={id} />;
+  return zone === null ? <ProgramPanel /> : null;
 }
 
 function One({ id }: { id: string }) {

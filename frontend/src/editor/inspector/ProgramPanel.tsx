@@ -1,5 +1,5 @@
 /** The program itself, while no step is selected: its parameters, its robots, its variables and zones. */
-import { X } from "lucide-react";
+import { ArrowRight, X } from "lucide-react";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/map/VipoIcon";
 import { namesSet } from "../model/variables";
@@ -8,6 +8,7 @@ import { unitText } from "../scene/words";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
+import { selectZone } from "../zones/drawing";
 import { AddParameter } from "./FunctionForm";
 import classes from "./inspector.module.css";
 import { ParameterCard } from "./ParameterCard";
@@ -115,6 +116,9 @@ function Zones() {
             </span>
             <span className={classes.grow}>{zone.name}</span>
             <span>{t(`zone_rule.${zone.rule}`)}</span>
+            <button type="button" aria-label={zone.name} onClick={() => selectZone(id)}>
+              <ArrowRight size={14} aria-hidden="true" />
+            </button>
           </li>
         ))}
       </ul>

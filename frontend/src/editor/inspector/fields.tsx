@@ -195,6 +195,17 @@ export function ValueField({
                 value={param}
                 onChange={(next) => onChange(next ? { param: next } : null)}
               />
+            ) : type === "boolean" ? (
+              <Select
+                {...shared}
+                data={[
+                  { value: "true", label: t("value.true") },
+                  { value: "false", label: t("value.false") },
+                ]}
+                value={typeof value === "boolean" ? String(value) : null}
+                onChange={(next) => onChange(next === null ? null : next === "true")}
+                clearable
+              />
             ) : options && options.length > 0 ? (
               <Select
                 {...shared}

@@ -13,7 +13,7 @@ import classes from "./drawer.module.css";
 
 export function StepsPanel() {
   const open = useOpenProgram();
-  const { scene, document, t } = open;
+  const { scene, t } = open;
   const selected = useUi((ui) => ui.selected);
   const list = useRef<HTMLUListElement>(null);
   const rows = [...scene.tree.reading, ...scene.tree.loose].flatMap((id) => scene.chips.get(id) ?? []);
@@ -57,27 +57,35 @@ export function StepsPanel() {
           <BranchName step={chip.id} />
           <span>
             {t(`kind.${chip.kind}`)}
-            {": "}
-            {(chip.condition ?? chip.parts).map((part, at) => (
+            {textOf(chip).length > 0 ? ": " : " "}
+            {textOf(chip).map((part, at) => (
               <span key={at} className={part.tone === "missing" ? classes.missing : undefined}>
                 {`${part.text} `}
               </span>
             ))}
             <Where step={chip.id} />
           </span>
-          {document.steps[chip.id]?.place ? null : <span className={classes.branch}>{t("steps.draft")}</span>}
+          {chip.draft ? <span className={classes.branch}>{t("steps.draft")}</span> : null}
         </li>
       ))}
     </ul>
   );
 }
 
+/** What the chip says, without the name of its kind once more. */
+function textOf(chip: Chip): Chip["parts"] {
+  if (chip.condition) return chip.condition;
+  return ["try", "parallel", "end", "break"].includes(chip.kind) ? [] : chip.parts;
+}
+
+/** The word of its arrow, or the function whose own step it is. */
 function BranchName({ step }: { step: string }) {
   const { document, t } = useOpenProgram();
   const place = document.steps[step]?.place;
-  const kind = place ? document.steps[place[0]]?.kind : undefined;
-  if (!place || !kind || place[1] === "body") return null;
-  return <span className={classes.branch}>{branchWord(place[1], kind, t)}</span>;
+  if (!place) return null;
+  const kind = document.steps[place[0]]?.kind;
+  const word = kind && place[1] !== "body" ? branchWord(place[1], kind, t) : document.functions[place[0]]?.name;
+  return word ? <span className={classes.branch}>{word}</span> : null;
 }
 
 function Where({ step: id }: { step: string }) {
