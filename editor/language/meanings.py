@@ -76,7 +76,7 @@ _FLOOR: Final = {
     "zone_too_small": "The zone's area is smaller than that of the smallest robot.",
 }
 _WAYS: Final = {
-    "never_reached": "The first step behind a Return, a Break, an End, an endless loop or a call that never comes back.",
+    "never_reached": "The first step behind a Return, a Break, an End, an endless loop or an endless call.",
     "never_ends": "The condition of a While is constantly true, and neither Break, Return nor End stands in it.",
     "may_never_end": "What the condition of a While looks at is neither measured nor set while it repeats.",
     "never_runs": "The condition is constantly false.",

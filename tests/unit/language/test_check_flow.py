@@ -1,0 +1,229 @@
+"""What the checks say of the ways through a program, on trees built by hand; `s1`, `s2` … count the steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from editor.language.check_context import Context
+from editor.language.check_flow import check_flow, ways_of_functions
+from editor.language.check_parallel import check_parallel
+from editor.language.check_variables import check_variables
+from editor.language.nodes import (
+    Ask,
+    Block,
+    Break,
+    Call,
+    End,
+    Event,
+    ForEach,
+    Function,
+    If,
+    Node,
+    Notify,
+    Parallel,
+    Parameter,
+    Repeat,
+    Return,
+    Set,
+    Tree,
+    Try,
+    Wait,
+    WaitUntil,
+    While,
+)
+from editor.language.plan import Constant, Expression, Operation, Reading, Variable
+from tests.unit.language.site import factory
+
+HOT = Operation(">", (Reading(Constant("curingOven01"), "temperature"), Constant(60)))
+TRUE, FALSE, ONE = Constant(True), Constant(False), Constant(1)
+X, Y = Variable("x"), Variable("y")
+PAUSE = Wait(ONE)
+
+
+def named(block: Block, step: str) -> Block:
+    return tuple(replace(node, step=f"{step}{index}") for index, node in enumerate(block, start=1))
+
+
+def told(check: Callable[[Context], None], tree: Tree) -> list[tuple[str, str]]:
+    context = Context(tree, factory())
+    check(context)
+    return [(problem.step, problem.code) for problem, _ in context.found]
+
+
+def flow(*body: Node, functions: tuple[Function, ...] = (), events: tuple[Event, ...] = ()) -> list[tuple[str, str]]:
+    return told(check_flow, Tree(named(body, "s"), functions, (), (), events))
+
+
+def variables(*body: Node, functions: tuple[Function, ...] = (), parameters: tuple[str, ...] = ()) -> list[str]:
+    given = tuple(Parameter(name) for name in parameters)
+    return [code for _, code in told(check_variables, Tree(named(body, "s"), functions, (), given))]
+
+
+def use(*values: Expression) -> tuple[Node, ...]:
+    return tuple(Notify(value) for value in values)
+
+
+@pytest.mark.parametrize(
+    "leaving",
+    [
+        End(),
+        While(TRUE, (PAUSE, If(HOT, (End(),)))),
+        If(HOT, (End(),), (End(),)),
+        If(TRUE, (End(),)),
+        Repeat(Constant(2), (End(),)),
+        ForEach("x", (ONE,), (End(),)),
+        Try((), (End(),), (End(),)),
+        Try((), (PAUSE,), (), (End(),)),
+        Parallel(((End(),), (PAUSE,))),
+    ],
+)
+def test_what_follows_is_never_reached(leaving: Node) -> None:
+    assert flow(leaving, PAUSE, PAUSE) == [("s2", "never_reached")]
+
+
+@pytest.mark.parametrize(
+    "going_on",
+    [
+        If(HOT, (End(),)),
+        While(HOT, (End(),)),
+        While(TRUE, (If(HOT, (Break(),)),)),
+        Repeat(Constant(0), (End(),)),
+        Repeat(X, (End(),)),
+        Repeat(Constant(3), (PAUSE, Break())),
+        Try((), (End(),), (PAUSE,)),
+        Try((), (PAUSE,), (End(),)),
+        Parallel(((PAUSE,), (PAUSE,))),
+    ],
+)
+def test_what_follows_may_be_reached(going_on: Node) -> None:
+    assert flow(going_on, PAUSE) == []
+
+
+def test_a_loop_that_nothing_leaves_never_ends() -> None:
+    assert flow(While(TRUE, (PAUSE,))) == [("s1", "never_ends")]
+    assert flow(While(TRUE, (While(HOT, (Break(),)),))) == [("s1", "never_ends")]
+    assert flow(While(TRUE, (Try((), (If(HOT, (Break(),)),)),))) == []
+
+
+def test_a_loop_must_look_at_something_that_changes() -> None:
+    above = Operation(">", (X, ONE))
+    assert flow(While(above, (PAUSE,))) == [("s1", "may_never_end")]
+    assert flow(While(above, (Set("x", ONE),))) == []
+    assert flow(While(above, (PAUSE, If(HOT, (Break(),))))) == []
+    assert flow(While(Operation(">", (Operation("now", ()), ONE)), (PAUSE,))) == []
+
+
+def test_a_loop_may_wait_for_what_an_event_or_another_branch_sets() -> None:
+    waiting = While(Operation("not", (X,)), (PAUSE,))
+    assert flow(waiting, events=(Event(HOT, (Set("x", TRUE),)),)) == []
+    assert flow(Parallel(((waiting,), (Set("x", TRUE),)))) == []
+
+
+def test_a_call_in_a_loop_may_set_what_ends_it() -> None:
+    less = Function("less", (), (Set("x", ONE),))
+    assert flow(While(Operation(">", (X, ONE)), (Call("less"),)), functions=(less,)) == []
+
+
+def test_recursion_needs_a_way_on_which_it_ends() -> None:
+    again, maybe = Call("f", step="c"), If(HOT, (Call("f", step="c"),))
+    assert flow(Call("f"), functions=(Function("f", (), (PAUSE, again)),)) == [("c", "calls_itself")]
+    assert flow(Call("f"), functions=(Function("f", (), (PAUSE, maybe)),)) == []
+    assert flow(Call("f"), functions=(Function("f", (), (If(HOT, (Return(),)), again)),)) == []
+
+
+def test_functions_that_only_call_each_other_never_end() -> None:
+    pair = (Function("f", (), (Call("g", step="a"),)), Function("g", (), (Call("f", step="b"),)))
+    assert flow(Call("f"), PAUSE, functions=pair) == [
+        ("s2", "never_reached"),
+        ("a", "calls_itself"),
+        ("b", "calls_itself"),
+    ]
+
+
+def test_the_ways_out_of_functions_are_understood_together() -> None:
+    stop = Function("stop", (), (End(),))
+    outer = Function("outer", (), (If(HOT, (Call("stop"),)), Return()))
+    assert ways_of_functions(Tree((), (outer, stop))) == {"outer": {"end", "return"}, "stop": {"end"}}
+    assert flow(Call("stop"), PAUSE, functions=(stop,)) == [("s2", "never_reached")]
+
+
+def test_a_result_is_given_on_every_way_and_taken() -> None:
+    half = Function("f", (), (If(HOT, (Return(ONE),), step="i"),), "number")
+    whole = Function("f", (), (If(HOT, (Return(ONE),)), Return(ONE)), "number")
+    assert flow(Call("f", result="x"), functions=(half,)) == [("i", "no_value_on_some_way")]
+    assert flow(Call("f"), functions=(whole,)) == [("s1", "unused_result")]
+    assert flow(Call("f", result="x"), functions=(whole,)) == []
+
+
+def test_functions_are_used_when_the_program_or_an_event_leads_to_them() -> None:
+    f, g = Function("f", (), (Call("g", step="f1"),)), Function("g", (), (Wait(ONE, step="g1"),))
+    assert flow(PAUSE, functions=(f, g)) == [("f1", "unused_function"), ("g1", "unused_function")]
+    assert flow(PAUSE, functions=(f, g), events=(Event(HOT, (Call("f"),)),)) == []
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ((*use(X), Set("x", ONE)), ["unset_variable"]),
+        ((Set("x", ONE), *use(X)), []),
+        ((If(HOT, (Set("x", ONE),)), *use(X)), ["may_be_unset"]),
+        ((If(HOT, (Set("x", ONE),), (Set("x", ONE),)), *use(X)), []),
+        ((If(HOT, (Set("x", ONE),), (End(),)), *use(X)), []),
+        ((While(HOT, (Set("x", ONE),)), *use(X)), ["may_be_unset"]),
+        ((While(TRUE, (Ask(ONE, variable="x"), If(X, (Break(),)))), *use(X)), []),
+        ((Repeat(Constant(2), (Set("x", ONE),)), *use(X)), []),
+        ((Repeat(Y, (Set("x", ONE),)), *use(X)), ["may_be_unset"]),
+        ((ForEach("y", (ONE,), (Set("x", Y),)), *use(X)), []),
+        ((Try((), (Set("x", ONE),), (PAUSE,)), *use(X)), ["may_be_unset"]),
+        ((Try((), (PAUSE,), (), (Set("x", ONE),)), *use(X)), []),
+        ((Parallel(((Set("x", ONE),), (PAUSE,))), *use(X)), []),
+        ((Parallel(((Set("x", ONE),), use(X))),), ["may_be_unset"]),
+        ((Set("x", ONE),), ["unused_variable"]),
+        ((Ask(ONE, variable="x"),), ["unused_variable"]),
+    ],
+)
+def test_variables_are_followed_along_all_ways(body: tuple[Node, ...], expected: list[str]) -> None:
+    assert variables(*body) == expected
+
+
+def test_a_function_sets_variables_of_the_program_for_whoever_calls_it() -> None:
+    f = Function("f", (), (Set("x", ONE),))
+    assert variables(Call("f"), *use(X), If(HOT, (Set("x", ONE),)), functions=(f,)) == []
+    g = Function("f", (), use(X))
+    assert variables(Call("f"), Set("x", ONE), functions=(g,)) == ["unset_variable"]
+    assert variables(Set("x", ONE), Call("f"), functions=(g,)) == []
+    assert variables(If(HOT, (Set("x", ONE),)), Call("f"), functions=(g,)) == ["may_be_unset"]
+
+
+def test_a_parameter_has_a_value_from_the_beginning() -> None:
+    assert variables(*use(X), Set("x", ONE), parameters=("x",)) == []
+    f = Function("f", (Parameter("x"),), (*use(X), Set("x", ONE)))
+    assert variables(Call("f"), functions=(f,)) == []
+
+
+def test_recursion_makes_no_false_alarm() -> None:
+    f = Function("f", (), (*use(X), If(HOT, (Call("f"),))))
+    assert variables(Set("x", ONE), Call("f"), functions=(f,)) == []
+
+
+def waiting(first: Block, second: Block, *before: Node) -> list[str]:
+    start = (Set("x", FALSE), Set("y", FALSE), *before)
+    tree = Tree(named((*start, Parallel((first, second))), "s"))
+    return [code for _, code in told(check_parallel, tree)]
+
+
+def test_branches_that_each_wait_for_what_the_other_sets_later_never_go_on() -> None:
+    first, second = (WaitUntil(X), Set("y", TRUE)), (WaitUntil(Y), Set("x", TRUE))
+    assert waiting(first, second) == ["branches_wait"]
+
+
+def test_branches_do_not_wait_for_ever_where_anything_may_end_it() -> None:
+    first, second = (WaitUntil(X), Set("y", TRUE)), (WaitUntil(Y), Set("x", TRUE))
+    assert waiting((Set("y", TRUE), *first), second) == []
+    assert waiting((WaitUntil(X, ONE), *first[1:]), second) == []
+    assert waiting(first, second, Set("x", TRUE)) == []
+    assert waiting(first, second, Ask(ONE, variable="x")) == []
+    assert waiting((WaitUntil(HOT), *first[1:]), second) == []
