@@ -10,6 +10,7 @@ from string import ascii_lowercase
 
 from editor.language import nodes as n
 from editor.language.alignment import align
+from editor.language.answers import answer_to_json
 from editor.language.grouping import Drawable, grouped
 from editor.language.keeping import (
     Functions,
@@ -205,12 +206,51 @@ def _parallel(drawer: _Drawer, node: n.Parallel) -> _Drawn:
 
 
 def _try(drawer: _Drawer, node: n.Try) -> _Drawn:
-    return "try", {"kinds": list(node.kinds)}, (("body", node.body), ("catch", node.catch))
+    branches = (("body", node.body), ("catch", node.catch), ("finally", node.final))
+    if not node.catches:
+        return "try", {"catch": False}, (branches[0], branches[2])
+    return "try", {"kinds": list(node.kinds)}, branches
 
 
 def _call(drawer: _Drawer, node: n.Call) -> _Drawn:
     arguments = {name: write_argument(value) for name, value in node.arguments}
-    return "call", _kept(function=drawer.function_ids.get(node.function), args=arguments), ()
+    function, result = drawer.function_ids.get(node.function), node.result or None
+    return "call", _kept(function=function, args=arguments, result=result), ()
+
+
+def _repeat(drawer: _Drawer, node: n.Repeat) -> _Drawn:
+    return "repeat", _kept(times=write_value(node.times)), (("body", node.body),)
+
+
+def _for_each(drawer: _Drawer, node: n.ForEach) -> _Drawn:
+    items = [write_value(item) for item in node.items]
+    return "for_each", _kept(variable=node.variable or None, items=items), (("body", node.body),)
+
+
+def _set(drawer: _Drawer, node: n.Set) -> _Drawn:
+    return "set", _kept(variable=node.variable or None, value=write_value(node.value)), ()
+
+
+def _ask(drawer: _Drawer, node: n.Ask) -> _Drawn:
+    question, timeout = write_value(node.question), write_value(node.timeout_s)
+    variable, answer = node.variable or None, answer_to_json(node.answer)
+    return "ask", _kept(question=question, answer=answer, variable=variable, timeout=timeout), ()
+
+
+def _notify(drawer: _Drawer, node: n.Notify) -> _Drawn:
+    return "notify", _kept(message=write_value(node.message), level=node.level), ()
+
+
+def _end(drawer: _Drawer, node: n.End) -> _Drawn:
+    return "end", {}, ()
+
+
+def _return(drawer: _Drawer, node: n.Return) -> _Drawn:
+    return "return", _kept(value=write_value(node.value)), ()
+
+
+def _break(drawer: _Drawer, node: n.Break) -> _Drawn:
+    return "break", {}, ()
 
 
 def _event(drawer: _Drawer, node: n.Event) -> _Drawn:
@@ -229,6 +269,14 @@ DRAWERS: Mapping[type[n.Node], Callable[..., _Drawn]] = {
     n.Parallel: _parallel,
     n.Try: _try,
     n.Call: _call,
+    n.Repeat: _repeat,
+    n.ForEach: _for_each,
+    n.Set: _set,
+    n.Ask: _ask,
+    n.Notify: _notify,
+    n.End: _end,
+    n.Return: _return,
+    n.Break: _break,
 }
 
 

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from string import ascii_lowercase
 
 from editor.language import nodes as n
 from editor.language.diagnostics import Diagnostic, Problem, put_into_words
-from editor.language.names import ROBOT_METHODS
+from editor.language.names import RESERVED_ATTRIBUTES, ROBOT_METHODS, unique_name
 from editor.language.outline import DEEPEST_STEP
-from editor.language.parsing_bindings import parse_arguments, parse_parameters, parse_run
+from editor.language.parsing_bindings import Entry, parse_arguments, parse_parameters, parse_run, read_type
 from editor.language.parsing_expressions import (
     Refused,
     Scope,
@@ -26,6 +26,8 @@ from editor.language.parsing_expressions import (
     quoted,
     robots_driven,
 )
+from editor.language.parsing_questions import parse_ask, parse_notify
+from editor.language.parsing_variables import check_local, names_assigned, parse_target
 from editor.language.plan import Expression, PlaceRef
 from editor.language.positions import settle_places
 from editor.language.printing import ERROR_CLASSES, member_name
@@ -34,7 +36,11 @@ from editor.language.walking import in_reading_order
 
 LONGEST_SCRIPT = 2_000_000
 _KINDS = {name: kind for kind, name in ERROR_CLASSES.items()}
-_STATEMENTS = "Use the robots' move, pick and drop, machines' methods, wait, if, while, try, parallel and functions."
+_STATEMENTS = (
+    "Use the robots' move, pick and drop, machines' methods, wait, ask, notify, if, while, for, try, parallel, "
+    "variables and functions."
+)
+_FOR = "Write for _ in range(3): or for oven in [self.oven_a, self.oven_b]:."
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,14 +116,31 @@ class Parser:
         match statement:
             case ast.Pass() | ast.Expr(value=ast.Constant(value=str())):
                 return None
+            case ast.Expr(value=ast.Call(func=ast.Attribute()) as call):
+                return self._call(call)
+            case ast.Assign(targets=[target], value=value):
+                return self._assign(target, value)
+            case ast.AugAssign(target=ast.Name() | ast.Attribute() as target, op=operator, value=value):
+                whole = ast.copy_location(ast.BinOp(target, operator, value), statement)
+                return n.Set(parse_target(target, self.scope, self.methods), self.value(whole))
+            case ast.Return(value=value):
+                given = n.MISSING if value is None else self.value(value)
+                return n.Return(None if given == n.MISSING else given)
+            case ast.Break():
+                return n.Break()
+        return self._composite(statement)
+
+    def _composite(self, statement: ast.stmt) -> n.Node:
+        """Return the node of a statement that holds others."""
+        match statement:
             case ast.If(test=test, body=body, orelse=orelse):
                 return n.If(self.value(test), self.block(body), self.block(orelse))
             case ast.While(test=test, body=body, orelse=[]):
                 return n.While(self.value(test), self.block(body))
+            case ast.For(orelse=[]):
+                return self._for(statement)
             case ast.Try():
                 return self._try(statement)
-            case ast.Expr(value=ast.Call(func=ast.Attribute()) as call):
-                return self._call(call)
         raise Refused(statement, quoted(statement), _STATEMENTS)
 
     def value(self, node: ast.expr) -> Expression:
@@ -125,12 +148,45 @@ class Parser:
         return parse_expression(node, self.scope)
 
     def _try(self, statement: ast.Try) -> n.Node:
-        if len(statement.handlers) != 1 or statement.orelse or statement.finalbody:
+        if len(statement.handlers) > 1 or statement.orelse:
             raise Refused(
-                statement, "This form of try", "Write try: … except TaskError as problem: …, with one except."
+                statement,
+                "This form of try",
+                "Write try: … except TaskError as problem: … finally: …, with one except.",
             )
+        body, final = self.block(statement.body), self.block(statement.finalbody)
+        if not statement.handlers:
+            return n.Try((), body, (), final, catches=False)
         handler = statement.handlers[0]
-        return n.Try(_kinds(handler), self.block(statement.body), self.block(handler.body))
+        return n.Try(_kinds(handler), body, self.block(handler.body), final)
+
+    def _for(self, statement: ast.For) -> n.Node:
+        """Return the loop: over `range(…)` its variable is `_`, over a list it has a name."""
+        match statement.target, statement.iter:
+            case ast.Name(id="_"), ast.Call(func=ast.Name(id="range"), args=[times], keywords=[]):
+                return n.Repeat(self.value(times), self.block(statement.body))
+            case ast.Name(id=name), ast.List(elts=items):
+                values = tuple(self.value(item) for item in items)
+                if name == "_":
+                    return n.ForEach("", values, self.block(statement.body))
+                check_local(name, statement.target)
+                outside = self.scope.locals
+                self.scope.locals = outside | {name}
+                body = self.block(statement.body)
+                self.scope.locals = outside
+                return n.ForEach(name, values, body)
+        raise Refused(statement, "This form of for", _FOR)
+
+    def _assign(self, target: ast.expr, value: ast.expr) -> n.Node:
+        """Return the node of `self.x = 1`, `self.x = self.ask(…)` or `self.x = self.function(…)`."""
+        variable = parse_target(target, self.scope, self.methods)
+        own = attribute_of_self(value.func) if isinstance(value, ast.Call) else None
+        if own is None or not isinstance(value, ast.Call):
+            return n.Set(variable, self.value(value))
+        if own == "ask":
+            return parse_ask(value, self.scope, variable)
+        call = _missing_call(self, value) if own == "call" else self._function(own, value)
+        return replace(call, result=variable)
 
     def _call(self, call: ast.Call) -> n.Node:
         """Return the node of `self.wait(…)`, `self.function(…)`, `self.robot.pick(…)` or `self.oven.cure(…)`."""
@@ -174,7 +230,7 @@ class Parser:
                 return n.Operate(device, name or "", _sorted_arguments(pairs))
         raise Refused(call, quoted(call), 'Write self.oven.operate("curePaint", {"time": 10}).')
 
-    def _function(self, name: str, call: ast.Call) -> n.Node:
+    def _function(self, name: str, call: ast.Call) -> n.Call:
         function = self.functions.get(name)
         if function is None:
             known = ", ".join(self.functions) or "none yet"
@@ -233,7 +289,20 @@ def _parallel(parser: Parser, call: ast.Call) -> n.Node:
     return n.Parallel(tuple(branches))
 
 
-def _missing_call(parser: Parser, call: ast.Call) -> n.Node:
+def _missing_set(parser: Parser, call: ast.Call) -> n.Node:
+    match call:
+        case ast.Call(args=[ast.Constant(value=None), value], keywords=[]):
+            return n.Set("", parser.value(value))
+    raise Refused(call, quoted(call), "Set a variable by its name: self.count = 1.")
+
+
+def _end(parser: Parser, call: ast.Call) -> n.Node:
+    if call.args or call.keywords:
+        raise Refused(call, quoted(call), "Write self.end().")
+    return n.End()
+
+
+def _missing_call(parser: Parser, call: ast.Call) -> n.Call:
     if len(call.args) == 1 and isinstance(call.args[0], ast.Constant) and call.args[0].value is None:
         return n.Call("")
     raise Refused(call, quoted(call), "Call a function by its name: self.mix_paint(minutes=3).")
@@ -243,6 +312,10 @@ _OWN_CALLS: Mapping[str, Callable[[Parser, ast.Call], n.Node]] = {
     "wait": _wait,
     "parallel": _parallel,
     "call": _missing_call,
+    "set": _missing_set,
+    "end": _end,
+    "ask": lambda parser, call: parse_ask(call, parser.scope),
+    "notify": lambda parser, call: parse_notify(call, parser.scope),
 }
 
 
@@ -283,19 +356,23 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
         if needed not in methods:
             raise Refused(module, "A task without this method", f"Write def {needed}(self…) in class Task.")
     scope = Scope(surroundings, robots=robots_driven(module))
-    parse_run(methods["run"], scope)
+    entries = parse_run(methods["run"], scope)
     parser = Parser(methods, scope)
-    branch_names = set(_branch_names(module))
+    handlers = _handlers(entries, methods)
+    shared = [names_assigned(method, methods).attributes for method in (methods["new_task"], *handlers)]
+    scope.variables = frozenset[str]().union(*shared)
+    others = {"new_task", "run", *_branch_names(module), *(handler.name for handler in handlers)}
     for name, method in methods.items():
-        if name not in branch_names and name not in {"new_task", "run"}:
-            parser.functions[name] = n.Function(name, parse_parameters(method), name=name)
+        if name not in others:
+            parser.functions[name] = _signature(name, method)
     body = parser.block(methods["new_task"].body)
+    events = tuple(_event(parser, *pair) for pair in zip(entries, handlers, strict=True))
     for name, function in list(parser.functions.items()):
-        scope.locals = frozenset(parameter.name for parameter in function.parameters)
-        inner = parser.block(methods[name].body)
-        parser.functions[name] = n.Function(name, function.parameters, inner, name=name)
+        own = names_assigned(methods[name], methods).bare - scope.variables
+        scope.locals = own | frozenset(parameter.name for parameter in function.parameters)
+        parser.functions[name] = replace(function, body=parser.block(methods[name].body))
     roles, parameters = _roles_and_parameters(parser)
-    tree = in_reading_order(n.Tree(body, tuple(parser.functions.values()), roles, parameters))
+    tree = in_reading_order(n.Tree(body, tuple(parser.functions.values()), roles, parameters, events))
     settled, homeless = settle_places(tree)
     for node in homeless:
         where = parser.origins[id(node)]
@@ -306,6 +383,39 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
         ordered = sorted(parser.refusals, key=lambda refused: (refused.line, refused.column))
         return Parsed(None, tuple(_refusal(refused) for refused in ordered))
     return Parsed(settled)
+
+
+def _signature(name: str, method: ast.FunctionDef) -> n.Function:
+    """Return a function still without its steps."""
+    known = unique_name(name, RESERVED_ATTRIBUTES)
+    if known != name:
+        raise Refused(method, f"A function called {name}", f"Call it {known}.")
+    parameters = parse_parameters(method)
+    for argument in method.args.args[1:]:
+        check_local(argument.arg, argument)
+    return n.Function(name, parameters, (), *read_type(method.returns), name=name)
+
+
+def _handlers(entries: list[Entry], methods: Mapping[str, ast.FunctionDef]) -> list[ast.FunctionDef]:
+    """Return the method of each event; each has its own."""
+    handlers: list[ast.FunctionDef] = []
+    for entry in entries:
+        method = methods.get(entry.method)
+        if method is None or entry.method in {"new_task", "run"} or method in handlers:
+            raise Refused(entry.call, quoted(entry.call), "Each event needs a method of its own: self.when_e1.")
+        if [argument.arg for argument in method.args.args] != ["self"]:
+            raise Refused(method, "An event with parameters", f"Write def {method.name}(self):.")
+        handlers.append(method)
+    return handlers
+
+
+def _event(parser: Parser, entry: Entry, method: ast.FunctionDef) -> n.Event:
+    try:
+        condition = parser.value(entry.condition)
+    except Refused as refusal:
+        parser.refusals.append(refusal)
+        condition = n.MISSING
+    return n.Event(condition, parser.block(method.body), entry.starts)
 
 
 def _roles_and_parameters(parser: Parser) -> tuple[tuple[n.Role, ...], tuple[n.Parameter, ...]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from dataclasses import dataclass
 
 from editor.language import nodes as n
 from editor.language.parsing_expressions import (
@@ -18,12 +19,26 @@ from editor.language.plan import Expression
 from editor.language.type_names import UnknownType, parse_type
 
 
-def parse_run(method: ast.FunctionDef, scope: Scope) -> None:
-    """Read `run(self, ctx)` into the scope's bindings.
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """An event as `run` has it: its condition is still to be read, and its method to be found."""
+
+    starts: str
+    condition: ast.expr
+    method: str
+    call: ast.Call
+
+
+_ENTRIES = {"when": "branch", "start_when": "run"}
+
+
+def parse_run(method: ast.FunctionDef, scope: Scope) -> list[Entry]:
+    """Read `run(self, ctx)` into the scope's bindings; return the events.
 
     Raises:
-        Refused: it does anything but give robots, devices, places and parameters, and call new_task.
+        Refused: it does anything but give robots, devices, places, parameters and events, and call new_task.
     """
+    entries: list[Entry] = []
     if [argument.arg for argument in method.args.args] != ["self", "ctx"]:
         raise Refused(method, "This run", "Write def run(self, ctx):.")
     for statement in method.body:
@@ -34,6 +49,17 @@ def parse_run(method: ast.FunctionDef, scope: Scope) -> None:
                 continue
             case ast.Expr(value=ast.Constant(value=str())):
                 continue
+            case ast.Expr(
+                value=ast.Call(
+                    func=ast.Attribute(value=ast.Name(id="ctx"), attr="when" | "start_when" as when),
+                    args=[condition, handler],
+                    keywords=[],
+                ) as call
+            ):
+                name = attribute_of_self(handler)
+                if name is not None:
+                    entries.append(Entry(_ENTRIES[when], condition, name, call))
+                    continue
             case ast.Assign(targets=[target], value=ast.Call() as call):
                 name = attribute_of_self(target)
                 if name is not None:
@@ -42,6 +68,7 @@ def parse_run(method: ast.FunctionDef, scope: Scope) -> None:
         raise Refused(
             statement, quoted(statement), 'In run, write self.oven = ctx.get("curingOven01") and self.new_task().'
         )
+    return entries
 
 
 def _binding(call: ast.Call, name: str) -> Binding:

@@ -147,6 +147,8 @@ def _own_attribute(node: ast.Attribute, name: str, scope: Scope) -> Expression:
     """Return what `self.name` stands for: a variable, or something that has a place."""
     binding = scope.bindings.get(name)
     if name in scope.variables or (binding is not None and binding.kind == "parameter"):
+        if name in scope.locals:
+            raise Refused(node, quoted(node), f"Here {name} is something else, which hides it. Write {name}.")
         return Variable(name)
     if name in scope.robots:
         return Located(role=name)
