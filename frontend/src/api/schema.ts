@@ -112,6 +112,26 @@ export interface paths {
         patch: operations["editor_api_rename_program"];
         trace?: never;
     };
+    "/api/programs/{program}/arm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Arm Program
+         * @description Let a program, as it is drawn now, start by itself, or not any more; returns all that do so at its site.
+         */
+        post: operations["execution_api_arm_program"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/programs/{program}/compiled": {
         parameters: {
             query?: never;
@@ -146,6 +166,26 @@ export interface paths {
         get: operations["editor_api_show_document"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/expression": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Expression
+         * @description Read a value that an author writes as one line, or print one for whoever may look.
+         */
+        post: operations["editor_api_read_expression"];
         delete?: never;
         options?: never;
         head?: never;
@@ -192,6 +232,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/programs/{program}/script": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Draw Script
+         * @description Draw a script: the document that it would make of the program, or where it leaves the language.
+         */
+        post: operations["editor_api_draw_script"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/programs/{program}/versions": {
         parameters: {
             query?: never;
@@ -210,6 +270,26 @@ export interface paths {
          * @description Make the program as it is now a version.
          */
         post: operations["editor_api_pin_version"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/questions/{question}/answer": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Answer Question
+         * @description Answer a question; the first answer counts.
+         */
+        post: operations["execution_api_answer_question"];
         delete?: never;
         options?: never;
         head?: never;
@@ -394,6 +474,46 @@ export interface paths {
          * @description Make a site from a ROS map; the asker becomes its admin.
          */
         post: operations["registry_api_upload_site"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/armed": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Armed
+         * @description Return the programs that start by themselves.
+         */
+        get: operations["execution_api_list_armed"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/questions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Questions
+         * @description Return the site's open questions, or all of one run.
+         */
+        get: operations["execution_api_list_questions"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -613,7 +733,7 @@ export interface paths {
         };
         /**
          * Show Rdf
-         * @description Send a device's description as `turtle`, `nt` or `json-ld`.
+         * @description Send a device's description as `turtle`, `n-triples`, `json-ld`, `td` or the `paper`'s message.
          */
         get: operations["registry_api_show_rdf"];
         put?: never;
@@ -772,6 +892,30 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** @description The answer: yes or no, a number, a text, or one of the options. */
+        AnswerQuestion: {
+            value: boolean | number | string;
+        };
+        /** @description What a question may be answered with; `options` for a choice, limits for a number. */
+        AnswerShape: {
+            maximum: number | null;
+            minimum: number | null;
+            options: string[];
+            /** @enum {string} */
+            type: "boolean" | "number" | "text" | "choice";
+            unit: string;
+        };
+        /** @description Whether the program shall start by itself. */
+        ArmProgram: {
+            on: boolean;
+        };
+        /** @description A program that starts by itself, in the version that was armed. */
+        ArmedShape: {
+            at: string;
+            by: string;
+            program: string;
+            version: number;
+        };
         /** @description Two ends of a way: `[x, y]` or a Place; in JSON the first is called `from`. */
         AskRoute: {
             from: [
@@ -885,9 +1029,15 @@ export interface components {
             fix: components["schemas"]["FixShape"] | null;
             line: number | null;
             message: string;
+            messages: components["schemas"]["Words"];
             /** @enum {string} */
             severity: "error" | "warning";
             step: string;
+            /**
+             * @description Whether it is so only as the site is at present.
+             * @enum {string}
+             */
+            when: "now" | "ever";
         };
         /** @description A program's document, format 1; see docs/architecture.md. */
         DocumentShape: {
@@ -913,6 +1063,19 @@ export interface components {
                 [key: string]: unknown;
             };
         };
+        /**
+         * @description What a script came to: `document` is what the program would be, null while the script is not valid or stale.
+         *
+         *     Stale: the base does not print as the script that was shown; `script` is then what it prints.
+         */
+        DrawnScriptShape: {
+            diagnostics: components["schemas"]["ScriptProblem"][];
+            document: components["schemas"]["DocumentShape"] | null;
+            lines: string[];
+            ok: boolean;
+            script: string;
+            stale: boolean;
+        };
         /** @description Two bodies that came too near, or touched. */
         Encounter: {
             a: string;
@@ -921,6 +1084,24 @@ export interface components {
             t: number;
             x: number;
             y: number;
+        };
+        /** @description A Value and the line for it, with its type and unit as far as they are known. */
+        ExpressionShape: {
+            names: components["schemas"]["LineName"][];
+            problem: components["schemas"]["LineProblem"] | null;
+            text: string;
+            type: string;
+            unit: string;
+            value: unknown;
+        };
+        /** @description A line that shall be read (`text`), or a Value that shall be printed as one; the names are those of a step. */
+        ExpressionToRead: {
+            /** @default false */
+            names: boolean;
+            /** @default  */
+            step: string;
+            text?: string | null;
+            value?: unknown;
         };
         /** @description A field of the request that does not fit, and why. */
         FieldProblem: {
@@ -932,6 +1113,7 @@ export interface components {
             field: string;
             label: string;
             label_code: string;
+            labels: components["schemas"]["Words"];
             step: string;
             value: unknown;
         };
@@ -981,6 +1163,21 @@ export interface components {
         LibrarySource: {
             library: string;
             version: number;
+        };
+        /** @description A name that can stand in a line: `kind` is device, place, zone, robot or variable. */
+        LineName: {
+            id: string;
+            kind: string;
+            name: string;
+            properties: components["schemas"]["PropertyName"][];
+        };
+        /** @description Why a line means nothing, in each language; the column counts from 1. */
+        LineProblem: {
+            column: number;
+            message: string;
+            messages: {
+                [key: string]: string;
+            };
         };
         /** @description A line of what happened. */
         LogLine: {
@@ -1121,6 +1318,11 @@ export interface components {
             site: string;
             warnings: number;
         };
+        /** @description How a device's property is written behind the device's name and a dot. */
+        PropertyName: {
+            name: string;
+            written: string;
+        };
         /** @description A reading and its last value. */
         PropertyShape: {
             maximum: number | null;
@@ -1130,6 +1332,23 @@ export interface components {
             title: string;
             type: string;
             unit: string;
+            value: boolean | number | string | null;
+        };
+        /** @description Something that a run asks the people of its site; `value` is the answer once there is one. */
+        QuestionShape: {
+            answer: components["schemas"]["AnswerShape"];
+            answered_at: string | null;
+            answered_by: string;
+            asked_at: string;
+            id: string;
+            program: components["schemas"]["RunProgram"];
+            run: string;
+            run_number: number;
+            site: string;
+            /** @enum {string} */
+            state: "open" | "answered" | "withdrawn";
+            step: string;
+            text: string;
             value: boolean | number | string | null;
         };
         /** @description Something that the real run would meet, too. */
@@ -1269,7 +1488,7 @@ export interface components {
             };
             version: number;
         };
-        /** @description How far a step of a run is; `wait` says what it waits for, `count` how often it has begun. */
+        /** @description How far a step of a run is; `wait` and `why` say what it waits for, `count` how often it has begun. */
         RunStepShape: {
             count: number;
             ended_at: string | null;
@@ -1278,6 +1497,7 @@ export interface components {
             /** @enum {string} */
             status: "waiting" | "running" | "done" | "failed" | "skipped";
             wait: string | null;
+            why?: components["schemas"]["WaitReason"] | null;
         };
         /** @description A run as lists and live messages have it; times are ISO 8601. */
         RunSummaryShape: {
@@ -1299,6 +1519,30 @@ export interface components {
                 [key: string]: components["schemas"]["RunStepShape"];
             };
             version: number;
+        };
+        /** @description Where a script leaves the language; lines and columns count from 1. */
+        ScriptProblem: {
+            code: string;
+            column: number;
+            end_column: number | null;
+            end_line: number | null;
+            expected: string;
+            found: string;
+            line: number;
+            message: string;
+            messages: {
+                [key: string]: string;
+            };
+        };
+        /** @description A script as somebody edited it. */
+        ScriptText: {
+            /** @description The document that it is drawn over; the current one if none. */
+            base?: {
+                [key: string]: unknown;
+            } | null;
+            /** @description The script from which the text was edited. */
+            shown?: string | null;
+            text: string;
         };
         /** @description What somebody signs in with. */
         SignIn: {
@@ -1381,12 +1625,25 @@ export interface components {
             number: number;
             script: string;
         };
+        /** @description Why something waits, for screens to say in their language; devices and robots are named by their ids. */
+        WaitReason: {
+            args: {
+                [key: string]: boolean | number | string;
+            };
+            code: string;
+        };
         /** @description A robot that had to wait, and why. */
         WaitShape: {
             duration_s: number;
             reason: string;
             robot: string;
             t: number;
+            why: components["schemas"]["WaitReason"];
+        };
+        /** @description A sentence in each language of the screens. */
+        Words: {
+            de: string;
+            en: string;
         };
     };
     responses: never;
@@ -1616,6 +1873,41 @@ export interface operations {
             };
         };
     };
+    execution_api_arm_program: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ArmProgram"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ArmedShape"][];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     editor_api_show_compiled: {
         parameters: {
             query?: never;
@@ -1665,6 +1957,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DocumentShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    editor_api_read_expression: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ExpressionToRead"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExpressionShape"];
                 };
             };
             /** @description A refusal */
@@ -1748,6 +2075,41 @@ export interface operations {
             };
         };
     };
+    editor_api_draw_script: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ScriptText"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DrawnScriptShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     editor_api_list_versions: {
         parameters: {
             query?: never;
@@ -1801,6 +2163,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["VersionShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    execution_api_answer_question: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                question: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AnswerQuestion"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["QuestionShape"];
                 };
             };
             /** @description A refusal */
@@ -2118,6 +2515,70 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SiteShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    execution_api_list_armed: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ArmedShape"][];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    execution_api_list_questions: {
+        parameters: {
+            query?: {
+                run?: string | null;
+            };
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["QuestionShape"][];
                 };
             };
             /** @description A refusal */
@@ -2491,7 +2952,7 @@ export interface operations {
     registry_api_show_rdf: {
         parameters: {
             query?: {
-                format?: string;
+                format?: "turtle" | "n-triples" | "json-ld" | "td" | "paper";
             };
             header?: never;
             path: {
@@ -2510,6 +2971,8 @@ export interface operations {
                 content: {
                     "application/ld+json": string;
                     "application/n-triples": string;
+                    "application/td+json": string;
+                    "text/plain": string;
                     "text/turtle": string;
                 };
             };
