@@ -13,15 +13,15 @@ export interface Conflict {
   readonly theirs: readonly string[];
 }
 
-/** Bring what they changed since `base` into my text; where both changed the same lines, mine stay. */
-export function mergeTexts(base: string, mine: string, theirs: string): Merged {
+/** Bring what they changed since `base` into my text; where both changed the same lines, the preferred ones stay. */
+export function mergeTexts(base: string, mine: string, theirs: string, prefer: "mine" | "theirs" = "mine"): Merged {
   const lines: string[] = [];
   const conflicts: Conflict[] = [];
   for (const region of diff3Merge(linesOf(mine), linesOf(base), linesOf(theirs), { excludeFalseConflicts: true })) {
     if (region.ok) lines.push(...region.ok);
     if (region.conflict) {
       conflicts.push({ line: lines.length + 1, theirs: region.conflict.b });
-      lines.push(...region.conflict.a);
+      lines.push(...(prefer === "mine" ? region.conflict.a : region.conflict.b));
     }
   }
   return { text: lines.join("\n"), conflicts };
