@@ -216,12 +216,14 @@ def _publish_traffic(slug: str, layout: Layout, state: State) -> None:
 def _shown(layout: Layout, state: State, name: str) -> Mapping[str, Any]:
     robot = state.robots[name]
     ahead = robot.way[robot.passed :]
-    waits = [job.wait.text for job in state.jobs if job.robot == name and job.wait]
+    waits = [_reason(job.wait) for job in state.jobs if job.robot == name and job.wait]
+    reason = waits[0] if waits else None
     moving = len(ahead) > 1
     return {
         "route": [list(layout.point(node)) for node in ahead] if moving else [],
         "reserved": [list(layout.point(node)) for node in robot.way[robot.passed : robot.released + 1]]
         if moving
         else [],
-        "wait": waits[0] if waits else None,
+        "wait": reason["text"] if reason else None,
+        "why": {"code": reason["code"], "args": reason["args"]} if reason else None,
     }

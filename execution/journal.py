@@ -64,7 +64,7 @@ class Journal:
             case r.StepEntered(step=step):
                 count = self.steps.get(step, {}).get("count", 0) + 1
                 self.steps[step] = {"status": "running", "started_at": self.now.isoformat(), "ended_at": None,
-                                    "robot": None, "wait": None, "count": count}  # fmt: skip
+                                    "robot": None, "wait": None, "why": None, "count": count}  # fmt: skip
                 self.say("step", "The step begins.", step=step, code="step_entered", count=count)
             case r.StepLeft(step=step):
                 self._end(step, "done")
@@ -75,7 +75,7 @@ class Journal:
 
     def _end(self, step: str, status: str) -> None:
         mark = self.steps.setdefault(step, {"started_at": self.now.isoformat(), "robot": None, "count": 1})
-        mark.update(status=status, ended_at=self.now.isoformat(), wait=None)
+        mark.update(status=status, ended_at=self.now.isoformat(), wait=None, why=None)
 
     def note(self, data: Mapping[str, Any]) -> None:
         """Write down what the floor reports."""
@@ -107,6 +107,7 @@ class Journal:
         mark = self.steps.get(data["step"])
         if mark is not None and mark["status"] in {"running", "waiting"}:
             mark.update(status="waiting" if reason else "running", wait=reason["text"] if reason else None)
+            mark["why"] = {"code": reason["code"], "args": reason["args"]} if reason else None
             mark["robot"] = robot or mark.get("robot")
         if reason:
             arguments = {f"{key}": value for key, value in reason["args"].items() if key not in {"robot", "device"}}

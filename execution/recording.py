@@ -169,7 +169,8 @@ class Recorder:
             self._end_wait(t_s, open_wait)
         if action.reason is not None:
             self._open_waits[action.mission] = {"t": round(t_s, 2), "duration_s": 0.0, "robot": action.robot,
-                                                "reason": action.reason.text}  # fmt: skip
+                                                "reason": action.reason.text,
+                                                "why": {"code": action.reason.code, "args": dict(action.reason.args)}}  # fmt: skip
 
     def _end_wait(self, t_s: float, wait: dict[str, Any]) -> None:
         wait["duration_s"] = round(t_s - wait["t"], 2)

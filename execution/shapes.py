@@ -59,14 +59,22 @@ class RunProgram(Schema):
     name: str
 
 
+class WaitReason(Schema):
+    """Why something waits, for screens to say in their language; devices and robots are named by their ids."""
+
+    code: str
+    args: dict[str, Scalar]
+
+
 class RunStepShape(Schema):
-    """How far a step of a run is; `wait` says what it waits for, `count` how often it has begun."""
+    """How far a step of a run is; `wait` and `why` say what it waits for, `count` how often it has begun."""
 
     status: StepStatus
     started_at: str | None
     ended_at: str | None
     robot: str | None
     wait: str | None
+    why: WaitReason | None = None
     count: int
 
 
@@ -201,6 +209,7 @@ class WaitShape(Schema):
     duration_s: float
     robot: str
     reason: str
+    why: WaitReason
 
 
 class RehearsedStep(Schema):

@@ -78,7 +78,13 @@ def _unblock(turn: Turn, robot: Robot) -> None:
     )
     if job and blockers:
         names = " and ".join(turn.name(b) for b in blockers)
-        turn.wait(job, "blocked_by", f"{turn.name(robot.id)} waits for {names} to pass.", robot=blockers[0])
+        turn.wait(
+            job,
+            "blocked_by",
+            f"{turn.name(robot.id)} waits for {names} to pass.",
+            robot=robot.id,
+            others=",".join(blockers),
+        )
     since = turn.now - (robot.blocked_since if robot.blocked_since is not None else turn.now)
     for blocker in blockers:
         _move_blocker(turn, turn.robots[robot.id], turn.robots[blocker])

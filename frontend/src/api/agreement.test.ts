@@ -14,6 +14,8 @@ test("answers of the server can be read as the frontend's types", () => {
   expectTypeOf<Server["CompiledShape"]>().toExtend<ours.Compiled>();
   expectTypeOf<Server["RunSummaryShape"]>().toExtend<ours.RunSummary>();
   expectTypeOf<Server["RunEventShape"]>().toExtend<ours.RunEvent>();
+  expectTypeOf<Server["QuestionShape"]>().toExtend<ours.Question>();
+  expectTypeOf<Server["ArmedShape"]>().toExtend<ours.ArmedProgram>();
   expectTypeOf<Server["RouteShape"]>().toExtend<ours.RouteAnswer>();
   // A reading may be null by its type; a rehearsal records only readings that there are.
   expectTypeOf<Omit<Server["RehearsalResultShape"], "properties">>().toExtend<

@@ -2,12 +2,14 @@
 import { QueryClient, skipToken, useQuery } from "@tanstack/react-query";
 import { api, ApiProblem, rememberCsrf } from "./client";
 import type {
+  ArmedProgram,
   Compiled,
   Device,
   LibraryFunction,
   Me,
   Program,
   ProgramDocument,
+  Question,
   Rehearsal,
   Run,
   RunEvent,
@@ -32,6 +34,8 @@ export const keys = {
   compiled: (id: string) => ["compiled", id] as const,
   runs: (slug: string) => ["runs", slug] as const,
   run: (id: string) => ["run", id] as const,
+  questions: (slug: string) => ["questions", slug] as const,
+  armed: (slug: string) => ["armed", slug] as const,
   runEvents: (id: string) => ["run-events", id] as const,
   library: (q: string) => ["library", q] as const,
   libraryFunction: (id: string) => ["library-function", id] as const,
@@ -108,6 +112,16 @@ export const useRuns = (slug: Maybe) =>
   useGet<RunSummary[]>(
     keys.runs(slug ?? ""),
     at(slug, (s) => `/sites/${s}/runs`),
+  );
+export const useQuestions = (slug: Maybe) =>
+  useGet<Question[]>(
+    keys.questions(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/questions`),
+  );
+export const useArmed = (slug: Maybe) =>
+  useGet<ArmedProgram[]>(
+    keys.armed(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/armed`),
   );
 export const useRun = (id: Maybe) =>
   useGet<Run>(

@@ -284,7 +284,7 @@ export interface RehearsalResult {
   machines: Record<string, { busy_s: number }>;
   near_misses: NearMiss[];
   collisions: NearMiss[];
-  waits: { t: number; duration_s: number; robot: string; reason: string }[];
+  waits: { t: number; duration_s: number; robot: string; reason: string; why?: WaitReason }[];
   steps: {
     step: string;
     count: number;
@@ -311,7 +311,47 @@ export interface RunStep {
   ended_at: string | null;
   robot: string | null;
   wait: string | null;
+  why?: WaitReason | null;
   count: number;
+}
+
+/** Why something waits; devices are named by their ids. */
+export interface WaitReason {
+  code: string;
+  args: Record<string, Scalar>;
+}
+
+export interface AnswerSpec {
+  type: "boolean" | "number" | "text" | "choice";
+  unit: string;
+  minimum: number | null;
+  maximum: number | null;
+  options: string[];
+}
+
+/** Something that a run asks the people of its site. */
+export interface Question {
+  id: string;
+  run: string;
+  run_number: number;
+  program: { id: string; name: string };
+  site: string;
+  step: string;
+  text: string;
+  answer: AnswerSpec;
+  state: "open" | "answered" | "withdrawn";
+  value: Scalar | null;
+  asked_at: string;
+  answered_by: string;
+  answered_at: string | null;
+}
+
+/** A program that starts by itself. */
+export interface ArmedProgram {
+  program: string;
+  version: number;
+  by: string;
+  at: string;
 }
 
 /** A run as lists and live messages have it. */
@@ -358,4 +398,5 @@ export interface RobotTraffic {
   route: Point[];
   reserved: Point[];
   wait: string | null;
+  why?: WaitReason | null;
 }

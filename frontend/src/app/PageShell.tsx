@@ -3,6 +3,7 @@ import { useEffect, type ReactNode } from "react";
 import { useSiteLive } from "@/live/site";
 import { ConnectionStrip } from "./ConnectionStrip";
 import { useCurrentSite } from "./currentSite";
+import { QuestionsBell } from "./questions/QuestionsBell";
 import { SideBar } from "./SideBar";
 import { StopAllButton } from "./StopAllButton";
 import styles from "./shell.module.css";
@@ -32,6 +33,7 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
           {chips}
           <div className={styles.spring} />
           {actions}
+          {slug ? <QuestionsBell slug={slug} /> : null}
           {slug ? <StopAllButton slug={slug} /> : null}
         </div>
         {slug ? <ConnectionStrip slug={slug} /> : null}

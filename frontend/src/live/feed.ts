@@ -1,14 +1,15 @@
 /** Writes what a site's socket says into the query caches and the live store. */
 import type { QueryClient } from "@tanstack/react-query";
 import { keys } from "@/api/queries";
-import type { Device, Rehearsal, Run, RunEvent, RunSummary, Site, SiteStop } from "@/api/types";
-import { applyChanges, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
+import type { ArmedProgram, Device, Question, Rehearsal, Run, RunEvent, RunSummary, Site, SiteStop } from "@/api/types";
+import { applyChanges, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
 import type { DeviceChange, LiveMessage } from "./messages";
 import { recordDevice } from "./readings";
 import { useLiveStore } from "./store";
 
 const SLOW_MS = 1000;
 const FAST_MS = 150;
+const NOTICES_KEPT = 50;
 
 export class SiteFeed {
   readonly #changes = new Map<string, DeviceChange>();
@@ -38,6 +39,13 @@ export class SiteFeed {
           (events) => events && applyRunEvent(events, message.event),
         );
         return;
+      case "question":
+        return this.#question(message.question);
+      case "notice":
+        return this.#notice(message);
+      case "armed":
+        this.queries.setQueryData<ArmedProgram[]>(keys.armed(this.slug), message.programs);
+        return;
       case "rehearsal":
         return this.#rehearsal(message);
       case "stop":
@@ -56,7 +64,9 @@ export class SiteFeed {
 
   /** After each (new) greeting the state is fetched anew: what happened meanwhile was missed. */
   #refresh(): void {
-    const stale = [keys.devices, keys.site, keys.runs, keys.programs].map((key) => key(this.slug) as readonly string[]);
+    const stale = [keys.devices, keys.site, keys.runs, keys.programs, keys.questions, keys.armed].map(
+      (key) => key(this.slug) as readonly string[],
+    );
     const open = ["run", "run-events", "rehearsal", "compiled"].map((name) => [name]);
     for (const queryKey of [...stale, ...open]) void this.queries.invalidateQueries({ queryKey });
   }
@@ -104,6 +114,17 @@ export class SiteFeed {
   #run(run: RunSummary): void {
     this.queries.setQueryData<RunSummary[]>(keys.runs(this.slug), (runs) => runs && applyRun(runs, run));
     this.queries.setQueryData<Run>(keys.run(run.id), (full) => full && { ...full, ...run });
+  }
+
+  #question(question: Question): void {
+    this.queries.setQueryData<Question[]>(keys.questions(this.slug), (all) => applyQuestion(all ?? [], question));
+  }
+
+  #notice({ run, text, level }: Extract<LiveMessage, { type: "notice" }>): void {
+    useLiveStore.setState(({ notices }) => {
+      const id = (notices.at(-1)?.id ?? 0) + 1;
+      return { notices: [...notices.slice(1 - NOTICES_KEPT), { id, run, text, level }] };
+    });
   }
 
   #rehearsal(message: Extract<LiveMessage, { type: "rehearsal" }>): void {

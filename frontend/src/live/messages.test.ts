@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
-import type { Device, RunEvent, RunSummary } from "@/api/types";
-import { applyChanges, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
+import type { Question, Device, RunEvent, RunSummary } from "@/api/types";
+import { applyChanges, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
 
 const mixer = { id: "mixer", name: "Paint Mixer", status: "idle", doing: "", carrying: {} } as unknown as Device;
 const robot = { id: "robot", name: "TurtleBot", status: "busy", doing: "", carrying: { box: 1 } } as unknown as Device;
@@ -54,4 +54,17 @@ test("an event that comes late is put in order, one that comes twice is left out
   const events = [event(1), event(3)];
   expect(applyRunEvent(events, event(2)).map((each) => each.seq)).toEqual([1, 2, 3]);
   expect(applyRunEvent(events, event(3))).toBe(events);
+});
+
+const question = (id: string, asked_at: string, state = "open") => ({ id, asked_at, state }) as Question;
+
+test("a question takes its place by its time and is replaced when it is answered", () => {
+  const questions = [question("a", "2026-01-01T10:00"), question("c", "2026-01-01T12:00")];
+  const more = applyQuestion(questions, question("b", "2026-01-01T11:00"));
+  expect(more.map((each) => each.id)).toEqual(["a", "b", "c"]);
+  expect(applyQuestion(more, question("b", "2026-01-01T11:00", "answered")).map((each) => each.state)).toEqual([
+    "open",
+    "answered",
+    "open",
+  ]);
 });

@@ -1,5 +1,15 @@
 /** What `/ws/site/<slug>` says, and how a device changes by it; pure. */
-import type { Compiled, Device, RehearsalStatus, RobotTraffic, RunEvent, RunSummary, SiteStop } from "@/api/types";
+import type {
+  ArmedProgram,
+  Compiled,
+  Device,
+  Question,
+  RehearsalStatus,
+  RobotTraffic,
+  RunEvent,
+  RunSummary,
+  SiteStop,
+} from "@/api/types";
 
 export type DeviceChange = Partial<Device> & { id: string };
 
@@ -10,6 +20,9 @@ export type LiveMessage =
   | ({ type: "compiled"; program: string } & Compiled)
   | { type: "run"; run: RunSummary }
   | { type: "run_event"; run: string; event: RunEvent }
+  | { type: "question"; question: Question }
+  | { type: "notice"; run: string; text: string; level: "info" | "warning" }
+  | { type: "armed"; programs: ArmedProgram[] }
   | { type: "rehearsal"; id: string; status: RehearsalStatus; progress: number }
   | ({ type: "stop" } & SiteStop)
   | { type: "traffic"; robots: Record<string, RobotTraffic> }
@@ -53,4 +66,10 @@ export function applyRun(runs: readonly RunSummary[], run: RunSummary): RunSumma
 export function applyRunEvent(events: readonly RunEvent[], event: RunEvent): readonly RunEvent[] {
   if (events.some((each) => each.seq === event.seq)) return events;
   return [...events, event].sort((a, b) => a.seq - b.seq);
+}
+
+/** Put a question into a list, in the order in which they were asked; one that is known is replaced. */
+export function applyQuestion(questions: readonly Question[], question: Question): Question[] {
+  const rest = questions.filter((each) => each.id !== question.id);
+  return [...rest, question].sort((a, b) => a.asked_at.localeCompare(b.asked_at));
 }

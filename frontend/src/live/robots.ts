@@ -1,4 +1,5 @@
 /** The live robots of a site as the map's robot layer asks for them, once a frame. */
+import { waitWords } from "@/i18n/waits";
 import { statusOf } from "@/map/device";
 import { interpolatePose, type RobotSource, type RobotView } from "@/map/robots";
 import { poseOf } from "./readings";
@@ -24,7 +25,7 @@ export const liveRobots: RobotSource = (now) => {
       theta: pose.theta,
       route: way?.route,
       reserved: way?.reserved,
-      wait: way?.wait ?? null,
+      wait: waitWords(way?.why, (id) => deviceById[id]?.name ?? id) ?? way?.wait ?? null,
     });
   }
   return views;

@@ -4,6 +4,14 @@ import type { Device, RobotTraffic, SiteStop } from "@/api/types";
 
 export type Connection = "connecting" | "live" | "reconnecting";
 
+/** What a run tells people; `id` counts them in this browser. */
+export interface Notice {
+  id: number;
+  run: string;
+  text: string;
+  level: "info" | "warning";
+}
+
 export interface LiveState {
   site: string | null;
   connection: Connection;
@@ -12,6 +20,8 @@ export interface LiveState {
   deviceById: Record<string, Device>;
   traffic: Record<string, RobotTraffic>;
   stop: SiteStop | null;
+  /** The last ones, oldest first. */
+  notices: readonly Notice[];
 }
 
 export const EMPTY: LiveState = {
@@ -21,6 +31,7 @@ export const EMPTY: LiveState = {
   deviceById: {},
   traffic: {},
   stop: null,
+  notices: [],
 };
 
 export const useLiveStore = create<LiveState>(() => EMPTY);

@@ -1,7 +1,9 @@
 /** Programs as rows: what they use, who edited them, whether they are sound, when they last ran. */
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
+import { useSite } from "@/api/queries";
 import type { Program, RunSummary } from "@/api/types";
+import { ArmSwitch } from "@/app/ArmSwitch";
 import { Avatar } from "@/design/Avatar";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatAgo } from "@/i18n/format";
@@ -45,12 +47,14 @@ interface RowProps {
 function Row({ program, run, now, editable }: RowProps) {
   const { t } = useTranslation();
   const editor = nameOf(program.edited_by);
+  const role = useSite(program.site).data?.role;
   return (
     <tr>
       <td className={styles.name}>
         <Link to={`/programs/${program.id}`} className={styles.strong} title={program.name}>
           {program.name}
         </Link>
+        <ArmSwitch site={program.site} program={program} role={role} />
       </td>
       <td className={styles.optional}>
         {program.kinds.length > 0 ? (

@@ -4,8 +4,10 @@ import { useCallback, useEffect, useMemo, useState, type ReactNode } from "react
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { ApiProblem } from "@/api/client";
-import { keys, useDevices, useRun, useRunEvents, useSite, useSiteMap } from "@/api/queries";
+import { keys, useDevices, useQuestions, useRun, useRunEvents, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Run, RunEvent, Site } from "@/api/types";
+import { QuestionCard } from "@/app/questions/QuestionCard";
+import { shownQuestions } from "@/app/questions/shown";
 import { Crumb, TopBar } from "@/app/TopBar";
 import { Chip } from "@/design/Chip";
 import { ProgramMap } from "@/editor/ProgramMap";
@@ -61,6 +63,20 @@ function Notes({ run, problem }: { run: Run; problem: string | null }) {
           <b>{t(`run.status.${run.status}`)}</b> {run.reason}
         </p>
       )}
+    </div>
+  );
+}
+
+/** What the run asks people, over the map. */
+function RunQuestions({ run, allowed }: { run: Run; allowed: boolean }) {
+  const questions = (useQuestions(run.site).data ?? []).filter((question) => question.run === run.id);
+  const shown = shownQuestions(questions);
+  if (shown.length === 0) return null;
+  return (
+    <div className={styles.questions}>
+      {shown.map((question) => (
+        <QuestionCard key={question.id} question={question} allowed={allowed} />
+      ))}
     </div>
   );
 }
@@ -167,6 +183,7 @@ function Loaded({ run, site }: LoadedProps) {
             onSelect={setSelected}
           />
           <Notes run={run} problem={problem} />
+          <RunQuestions run={run} allowed={site !== undefined && site.role !== "viewer"} />
         </section>
         <aside className={styles.side}>
           <StepsPanel
@@ -179,13 +196,15 @@ function Loaded({ run, site }: LoadedProps) {
             nameOf={nameOf}
             onSelect={setSelected}
           />
-          <Journal events={events} numberOf={numberOf} label={t("run.journal")} />
+          <Journal events={events} numberOf={numberOf} nameOf={nameOf} label={t("run.journal")} />
         </aside>
         <Drawer tab={tab} onTab={setTab}>
           {tab === "timeline" && (
             <Timeline {...{ events, devices, elapsed_s, over, numberOf, robotOf }} onSelect={setSelected} />
           )}
-          {tab === "logs" && <Journal events={events} numberOf={numberOf} label={t("run.tab.logs")} full />}
+          {tab === "logs" && (
+            <Journal events={events} numberOf={numberOf} nameOf={nameOf} label={t("run.tab.logs")} full />
+          )}
           {tab === "script" && (
             <ScriptLines
               compiled={run.compiled}

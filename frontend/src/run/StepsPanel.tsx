@@ -4,7 +4,9 @@ import type { RunEvent } from "@/api/types";
 import { StatusGlyph, type StatusName } from "@/design/StatusGlyph";
 import { VipoIcon } from "@/map/VipoIcon";
 import { clock } from "@/design/clock";
+import { waitWords } from "@/i18n/waits";
 import styles from "./RunScreen.module.css";
+import { eventWords } from "./eventWords";
 import { outerProgress, spentSeconds, type StepLine } from "./stepList";
 
 const GLYPHS: Record<StepLine["status"], StatusName> = {
@@ -40,7 +42,11 @@ function Current({ current, now, titleOf, nameOf }: StepsPanelProps) {
         <span className={styles.number}>{current.number}</span> <b>{titleOf(current.step)}</b>
       </p>
       <p className={styles.currentNote}>
-        <span>{current.wait ?? (current.robot ? nameOf(current.robot) : t("run.underWay"))}</span>
+        <span>
+          {waitWords(current.why, nameOf) ??
+            current.wait ??
+            (current.robot ? nameOf(current.robot) : t("run.underWay"))}
+        </span>
         <span>{clock(spentSeconds(current, now) ?? 0)}</span>
       </p>
     </div>
@@ -96,24 +102,33 @@ export function StepsPanel(props: StepsPanelProps) {
   );
 }
 
-const KINDS: Record<string, StatusName> = { wait: "waiting", answer: "done", command: "busy", failed: "error" };
+const KINDS: Record<string, StatusName> = {
+  wait: "waiting",
+  answer: "done",
+  command: "busy",
+  failed: "error",
+  question: "waiting",
+};
 
 function eventGlyph(event: RunEvent): StatusName {
   if (event.code === "step_done" || event.code === "finished") return "done";
   if (event.code.startsWith("step_") && event.code !== "step_entered") return "error";
   if (event.kind === "answer" && event.args.status !== "DONE") return "error";
+  if (event.code === "answered") return "done";
+  if (event.code === "told" && event.args.level === "warning") return "warning";
   return KINDS[event.kind] ?? "idle";
 }
 
 interface JournalProps {
   events: readonly RunEvent[];
   numberOf: (step: string) => string;
+  nameOf: (device: string) => string;
   label: string;
   full?: boolean;
 }
 
 /** What happened, newest last; it stays at the newest while one looks at the end. */
-export function Journal({ events, numberOf, label, full = false }: JournalProps) {
+export function Journal({ events, numberOf, nameOf, label, full = false }: JournalProps) {
   const { t } = useTranslation();
   const list = useRef<HTMLOListElement>(null);
   const shown = full ? events : events.filter((event) => !["command", "way"].includes(event.kind));
@@ -145,7 +160,7 @@ export function Journal({ events, numberOf, label, full = false }: JournalProps)
             <StatusGlyph status={eventGlyph(event)} size={13} />
             <span>
               {event.step && numberOf(event.step) ? <b>{numberOf(event.step)} </b> : null}
-              {event.text}
+              {eventWords(event, nameOf)}
             </span>
           </li>
         ))}

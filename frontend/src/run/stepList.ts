@@ -1,5 +1,5 @@
 /** The steps of a run in reading order, with their state and their time. Pure. */
-import type { Compiled, RunStep, StepStatus } from "@/api/types";
+import type { Compiled, RunStep, StepStatus, WaitReason } from "@/api/types";
 
 export interface StepLine {
   step: string;
@@ -9,6 +9,7 @@ export interface StepLine {
   started_at: string | null;
   ended_at: string | null;
   wait: string | null;
+  why?: WaitReason | null;
   robot: string | null;
   count: number;
 }

@@ -1,6 +1,7 @@
 import { AlertOctagon, CircleCheck } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import type { RehearsalResult } from "@/api/types";
+import { waitWords } from "@/i18n/waits";
 import styles from "./ResultPanel.module.css";
 import { clock } from "@/design/clock";
 
@@ -125,7 +126,7 @@ function Events({ result, nameOf, numberOf, onJump }: ResultPanelProps) {
               <span>
                 <b>{nameOf(wait.robot)}</b> {clock(wait.t)}, {Math.round(wait.duration_s)} s
                 <br />
-                {wait.reason}
+                {waitWords(wait.why, nameOf) ?? wait.reason}
               </span>
             </button>
           </li>

@@ -1,0 +1,25 @@
+/** A line of a run's journal in the language of the screen; what has no words of its own is shown as it was written. */
+import i18next from "i18next";
+import type { RunEvent } from "@/api/types";
+import { waitWords } from "@/i18n/waits";
+
+export function eventWords(event: RunEvent, nameOf: (device: string) => string): string {
+  const { robot, device, args } = event;
+  if (event.kind === "wait" && event.code !== "wait_over") {
+    const reason = { code: event.code, args: { ...scalars(args), robot, device } };
+    return waitWords(reason, nameOf) ?? event.text;
+  }
+  const key = `run.event.${event.code}`;
+  if (!i18next.exists(key)) return event.text;
+  return i18next.t(key, { ...args, value: answerWords(args.value), robot: nameOf(robot), device: nameOf(device) });
+}
+
+function answerWords(value: unknown): string {
+  if (typeof value === "boolean") return i18next.t(value ? "run.question.yes" : "run.question.no");
+  return typeof value === "string" || typeof value === "number" ? String(value) : "";
+}
+
+function scalars(args: Readonly<Record<string, unknown>>): Record<string, string | number | boolean> {
+  const kept = Object.entries(args).filter(([, value]) => ["string", "number", "boolean"].includes(typeof value));
+  return Object.fromEntries(kept) as Record<string, string | number | boolean>;
+}
