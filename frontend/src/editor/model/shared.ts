@@ -4,8 +4,9 @@ import { IndexeddbPersistence } from "y-indexeddb";
 import { WebsocketProvider } from "y-websocket";
 import * as Y from "yjs";
 import type { Edit } from "./edits";
+import { writeEdit } from "./writing";
 import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
-import type { ProgramDocument, Step } from "./types";
+import type { ProgramDocument } from "./types";
 
 /** The server's own message: a number, and the state vector of what is in the database. */
 const MESSAGE_SAVED = 100;
@@ -134,61 +135,6 @@ export class SharedProgram {
 /** Apply edits as one transaction. */
 export function applyEditsToDoc(doc: Y.Doc, edits: readonly Edit[], origin: unknown = null): void {
   doc.transact(() => {
-    for (const edit of edits) applyToDoc(doc, edit);
+    for (const edit of edits) writeEdit(doc, edit);
   }, origin);
-}
-
-function applyToDoc(doc: Y.Doc, edit: Edit): void {
-  const steps = doc.getMap<Y.Map<unknown>>("steps");
-  switch (edit.do) {
-    case "add_step":
-      steps.set(edit.id, sharedStep(edit.step));
-      return;
-    case "remove_step":
-      steps.delete(edit.id);
-      return;
-    case "set_place":
-      steps.get(edit.id)?.set("place", edit.place);
-      return;
-    case "set_pos":
-      steps.get(edit.id)?.set("pos", edit.pos);
-      return;
-    case "set_param":
-      setOrDelete(paramsOf(steps.get(edit.id)), edit.name, edit.value);
-      return;
-    case "set_function":
-      setOrDelete(doc.getMap("functions"), edit.id, edit.value);
-      return;
-    case "set_role":
-      setOrDelete(doc.getMap("roles"), edit.id, edit.value);
-      return;
-    case "set_parameter":
-      setOrDelete(doc.getMap("parameters"), edit.id, edit.value);
-      return;
-    case "set_zone":
-      setOrDelete(doc.getMap("zones"), edit.id, edit.value);
-      return;
-    case "set_start":
-      doc.getMap("meta").set("start_pos", edit.pos);
-  }
-}
-
-function sharedStep(step: Step): Y.Map<unknown> {
-  const shared = new Y.Map<unknown>();
-  shared.set("kind", step.kind);
-  shared.set("place", step.place ?? null);
-  shared.set("pos", step.pos ?? null);
-  shared.set("params", new Y.Map(Object.entries(step.params)));
-  return shared;
-}
-
-function paramsOf(step: Y.Map<unknown> | undefined): Y.Map<unknown> | null {
-  const params = step?.get("params");
-  return params instanceof Y.Map ? params : null;
-}
-
-function setOrDelete(map: Y.Map<unknown> | null, name: string, value: unknown): void {
-  if (!map) return;
-  if (value === null || value === undefined) map.delete(name);
-  else map.set(name, value);
 }
