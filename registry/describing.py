@@ -13,7 +13,6 @@ from registry.rdf_text import (
     FORMS,
     BadDescription,
     DescriptionForm,
-    Fault,
     form_of_json,
     form_of_text,
     is_json,
@@ -57,7 +56,7 @@ def read(payload: bytes, *, device_id: str | None = None) -> Reading:
             f"The description is of {description.id[:64]!r}, but it came on the topic of {device_id!r}. Use one id."
         )
     if faults := find_faults(description):
-        raise BadDescription("The description cannot be believed.", *(Fault(fault) for fault in faults))
+        raise BadDescription(*faults, heading="The description cannot be believed.")
     return reading
 
 

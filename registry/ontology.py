@@ -94,7 +94,8 @@ def _parser_fault(text: str, error: BaseException) -> Fault:
     if not isinstance(at, int):
         return Fault(f"{says}: the parser could not follow it.")
     line, column = place_in(text, min(at, len(text)))
-    return Fault(f"{says}: {str(why).rstrip('.')[:120]}.", line, column)
+    told = str(why).rstrip(".")[:120]
+    return Fault(f"{says}: {told}. Look just before it for a missing dot, quote, bracket or prefix.", line, column)
 
 
 def _describe(graph: Graph) -> Description:

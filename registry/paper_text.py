@@ -48,7 +48,7 @@ class _Reader:
     """Gathers places and notes while the lines become JSON."""
 
     places: dict[str, tuple[int, int]] = field(default_factory=dict)
-    notes: list[str] = field(default_factory=list)
+    notes: list[tuple[int, str]] = field(default_factory=list)
 
     def refuse(self, line: _Line, reason: str) -> NoReturn:
         raise BadDescription(Fault(f"The description {reason}.", line.number, line.column))
@@ -59,7 +59,7 @@ def read_text(text: str) -> MessageText:
     reader = _Reader()
     lines = list(_lines(text, reader))
     body = _mapping(reader, lines, "")
-    return MessageText(body, reader.places, tuple(reader.notes))
+    return MessageText(body, reader.places, tuple(f"Line {line}: {note}" for line, note in sorted(reader.notes)))
 
 
 def _lines(text: str, reader: _Reader) -> Iterator[_Line]:
@@ -92,9 +92,9 @@ def _line(reader: _Reader, number: int, indent: int, begins: bool, content: str)
     if match is None or (bare and key not in KEYS) or (bare and not value and key not in SECTIONS):
         reader.refuse(line, f"has a line that is not `key: value`: {content[:40]!r}")
     if bare:
-        reader.notes.append(f"Line {number}: put a colon behind {key}.")
+        reader.notes.append((number, f"put a colon behind {key}."))
     if key != written:
-        reader.notes.append(f"Line {number}: read {written!r} as {key}.")
+        reader.notes.append((number, f"read {written!r} as {key}."))
     return line
 
 
@@ -161,7 +161,7 @@ def _value(reader: _Reader, line: _Line) -> Any:
         if mended is None or "not JSON" not in error.reason:
             told = error.reason.removeprefix("The message ")
             reader.refuse(line, f"{told.rstrip('.')} in the value of {line.key}")
-        reader.notes.append(f"Line {line.number}: put the value of {line.key} in quotes: {mended!r}.")
+        reader.notes.append((line.number, f"put the value of {line.key} in quotes: {mended!r}."))
         return mended
 
 

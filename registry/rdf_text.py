@@ -73,9 +73,9 @@ class BadDescription(RegistryError):
     code = "bad_description"
     status = 422
 
-    def __init__(self, *faults: Fault | str) -> None:
+    def __init__(self, *faults: Fault | str, heading: str = "") -> None:
         self.faults = tuple(Fault(fault) if isinstance(fault, str) else fault for fault in faults)
-        super().__init__(" ".join(fault.sentence for fault in self.faults[:5]))
+        super().__init__(" ".join([heading, *(fault.sentence for fault in self.faults[:5])]).strip())
 
 
 def form_of(payload: bytes) -> DescriptionForm:

@@ -13,6 +13,7 @@ from jsonschema.exceptions import best_match
 from registry.rdf_text import BadDescription, Fault
 
 SCHEMA = Path(__file__).parent / "schemas" / "thing-description-1.1.json"
+MOST_FAULTS = 5
 
 
 @cache
@@ -21,10 +22,14 @@ def _validator() -> Draft7Validator:
 
 
 def check_thing(body: Any) -> None:
-    """Refuse a Thing that the schema does not allow, with its worst fault. Raises BadDescription."""
-    error = best_match(_validator().iter_errors(body))
-    if error is None:
-        return
+    """Refuse a Thing that the schema does not allow, with its first faults. Raises BadDescription."""
+    errors = sorted(_validator().iter_errors(body), key=lambda error: error.json_path)
+    if errors:
+        faults = [_fault(best_match([error])) for error in errors[:MOST_FAULTS]]
+        raise BadDescription(*faults, heading="The description is no Thing Description 1.1.")
+
+
+def _fault(error: Any) -> Fault:
     path = "".join(f"/{str(part).replace('~', '~0').replace('/', '~1')}" for part in error.absolute_path)
-    text = f"The description is no Thing Description 1.1: {error.message[:200].rstrip('.')}."
-    raise BadDescription(Fault(text, path=path))
+    message = error.message if len(error.message) <= 200 else f"{error.message[:60]}…{error.message[-100:]}"
+    return Fault(f"The TD schema says: {message.rstrip('.')}.", path=path)

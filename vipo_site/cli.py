@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 from editor.language import compile_document, compiled_to_json, plan_to_json
 from editor.language.compiled import Compiled, diagnostic_to_json
 from editor.language.phrases import LANGUAGES, Language
+from registry.rdf_text import FORMS
 from vipo_site.program_file import FaultyScript, ProgramFile, UnreadableFile, read_program_file
 
 CLEAN, FAULTY, UNUSABLE = 0, 1, 2
@@ -31,9 +32,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code: 0 clean, 1 errors in the program, 2 nothing could be done."""
     options = _parser().parse_args(arguments)
     try:
-        program = read_program_file(options.file, options.site)
-        command: Callable[[ProgramFile, argparse.Namespace], int] = options.command
-        return command(program, options)
+        run: Callable[[argparse.Namespace], int] = options.run
+        return run(options)
     except FaultyScript as error:
         if options.json:
             _write_json({"diagnostics": [diagnostic_to_json(diagnostic) for diagnostic in error.diagnostics]})
@@ -49,6 +49,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return CLEAN
 
 
+def _run_on_program(options: argparse.Namespace) -> int:
+    command: Callable[[ProgramFile, argparse.Namespace], int] = options.command
+    return command(read_program_file(options.file, options.site), options)
+
+
+def _describe(options: argparse.Namespace) -> int:
+    # imported late: reading RDF takes a library that the other commands do not need
+    from vipo_site.describe_file import describe_file
+
+    return describe_file(options)
+
+
 class _Parser(argparse.ArgumentParser):
     """Tells of bad usage in one sentence."""
 
@@ -59,20 +71,29 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="vipo", description="Check, print, plan and rehearse programs for robots and machines.")
-    commands = parser.add_subparsers(required=True, metavar="check|script|plan|rehearse", parser_class=_Parser)
+    commands = parser.add_subparsers(required=True, metavar="check|script|plan|rehearse|describe", parser_class=_Parser)
     for name, command, text in _COMMANDS:
         sub = commands.add_parser(name, help=text, description=text)
         sub.add_argument("file", type=Path, help="a program file (.json), a document (.json) or a script (.py)")
         sub.add_argument("--site", type=Path, help="the site file, when the program file names none")
         sub.add_argument("--json", action="store_true", help="write JSON for machines")
         sub.add_argument("--lang", choices=LANGUAGES, default="en", help="the language of what the checks say (en)")
-        sub.set_defaults(command=command)
+        sub.set_defaults(command=command, run=_run_on_program)
         if name == "rehearse":
             sub.add_argument("--seed", type=int, default=0, help="another seed, another course of chance (0)")
             sub.add_argument(
                 "--driver", choices=("physics", "kinematic"), default="physics", help="who drives (physics)"
             )
+    _add_describe(commands.add_parser("describe", help=_DESCRIBE, description=_DESCRIBE))
     return parser
+
+
+def _add_describe(sub: argparse.ArgumentParser) -> None:
+    sub.add_argument("file", type=Path, help="a description: Turtle, N-Triples, JSON-LD, a TD or the paper's message")
+    sub.add_argument("--to", choices=FORMS, help="write it in this form")
+    sub.add_argument("--shacl", action="store_true", help="hold it against the SHACL shapes, too")
+    sub.add_argument("--json", action="store_true", help="write JSON for machines")
+    sub.set_defaults(run=_describe)
 
 
 def _check(program: ProgramFile, options: argparse.Namespace) -> int:
@@ -139,6 +160,9 @@ _COMMANDS: tuple[tuple[str, Callable[[ProgramFile, argparse.Namespace], int], st
     ("plan", _plan, "Print the instructions that a run carries out."),
     ("rehearse", _rehearse, "Run a program in simulation, in virtual time, and say how it went."),
 )
+
+
+_DESCRIBE = "Say what a device's description holds and what is wrong with it, or write it in another form."
 
 
 def _compile(program: ProgramFile) -> Compiled:
