@@ -48,8 +48,9 @@ export function TopBar({ site, crumbs, chips, children, presence, actions }: Top
   );
 }
 
-/** One part of the crumbs; the last one is where we are. */
+/** One part of the crumbs; the last one is where we are. A name that is still being fetched is no link yet. */
 export function Crumb({ to, children }: { to?: string; children: ReactNode }) {
+  if (!children) return null;
   if (!to) return <span className={styles.crumbHere}>{children}</span>;
   return (
     <>
