@@ -24,6 +24,8 @@ class Context:
     surroundings: Surroundings
     variables: Mapping[str, Kind] = field(default_factory=dict)
     """The parameters that can be seen in the block being checked."""
+    zones: frozenset[str] = frozenset()
+    """The ids of the zones that the document has."""
     found: list[tuple[Problem, int]] = field(default_factory=list)
     functions: Mapping[str, n.Function] = field(init=False)
     roles: Mapping[str, n.Role] = field(init=False)

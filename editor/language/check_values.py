@@ -4,11 +4,21 @@ from __future__ import annotations
 
 from editor.language import nodes as n
 from editor.language.check_context import Context
-from editor.language.check_devices import check_readings
-from editor.language.diagnostics import fix_value
+from editor.language.check_devices import check_readings, known_device
+from editor.language.diagnostics import TextArguments, fix_value
 from editor.language.phrases import Amounts, Options, Plural, Span
-from editor.language.plan import Constant, Expression
-from editor.language.typing_of_values import TYPE_WORDS, Kind, Typing, plain_type, unit_word
+from editor.language.plan import Constant, Expression, Located, Operation, Reading
+from editor.language.possible_values import first_limited_reading, possible
+from editor.language.settling_units import settle_units
+from editor.language.typing_of_values import (
+    TYPE_WORDS,
+    Kind,
+    Typing,
+    constant_value,
+    plain_type,
+    property_spec,
+    unit_word,
+)
 from editor.language.units import same_dimension
 from editor.language.values import is_number, parts_of
 from registry.capability import ParameterSpec
@@ -28,6 +38,7 @@ def check_value(
     before = len(context.found)
     if not isinstance(value, Constant):
         check_readings(context, node, value, field)
+        _check_things(context, node, value, field)
     typing = Typing(context.surroundings, context.variables, [])
     kind = typing.kind_of(value)
     for mismatch in typing.mismatches:
@@ -41,12 +52,67 @@ def check_value(
     return len(context.found) == before
 
 
+def _check_things(context: Context, node: n.Node, value: Expression, field: str) -> None:
+    """Check that the devices, places and zones that an expression speaks of exist."""
+    for part in parts_of(value):
+        if not isinstance(part, Located):
+            continue
+        if part.device is not None:
+            known_device(context, node, part.device, field)
+        elif part.place is not None and part.place not in context.surroundings.places:
+            context.tell(node, "unknown_place", field, {"place": part.place})
+        elif part.zone is not None and part.zone not in context.zones:
+            context.tell(node, "unknown_zone", field, {"zone": part.zone})
+
+
+def settled(context: Context, value: Expression, unit: str) -> Expression:
+    """Return a value as it is in a unit when the program runs."""
+    return settle_units(value, unit, Typing(context.surroundings, context.variables, []))
+
+
 def check_condition(context: Context, node: n.Node, condition: Expression, field: str) -> None:
     """Check a condition: it must be there, and give yes or no."""
     if has_missing(condition):
         context.tell(node, "missing_condition", field)
-    else:
-        check_value(context, node, condition, field, Kind("boolean"), "A condition")
+    elif check_value(context, node, condition, field, Kind("boolean"), "A condition"):
+        _check_possible(context, node, condition, field)
+
+
+def _check_possible(context: Context, node: n.Node, condition: Expression, field: str) -> None:
+    """Tell of a condition that can never hold, or always does, in the ranges that its devices declare."""
+    verdict = possible(condition, context.surroundings, context.variables)
+    if verdict is None:
+        return
+    if isinstance(node, n.WaitUntil) and verdict is False and node.timeout_s is None:
+        context.tell(node, "waits_for_ever", field)
+    elif constant_value(condition) is None:
+        reading = first_limited_reading(condition, context.surroundings)
+        if verdict is False and _each_is_possible(context, condition):
+            context.tell(node, "contradiction", field)
+        elif reading is not None:
+            code = "always_true_in_range" if verdict else "never_true_in_range"
+            context.tell(node, code, field, _declared(context, reading))
+
+
+def _each_is_possible(context: Context, condition: Expression) -> bool:
+    """Tell whether conditions that never hold together could each hold alone."""
+    if not isinstance(condition, Operation) or condition.operator != "and":
+        return False
+    site, variables = context.surroundings, context.variables
+    return all(possible(argument, site, variables) is not False for argument in condition.arguments)
+
+
+def _declared(context: Context, reading: Reading) -> TextArguments:
+    """Return what a device declares of its property, for a sentence."""
+    spec = property_spec(reading, context.surroundings)
+    device = reading.device.value if isinstance(reading.device, Constant) else ""
+    facts = context.surroundings.devices.get(str(device))
+    limits: Options | Span = Options(())
+    if spec is not None:
+        span = Span(spec.minimum, spec.maximum, unit_word(spec.unit))
+        limits = Options(spec.options, "or") if spec.options else span
+    name = str(device) if facts is None else facts.description.name
+    return {"device": name, "property": reading.property, "range": limits}
 
 
 def check_argument(  # noqa: PLR0913 - one argument is checked in the light of all of these
@@ -71,6 +137,7 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
     wanted = Kind(parameter.type, parameter.unit) if typed else Kind()
     if not check_value(context, node, value, field, wanted, parameter.name.capitalize()):
         return
+    value = settled(context, value, parameter.unit)
     if isinstance(value, Constant):
         _check_limits(context, node, parameter, value, field)
 

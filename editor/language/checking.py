@@ -22,6 +22,7 @@ from editor.language.reading import Reading
 from editor.language.surroundings import Surroundings
 from editor.language.typing_of_values import NUMBER, Kind, constant_value, plain_type
 from editor.language.walking import needed_of_roles, walk
+from editor.language.zones import read_zones
 from registry.capability import ParameterSpec
 
 
@@ -33,6 +34,7 @@ def check(
     `tree` is the reading's tree with the moves that were put in, `document` what was read.
     """
     context = Context(tree, surroundings)
+    context.zones = frozenset(zone.id for zone in read_zones(document))
     found = context.found
     found.extend((problem, 0) for problem in reading.problems)
     already = {(problem.step, problem.field) for problem in reading.problems}

@@ -60,6 +60,12 @@ _VALUES: Final = {
     "quantity_not_positive": "Nobody can carry none, or half an object.",
     "quantity_above_capacity": "The largest robot that can take the role holds fewer.",
     "times_not_whole": "A Repeat counts whole rounds.",
+    "unknown_unit": "The unit is none of the list, so values in it cannot be converted.",
+    "unknown_zone": "A value asks for a zone that was removed, or whose corners are not at least three.",
+    "never_true_in_range": "The device declares a range, or options, in which the condition does not hold.",
+    "always_true_in_range": "The device declares a range, or options, in all of which the condition holds.",
+    "contradiction": "Each condition can hold alone, and all of them together cannot.",
+    "waits_for_ever": "A Wait has no limit, and what it waits for cannot happen in the declared ranges.",
 }
 _CARRYING: Final = {
     "carrying_too_much": "Followed along all ways to this step, the robot is full on each of them.",

@@ -123,6 +123,13 @@ TEXTS: Final[Mapping[str, Text]] = {
         "Version {newest} of {function} in the library takes other values: {parameters}. "
         "Bring it in and enter them anew.",
     ),
+    # values: units, zones and ranges
+    "unknown_unit": ("error", "{unit} is not a unit that VIPO knows. Choose another."),
+    "unknown_zone": ("error", "There is no zone {zone} in this program. Draw it, or choose another."),
+    "never_true_in_range": ("warning", "{property} of {device} is always {range}, so this is never true."),
+    "always_true_in_range": ("warning", "{property} of {device} is always {range}, so this is always true."),
+    "contradiction": ("warning", "These conditions exclude each other, so this is never true."),
+    "waits_for_ever": ("error", "This never comes true, so the program waits for ever. Change it, or enter a limit."),
     # machines on the floor, and zones
     "station_unreachable": ("error", "{robot} finds no way to {device}, or no room to stand beside it."),
     "place_in_keep_out": (

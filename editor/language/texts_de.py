@@ -114,6 +114,13 @@ TEXTS_DE: Final[Mapping[str, str]] = {
         "Version {newest} von {function} in der Bibliothek braucht andere Werte: "
         "{parameters}. Holen Sie sie und geben Sie diese neu ein."
     ),
+    # values: units, zones and ranges
+    "unknown_unit": "{unit} ist keine Einheit, die VIPO kennt. Wählen Sie eine andere.",
+    "unknown_zone": "Es gibt keine Zone {zone} in diesem Programm. Zeichnen Sie sie, oder wählen Sie eine andere.",
+    "never_true_in_range": "{property} von {device} ist immer {range}; deshalb gilt das nie.",
+    "always_true_in_range": "{property} von {device} ist immer {range}; deshalb gilt das immer.",
+    "contradiction": "Diese Bedingungen schließen einander aus; deshalb gilt das nie.",
+    "waits_for_ever": "Das tritt nie ein; das Programm wartet für immer. Ändern Sie es, oder setzen Sie eine Grenze.",
     # machines on the floor, and zones
     "station_unreachable": "{robot} findet keinen Weg zu {device} oder keinen Platz daneben.",
     "place_in_keep_out": (
