@@ -1,40 +1,118 @@
-/** The task script beside the drawing: each line knows its step, and the other way round. */
-import { useEffect, useRef } from "react";
-import { useOpenProgram } from "../state/context";
+/** The task script beside the drawing: each line knows its step, and what is typed changes the drawing. */
+import { useEffect, useId, useMemo, useRef, useState, useSyncExternalStore } from "react";
+import i18next from "i18next";
+import { completeScript } from "../script/completion";
+import type { LineMessage, ScriptContent } from "../script/decorations";
+import { openScript, type ScriptView } from "../script/scriptView";
+import type { ScriptSession, ScriptState } from "../script/session";
+import { sameLines } from "../script/textMerge";
+import { useScriptSession } from "../script/useScriptSession";
+import { useOpenProgram, type OpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
 import classes from "./drawer.module.css";
-import { openScript, type ScriptView } from "./scriptView";
 
 export function ScriptPanel() {
   const { compiled, t } = useOpenProgram();
-  return compiled?.script ? <ScriptText /> : <p className={classes.nothing}>{t("script.none")}</p>;
+  const session = useScriptSession();
+  const ready = compiled?.script && session;
+  return ready ? <ScriptText session={session} /> : <p className={classes.nothing}>{t("script.none")}</p>;
 }
 
-function ScriptText() {
-  const { compiled, diagnostics, t } = useOpenProgram();
+function ScriptText({ session }: { session: ScriptSession }) {
+  const open = useOpenProgram();
+  const { canEdit, t } = open;
+  const state = useSyncExternalStore(session.subscribe, session.getState);
   const selected = useUi((ui) => ui.selected);
   const place = useRef<HTMLDivElement>(null);
-  const view = useRef<ScriptView | null>(null);
+  const [view, setView] = useState<ScriptView | null>(null);
+  const devices = useRef(open.devices);
+  const telling = useId();
   const label = t("drawer.script");
   useEffect(() => {
-    if (!place.current) return;
-    const opened = openScript(place.current, label, (step) => select([step]));
-    view.current = opened;
-    return () => {
-      opened.destroy();
-      view.current = null;
-    };
-  }, [label]);
+    devices.current = open.devices;
+  }, [open.devices]);
   useEffect(() => {
-    if (compiled)
-      view.current?.show({
-        script: compiled.script,
-        lines: compiled.lines,
-        numbers: compiled.numbers,
-        diagnostics,
-        selected: new Set(selected),
-        scrollTo: selected.at(-1) ?? null,
-      });
-  }, [compiled, diagnostics, selected, label]);
-  return <div ref={place} className={classes.script} />;
+    if (!place.current) return;
+    const opened = openScript(place.current, label, canEdit, {
+      onStep: (step) => select([step]),
+      onType: (text) => session.type(text),
+      onFocus: (focused) => session.focus(focused),
+      onLeave: () => document.getElementById("drawer-tab-script")?.focus(),
+      complete: completeScript(() => devices.current),
+    });
+    setView(opened);
+    return () => {
+      setView(null);
+      session.focus(false);
+      opened.destroy();
+    };
+  }, [label, canEdit, session]);
+  const content = useMemo(() => contentOf(open, state, selected, telling), [open, state, selected, telling]);
+  useEffect(() => view?.show(content), [view, content]);
+  return (
+    <div className={classes.scriptPanel}>
+      <div ref={place} className={classes.script} />
+      <ScriptStrip state={state} session={session} id={telling} />
+    </div>
+  );
+}
+
+function ScriptStrip({ state, session, id }: { state: ScriptState; session: ScriptSession; id: string }) {
+  const { t } = useOpenProgram();
+  const { problems, conflicts, failed } = state;
+  const [first] = problems;
+  const [met] = conflicts;
+  const invalid = first !== undefined || failed !== null;
+  return (
+    <div role="status" id={id} className={classes.scriptStrip} data-shown={invalid || met ? true : undefined}>
+      {invalid ? (
+        <p>
+          <strong>{t("script.invalid")}</strong> {failed ?? (first ? inWords(first) : "")}
+        </p>
+      ) : null}
+      {met ? <p>{t("script.met", { line: met.line, text: met.theirs.join(" ").trim() })}</p> : null}
+      {invalid ? (
+        <button type="button" className={classes.scriptDiscard} onClick={() => session.discard()}>
+          {t("script.discard")}
+        </button>
+      ) : null}
+    </div>
+  );
+}
+
+function inWords(problem: ScriptState["problems"][number]): string {
+  return problem.messages?.[i18next.resolvedLanguage ?? "en"] ?? problem.message;
+}
+
+function contentOf(
+  { compiled, diagnostics }: OpenProgram,
+  { text, own, problems, conflicts }: ScriptState,
+  selected: readonly string[],
+  telling: string,
+): ScriptContent {
+  const printed = compiled?.script ?? "";
+  const places = own ? sameLines(printed, text) : null;
+  const lines = compiled?.lines ?? [];
+  const line = (number: number) => (places ? places.indexOf(number - 1) + 1 : number);
+  const checks = diagnostics.flatMap(({ line: at, message: said, severity }): LineMessage[] =>
+    at && line(at) > 0 ? [{ line: line(at), text: said, severity }] : [],
+  );
+  const refusals = problems.map((each): LineMessage => ({ line: each.line, text: each.expected, severity: "error" }));
+  return {
+    text,
+    lines: places ? places.map((at) => lines[at] ?? "") : lines,
+    numbers: compiled?.numbers ?? {},
+    messages: problems.length > 0 ? refusals : checks,
+    underlines: problems.map((each) => ({
+      line: each.line,
+      column: each.column,
+      endLine: each.end_line,
+      endColumn: each.end_column,
+      text: inWords(each),
+    })),
+    conflicts,
+    selected: new Set(selected),
+    scrollTo: selected.at(-1) ?? null,
+    describedBy: problems.length > 0 ? telling : null,
+  };
 }

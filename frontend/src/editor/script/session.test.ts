@@ -60,7 +60,7 @@ function draw({ text, base, shown }: ScriptRequest): DrawnScript {
   const lines = text.split("\n").filter((line) => line.trim());
   const wrong = lines.findIndex((line) => !/^\s*wait\s+\d+\s*$/.test(line));
   if (wrong >= 0) {
-    const problem = { line: wrong + 1, column: 1, end_line: null, end_column: null, message: "No." };
+    const problem = { line: wrong + 1, column: 1, end_line: null, end_column: null, message: "No.", expected: "" };
     return { ok: false, stale: false, document: null, script, lines: [], diagnostics: [problem] };
   }
   const known = inOrder(base);

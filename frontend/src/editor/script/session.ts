@@ -13,6 +13,7 @@ export interface ScriptProblem {
   readonly end_line: number | null;
   readonly end_column: number | null;
   readonly message: string;
+  readonly expected: string;
   readonly messages?: Readonly<Record<string, string>>;
 }
 
@@ -121,13 +122,6 @@ export class ScriptSession {
       this.#working = null;
     });
     await this.#working;
-  }
-
-  /** Nothing is drawn any more; call it when the program is closed. */
-  close(): void {
-    if (this.#timer !== null) clearTimeout(this.#timer);
-    this.#again = false;
-    this.#state = { ...this.#state, own: false };
   }
 
   #soon(pause = PAUSE_MS): void {

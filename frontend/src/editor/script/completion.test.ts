@@ -1,0 +1,73 @@
+import { expect, test } from "vitest";
+import { optionsAt, pythonName, type NamedDevice } from "./completion";
+
+const OVEN: NamedDevice = {
+  id: "curingOven01",
+  name: "Curing Oven",
+  kind: "machine",
+  methods: [{ name: "curePaint", parameters: [{ name: "time" }] }],
+  properties: [{ name: "temperature", unit: "DEG_C" }],
+};
+const MIXER: NamedDevice = { ...OVEN, id: "paintMixer01", name: "Paint Mixer A", methods: [] };
+
+const SCRIPT = `class Task(object):
+    def new_task(self):
+        self.count = 1
+
+    def mix_paint(self, minutes):
+        pass
+
+    def branch_1a(self):
+        pass
+
+    def run(self, ctx):
+        self.robot = ctx.any("pick", "drop")
+        self.curing_oven = ctx.get("curingOven01")
+        self.new_task()
+`;
+
+function labels(line: string): string[] {
+  return (optionsAt(`${SCRIPT}\n${line}`, SCRIPT, [OVEN, MIXER])?.options ?? []).map((option) => option.label);
+}
+
+test("names become Python names as the compiler makes them", () => {
+  expect(["Painting Machine", "curePaint", "RDFStore", "3D printer", "!"].map(pythonName)).toEqual([
+    "painting_machine",
+    "cure_paint",
+    "rdf_store",
+    "n3_d_printer",
+    "unnamed",
+  ]);
+});
+
+test("behind self stand what run gives, functions, variables and the site's other devices", () => {
+  expect(labels("        self.")).toEqual([
+    "robot",
+    "curing_oven",
+    "mix_paint",
+    "count",
+    "wait",
+    "parallel",
+    "ask",
+    "notify",
+    "end",
+    "paint_mixer_a",
+  ]);
+  const mixer = optionsAt("        self.pa", SCRIPT, [OVEN, MIXER])?.options.at(-1);
+  expect(mixer).toEqual({ label: "paint_mixer_a", detail: "Paint Mixer A", kind: "device", give: "paintMixer01" });
+});
+
+test("behind a device stand what it does and reports, behind a robot its verbs", () => {
+  expect(labels("        self.curing_oven.")).toEqual(["cure_paint", "temperature", "location"]);
+  expect(labels("        self.robot.p")).toEqual(["move", "pick", "drop"]);
+});
+
+test("devices are offered by id where run gives them", () => {
+  expect(labels('        self.x = ctx.get("')).toEqual(["curingOven01", "paintMixer01"]);
+  expect(labels("        self.x = ctx.")).toContain("any");
+});
+
+test("the word that is completed begins behind the point", () => {
+  expect(optionsAt("        self.rob", SCRIPT, [])?.start).toBe(13);
+  expect(optionsAt("        1 + ", SCRIPT, [])).toBeNull();
+});
