@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from editor.language.phrases import LANGUAGES, Argument, Language, Said, say_argument
+from editor.language.phrases import LANGUAGES, Argument, Language, Refusal, Said, say_argument
 from editor.language.texts import FIX_TEXTS, NOT_NOW, TEXTS
 from editor.language.texts_de import FIX_TEXTS_DE, TEXTS_DE
 from registry.capability import Scalar
@@ -15,8 +15,9 @@ from registry.capability import Scalar
 Severity = Literal["error", "warning"]
 When = Literal["now", "ever"]
 TextArguments = Mapping[str, Argument]
-_FIXED_WORDS = frozenset({"subject", "wanted", "given", "left", "right", "detail", "instead", "found"})
+_FIXED_WORDS = frozenset({"subject", "wanted", "given", "left", "right", "operator"})
 """Arguments that may be words of the language rather than names of the site."""
+_OF_SCRIPTS = frozenset({"found", "instead", "detail"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,8 +98,12 @@ def _fill(text: str, args: TextArguments, language: Language) -> str:
 
 
 def _say(name: str, argument: Argument, language: Language) -> str:
-    fixed = isinstance(argument, str) and name in _FIXED_WORDS
-    return say_argument(Said(str(argument)) if fixed else argument, language)
+    if isinstance(argument, str) and language != "en":
+        if name in _FIXED_WORDS:
+            return Said(argument).say(language)
+        if name in _OF_SCRIPTS:
+            return Refusal(argument).say(language)
+    return say_argument(argument, language)
 
 
 def put_into_words(problem: Problem, line: int | None, column: int | None = None) -> Diagnostic:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+from functools import cache
 from typing import Literal
 
+from editor.language.refusals_de import REFUSALS_DE
 from editor.language.words_de import WORDS_DE
 
 Language = Literal["en", "de"]
@@ -19,7 +22,20 @@ class Said:
 
     def say(self, language: Language) -> str:
         """Return the words."""
-        return self.english if language == "en" else WORDS_DE.get(self.english, self.english)
+        if language == "en":
+            return self.english
+        return WORDS_DE.get(self.english, self.english.replace("“", "„").replace("”", "“"))
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """What was found in a script, or what to write instead."""
+
+    english: str
+
+    def say(self, language: Language) -> str:
+        """Return the words."""
+        return self.english if language == "en" else refused_in_german(self.english)
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +158,7 @@ class Driver:
         return f"{'the robot' if language == 'en' else 'den Roboter'} {Quoted(self.name).say(language)}"
 
 
-Phrase = Said | TypeWord | Quoted | Span | Amounts | Plural | Options | Robot | Driver
+Phrase = Said | Refusal | TypeWord | Quoted | Span | Amounts | Plural | Options | Robot | Driver
 Argument = str | int | float | Phrase
 
 
@@ -153,6 +169,26 @@ def say_argument(argument: Argument, language: Language) -> str:
     if isinstance(argument, int | float):
         return number_text(argument, language)
     return argument.say(language)
+
+
+def refused_in_german(english: str) -> str:
+    """Return why a script is refused in German; as it is, when it is nothing that VIPO says."""
+    for pattern, german in _refusals():
+        found = pattern.fullmatch(english)
+        if found is not None:
+            return german.format_map(found.groupdict())
+    return english
+
+
+@cache
+def _refusals() -> tuple[tuple[re.Pattern[str], str], ...]:
+    return tuple((_pattern(english), german) for english, german in REFUSALS_DE.items())
+
+
+def _pattern(english: str) -> re.Pattern[str]:
+    pieces = re.split(r"\{([xy])\}", english)
+    named = (re.escape(piece) if index % 2 == 0 else f"(?P<{piece}>.+)" for index, piece in enumerate(pieces))
+    return re.compile("".join(named), re.DOTALL)
 
 
 def number_text(value: float, language: Language) -> str:

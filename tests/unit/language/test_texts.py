@@ -1,10 +1,14 @@
 from __future__ import annotations
 
+import ast
+from collections.abc import Iterator
+from pathlib import Path
 from string import Formatter
 
 import pytest
 
-from editor.language.diagnostics import Fix, Problem, put_into_words
+from editor.language import parsing
+from editor.language.diagnostics import Fix, Problem, TextArguments, put_into_words
 from editor.language.phrases import (
     Amounts,
     Driver,
@@ -12,6 +16,7 @@ from editor.language.phrases import (
     Phrase,
     Plural,
     Quoted,
+    Refusal,
     Robot,
     Said,
     Span,
@@ -71,6 +76,10 @@ def test_every_sentence_ends_and_has_a_severity(code: str) -> None:
         (TypeWord("a number", capital=True), "A number", "Eine Zahl"),
         (Quoted("<"), "“<”", "„<“"),
         (Said("The quantity"), "The quantity", "Die Menge"),
+        (Refusal("Write self.end()."), "Write self.end().", "Schreiben Sie self.end()."),
+        (Refusal("Call it oven_2."), "Call it oven_2.", "Nennen Sie es oven_2."),
+        (Refusal("“import os”"), "“import os”", "„import os“"),
+        (Refusal("Something new."), "Something new.", "Something new."),
     ],
 )
 def test_a_phrase_is_said_in_both_languages(phrase: Phrase, english: str, german: str) -> None:
@@ -83,7 +92,7 @@ def test_numbers_have_the_comma_of_their_language() -> None:
 
 def test_a_problem_is_put_into_words_in_both_languages() -> None:
     fix = Fix("set_to", "a", "quantity", 1, {"value": 1})
-    args = {"things": Plural("box"), "robot": Robot("TurtleBot", sort=True), "range": Amounts(2)}
+    args: TextArguments = {"things": Plural("box"), "robot": Robot("TurtleBot", sort=True), "range": Amounts(2)}
     said = put_into_words(Problem("missing_quantity", "a", "quantity", args, fix), 4)
     assert said.messages == {
         "en": "Enter how many boxes to carry. A TurtleBot carries 1 or 2 at a time.",
@@ -96,3 +105,24 @@ def test_a_problem_is_put_into_words_in_both_languages() -> None:
 def test_what_only_the_site_as_it_is_prevents_is_told_apart() -> None:
     assert put_into_words(Problem("offline_device", args={"device": "Curing Oven"}), None).when == "now"
     assert put_into_words(Problem("retired_device", args={"device": "Curing Oven"}), None).when == "ever"
+
+
+PARSERS = sorted(Path(parsing.__file__).parent.glob("parsing*.py"))
+
+
+def refusals(path: Path) -> Iterator[str]:
+    """Yield what a module of the parser says when it refuses, with `abc` for what comes from the script."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Refused":
+            for said in node.args[1:]:
+                if isinstance(said, ast.Constant):
+                    yield str(said.value)
+                elif isinstance(said, ast.JoinedStr):
+                    yield "".join(str(part.value) if isinstance(part, ast.Constant) else "abc" for part in said.values)
+
+
+@pytest.mark.parametrize("path", PARSERS, ids=lambda path: path.stem)
+def test_what_the_parser_says_has_its_german(path: Path) -> None:
+    quoted = {"The variable abc": "The variable “abc”", "A change of abc": "A change of “abc”"}
+    said = [quoted.get(english, english) for english in refusals(path)]
+    assert [english for english in said if Refusal(english).say("de") == english] == []
