@@ -6,6 +6,7 @@ Nothing is ever fetched: JSON-LD contexts are the pinned ones or written out, an
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from decimal import Decimal
 from math import isfinite
 from typing import Any, cast
 from typing import Literal as LiteralType
@@ -319,14 +320,11 @@ def _add_numbers(graph: Graph, me: URIRef, d: Description) -> None:
 
 
 def _number(value: float) -> Literal:
-    """Write a number as the shortest decimal that reads back the same."""
-    if isinstance(value, int) or (value.is_integer() and abs(value) < 1e15):
-        return Literal(f"{value:.1f}" if isinstance(value, float) else str(value), datatype=_number_type(value))
-    return Literal(repr(value), datatype=XSD.double if "e" in repr(value) else XSD.decimal)
-
-
-def _number_type(value: float) -> URIRef:
-    return XSD.integer if isinstance(value, int) else XSD.decimal
+    """Write a number as a decimal that reads back the same; as a double, rdflib would round it to six digits."""
+    if isinstance(value, int):
+        return Literal(str(value), datatype=XSD.integer)
+    plain = f"{Decimal(repr(value)):f}"
+    return Literal(plain if "." in plain else f"{plain}.0", datatype=XSD.decimal)
 
 
 def _add_if(graph: Graph, node: Node, predicate: URIRef, text: str) -> None:

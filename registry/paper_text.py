@@ -59,7 +59,9 @@ def read_text(text: str) -> MessageText:
     reader = _Reader()
     lines = list(_lines(text, reader))
     body = _mapping(reader, lines, "")
-    return MessageText(body, reader.places, tuple(f"Line {line}: {note}" for line, note in sorted(reader.notes)))
+    return MessageText(
+        body, reader.places, tuple(f"Line {line}: {note}" for line, note in sorted(reader.notes, key=lambda n: n[0]))
+    )
 
 
 def _lines(text: str, reader: _Reader) -> Iterator[_Line]:
