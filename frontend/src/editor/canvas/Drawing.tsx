@@ -57,10 +57,7 @@ export const Drawing = memo(function Drawing(props: DrawingProps) {
           ) : null}
         </g>
       ))}
-      {scene.links.map((link) => (
-        <LinkShape key={link.id} link={link} {...props} />
-      ))}
-      {scene.frames.map((frame) => (
+      {outerFirst(scene.frames).map((frame) => (
         <FrameShape
           key={frame.id}
           frame={frame}
@@ -70,9 +67,17 @@ export const Drawing = memo(function Drawing(props: DrawingProps) {
           other={props.othersOn.get(frame.id) ?? null}
         />
       ))}
+      {scene.links.map((link) => (
+        <LinkShape key={link.id} link={link} {...props} />
+      ))}
     </svg>
   );
 });
+
+/** Inner frames lie on the frames around them. */
+function outerFirst(frames: Scene["frames"]): Scene["frames"] {
+  return [...frames].reverse();
+}
 
 /** Steps that drive the same way share one line, in the state of the one that has come furthest. */
 function drawnRoutes(routes: readonly RouteShape[], stateOf: DrawingProps["stateOf"]) {

@@ -30,7 +30,6 @@ export function FrameShape({ frame, state, selected, problem, other }: FrameShap
         width={box.right - box.left}
         height={box.bottom - box.top}
         rx={radius}
-        strokeDasharray={frame.empty && state === null ? "5 4" : undefined}
       />
       {around ? (
         <rect

@@ -1,7 +1,7 @@
 /** The robots of the program: each is one robot by name, or any that can do what is asked. */
 import { ActionIcon, Button, MultiSelect, Select } from "@mantine/core";
 import { Plus, Trash2 } from "lucide-react";
-import type { Role } from "../model/types";
+import type { ProgramDocument, Role } from "../model/types";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import classes from "./inspector.module.css";
@@ -14,7 +14,9 @@ const FIRST = "robot";
 
 export function RolesSection() {
   const { t, document, apply, canEdit } = useOpenProgram();
-  const roles = [FIRST, ...Object.keys(document.roles).filter((id) => id !== FIRST)];
+  const others = Object.keys(document.roles).filter((id) => id !== FIRST);
+  const first = others.length === 0 || FIRST in document.roles || isUsed(document, FIRST);
+  const roles = first ? [FIRST, ...others] : others;
   const add = () =>
     apply([
       { do: "set_role", id: makeId(), value: { name: t("role.numbered", { number: roles.length + 1 }), can: [] } },
@@ -38,10 +40,14 @@ export function RolesSection() {
   );
 }
 
+function isUsed(document: ProgramDocument, role: string): boolean {
+  return Object.values(document.steps).some((step) => step.params.role === role);
+}
+
 function RoleCard({ id, role }: { id: string; role: Role }) {
   const { t, document, apply, canEdit } = useOpenProgram();
   const name = role.name ?? t("role.default");
-  const used = Object.values(document.steps).some((step) => step.params.role === id);
+  const used = isUsed(document, id);
   const store = (value: Role | null) => apply([{ do: "set_role", id, value }]);
   return (
     <div className={classes.comparison} role="group" aria-label={name}>

@@ -7,7 +7,6 @@ import { KINDS, type Family } from "../scene/kinds";
 import { useOpenProgram } from "../state/context";
 import { takeTool } from "../state/tool";
 import { useUi } from "../state/ui";
-import { ZONE_TOOL } from "../zones/drawing";
 import { MoreTools } from "./MoreTools";
 import classes from "./rail.module.css";
 
@@ -32,11 +31,6 @@ export function ToolRail() {
             </FamilyGap>
           ))
         : null}
-      {canEdit ? (
-        <Tool tool={ZONE_TOOL} letter="Z" label={t("gesture.zone.tool")} family="note">
-          <VipoIcon name="zone" size={18} />
-        </Tool>
-      ) : null}
       {canEdit ? (
         <FamilyGap first>
           <MoreTools />

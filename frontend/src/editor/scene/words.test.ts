@@ -44,7 +44,7 @@ test.each<[string, Step["params"], string]>([
   ],
   ["on_event", {}, "when ?"],
   ["wait", { duration: { quantity: [10, "MIN"] } }, "wait<10\u202fmin>"],
-  ["call", { function: "mix", args: { shade: "teal" }, result: "total" }, "total = mixPaint (shade: teal )"],
+  ["call", { function: "mix", args: { shade: "teal" }, result: "total" }, "total = mixPaint (shade: teal)"],
 ])("a %s with %j reads %s", (kind, params, text) => {
   expect(say(kind, params)).toBe(text);
 });

@@ -168,21 +168,19 @@ function callText(step: Step, speaker: Speaker): TextPart[] {
   return [...result, plain(definition.name), ...argumentParts(given)];
 }
 
-/** "(minutes: 3, shade:" and then the colour with its name: a part of its own for each swatch. */
+/** "(shade:", the colour with its name, "minutes: 3)": a part of its own for each swatch. */
 function argumentParts(given: readonly { name: string; text: string; swatch?: string }[]): TextPart[] {
   const parts: TextPart[] = [];
   let text = "(";
   given.forEach(({ name, text: value, swatch }, index) => {
-    const after = index < given.length - 1 ? ", " : "";
-    if (!swatch) {
-      text += `${name}: ${value}${after}`;
-      return;
-    }
-    parts.push({ text: `${text}${name}:`, tone: "soft" });
-    parts.push({ text: value, tone: "soft", swatch });
-    text = after.trim();
+    const after = index < given.length - 1 ? "," : ")";
+    if (swatch) {
+      parts.push({ text: `${text}${name}:`, tone: "soft" }, { text: `${value}${after}`, tone: "soft", swatch });
+      text = "";
+    } else text += `${name}: ${value}${after}${after === "," ? " " : ""}`;
   });
-  return [...parts, { text: `${text})`, tone: "soft" }];
+  const rest = given.length === 0 ? "()" : text.trim();
+  return rest ? [...parts, { text: rest, tone: "soft" }] : parts;
 }
 
 export function plainText(parts: readonly TextPart[]): string {
