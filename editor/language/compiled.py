@@ -18,7 +18,7 @@ from editor.language.positions import add_moves
 from editor.language.printing import Script, print_tree
 from editor.language.reading import read_document
 from editor.language.surroundings import Surroundings
-from editor.language.zones import zone_names
+from editor.language.zones import read_zones, zone_names
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ def compile_document(document: object, surroundings: Surroundings) -> Compiled:
     found = check(reading, tree, surroundings, document)
     diagnostics = _in_words(found, numbers, script)
     faulty = any(diagnostic.severity == "error" for diagnostic in diagnostics)
-    plan = None if faulty else compile_tree(tree, surroundings, script.line_of)
+    plan = None if faulty else compile_tree(tree, surroundings, script.line_of, read_zones(document))
     outline = reading.outline
     drafts = outline.with_inner((*outline.drafts, *outline.unknown))
     order = (*numbers, *drafts)

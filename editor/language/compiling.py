@@ -2,75 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
 
+from editor.language import compiling_flow as flow
 from editor.language import nodes as n
 from editor.language import plan as p
+from editor.language.kinds_of_variables import kinds_of_function, kinds_of_program
+from editor.language.plan_builder import Builder, Compiler, Leaves
+from editor.language.scopes import local_variables, program_variables
 from editor.language.surroundings import Surroundings
-from editor.language.values import parts_of
-from editor.language.walking import walk
-from registry.capability import Description
+from editor.language.values import parts_of, rename_roles
 
 
-@dataclass(slots=True)
-class _Builder:
-    """The instructions so far; jumps are written when their address is known."""
-
-    tree: n.Tree
-    surroundings: Surroundings
-    line_of: Mapping[int, int]
-    instructions: list[p.Instruction] = field(default_factory=list)
-    calls: list[tuple[int, str]] = field(default_factory=list)
-    """Addresses of calls, with the functions that they call; filled in at the end."""
-
-    def here(self) -> int:
-        return len(self.instructions)
-
-    def add(
-        self, do: p.Action, node: n.Node | None = None, enters: tuple[str, ...] = (), leaves: tuple[str, ...] = ()
-    ) -> int:
-        """Add an instruction and return its address."""
-        step, line = ("", 0) if node is None else (node.step, self.line_of.get(id(node), 0))
-        self.instructions.append(p.Instruction(do, step, line, enters, leaves))
-        return len(self.instructions) - 1
-
-    def patch(self, address: int, do: p.Action) -> None:
-        """Write an instruction again, now that its target is known."""
-        self.instructions[address] = replace(self.instructions[address], do=do)
-
-    def block(self, block: n.Block) -> None:
-        for index, node in enumerate(block):
-            last = index + 1 == len(block) or block[index + 1].step != node.step
-            COMPILERS[type(node)](self, node, (node.step,) if last else ())
-
-    def leave(self, node: n.Node) -> None:
-        """Mark a composite step as over, where its ways out meet."""
-        self.add(p.Jump(self.here() + 1), node, leaves=(node.step,))
-
-    def describe(self, place: p.PlaceRef) -> Description | None:
-        facts = self.surroundings.devices.get(place.device or "")
-        return None if facts is None else facts.description
+def _move(builder: Builder, node: n.Move, leaves: Leaves) -> None:
+    builder.add(p.Move(node.role, builder.place(node.to), node.route), node, leaves=leaves)
 
 
-Leaves = tuple[str, ...]
-
-
-def _move(builder: _Builder, node: n.Move, leaves: Leaves) -> None:
-    builder.add(p.Move(node.role, node.to, node.route), node, leaves=leaves)
-
-
-def _pick(builder: _Builder, node: n.Pick, leaves: Leaves) -> None:
+def _pick(builder: Builder, node: n.Pick, leaves: Leaves) -> None:
     _serve(builder, node, "dispense", gives=True)
-    builder.add(p.Pick(node.role, node.at, node.object, node.quantity), node, leaves=leaves)
+    at, thing, quantity = builder.place(node.at), builder.value(node.object), builder.value(node.quantity)
+    builder.add(p.Pick(node.role, at, thing, quantity), node, leaves=leaves)
 
 
-def _drop(builder: _Builder, node: n.Drop, leaves: Leaves) -> None:
+def _drop(builder: Builder, node: n.Drop, leaves: Leaves) -> None:
     _serve(builder, node, "accept", gives=False)
-    builder.add(p.Drop(node.role, node.at, node.object, node.quantity), node, leaves=leaves)
+    at, thing, quantity = builder.place(node.at), builder.value(node.object), builder.value(node.quantity)
+    builder.add(p.Drop(node.role, at, thing, quantity), node, leaves=leaves)
 
 
-def _serve(builder: _Builder, node: n.Pick | n.Drop, method: str, *, gives: bool) -> None:
+def _serve(builder: Builder, node: n.Pick | n.Drop, method: str, *, gives: bool) -> None:
     """A machine that must act for it does so when the robot stands there, before anything is taken or left."""
     device = builder.describe(node.at)
     if device is None or device.method(method) is None:
@@ -78,151 +40,192 @@ def _serve(builder: _Builder, node: n.Pick | n.Drop, method: str, *, gives: bool
     things = device.gives if gives else device.takes
     if isinstance(node.object, p.Constant) and node.object.value not in things:
         return
-    builder.add(p.Call(node.at, method, {"object": node.object, "value": node.quantity}, node.role), node)
+    values = {"object": builder.value(node.object), "value": builder.value(node.quantity)}
+    builder.add(p.Call(node.at, method, values, node.role), node)
 
 
-def _operate(builder: _Builder, node: n.Operate, leaves: Leaves) -> None:
-    builder.add(p.Call(node.device, node.method, dict(node.arguments)), node, leaves=leaves)
+def _operate(builder: Builder, node: n.Operate, leaves: Leaves) -> None:
+    device = builder.describe(node.device)
+    method = device.method(node.method) if device else None
+    units = {parameter.name: parameter.unit for parameter in method.parameters} if method else {}
+    arguments = {name: builder.value(value, units.get(name, "")) for name, value in node.arguments}
+    builder.add(p.Call(builder.place(node.device), node.method, arguments), node, leaves=leaves)
 
 
-def _wait(builder: _Builder, node: n.Wait, leaves: Leaves) -> None:
-    builder.add(p.Wait(node.seconds), node, leaves=leaves)
+def _wait(builder: Builder, node: n.Wait, leaves: Leaves) -> None:
+    builder.add(p.Wait(builder.value(node.seconds, "SEC")), node, leaves=leaves)
 
 
-def _wait_until(builder: _Builder, node: n.WaitUntil, leaves: Leaves) -> None:
-    builder.add(p.WaitUntil(node.condition, node.timeout_s), node, leaves=leaves)
+def _wait_until(builder: Builder, node: n.WaitUntil, leaves: Leaves) -> None:
+    condition, timeout = builder.value(node.condition), builder.given(node.timeout_s, "SEC")
+    builder.add(p.WaitUntil(condition, timeout), node, leaves=leaves)
 
 
-def _if(builder: _Builder, node: n.If, leaves: Leaves) -> None:
-    branch = builder.add(p.Jump(0), node, enters=(node.step,))
-    builder.block(node.then)
-    over = builder.add(p.Jump(0)) if node.otherwise else -1
-    builder.patch(branch, p.Branch(node.condition, builder.here()))
-    builder.block(node.otherwise)
-    if node.otherwise:
-        builder.patch(over, p.Jump(builder.here()))
-    builder.leave(node)
-
-
-def _while(builder: _Builder, node: n.While, leaves: Leaves) -> None:
-    branch = builder.add(p.Jump(0), node, enters=(node.step,))
-    builder.block(node.body)
-    builder.add(p.Jump(branch))
-    builder.patch(branch, p.Branch(node.condition, builder.here()))
-    builder.leave(node)
-
-
-def _parallel(builder: _Builder, node: n.Parallel, leaves: Leaves) -> None:
-    fork = builder.add(p.Jump(0), node, enters=(node.step,), leaves=leaves)
-    entries: list[int] = []
-    for branch in node.branches:
-        entries.append(builder.here())
-        builder.block(branch)
-        builder.add(p.Join())
-    builder.patch(fork, p.Fork(tuple(entries), builder.here()))
-
-
-def _try(builder: _Builder, node: n.Try, leaves: Leaves) -> None:
-    begin = builder.add(p.Jump(0), node, enters=(node.step,))
-    builder.block(node.body)
-    builder.add(p.TryEnd())
-    over = builder.add(p.Jump(0))
-    builder.patch(begin, p.TryBegin(builder.here(), node.kinds))
-    builder.block(node.catch)
-    builder.patch(over, p.Jump(builder.here()))
-    builder.leave(node)
-
-
-def _call(builder: _Builder, node: n.Call, leaves: Leaves) -> None:
+def _call(builder: Builder, node: n.Call, leaves: Leaves) -> None:
     function = next(f for f in builder.tree.functions if f.method == node.function)
     given = dict(node.arguments)
-    defaults = {q.name: p.Constant(q.default) for q in function.parameters if q.default is not None}
-    arguments = {q.name: given.get(q.name) or defaults[q.name] for q in function.parameters}
-    name = function.name or function.method
-    address = builder.add(p.Invoke(0, name, arguments), node, enters=(node.step,), leaves=leaves)
+    arguments: dict[str, p.Expression] = {}
+    for parameter in function.parameters:
+        value = given.get(parameter.name)
+        arguments[parameter.name] = (
+            p.Constant(parameter.default) if value is None else builder.value(value, parameter.unit)
+        )
+    result = builder.name(node.result) if node.result else None
+    invoke = p.Invoke(0, function.name or function.method, arguments, result, builder.is_shared(node.result))
+    address = builder.add(invoke, node, enters=(node.step,), leaves=leaves)
     builder.calls.append((address, node.function))
 
 
-COMPILERS: Mapping[type[n.Node], Callable[..., None]] = {
+def _set(builder: Builder, node: n.Set, leaves: Leaves) -> None:
+    value = builder.value(node.value, builder.unit_of(node.variable))
+    assign = p.Assign(builder.name(node.variable), value, builder.is_shared(node.variable))
+    builder.add(assign, node, enters=(node.step,), leaves=leaves)
+
+
+def _ask(builder: Builder, node: n.Ask, leaves: Leaves) -> None:
+    result, shared = builder.name(node.variable) or None, builder.is_shared(node.variable)
+    question, timeout = builder.value(node.question), builder.given(node.timeout_s, "SEC")
+    builder.add(p.AskPerson(question, node.answer, result, shared, timeout), node, enters=(node.step,), leaves=leaves)
+
+
+def _notify(builder: Builder, node: n.Notify, leaves: Leaves) -> None:
+    builder.add(p.Notify(builder.value(node.message), node.level), node, enters=(node.step,), leaves=leaves)
+
+
+def _end(builder: Builder, node: n.End, leaves: Leaves) -> None:
+    builder.add(p.End(early=True), node, enters=(node.step,), leaves=leaves)
+
+
+COMPILERS: Mapping[type[n.Node], Compiler] = {
     n.Move: _move,
     n.Pick: _pick,
     n.Drop: _drop,
     n.Operate: _operate,
     n.Wait: _wait,
     n.WaitUntil: _wait_until,
-    n.If: _if,
-    n.While: _while,
-    n.Parallel: _parallel,
-    n.Try: _try,
+    n.If: flow.compile_if,
+    n.While: flow.compile_while,
+    n.Repeat: flow.compile_repeat,
+    n.ForEach: flow.compile_for_each,
+    n.Parallel: flow.compile_parallel,
+    n.Try: flow.compile_try,
     n.Call: _call,
+    n.Set: _set,
+    n.Ask: _ask,
+    n.Notify: _notify,
+    n.End: _end,
+    n.Return: flow.compile_return,
+    n.Break: flow.compile_break,
 }
 
 
-def compile_tree(tree: n.Tree, surroundings: Surroundings, line_of: Mapping[int, int]) -> p.Plan:
+def compile_tree(
+    tree: n.Tree, surroundings: Surroundings, line_of: Mapping[int, int], zones: tuple[p.Zone, ...] = ()
+) -> p.Plan:
     """Return the plan of a tree that the checks found no error in; `line_of` gives the script line of each node."""
-    builder = _Builder(tree, surroundings, line_of)
+    shared = program_variables(tree)
+    kinds = kinds_of_program(tree, shared, surroundings)
+    builder = Builder(tree, surroundings, line_of, COMPILERS, shared, kinds)
     builder.block(tree.body)
     builder.add(p.End())
-    entries: dict[str, int] = {}
-    for function in tree.functions:
-        entries[function.method] = builder.here()
-        builder.block(function.body)
-        builder.add(p.Return())
+    entries = {function.method: _function(builder, function) for function in tree.functions}
+    builder.kinds, builder.own, builder.function = kinds, frozenset(), None
+    events = tuple(_event(builder, event) for event in tree.events)
     for address, method in builder.calls:
         invoke = builder.instructions[address].do
         assert isinstance(invoke, p.Invoke)
         builder.patch(address, replace(invoke, entry=entries[method]))
     roles = {role.id or role.name: p.RoleBinding(role.id or role.name, role.device, role.can) for role in tree.roles}
     parameters = {parameter.name: parameter.default for parameter in tree.parameters}
-    return p.Plan(_with_role_ids(tree, builder.instructions), roles, parameters, _readings(tree))
+    instructions, events = _with_role_ids(tree, builder.instructions, events)
+    return p.Plan(instructions, roles, parameters, _readings(instructions, events), events=events, zones=zones)
 
 
-def _with_role_ids(tree: n.Tree, instructions: list[p.Instruction]) -> tuple[p.Instruction, ...]:
+def _function(builder: Builder, function: n.Function) -> int:
+    """Compile a function and return where it begins."""
+    entry = builder.here()
+    outside, builder.kinds = (
+        builder.kinds,
+        kinds_of_function(builder.tree, function, builder.kinds, builder.surroundings),
+    )
+    own = (*(parameter.name for parameter in function.parameters), *local_variables(function, builder.shared))
+    builder.own, builder.function = frozenset(own), function
+    builder.block(function.body)
+    builder.add(p.Return())
+    builder.kinds = outside
+    return entry
+
+
+def _event(builder: Builder, event: n.Event) -> p.EventEntry:
+    """Compile the body of an event."""
+    entry, starts = builder.here(), event.starts
+    builder.block(event.body)
+    builder.add(p.EventEnd(), event, leaves=(event.step,))
+    return p.EventEntry(event.step, entry, builder.value(event.condition), "run" if starts == "run" else "branch")
+
+
+Compiled = tuple[tuple[p.Instruction, ...], tuple[p.EventEntry, ...]]
+
+
+def _with_role_ids(tree: n.Tree, instructions: list[p.Instruction], events: tuple[p.EventEntry, ...]) -> Compiled:
     """The plan knows roles by their ids in the document, the script by their names."""
     renamed = {role.name: role.id for role in tree.roles if role.id and role.id != role.name}
     if not renamed:
-        return tuple(instructions)
-    return tuple(_rename(instruction, renamed) for instruction in instructions)
+        return tuple(instructions), events
+    known = tuple(replace(event, condition=rename_roles(event.condition, renamed)) for event in events)
+    return tuple(_rename(instruction, renamed) for instruction in instructions), known
 
 
 def _rename(instruction: p.Instruction, renamed: Mapping[str, str]) -> p.Instruction:
-    match instruction.do:
+    do: Any = instruction.do
+    match do:
         case p.Move(role=role) | p.Pick(role=role) | p.Drop(role=role):
-            return replace(instruction, do=replace(instruction.do, role=renamed.get(role, role)))
+            do = replace(do, role=renamed.get(role, role))
         case p.Call(serves=str(role)):
-            return replace(instruction, do=replace(instruction.do, serves=renamed.get(role, role)))
-    return instruction
+            do = replace(do, serves=renamed.get(role, role))
+    changed = {name: _with_roles(getattr(do, name), renamed) for name in _EXPRESSIONS.get(type(do), ())}
+    return replace(instruction, do=replace(do, **changed)) if changed or do is not instruction.do else instruction
 
 
-def _readings(tree: n.Tree) -> tuple[tuple[str, str], ...]:
+_EXPRESSIONS: Mapping[type[p.Action], tuple[str, ...]] = {
+    p.Pick: ("object", "quantity"),
+    p.Drop: ("object", "quantity"),
+    p.Call: ("arguments",),
+    p.Wait: ("seconds",),
+    p.WaitUntil: ("condition", "timeout_s"),
+    p.Branch: ("condition",),
+    p.Invoke: ("arguments",),
+    p.Return: ("value",),
+    p.Assign: ("value",),
+    p.AskPerson: ("question", "timeout_s"),
+    p.Notify: ("message",),
+}
+"""The fields of instructions that hold values."""
+
+
+def _with_roles(value: Any, renamed: Mapping[str, str]) -> Any:
+    """Return a value, or values by name, in which robots go by the ids of their roles."""
+    if isinstance(value, Mapping):
+        return {name: rename_roles(inner, renamed) for name, inner in value.items()}
+    return None if value is None else rename_roles(value, renamed)
+
+
+def _readings(instructions: tuple[p.Instruction, ...], events: tuple[p.EventEntry, ...]) -> tuple[tuple[str, str], ...]:
     """Return the (device, property) pairs that the program looks at, sorted."""
     found: set[tuple[str, str]] = set()
-    for block in (tree.body, *(function.body for function in tree.functions)):
-        for node in walk(block):
-            for expression in expressions_of(node):
-                found.update(_pairs(expression))
+    for expression in _expressions(instructions, events):
+        for part in parts_of(expression):
+            if isinstance(part, p.Reading) and isinstance(part.device, p.Constant):
+                found.add((str(part.device.value), part.property))
     return tuple(sorted(found))
 
 
-def _pairs(expression: p.Expression) -> set[tuple[str, str]]:
-    return {
-        (str(part.device.value), part.property)
-        for part in parts_of(expression)
-        if isinstance(part, p.Reading) and isinstance(part.device, p.Constant)
-    }
-
-
-def expressions_of(node: n.Node) -> tuple[p.Expression, ...]:
-    """Return the values of a node."""
-    match node:
-        case n.Pick(object=thing, quantity=quantity) | n.Drop(object=thing, quantity=quantity):
-            return (thing, quantity)
-        case n.Operate(arguments=arguments) | n.Call(arguments=arguments):
-            return tuple(value for _, value in arguments)
-        case n.Wait(seconds=seconds):
-            return (seconds,)
-        case n.WaitUntil(condition=condition, timeout_s=timeout):
-            return (condition,) if timeout is None else (condition, timeout)
-        case n.If(condition=condition) | n.While(condition=condition):
-            return (condition,)
-    return ()
+def _expressions(instructions: tuple[p.Instruction, ...], events: tuple[p.EventEntry, ...]) -> Iterator[p.Expression]:
+    yield from (event.condition for event in events)
+    for instruction in instructions:
+        for name in _EXPRESSIONS.get(type(instruction.do), ()):
+            value = getattr(instruction.do, name)
+            if isinstance(value, Mapping):
+                yield from value.values()
+            elif value is not None:
+                yield value

@@ -1,0 +1,162 @@
+"""The plan while it is being built: instructions, jumps that are still open, and what stands around a step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+
+from editor.language import nodes as n
+from editor.language import plan as p
+from editor.language.settling_units import settle_units
+from editor.language.surroundings import Surroundings
+from editor.language.typing_of_values import UNKNOWN_KIND, Kind, Typing
+from registry.capability import Description
+
+Leaves = tuple[str, ...]
+Compiler = Callable[..., None]
+
+
+@dataclass(slots=True, eq=False)
+class Guard:
+    """A guarded stretch around the step being compiled; one with a `flag` has a final part with ways out."""
+
+    flag: str = ""
+    exits: list[tuple[int, int]] = field(default_factory=list)
+    """Addresses of the jumps into the final part, each with the address where the way goes on behind it."""
+
+
+@dataclass(slots=True, eq=False)
+class Loop:
+    """A loop around the step being compiled, with the addresses of the jumps that leave it."""
+
+    jumps: list[int] = field(default_factory=list)
+
+
+@dataclass(slots=True, eq=False)
+class Composite:
+    """A step that holds the one being compiled."""
+
+    step: str
+
+
+Around = Guard | Loop | Composite
+
+
+@dataclass(slots=True)
+class Builder:
+    """The instructions so far; jumps are written when their address is known."""
+
+    tree: n.Tree
+    surroundings: Surroundings
+    line_of: Mapping[int, int]
+    compilers: Mapping[type[n.Node], Compiler]
+    shared: frozenset[str]
+    """The variables of the program."""
+    kinds: Mapping[str, Kind] = field(default_factory=dict)
+    """What is known of the variables that can be seen here."""
+    instructions: list[p.Instruction] = field(default_factory=list)
+    calls: list[tuple[int, str]] = field(default_factory=list)
+    """Addresses of calls, with the functions that they call; filled in at the end."""
+    around: list[Around] = field(default_factory=list)
+    own: frozenset[str] = frozenset()
+    """The parameters and variables of the function being compiled."""
+    renamed: dict[str, str] = field(default_factory=dict)
+    """The variables of the loops around, each with its hidden name."""
+    function: n.Function | None = None
+    hidden: dict[str, int] = field(default_factory=dict)
+
+    def here(self) -> int:
+        """Return the address of the next instruction."""
+        return len(self.instructions)
+
+    def add(
+        self,
+        do: p.Action,
+        node: n.Node | n.Event | None = None,
+        enters: tuple[str, ...] = (),
+        leaves: Leaves = (),
+    ) -> int:
+        """Add an instruction and return its address."""
+        step, line = ("", 0) if node is None else (node.step, self.line_of.get(id(node), 0))
+        self.instructions.append(p.Instruction(do, step, line, enters, leaves))
+        return len(self.instructions) - 1
+
+    def patch(self, address: int, do: p.Action) -> None:
+        """Write an instruction again, now that its target is known."""
+        self.instructions[address] = replace(self.instructions[address], do=do)
+
+    def block(self, block: n.Block) -> None:
+        """Compile the nodes of a block; the last node of each step tells that it is over."""
+        for index, node in enumerate(block):
+            last = index + 1 == len(block) or block[index + 1].step != node.step
+            self.compilers[type(node)](self, node, (node.step,) if last else ())
+
+    def leave(self, node: n.Node) -> None:
+        """Mark a composite step as over, where its ways out meet."""
+        self.add(p.Jump(self.here() + 1), node, leaves=(node.step,))
+
+    @contextmanager
+    def inside(self, *around: Around) -> Iterator[None]:
+        """Compile what stands in a step; without a step it stands in a function, a branch or an event of its own."""
+        outside = self.around
+        self.around = [*outside, *around] if around else []
+        yield
+        self.around = outside
+
+    def describe(self, place: p.PlaceRef) -> Description | None:
+        """Return the description of the device that stands for a place, if it is one of the site."""
+        facts = self.surroundings.devices.get(place.device or "")
+        return None if facts is None else facts.description
+
+    def hide(self, name: str) -> str:
+        """Return a name for a variable that only the plan knows."""
+        count = self.hidden.get(name, 0) + 1
+        self.hidden[name] = count
+        return f"#{name}" if count == 1 else f"#{name}_{count}"
+
+    def is_shared(self, name: str) -> bool:
+        """Tell whether a variable belongs to the program, not to the function that runs."""
+        return name in self.shared and name not in self.own and name not in self.renamed
+
+    def name(self, variable: str) -> str:
+        """Return the name that a variable has in the plan."""
+        return self.renamed.get(variable, variable)
+
+    def value(self, expression: p.Expression, unit: str = "") -> p.Expression:
+        """Return an expression as a plan has it: without quantities, in the wanted unit if one is wanted."""
+        if isinstance(expression, p.Constant):
+            return expression
+        if not unit and isinstance(expression, p.Reading | p.Variable):
+            return self._named(expression)
+        typing = Typing(self.surroundings, self.kinds, [])
+        return self._named(settle_units(expression, unit, typing))
+
+    def given(self, expression: p.Expression | None, unit: str = "") -> p.Expression | None:
+        """Return an expression that may be left out as a plan has it."""
+        return None if expression is None else self.value(expression, unit)
+
+    def unit_of(self, variable: str) -> str:
+        """Return the unit that a variable is kept in, empty when it is not known."""
+        return self.kinds.get(variable, UNKNOWN_KIND).unit
+
+    def _named(self, expression: p.Expression) -> p.Expression:
+        return rename_variables(expression, self.renamed) if self.renamed else expression
+
+    def place(self, place: p.PlaceRef) -> p.PlaceRef:
+        """Return a place as a plan has it."""
+        if place.value is None or not self.renamed:
+            return place
+        return replace(place, value=self._named(place.value))
+
+
+def rename_variables(expression: p.Expression, renamed: Mapping[str, str]) -> p.Expression:
+    """Return an expression with other names for some variables."""
+    match expression:
+        case p.Variable(name=name):
+            return p.Variable(renamed[name]) if name in renamed else expression
+        case p.Reading(device=device, property=name):
+            return p.Reading(rename_variables(device, renamed), name)
+        case p.Operation(operator=operator, arguments=arguments):
+            return p.Operation(operator, tuple(rename_variables(argument, renamed) for argument in arguments))
+    return expression
