@@ -115,7 +115,7 @@ def conversion(source: str, target: str) -> tuple[float, float]:
     if not same_dimension(source, target):
         raise DifferentDimensions(f"{unit_symbol(source)} does not go over into {unit_symbol(target)}.")
     first, second = UNITS[source], UNITS[target]
-    return tidy(first.factor / second.factor), tidy((first.offset - second.offset) / second.factor)
+    return tidy(first.factor / second.factor, 15), tidy((first.offset - second.offset) / second.factor)
 
 
 def convert(value: float, source: str, target: str) -> float:
@@ -126,7 +126,7 @@ def convert(value: float, source: str, target: str) -> float:
     return tidy(round(value * factor + offset, 9) if offset else value * factor)
 
 
-def tidy(value: float) -> float:
-    """Return a number without the dust of reckoning: twelve digits, whole ones as int."""
-    rounded = float(f"{value:.12g}")
+def tidy(value: float, digits: int = 12) -> float:
+    """Return a number without the dust of reckoning: so many digits, whole ones as int."""
+    rounded = float(f"{value:.{digits}g}")
     return int(rounded) if rounded.is_integer() and abs(rounded) < 1e15 else rounded
