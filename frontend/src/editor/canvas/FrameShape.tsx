@@ -24,13 +24,7 @@ export function FrameShape({ frame, state, selected, problem, other }: FrameShap
   const around = selected ? "var(--brand)" : (other?.colour ?? null);
   return (
     <g className={classes.frame} data-state={state ?? undefined} data-problem={problem ?? undefined}>
-      <rect
-        x={box.left}
-        y={box.top}
-        width={box.right - box.left}
-        height={box.bottom - box.top}
-        rx={radius}
-      />
+      <rect x={box.left} y={box.top} width={box.right - box.left} height={box.bottom - box.top} rx={radius} />
       {around ? (
         <rect
           className={classes.frameAround}
