@@ -104,7 +104,8 @@ def _event(row: InboxEvent) -> m.Event:
         case "mission_asked":
             order = mission_from_json(data["order"])
             can = tuple(data["can"])
-            return m.MissionAsked(data["run"], data["mission"], order, data["wants"], can, data["run_name"])
+            zones = tuple(map(m.zone_from_json, data.get("zones", ())))
+            return m.MissionAsked(data["run"], data["mission"], order, data["wants"], can, data["run_name"], zones)
         case "mission_cancelled":
             return m.MissionCancelled(data["run"], data["mission"])
         case "answered":

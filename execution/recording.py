@@ -168,9 +168,9 @@ class Recorder:
         if open_wait is not None:
             self._end_wait(t_s, open_wait)
         if action.reason is not None:
+            why = {"code": action.reason.code, "args": dict(action.reason.args)}
             self._open_waits[action.mission] = {"t": round(t_s, 2), "duration_s": 0.0, "robot": action.robot,
-                                                "reason": action.reason.text,
-                                                "why": {"code": action.reason.code, "args": dict(action.reason.args)}}  # fmt: skip
+                                                "reason": action.reason.text, "why": why}  # fmt: skip
 
     def _end_wait(self, t_s: float, wait: dict[str, Any]) -> None:
         wait["duration_s"] = round(t_s - wait["t"], 2)

@@ -212,7 +212,15 @@ class _Rehearsal:
             match action:
                 case r.Ask(mission=mission, order=order):
                     role = self.plan.roles.get(order.role, RoleBinding(order.role))
-                    asked = m.MissionAsked(RUN, mission, order, role.device or "", role.can, "this rehearsal")
+                    asked = m.MissionAsked(
+                        RUN,
+                        mission,
+                        order,
+                        role.device or "",
+                        role.can,
+                        "this rehearsal",
+                        m.floor_zones(RUN, self.plan.zones),
+                    )
                     self.floor_events.append(asked)
                 case r.Cancel(mission=mission):
                     self.floor_events.append(m.MissionCancelled(RUN, mission))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Mapping
+from dataclasses import asdict
 from datetime import UTC, datetime, timedelta
 from typing import Any
 from uuid import UUID
@@ -23,6 +24,7 @@ from execution.places import ROLE
 from execution.plan_needs import Needs, needs_of
 from execution.run_facts import facts_of
 from execution.run_state import RunState
+from execution.traffic.messages import floor_zones
 from registry import services as registry
 from registry.capability import Scalar
 
@@ -147,7 +149,11 @@ def _do(step: _Step, actions: tuple[r.Action, ...]) -> None:
                 role = step.plan.roles.get(order.role, RoleBinding(order.role))
                 payload: dict[str, Any] = {"type": "mission_asked", "run": str(run.id), "run_name": f"run {run.number}"}
                 asked = {"mission": mission, "order": mission_to_json(order)}
-                _post_site(run, f"ask:{mission}", {**payload, **asked, "wants": role.device or "", "can": role.can})
+                _post_site(
+                    run,
+                    f"ask:{mission}",
+                    {**payload, **asked, "wants": role.device or "", "can": role.can, "zones": _zones(step)},
+                )
             case r.Cancel(mission=mission):
                 payload = {"type": "mission_cancelled", "run": str(run.id), "mission": mission}
                 _post_site(run, f"drop:{mission}", payload)
@@ -170,6 +176,10 @@ def _do(step: _Step, actions: tuple[r.Action, ...]) -> None:
                 _post_site(run, "over", {"type": "run_over", "run": str(run.id)})
             case _:
                 journal.mark(action)
+
+
+def _zones(step: _Step) -> list[dict[str, Any]]:
+    return [asdict(zone) for zone in floor_zones(str(step.run.program), step.plan.zones)]
 
 
 def _post_site(run: Run, key: str, payload: Mapping[str, Any]) -> None:

@@ -11,6 +11,7 @@ from execution.traffic.layout import Node
 from execution.traffic.messages import WayPlanned
 from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
+from execution.traffic.zones import in_the_way, speed_limit, take_zones
 
 AHEAD = 4
 """Nodes that a robot may be released ahead of where it is."""
@@ -138,6 +139,7 @@ def drive(turn: Turn, robot: Robot) -> None:
             break
         held |= needed
         end += 1
+        take_zones(turn, robot, end)
     if end == robot.released:
         if not turn.is_driving(robot) and robot.blocked_since is None:
             turn.put(robot, blocked_since=turn.now)
@@ -156,7 +158,11 @@ def _may_drive(turn: Turn, robot: Robot) -> bool:
 
 
 def may_enter(turn: Turn, robot: Robot, index: int) -> bool:
-    """Tell whether the robot may go to that node as far as machines are concerned."""
+    """Tell whether the robot may go to that node as far as machines and zones are concerned."""
+    return _machine_is_ready(turn, robot, index) and in_the_way(turn, robot, index) is None
+
+
+def _machine_is_ready(turn: Turn, robot: Robot, index: int) -> bool:
     goal = robot.way[-1]
     if not isinstance(goal, str) or goal not in turn.layout.stations or index < len(robot.way) - LAST_NODES:
         return True
@@ -170,6 +176,9 @@ def _send_piece(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> None:
     theta = turn.layout.spot(last).theta if isinstance(last, str) and robot.released == len(robot.way) - 1 else None
     if theta is not None:
         arguments["theta"] = round(theta, 4)
+    limit_m_s = speed_limit(turn, robot, (turn.node(robot), *nodes))
+    if limit_m_s is not None:
+        arguments["speed"] = limit_m_s
     job = None if robot.evading else turn.job_of(robot)
     run, step = (job.run, job.order.step) if job else ("", "")
     turn.send(Sent("", robot.id, run, upto=robot.released), "move", arguments, step)

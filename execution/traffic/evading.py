@@ -7,8 +7,9 @@ from math import hypot
 from execution.traffic.driving import cut_way, may_enter, set_way
 from execution.traffic.floor_state import Robot
 from execution.traffic.layout import Node
-from execution.traffic.routes import plan_way
+from execution.traffic.messages import FloorZone
 from execution.traffic.turn import Turn
+from execution.traffic.zones import cells_of, in_the_way, kept_out, way_for
 
 ROUND_AFTER_S = 2.0
 """How long a blocked robot waits before it looks for a way round."""
@@ -68,6 +69,10 @@ def _unblock(turn: Turn, robot: Robot) -> None:
     """Find out who is in the way, and who shall move."""
     index = robot.released + 1
     job = turn.job_of(robot)
+    taken = in_the_way(turn, robot, index)
+    if taken is not None:
+        _wait_for_zone(turn, robot, taken[0], taken[1])
+        return
     if not may_enter(turn, robot, index):
         if turn.node(robot) in turn.layout.stations:
             _evade(turn, robot, robot)
@@ -96,6 +101,18 @@ def _unblock(turn: Turn, robot: Robot) -> None:
         cut_way(turn, turn.robots[robot.id])
 
 
+def _wait_for_zone(turn: Turn, robot: Robot, zone: FloorZone, holder: Robot) -> None:
+    """Say what the robot waits for; who has nothing to do in the zone leaves it, who stands before a machine too."""
+    job = turn.job_of(robot)
+    if job:
+        text = f"{turn.name(robot.id)} waits until {zone.name} is free."
+        turn.wait(job, "zone_taken", text, robot=robot.id, zone=zone.name, others=holder.id)
+    if turn.is_idle(holder) and holder.online and holder.run not in turn.paused:
+        _move_blocker(turn, robot, holder)
+    elif turn.node(robot) in turn.layout.stations:
+        _evade(turn, robot, robot)
+
+
 def _move_blocker(turn: Turn, robot: Robot, blocker: Robot) -> None:
     """Ask the one in the way to make room if it may and should; else make room oneself."""
     busy = turn.is_driving(blocker) or turn.is_acting(blocker) or blocker.evading
@@ -114,7 +131,7 @@ def _go_round(turn: Turn, robot: Robot) -> None:
     standing = {c for r in turn.robots.values() if r.id != robot.id and not turn.is_driving(r) for c in r.held}
     goal = robot.way[-1]
     moving = {c for r in turn.robots.values() if r.id != robot.id for c in r.held} - standing
-    way = plan_way(turn.layout, turn.node(robot), goal, closed=standing, extra=dict.fromkeys(moving, 4.0))
+    way = way_for(turn, robot, goal, closed=standing, extra=dict.fromkeys(moving, 4.0))
     if way is not None and way != robot.way[robot.passed :] and not standing & turn.layout.needed(goal):
         since = robot.blocked_since
         robot = set_way(turn, robot, way)
@@ -140,6 +157,10 @@ def _evade(turn: Turn, robot: Robot, other: Robot) -> bool:
     taken = {cell for r in turn.robots.values() if r.id != robot.id for cell in r.held}
     spots = {cell for spot in (*layout.stations.values(), *layout.places.values()) for cell in spot.body}
     own_way = set() if robot.id == other.id else set(_ahead(turn, other))
+    taken_zone = in_the_way(turn, other, min(other.released + 1, len(other.way) - 1))
+    if taken_zone is not None and taken_zone[1].id == robot.id:
+        own_way |= cells_of(layout, taken_zone[0])
+    taken |= kept_out(turn, robot) - {layout.cell(turn.node(robot))}
     others_ways = {c for r in turn.robots.values() if r.id not in {robot.id, other.id} for c in _ahead(turn, r)}
     start = layout.cell(turn.node(robot))
     reach = layout.lattice.distances(start, closed=taken)
@@ -152,7 +173,7 @@ def _evade(turn: Turn, robot: Robot, other: Robot) -> bool:
     else:
         return False
     goal = min(free)[1]
-    way = plan_way(layout, turn.node(robot), goal, closed=taken)
+    way = way_for(turn, robot, goal, closed=taken)
     if way is None or len(way) < 2:
         return False
     robot = set_way(turn, robot, way, evading=other.id)
@@ -170,7 +191,7 @@ def _go_home(turn: Turn, robot: Robot, avoid: set[int]) -> bool:
     found = []
     for dock in layout.docks:
         if not layout.needed(dock) & (taken | avoid) and dock != node:
-            way = plan_way(layout, node, dock, closed=taken)
+            way = way_for(turn, robot, dock, closed=taken)
             if way is not None:
                 found.append((len(way), dock, way))
     if not found or node in layout.docks:

@@ -16,6 +16,7 @@ from execution.traffic.floor_state import FloorState, Job, Robot, Sent, from_jso
 from execution.traffic.layout import Layout
 from execution.traffic.serving import ABSENCE_S, bind_roles, serve
 from execution.traffic.turn import Turn
+from execution.traffic.zones import keep_zones
 
 __all__ = ["from_json", "start", "step", "to_json"]
 
@@ -46,6 +47,7 @@ def step(
         _take(turn, event)
     _check_limits(turn)
     keep_stations(turn)
+    keep_zones(turn)
     bind_roles(turn)
     serve(turn)
     _drive_all(turn)
@@ -150,6 +152,8 @@ def _take_mission(turn: Turn, event: m.MissionAsked) -> None:
     job = Job(event.run, event.mission, turn.next_seq, event.order, event.wants, event.can, event.run_name)
     turn.jobs[event.run, event.mission] = job
     turn.names[event.run] = event.run_name
+    if event.zones:
+        turn.zones[event.run] = event.zones
 
 
 def _take_online(turn: Turn, device: str) -> None:
@@ -230,6 +234,7 @@ def _end_run(turn: Turn, run: str) -> None:
     for robot in [robot for robot in turn.robots.values() if robot.run == run]:
         turn.put(robot, run="", yields_to="", idle_since=turn.now)
     turn.names.pop(run, None)
+    turn.zones.pop(run, None)
     turn.paused.discard(run)
 
 

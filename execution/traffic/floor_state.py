@@ -8,7 +8,7 @@ from typing import Any
 
 from execution.mission import Mission, mission_from_json, mission_to_json
 from execution.traffic.layout import Node
-from execution.traffic.messages import Reason
+from execution.traffic.messages import FloorZone, Reason, zone_from_json
 
 STATE_FORMAT = 1
 
@@ -94,6 +94,10 @@ class FloorState:
     paused: tuple[str, ...] = ()
     offline: Mapping[str, float] = field(default_factory=dict)
     """By device: since when it has been away."""
+    zones: Mapping[str, tuple[FloorZone, ...]] = field(default_factory=dict)
+    """By run: the zones of its program."""
+    locks: Mapping[str, str] = field(default_factory=dict)
+    """By zone for one robot at a time: the robot that is in it."""
 
 
 def to_json(state: FloorState) -> dict[str, Any]:
@@ -111,6 +115,8 @@ def to_json(state: FloorState) -> dict[str, Any]:
         "roles": dict(state.roles),
         "names": dict(state.names),
         "offline": dict(state.offline),
+        "zones": {run: [asdict(zone) for zone in zones] for run, zones in state.zones.items()},
+        "locks": dict(state.locks),
     }
 
 
@@ -125,6 +131,7 @@ def from_json(data: Mapping[str, Any]) -> FloorState:
         "jobs": tuple(_job(item) for item in data["jobs"]),
         "sent": {item.id: item for item in sent},
         "paused": tuple(data["paused"]),
+        "zones": {run: tuple(map(zone_from_json, zones)) for run, zones in data.get("zones", {}).items()},
     }
     return FloorState(**{**{k: v for k, v in data.items() if k != "format"}, **more})
 

@@ -47,6 +47,7 @@ class Layout:
     docks: tuple[str, ...]
     names: Mapping[str, str]
     points: dict[str, Spot] = field(default_factory=dict)
+    zone_cells: dict[tuple[Point, ...], frozenset[int]] = field(default_factory=dict)
 
     def name(self, thing: str) -> str:
         """Return what people call a device or a place."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
+from editor.language.plan import Zone
 from execution.mission import Mission
 from registry.capability import Scalar
 
@@ -19,6 +21,27 @@ class Reason:
 
 
 @dataclass(frozen=True, slots=True)
+class FloorZone:
+    """A zone of a run's program; `key` is the same for all runs of that program."""
+
+    key: str
+    name: str
+    rule: str
+    points: tuple[tuple[float, float], ...]
+    speed_m_s: float | None = None
+
+
+def zone_from_json(data: Mapping[str, Any]) -> FloorZone:
+    """Read a zone from plain JSON."""
+    return FloorZone(**{**data, "points": tuple((float(x), float(y)) for x, y in data["points"])})
+
+
+def floor_zones(program: str, zones: Iterable[Zone]) -> tuple[FloorZone, ...]:
+    """Return the zones of a plan as the floor knows them."""
+    return tuple(FloorZone(f"{program}/{z.id}", z.name, z.rule, z.points, z.speed_m_s) for z in zones)
+
+
+@dataclass(frozen=True, slots=True)
 class MissionAsked:
     """A run asks for a mission. `wants` names the device of the role, or `can` what its robot must be able to do."""
 
@@ -28,6 +51,7 @@ class MissionAsked:
     wants: str = ""
     can: tuple[str, ...] = ()
     run_name: str = ""
+    zones: tuple[FloorZone, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

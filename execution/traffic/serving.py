@@ -12,8 +12,8 @@ from execution.traffic.evading import make_way_for
 from execution.traffic.floor_state import Job, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
 from execution.traffic.messages import RoleBound
-from execution.traffic.routes import plan_way
 from execution.traffic.turn import Turn
+from execution.traffic.zones import way_for
 from registry.capability import Description
 
 ABSENCE_S = 30.0
@@ -163,7 +163,7 @@ def _go(turn: Turn, job: Job, robot: Robot, spot: Spot) -> None:
         cut_way(turn, robot)
         return
     standing = {c for r in turn.robots.values() if r.id != robot.id and not turn.is_driving(r) for c in r.held}
-    way = plan_way(turn.layout, turn.node(robot), spot.id, extra=dict.fromkeys(standing, 6.0))
+    way = way_for(turn, robot, spot.id, extra=dict.fromkeys(standing, 6.0))
     if way is None:
         turn.finish(job, "blocked", f"There is no way for {turn.name(robot.id)} to {turn.name(job.order.target.id)}.")
         return

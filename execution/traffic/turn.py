@@ -30,6 +30,8 @@ class Turn:
         self.offline = dict(state.offline)
         self.roles = dict(state.roles)
         self.names = dict(state.names)
+        self.zones = dict(state.zones)
+        self.locks = dict(state.locks)
         self.waits: dict[tuple[str, int], Reason] = {}
         self.actions: list[Action] = []
 
@@ -49,6 +51,8 @@ class Turn:
             offline=self.offline,
             roles=self.roles,
             names=self.names,
+            zones=self.zones,
+            locks=self.locks,
         )
         return state, tuple(self.actions)
 

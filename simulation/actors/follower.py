@@ -36,12 +36,16 @@ class Motion:
 
 @dataclass(frozen=True, slots=True)
 class Waypoint:
-    """A point to drive to; `commands` are the pieces that end there, `theta` is set where a heading is asked for."""
+    """A point to drive to, at most at `limit_m_s`.
+
+    `commands` are the pieces that end there, `theta` is set where a heading is asked for.
+    """
 
     x: float
     y: float
     commands: tuple[str, ...] = ()
     theta: float | None = None
+    limit_m_s: float | None = None
 
     def is_at(self, x: float, y: float) -> bool:
         """Tell whether this is practically the same point."""
@@ -114,11 +118,17 @@ class Follower:
         """True when the robot has come no nearer for 10 s, though it should have."""
         return self._stalled_s >= STUCK_S
 
-    def add(self, points: list[tuple[float, float]], command: str, theta: float | None) -> None:
+    def add(
+        self,
+        points: list[tuple[float, float]],
+        command: str,
+        theta: float | None,
+        limit_m_s: float | None = None,
+    ) -> None:
         """Append a piece of the way; points that repeat the one before are joined with it."""
         for x, y in points:
             if not (self._way and self._way[-1].is_at(x, y)):
-                self._way.append(Waypoint(x, y))
+                self._way.append(Waypoint(x, y, limit_m_s=limit_m_s))
         end = self._way[-1]
         turned = end.theta if theta is None else theta
         self._way[-1] = replace(end, commands=(*end.commands, command), theta=turned)
@@ -216,7 +226,9 @@ class Follower:
             self._turning = abs(error) > ALIGNED_RAD
             return self._limited(0.0, _turn_towards(error), dt_s)
         brake_m = max(0.0, left_m + leg.beyond_m - ARRIVED_M / 2)
-        speed = min(self.speed_m_s, sqrt(1.6 * ACCELERATION_M_S2 * brake_m))
+        limit_m_s = self._way[0].limit_m_s
+        fastest = self.speed_m_s if limit_m_s is None else min(self.speed_m_s, limit_m_s)
+        speed = min(fastest, sqrt(1.6 * ACCELERATION_M_S2 * brake_m))
         return self._limited(max(0.02, speed * max(0.0, cos(2 * error))), 3.0 * error, dt_s)
 
     def _limited(self, speed: float, turn: float, dt_s: float) -> tuple[float, float]:

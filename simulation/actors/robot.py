@@ -35,6 +35,7 @@ class Task:
     arguments: Mapping[str, object]
     points: tuple[tuple[float, float], ...] = ()
     theta: float | None = None
+    speed_m_s: float | None = None
     left_s: float = 0.0
     begun: bool = False
     handed: bool = False
@@ -128,7 +129,7 @@ class Robot(Actor):
                 return
             if not task.handed:
                 task.handed = True
-                self._follower.add(list(task.points), task.command, task.theta)
+                self._follower.add(list(task.points), task.command, task.theta, task.speed_m_s)
 
     def _reached(self, t_s: float, command: str) -> None:
         if not self._tasks or self._tasks[0].command != command:
@@ -248,7 +249,11 @@ class Robot(Actor):
         x1, y1, x2, y2 = self._bounds
         if not all(x1 <= x <= x2 and y1 <= y <= y2 for x, y in points):
             return "The path leaves the map."
-        return Task(command, "move", {}, tuple(points), float(theta) if isinstance(theta, int | float) else None)
+        speed = arguments.get("speed")
+        if speed is not None and not (is_number(speed) and float(str(speed)) > 0):
+            return "speed must be a number above 0, in metres a second."
+        heading, limit = (float(n) if isinstance(n, int | float) else None for n in (theta, speed))
+        return Task(command, "move", {}, tuple(points), heading, limit)
 
     def _cancel(self, t_s: float, command: str) -> None:
         """End a command; a move takes the moves after it along."""
