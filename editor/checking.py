@@ -143,7 +143,7 @@ class DeviceWatch:
 
     def changes_programs(self, message: Mapping[str, Any]) -> bool:
         """Tell whether programs may read differently after this message."""
-        if message.get("type") in {"device_removed", "hello"}:
+        if message.get("type") in {"device_removed", "hello", "library"}:
             return True
         if message.get("type") != "device":
             return False

@@ -17,6 +17,7 @@ from editor.language.ladder import FORMAT
 from editor.models import LibraryFunction, LibraryVersion, Program
 from editor.programs import get_document
 from editor.views import LibraryView, view_author
+from registry import live
 
 MOST_NAME, MOST_DESCRIPTION = 120, 500
 
@@ -75,6 +76,7 @@ def save_function(
         LibraryVersion.objects.create(
             function=row, number=row.last_version, author=user, definition=definition, script=script
         )
+    live.publish(site, {"type": "library"})
     return get_function(function_id=row.pk)
 
 
