@@ -10,7 +10,7 @@ from editor.language import nodes as n
 from editor.language.diagnostics import Fix, Problem, TextArguments
 from editor.language.phrases import Driver, Robot
 from editor.language.surroundings import DeviceFacts, Surroundings
-from editor.language.typing_of_values import Kind
+from editor.language.typing_of_values import UNKNOWN_KIND, Kind
 from registry.capability import Description
 
 _NUMBER_AT_THE_END = re.compile(r"[\s_-]*\d+$")
@@ -23,7 +23,9 @@ class Context:
     tree: n.Tree
     surroundings: Surroundings
     variables: Mapping[str, Kind] = field(default_factory=dict)
-    """The parameters that can be seen in the block being checked."""
+    """What is known of the parameters and variables that can be seen in the block being checked."""
+    result: Kind = UNKNOWN_KIND
+    """What the function being checked gives back."""
     zones: frozenset[str] = frozenset()
     """The ids of the zones that the document has."""
     found: list[tuple[Problem, int]] = field(default_factory=list)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import cast
 
 from editor.language import nodes as n
 from editor.language.carrying import follow_loads
@@ -10,17 +11,20 @@ from editor.language.check_context import Context
 from editor.language.check_devices import check_load_place, check_place, check_role, usable_device
 from editor.language.check_floor import check_floor
 from editor.language.check_flow import check_flow
+from editor.language.check_leaving import check_leaving
 from editor.language.check_library import check_library
 from editor.language.check_parallel import check_branches, check_parallel
 from editor.language.check_values import check_argument, check_condition, check_quantity, check_value, has_missing
 from editor.language.check_variables import check_variables
-from editor.language.diagnostics import Fix, Problem, TextArguments
+from editor.language.diagnostics import Fix, Problem, TextArguments, fix_value
+from editor.language.kinds_of_variables import kinds_of_function, kinds_of_program
 from editor.language.outline import PROGRAM, Outline
 from editor.language.phrases import Options, Span
 from editor.language.plan import Constant
 from editor.language.reading import Reading
+from editor.language.scopes import program_variables
 from editor.language.surroundings import Surroundings
-from editor.language.typing_of_values import NUMBER, Kind, constant_value, plain_type
+from editor.language.typing_of_values import NUMBER, SECONDS, TEXT, Kind, constant_value, plain_type
 from editor.language.walking import needed_of_roles, walk
 from editor.language.zones import read_zones
 from registry.capability import ParameterSpec
@@ -38,14 +42,12 @@ def check(
     found = context.found
     found.extend((problem, 0) for problem in reading.problems)
     already = {(problem.step, problem.field) for problem in reading.problems}
-    for block, parameters in _blocks(tree):
-        context.variables = {p.name: Kind(plain_type(p.type), p.unit) for p in parameters}
-        for node in walk(block):
-            CHECKS[type(node)](context, node)
+    _check_steps(context)
     context.found = [
         (p, key) for p, key in found if not (p.code.startswith("missing") and (p.step, p.field) in already)
     ]
     _check_roles(context)
+    check_leaving(context)
     check_flow(context)
     check_variables(context)
     check_parallel(context)
@@ -56,10 +58,30 @@ def check(
     return context.found
 
 
-def _blocks(tree: n.Tree) -> list[tuple[n.Block, tuple[n.Parameter, ...]]]:
-    """Return the program's and the functions' blocks with the parameters that can be seen there."""
-    functions = [(function.body, (*tree.parameters, *function.parameters)) for function in tree.functions]
-    return [(tree.body, tree.parameters), *functions]
+def _check_steps(context: Context) -> None:
+    """Check every step for itself, with what is known where it stands."""
+    tree, site = context.tree, context.surroundings
+    kinds = kinds_of_program(tree, program_variables(tree), site)
+    _check_block(context, tree.body, kinds)
+    for event in tree.events:
+        _check_block(context, event.body, kinds)
+        check_condition(context, cast("n.Node", event), event.condition, "condition")  # an event has a step as nodes do
+    for function in tree.functions:
+        context.result = Kind(plain_type(function.result_type), function.result_unit)
+        _check_block(context, function.body, kinds_of_function(tree, function, kinds, site))
+    context.result = Kind()
+
+
+def _check_block(context: Context, block: n.Block, kinds: Mapping[str, Kind]) -> None:
+    nodes = tuple(walk(block))
+    loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
+    context.variables = {name: kind for name, kind in kinds.items() if name not in loops} if loops else kinds
+    for node in nodes:
+        CHECKS[type(node)](context, node)
+
+
+def _bodies(tree: n.Tree) -> tuple[n.Block, ...]:
+    return (tree.body, *(function.body for function in tree.functions), *(event.body for event in tree.events))
 
 
 def _move(context: Context, node: n.Move) -> None:
@@ -166,6 +188,70 @@ def _call(context: Context, node: n.Call) -> None:
             name = function.name or function.method
             check_argument(context, node, spec, value, name, "missing_function_argument", typed=bool(kind))
 
+    if node.result and not function.result_type:
+        fix = Fix("remove", node.step, "result", None, {"value": node.result})
+        context.tell(node, "gives_nothing", "result", {"function": function.name or function.method}, fix)
+
+
+def _repeat(context: Context, node: n.Repeat) -> None:
+    if has_missing(node.times):
+        context.tell(node, "missing_times", "times")
+    elif check_value(context, node, node.times, "times", NUMBER, "How many times"):
+        times = constant_value(node.times)
+        if isinstance(times, int | float) and (times < 0 or times != int(times)):
+            context.tell(node, "times_not_whole", "times", fix=fix_value(node.step, "times", max(0, round(times))))
+
+
+def _for_each(context: Context, node: n.ForEach) -> None:
+    if not node.variable:
+        context.tell(node, "missing_variable", "variable")
+    if not node.items or any(map(has_missing, node.items)):
+        context.tell(node, "missing_items", "items")
+    for item in node.items:
+        if not has_missing(item):
+            check_value(context, node, item, "items", Kind(), "A value")
+
+
+def _set(context: Context, node: n.Set) -> None:
+    if not node.variable:
+        context.tell(node, "missing_variable", "variable")
+    if has_missing(node.value):
+        context.tell(node, "missing_value", "value")
+    else:
+        known = context.variables.get(node.variable, Kind())
+        check_value(context, node, node.value, "value", known, "The variable")
+
+
+def _ask(context: Context, node: n.Ask) -> None:
+    if has_missing(node.question):
+        context.tell(node, "missing_question", "question")
+    else:
+        check_value(context, node, node.question, "question", TEXT, "The question")
+    if node.answer.type == "choice" and len(node.answer.options) < 2:
+        context.tell(node, "missing_options", "answer")
+    if node.timeout_s is not None:
+        check_value(context, node, node.timeout_s, "timeout", SECONDS, "The time limit")
+        _check_time(context, node, node.timeout_s, "timeout", "The time limit")
+
+
+def _notify(context: Context, node: n.Notify) -> None:
+    if has_missing(node.message):
+        context.tell(node, "missing_message", "message")
+    else:
+        check_value(context, node, node.message, "message", TEXT, "The message")
+
+
+def _return(context: Context, node: n.Return) -> None:
+    if node.value is not None:
+        if has_missing(node.value):
+            context.tell(node, "missing_value", "value")
+        else:
+            check_value(context, node, node.value, "value", context.result, "The result")
+
+
+def _leave(context: Context, node: n.End | n.Break) -> None:
+    """What these leave is checked for all of them at once."""
+
 
 CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Move: _move,
@@ -179,15 +265,23 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Parallel: _parallel,
     n.Try: _try,
     n.Call: _call,
+    n.Repeat: _repeat,
+    n.ForEach: _for_each,
+    n.Set: _set,
+    n.Ask: _ask,
+    n.Notify: _notify,
+    n.End: _leave,
+    n.Return: _return,
+    n.Break: _leave,
 }
 
 
 def _check_roles(context: Context) -> None:
     """Check every robot at the first step that uses it."""
     tree = context.tree
-    needed = needed_of_roles((tree.body, *(function.body for function in tree.functions)))
+    needed = needed_of_roles(_bodies(tree))
     first: dict[str, n.Node] = {}
-    for block, _ in _blocks(tree):
+    for block in _bodies(tree):
         for node in walk(block):
             if isinstance(node, n.Move | n.Pick | n.Drop):
                 first.setdefault(node.role, node)

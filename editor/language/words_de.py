@@ -27,5 +27,11 @@ WORDS_DE: Final[Mapping[str, str]] = {
     "The object": "Das Objekt",
     "The time to wait": "Die Wartezeit",
     "The time limit": "Die Zeitgrenze",
+    "How many times": "Wie oft",
+    "A value": "Ein Wert",
+    "The variable": "Die Variable",
+    "The question": "Die Frage",
+    "The message": "Die Nachricht",
+    "The result": "Das Ergebnis",
     "The first value": "Der erste Wert",
 }
