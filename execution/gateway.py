@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import json
 import logging
-import os
-import socket
 import threading
 import time
 from collections import Counter, OrderedDict, deque
@@ -133,8 +131,8 @@ class Gateway:
     """One gateway; the embedded mode runs it in a thread, `manage.py gateway` in a process."""
 
     def __init__(self, settings: Any) -> None:
-        name = f"gateway-{socket.gethostname()}-{os.getpid()}-{os.urandom(2).hex()}"
-        self._client = MqttClient.from_settings(settings.VIPO_MQTT, client_id=name, keep_session=True)
+        # The same name after a restart takes over the session of the one that died, with the answers kept in it.
+        self._client = MqttClient.from_settings(settings.VIPO_MQTT, client_id=settings.VIPO_GATEWAY, keep_session=True)
         self._inbox = Inbox()
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
         self.complaints = Complaints()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import socket
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -126,6 +127,8 @@ VIPO_MQTT = {
     "tls": os.environ.get("VIPO_MQTT_TLS", "1" if SERVED else "0") == "1",
     "ca": os.environ.get("VIPO_MQTT_CA", ""),
 }
+VIPO_GATEWAY = f"gateway-{os.environ.get('VIPO_GATEWAY') or socket.gethostname()}"
+"""What the broker knows a gateway by; two on one machine need names of their own."""
 VIPO_BROKER_URL = os.environ.get("VIPO_BROKER_URL", "" if SERVED else f"mqtt://127.0.0.1:{VIPO_MQTT['port']}/")
 VIPO_DEFAULT_SITE = os.environ.get("VIPO_DEFAULT_SITE", "painting-factory")
 VIPO_SPEED = float(os.environ.get("VIPO_SPEED", "1"))
