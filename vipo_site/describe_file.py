@@ -12,8 +12,8 @@ from typing import Any
 
 from registry.capability import Description, MethodSpec, ParameterSpec, PropertySpec, description_to_json
 from registry.describing import Reading, read, write_description
-from registry.rdf_text import BadDescription, Fault
-from registry.shacl import check_reading
+from registry.rdf_text import BadDescription, Fault, form_of
+from registry.shacl import check_rdf, check_reading
 from vipo_site.program_file import UnreadableFile
 
 MOST_BYTES = 20_000_000
@@ -37,7 +37,7 @@ def describe_file(options: argparse.Namespace) -> int:
         reading = read(payload)
         faults = check_reading(reading, payload) if options.shacl else ()
     except BadDescription as error:
-        return _tell_faults(options, error.faults)
+        return _tell_faults(options, (*error.faults, *(_faults_of_shapes(payload) if options.shacl else ())))
     if faults:
         return _tell_faults(options, faults)
     if options.json:
@@ -48,6 +48,14 @@ def describe_file(options: argparse.Namespace) -> int:
     else:
         _write("\n".join(_summary(options.file, reading)))
     return 0
+
+
+def _faults_of_shapes(payload: bytes) -> tuple[Fault, ...]:
+    """Return what the shapes add about RDF that cannot be believed; nothing about what is no RDF at all."""
+    try:
+        return check_rdf(payload) if form_of(payload) in ("turtle", "n-triples", "json-ld") else ()
+    except BadDescription:
+        return ()
 
 
 def _read_bytes(path: Path) -> bytes:

@@ -13,6 +13,7 @@ from django.test import Client
 from registry import services
 from registry.describing import read_description
 from registry.models import Membership, Site, User
+from registry.rdf_text import CONTENT_TYPES
 
 from .conftest import MIXER, NOW, PASSWORD, ROLES, come, describe, say
 
@@ -249,11 +250,29 @@ def test_a_decided_device_is_not_decided_again(browser: Callable[[str], Client])
 
 
 @pytest.mark.parametrize("form", ["turtle", "n-triples", "json-ld", "td", "paper"])
-def test_a_description_can_be_had_as_rdf(browser: Callable[[str], Client], form: str) -> None:
+def test_a_description_can_be_had_in_every_form(browser: Callable[[str], Client], form: str) -> None:
     describe()
-    answer = browser("viewer").get(f"/api/sites/hall/devices/mixer1/rdf?format={form}")
+    path = f"/api/sites/hall/devices/mixer1/rdf?format={form}"
+    answer = browser("viewer").get(path)
     assert read_description(answer.content) == MIXER
-    assert browser("viewer").get("/api/sites/hall/devices/mixer1/rdf?format=xml").status_code == 422
+    assert answer["Content-Type"] == f"{CONTENT_TYPES[form]}; charset=utf-8"
+    assert answer["X-Content-Type-Options"] == "nosniff"
+    codes = {name: browser(name).get(path).status_code for name in EVERYBODY}
+    assert codes == {**dict.fromkeys(ROLES, 200), "stranger": 404, "nobody": 401}
+
+
+def test_a_form_that_there_is_not_is_refused(browser: Callable[[str], Client]) -> None:
+    describe()
+    answer = browser("viewer").get("/api/sites/hall/devices/mixer1/rdf?format=xml")
+    assert (answer.status_code, answer.json()["code"]) == (422, "bad_request")
+    assert browser("stranger").get("/api/sites/hall/devices/mixer1/rdf?format=xml").status_code in (404, 422)
+
+
+def test_a_thing_links_to_the_broker(browser: Callable[[str], Client], settings: Any) -> None:
+    describe()
+    settings.VIPO_BROKER_URL = "mqtts://broker.example:8883/"
+    thing = browser("viewer").get("/api/sites/hall/devices/mixer1/rdf?format=td").json()
+    assert thing["actions"]["mix"]["forms"][0]["href"] == "mqtts://broker.example:8883/vipo/v1/dev/mixer1/down/mix"
 
 
 def test_a_site_without_a_map_says_so(browser: Callable[[str], Client], person: Callable[[str], User]) -> None:

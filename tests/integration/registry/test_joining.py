@@ -7,10 +7,11 @@ from typing import Any
 
 import pytest
 
-from registry import live, services
+from registry import joining, live, services
 from registry.capability import MethodSpec, Pose
+from registry.describing import write_description
 from registry.models import Device, DeviceEvent, User
-from registry.rdf_text import BadDescription
+from registry.rdf_text import CONTENT_TYPES, FORMS, BadDescription
 from registry.services import BadDevice, NoSuchDevice, NotPending, Principal
 from registry.wire import BadMessage
 
@@ -66,6 +67,38 @@ def test_a_description_that_is_not_rdf_leaves_the_old_one(hall: str) -> None:
     with pytest.raises(BadDescription):
         services.ingest_description(device_id="mixer1", payload=b"not rdf", at=NOW)
     assert services.get_device(site="hall", device_id="mixer1").name == "Mixer One"
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_device_joins_in_every_form_and_changes_nothing_by_another(hall: str, form: str) -> None:
+    describe()
+    payload = write_description(MIXER, form).encode()
+    services.ingest_description(device_id="mixer1", payload=payload, at=NOW)
+    assert services.get_device(site="hall", device_id="mixer1").canonical == MIXER
+    assert Device.objects.get(pk="mixer1").source_type == CONTENT_TYPES[form]
+    assert DeviceEvent.objects.count() == 1
+
+
+def test_what_was_mended_is_told_once_and_news_of_values_are_no_change(hall: str) -> None:
+    text = 'id: "mixer1"\nsite: hall\nlocation: [2, 2]\nsize: "small\'\n'
+    text += 'done: %s\nproperties:\n  name: "job"\n  value: %s\n'
+    for done, value in (("False", "1.0"), ("False", "2.0"), ("True", "2.0")):
+        services.ingest_description(device_id="mixer1", payload=(text % (done, value)).encode(), at=NOW)
+    events = services.list_device_events(site="hall", device_id="mixer1")
+    assert [(e.kind, e.text) for e in events] == [
+        (
+            "mended",
+            "Line 2: put the value of site in quotes: 'hall'. Line 4: put the value of size in quotes: 'small'. "
+            "Left out the value of job: values come on up/state.",
+        ),
+        ("described", "Described itself for the first time: mixer1, machine"),
+    ]
+
+
+def test_an_unchanged_description_is_not_parsed_again(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    describe()
+    monkeypatch.setattr(joining, "read", lambda *a, **k: pytest.fail("parsed again"))
+    assert describe().last_seen_at == NOW
 
 
 def test_a_device_without_a_known_site_comes_to_the_default_one(hall: str, settings: Any) -> None:
