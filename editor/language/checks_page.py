@@ -33,8 +33,8 @@ This page is written from the code (`make checks-page`). Every check has a code,
 language of the screens; where one click helps, a fix. Errors keep a program from running, never from being edited.
 Most hold until the program changes; those marked *for now* hold only as the site is at present.
 
-The examples are the programs of [tests/cases/checks](../../tests/cases/checks) in the painting factory: the first is
-told of, the second is not.
+The examples are the programs of [tests/cases/checks](../../tests/cases/checks) in the painting factory: the first
+is told of, the second is not.
 """
 
 
@@ -44,6 +44,8 @@ class Case:
 
     script: str
     diagnostics: tuple[Diagnostic, ...]
+    note: str = ""
+    """What the script does not show."""
 
     def tells(self, code: str) -> list[Diagnostic]:
         """Return the diagnostics with that code."""
@@ -53,11 +55,11 @@ class Case:
 def read_case(code: str, kind: str, site: Surroundings) -> Case:
     """Return what comes of the example `<code>.<kind>.json`; kind is bad or good."""
     body = json.loads((CASES / f"{code}.{kind}.json").read_text(encoding="utf-8"))
-    changed = _site_of(body, site)
+    changed, note = _site_of(body, site), body.get("note", "")
     if "script" in body:
-        return Case(body["script"], parse_script(body["script"], changed).diagnostics)
+        return Case(body["script"], parse_script(body["script"], changed).diagnostics, note)
     compiled = compile_document(body["document"], changed)
-    return Case(compiled.script, compiled.diagnostics)
+    return Case(compiled.script, compiled.diagnostics, note)
 
 
 def _site_of(body: Mapping[str, Any], site: Surroundings) -> Surroundings:
@@ -115,12 +117,13 @@ def _section(code: str, site: Surroundings) -> str:
     fixes = dict.fromkeys(d.fix.label_code for d in bad.tells(code) if d.fix is not None)
     lines.extend(f"- Fix: {FIX_TEXTS[fix]} · {FIX_TEXTS_DE[fix]}" for fix in fixes)
     said = next((diagnostic.message for diagnostic in bad.tells(code)), "")
-    told = [f"Told here: {said}", *_excerpt(bad, code), "Not here:", *_excerpt(good, code)]
+    told = [*_excerpt(bad, f"“{said}” is told here"), *_excerpt(good, "Nothing is told here")]
     return "\n".join([*lines, "", *told]) + "\n"
 
 
-def _excerpt(case: Case, code: str) -> Iterator[str]:
+def _excerpt(case: Case, title: str) -> Iterator[str]:
     lines = _methods(case.script)
+    yield f"{title}{'. ' + case.note if case.note else ':'}"
     yield "```python"
     yield from lines[:LONGEST_EXCERPT]
     if len(lines) > LONGEST_EXCERPT:
