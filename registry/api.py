@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -185,7 +186,7 @@ def show_history(request: HttpRequest, slug: str, device_id: str) -> list[dict[s
     """Show what happened to a device, newest first."""
     require(signed_in(request), slug, "viewer")
     events = services.list_device_events(site=slug, device_id=device_id)
-    return [{"at": e.at.isoformat(), "kind": e.kind, "text": e.text, "by": e.by} for e in events]
+    return [{**asdict(e), "at": e.at.isoformat()} for e in events]
 
 
 @router.get("/sites/{slug}/devices/{device_id}/rdf", openapi_extra=_sends(*CONTENT_TYPES.values()))

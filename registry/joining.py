@@ -16,6 +16,7 @@ from django.utils import timezone
 
 from registry.capability import Description, DeviceState, Pose, description_from_json, description_to_json
 from registry.describing import Reading, canonical_hash, read, source_hash
+from registry.differences import Change, list_changes
 from registry.errors import RegistryError
 from registry.live import publish
 from registry.models import Device, DeviceEvent, Site, User
@@ -101,15 +102,17 @@ def _site_for(slug: str) -> Site:
 def _describe(device: Device, reading: Reading, payload: bytes, digest: str, at: datetime) -> None:
     """Write the description into the row and its history; called under the row's lock."""
     description = reading.description
-    text = _difference(description_from_json(device.description) if device.description else None, description)
-    device.description = description_to_json(description)
+    before, after = device.description, description_to_json(description)
+    text = _difference(description_from_json(before) if before else None, description)
+    changes = list_changes(before, after) if before else ()
+    device.description = after
     device.description_hash = canonical_hash(description)
     device.source, device.source_hash, device.source_type = payload, digest, CONTENT_TYPES[reading.form]
     device.first_seen_at = device.first_seen_at or at
     device.last_seen_at = at
     device.save()
     if text:
-        _write_event(device, at, "described", text)
+        _write_event(device, at, "described", text, changes=changes)
     if text and reading.notes:
         _write_event(device, at, "mended", " ".join(reading.notes))
 
@@ -212,9 +215,12 @@ def record_problem(*, device_id: str, text: str, at: datetime | None = None) -> 
     return True
 
 
-def _write_event(device: Device, at: datetime, kind: str, text: str, by: User | None = None) -> None:
+def _write_event(
+    device: Device, at: datetime, kind: str, text: str, by: User | None = None, *, changes: tuple[Change, ...] = ()
+) -> None:
     """Add a line of history and forget the ones beyond the newest 200."""
-    DeviceEvent.objects.create(device=device, at=at, kind=kind, text=text[:300], by=by)
+    told = [asdict(change) for change in changes]
+    DeviceEvent.objects.create(device=device, at=at, kind=kind, text=text[:300], by=by, changes=told)
     oldest = DeviceEvent.objects.filter(device=device).order_by("-pk").values_list("pk", flat=True)[MOST_EVENTS:][:1]
     for key in list(oldest):
         DeviceEvent.objects.filter(device=device, pk__lte=key).delete()
@@ -353,5 +359,8 @@ def list_device_events(*, site: str, device_id: str, limit: int = 50) -> tuple[D
     get_device(site=site, device_id=device_id)
     rows = DeviceEvent.objects.filter(device__pk=device_id, device__site__slug=site).select_related("by")
     return tuple(
-        DeviceEventView(e.at, e.kind, e.text, e.by.display_name if e.by else "") for e in rows.order_by("-pk")[:limit]
+        DeviceEventView(
+            e.at, e.kind, e.text, e.by.display_name if e.by else "", tuple(Change(**change) for change in e.changes)
+        )
+        for e in rows.order_by("-pk")[:limit]
     )

@@ -216,6 +216,7 @@ class DeviceEvent(models.Model):
     at = models.DateTimeField()
     kind = models.CharField(max_length=20)
     text = models.CharField(max_length=300)
+    changes = models.JSONField(default=list)
     by = models.ForeignKey(User, null=True, on_delete=models.SET_NULL, related_name="+")
 
     class Meta:

@@ -181,6 +181,14 @@ class DeviceShape(Schema):
     description: str
 
 
+class ChangeShape(Schema):
+    """A field of a description that changed: its JSON before and after, empty where it was or is not there."""
+
+    path: str
+    before: str
+    after: str
+
+
 class DeviceEventShape(Schema):
     """One line of a device's history."""
 
@@ -188,6 +196,7 @@ class DeviceEventShape(Schema):
     kind: str
     text: str
     by: str
+    changes: list[ChangeShape]
 
 
 class DeviceEdit(Schema):

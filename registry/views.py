@@ -9,6 +9,7 @@ from datetime import datetime
 from typing import Any, Literal
 
 from registry.capability import Description, MethodSpec, Pose, PropertySpec, Scalar, description_from_json
+from registry.differences import Change
 from registry.floor import Grid
 from registry.models import Device
 
@@ -101,12 +102,13 @@ class DeviceView:
 
 @dataclass(frozen=True, slots=True)
 class DeviceEventView:
-    """One line of a device's history."""
+    """One line of a device's history; `changes` say field by field how a description differs from the last."""
 
     at: datetime
     kind: str
     text: str
     by: str
+    changes: tuple[Change, ...] = ()
 
 
 def view_of(device: Device, site: str) -> DeviceView:

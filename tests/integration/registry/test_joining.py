@@ -59,7 +59,9 @@ def test_a_changed_description_is_told_by_what_changed(
     with django_capture_on_commit_callbacks(execute=True):
         describe(replace(MIXER, methods=more))
     assert sorted(heard[0][1]["device"]) == ["id", "methods"]
-    assert services.list_device_events(site="hall", device_id="mixer1")[0].text == "Added method stop"
+    told = services.list_device_events(site="hall", device_id="mixer1")[0]
+    assert (told.text, [(c.path, c.before) for c in told.changes]) == ("Added method stop", [("methods/stop", "")])
+    assert '"vipo/v1/dev/mixer1/down/stop"' in told.changes[0].after
 
 
 def test_a_description_that_is_not_rdf_leaves_the_old_one(hall: str) -> None:
