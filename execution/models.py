@@ -135,7 +135,11 @@ class Command(models.Model):
     class Meta:
         """The outbox is read by what is to be sent next."""
 
-        indexes = [models.Index(fields=["status", "send_after"]), models.Index(fields=["device", "status"])]
+        indexes = [
+            models.Index(fields=["status", "send_after"]),
+            models.Index(fields=["device", "status"]),
+            models.Index(fields=["device", "position"]),
+        ]
 
     def __str__(self) -> str:
         return f"{self.method} to {self.device}"

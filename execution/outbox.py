@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
+from typing import Any
 from uuid import UUID
 
 from django.db import transaction
-from django.db.models import Exists, OuterRef
+from django.db.models import Exists, OuterRef, Q, QuerySet, Subquery
 
 from execution import inbox
 from execution.models import Command
@@ -29,6 +30,8 @@ STATUS = {
 }
 UNANSWERED = (Command.Status.PENDING, Command.Status.SENT)
 FINAL = frozenset({"DONE", "FAILED", "REJECTED", "CANCELED"})
+WINDOW = 12
+"""A device remembers its last 16 commands: nobody runs so far ahead of an open one that it would do that one again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +50,8 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
 
     One whose sending is not confirmed by `mark_commands_sent`, or that no device answers, is given out again. While a
     site is stopped only pause, resume and cancel go out. A piece of way waits until the robot has accepted the piece
-    before it: with a gateway that died in between, it would otherwise cut the corner through a wall.
+    before it: with a gateway that died in between, it would otherwise cut the corner through a wall. Nothing new goes
+    out while a command that is `WINDOW` older is open: asked again, the device might have forgotten it.
     """
     now = datetime.now(UTC)
     before = Command.objects.filter(
@@ -59,7 +63,8 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     )
     with transaction.atomic():
         due = Command.objects.filter(status__in=Command.OPEN, send_after__lte=now)
-        due = due.exclude(Exists(before), piece=True)
+        due = due.exclude(Exists(before), piece=True).annotate(horizon=Subquery(_horizon()))
+        due = due.exclude(Exists(_far_behind()) & Q(tries=0) & ~Q(method__in=CONTROLS))
         held_back = due.filter(site__stop_latch__active=True).exclude(method__in=CONTROLS)
         rows = due.exclude(id__in=held_back.values("id")).order_by("site_id", "position")
         claimed = list(rows.select_for_update(skip_locked=True, of=("self",))[:limit])
@@ -70,6 +75,24 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
             row.send_after = now + timedelta(seconds=wait_s)
         Command.objects.bulk_update(claimed, ["tries", "send_after"])
     return tuple(_outgoing(row) for row in claimed)
+
+
+def _horizon() -> QuerySet[Command, Any]:
+    """Return the position of the command that lies `WINDOW` commands of the same device back."""
+    older = Command.objects.filter(
+        device=OuterRef("device"), site_id=OuterRef("site_id"), position__lt=OuterRef("position")
+    )
+    return older.order_by("-position").values("position")[WINDOW - 1 : WINDOW]
+
+
+def _far_behind() -> QuerySet[Command]:
+    """Return the open commands of the same device that lie beyond the horizon."""
+    return Command.objects.filter(
+        device=OuterRef("device"),
+        site_id=OuterRef("site_id"),
+        position__lte=OuterRef("horizon"),
+        status__in=Command.OPEN,
+    )
 
 
 def _outgoing(row: Command) -> OutgoingCommand:
@@ -112,9 +135,22 @@ def record_ack(
         else:
             row.send_after = at + timedelta(seconds=LAST_RETRY_S)
         row.save(update_fields=["status", "why", "sent_at", "ended_at", "send_after"])
+        if status == "DONE" and row.piece:
+            _close_pieces_before(row, at)
         if status in FINAL and row.method not in CONTROLS:
             _pass_on(row, status, why, result)
     return True
+
+
+def _close_pieces_before(row: Command, at: datetime) -> None:
+    """A robot drives its pieces in order: who has reached the end of one is past those before it, heard or not."""
+    earlier = Command.objects.select_for_update(of=("self",)).select_related("site").filter(
+        device=row.device, site=row.site, piece=True, position__lt=row.position, status__in=Command.OPEN
+    )  # fmt: skip
+    for piece in earlier.order_by("position"):
+        piece.status, piece.ended_at = Command.Status.DONE, at
+        piece.save(update_fields=["status", "ended_at"])
+        _pass_on(piece, "DONE", "", {})
 
 
 def _pass_on(row: Command, status: str, why: str, result: Mapping[str, Scalar]) -> None:

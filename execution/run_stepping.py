@@ -24,6 +24,7 @@ from execution.places import ROLE
 from execution.plan_needs import Needs, needs_of
 from execution.run_facts import facts_of
 from execution.run_state import RunState
+from execution.settling import split_early, wake_later
 from execution.traffic.messages import floor_zones
 from registry import services as registry
 from registry.capability import Scalar
@@ -42,10 +43,14 @@ def advance_run(run_id: UUID | str) -> bool:
             return False
         events = inbox.waiting(inbox.run_target(run.id))
         plan, needs = _plan(run.id)
-        facts = facts_of(needs, run, datetime.now(UTC))
-        journal = Journal(run, datetime.now(UTC), _names(run.site.slug))
+        now = datetime.now(UTC)
+        events, early = split_early(run, needs, events, now)
+        facts = facts_of(needs, run, now)
+        journal = Journal(run, now, _names(run.site.slug))
+        if early:
+            wake_later(run, now)
         state = _fold(_Step(run, plan, journal), facts, events)
-        _write(run, plan, state, journal)
+        _write(run, state, journal, watches=bool(early) or _watches(plan, state))
         inbox.mark_taken(events)
         inbox.crash_point("run_before_commit")
     inbox.crash_point("run_after_commit")
@@ -186,10 +191,14 @@ def _post_site(run: Run, key: str, payload: Mapping[str, Any]) -> None:
     inbox.post(inbox.site_target(run.site.slug), [(f"{run.id}:{key}", payload)])
 
 
-def _write(run: Run, plan: Plan, state: RunState, journal: Journal) -> None:
-    """Write the new state, if nobody else has advanced the run meanwhile."""
+def _watches(plan: Plan, state: RunState) -> bool:
+    """Tell whether news of devices may let the run go on."""
     waits = any(thread.waits_for == "until" for thread in state.threads.values())
-    watches = waits or any(event.starts == "branch" for event in plan.events)
+    return waits or any(event.starts == "branch" for event in plan.events)
+
+
+def _write(run: Run, state: RunState, journal: Journal, *, watches: bool) -> None:
+    """Write the new state, if nobody else has advanced the run meanwhile."""
     written = Run.objects.filter(id=run.id, epoch=run.epoch).update(
         state=machine.to_json(state),
         status=state.status,

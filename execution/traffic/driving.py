@@ -171,7 +171,11 @@ def _machine_is_ready(turn: Turn, robot: Robot, index: int) -> bool:
 
 def _send_piece(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> None:
     points = [list(turn.layout.point(node)) for node in nodes]
-    arguments: dict[str, object] = {"path": [[round(x, 4), round(y, 4)] for x, y in points]}
+    begin = turn.layout.point(robot.way[robot.released - len(nodes)])
+    arguments: dict[str, object] = {
+        "path": [[round(x, 4), round(y, 4)] for x, y in points],
+        "from": [round(begin[0], 4), round(begin[1], 4)],
+    }
     last = nodes[-1]
     theta = turn.layout.spot(last).theta if isinstance(last, str) and robot.released == len(robot.way) - 1 else None
     if theta is not None:

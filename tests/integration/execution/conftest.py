@@ -67,6 +67,13 @@ class Shop:
                     InboxEvent.objects.filter(target=target, taken_at=None).update(taken_at=datetime.now(UTC))
         raise AssertionError("the inboxes never run empty")
 
+    def work_once(self, rounds=4):
+        """What workers do in a moment: what is held back for a device's next word stays."""
+        for _ in range(rounds):
+            for target in sorted(set(InboxEvent.objects.filter(taken_at=None).values_list("target", flat=True))):
+                kind, _, name = target.partition(":")
+                advance_run(name) if kind == "run" else advance_site(name)
+
     def send(self):
         """What the gateway does: commands to devices, each as often as `deliveries` says."""
         Command.objects.filter(status="sent").update(send_after=datetime.now(UTC))
