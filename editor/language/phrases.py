@@ -24,6 +24,10 @@ class Said:
         """Return the words."""
         if language == "en":
             return self.english
+        small = self.english[:1].lower() + self.english[1:]
+        if self.english not in WORDS_DE and small in WORDS_DE:
+            german = WORDS_DE[small]
+            return german[:1].upper() + german[1:]
         return WORDS_DE.get(self.english, self.english.replace("“", "„").replace("”", "“"))
 
 
@@ -36,19 +40,6 @@ class Refusal:
     def say(self, language: Language) -> str:
         """Return the words."""
         return self.english if language == "en" else refused_in_german(self.english)
-
-
-@dataclass(frozen=True, slots=True)
-class TypeWord:
-    """A type of values, such as “a number”."""
-
-    english: str
-    capital: bool = False
-
-    def say(self, language: Language) -> str:
-        """Return the words."""
-        words = Said(self.english).say(language)
-        return words[:1].upper() + words[1:] if self.capital else words
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +149,7 @@ class Driver:
         return f"{'the robot' if language == 'en' else 'den Roboter'} {Quoted(self.name).say(language)}"
 
 
-Phrase = Said | Refusal | TypeWord | Quoted | Span | Amounts | Plural | Options | Robot | Driver
+Phrase = Said | Refusal | Quoted | Span | Amounts | Plural | Options | Robot | Driver
 Argument = str | int | float | Phrase
 
 

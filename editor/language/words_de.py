@@ -21,6 +21,7 @@ WORDS_DE: Final[Mapping[str, str]] = {
     "a place": "ein Ort",
     "a robot": "ein Roboter",
     "a zone": "eine Zone",
+    "a point": "ein Punkt",
     # what a sentence speaks of
     "A condition": "Eine Bedingung",
     "The quantity": "Die Menge",

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from string import Formatter
@@ -20,11 +21,11 @@ from editor.language.phrases import (
     Robot,
     Said,
     Span,
-    TypeWord,
     number_text,
 )
 from editor.language.texts import FIX_TEXTS, NOT_NOW, TEXTS
 from editor.language.texts_de import FIX_TEXTS_DE, TEXTS_DE
+from editor.language.typing_of_values import TYPE_WORDS
 
 
 def placeholders(text: str) -> set[str]:
@@ -73,7 +74,8 @@ def test_every_sentence_ends_and_has_a_severity(code: str) -> None:
         (Robot("Arm", sort=True), "An Arm", "Ein Arm"),
         (Robot("", sort=True), "A robot", "Ein Roboter"),
         (Driver("carrier", bound=False), "the robot “carrier”", "den Roboter „carrier“"),
-        (TypeWord("a number", capital=True), "A number", "Eine Zahl"),
+        (Said("A number"), "A number", "Eine Zahl"),
+        (Said("“and”"), "“and”", "„and“"),
         (Quoted("<"), "“<”", "„<“"),
         (Said("The quantity"), "The quantity", "Die Menge"),
         (Refusal("Write self.end()."), "Write self.end().", "Schreiben Sie self.end()."),
@@ -126,3 +128,19 @@ def test_what_the_parser_says_has_its_german(path: Path) -> None:
     quoted = {"The variable abc": "The variable “abc”", "A change of abc": "A change of “abc”"}
     said = [quoted.get(english, english) for english in refusals(path)]
     assert [english for english in said if Refusal(english).say("de") == english] == []
+
+
+CHECKERS = sorted(Path(parsing.__file__).parent.glob("check*.py"))
+
+
+@pytest.mark.parametrize("path", CHECKERS, ids=lambda path: path.stem)
+def test_what_the_checks_speak_of_has_its_german(path: Path) -> None:
+    subjects = re.compile(r"(The|A|An|How) [a-z ]+")
+    nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+    said = [node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+    found = [text for text in said if subjects.fullmatch(text)]
+    assert [text for text in found if Said(text).say("de") == text] == []
+
+
+def test_every_type_has_its_german() -> None:
+    assert [word for word in TYPE_WORDS.values() if Said(word).say("de") == word] == []
