@@ -1,6 +1,6 @@
 /** The inspector's fields: a label, a control, and the problems under it. */
 import { ActionIcon, NumberInput, Select, TextInput, Tooltip } from "@mantine/core";
-import { CircleAlert, Crosshair, FunctionSquare } from "lucide-react";
+import { CircleAlert, Crosshair, FunctionSquare, TriangleAlert } from "lucide-react";
 import { useId, type FocusEvent, type ReactNode } from "react";
 import type { Place, Value } from "../model/types";
 import { useOpenProgram } from "../state/context";
@@ -9,12 +9,17 @@ import { unitText } from "../scene/words";
 import classes from "./inspector.module.css";
 import { useStepEditor } from "./stepEditor";
 
-/** Problems whose field is this one, or inside it. */
+/** Errors whose field is this one, or inside it. */
 export function useFieldProblems(field: string): readonly string[] {
+  return useFieldMessages(field, "error");
+}
+
+function useFieldMessages(field: string, severity: "error" | "warning"): readonly string[] {
   const { diagnostics } = useOpenProgram();
   const { id } = useStepEditor();
   return diagnostics
-    .filter((each) => each.step === id && (each.field === field || each.field.startsWith(`${field}.`)))
+    .filter((each) => each.step === id && each.severity === severity)
+    .filter((each) => each.field === field || each.field.startsWith(`${field}.`))
     .map((each) => each.message);
 }
 
@@ -31,6 +36,7 @@ export function FieldFrame({
 }) {
   const control = useId();
   const found = useFieldProblems(field);
+  const warnings = useFieldMessages(field, "warning");
   const messages = problems ?? found;
   const { showEditing } = useStepEditor();
   const leave = (event: FocusEvent) => {
@@ -44,6 +50,12 @@ export function FieldFrame({
         <p className={classes.problem} id={`${control}-note`}>
           <CircleAlert size={14} aria-hidden="true" />
           <span>{messages.join(" ")}</span>
+        </p>
+      ) : null}
+      {warnings.length > 0 ? (
+        <p className={classes.warning}>
+          <TriangleAlert size={14} aria-hidden="true" />
+          <span>{warnings.join(" ")}</span>
         </p>
       ) : null}
     </div>

@@ -2,12 +2,14 @@
 import { Button, Modal } from "@mantine/core";
 import { useMutation } from "@tanstack/react-query";
 import { Bot, CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
+import { useState } from "react";
 import { useNavigate } from "react-router-dom";
 import { api } from "@/api/client";
 import type { Run } from "@/api/types";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
+import { completed, RunParameters, type Given } from "./RunParameters";
 
 export function RunDialog() {
   const { t } = useOpenProgram();
@@ -21,12 +23,14 @@ export function RunDialog() {
 }
 
 function Content({ onClose }: { onClose: () => void }) {
-  const { t, program, site, diagnostics } = useOpenProgram();
+  const { t, program, site, diagnostics, document } = useOpenProgram();
   const navigate = useNavigate();
+  const [given, setGiven] = useState<Given>({});
+  const parameters = completed(Object.values(document.parameters), given);
   const errors = diagnostics.filter((each) => each.severity === "error").length;
   const warnings = diagnostics.length - errors;
   const run = useMutation({
-    mutationFn: () => api.post<Run>(`/programs/${program.id}/runs`, {}),
+    mutationFn: () => api.post<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {} }),
     onSuccess: (started) => {
       onClose();
       void navigate(`/runs/${started.id}`);
@@ -60,6 +64,7 @@ function Content({ onClose }: { onClose: () => void }) {
           </li>
         ) : null}
       </ul>
+      <RunParameters given={given} onGive={setGiven} />
       {run.error ? (
         <p className={classes.problem} role="alert">
           {run.error.message}
@@ -69,7 +74,12 @@ function Content({ onClose }: { onClose: () => void }) {
         <Button variant="default" onClick={onClose}>
           {t("cancel")}
         </Button>
-        <Button data-autofocus loading={run.isPending} disabled={errors > 0} onClick={() => run.mutate()}>
+        <Button
+          data-autofocus
+          loading={run.isPending}
+          disabled={errors > 0 || parameters === null}
+          onClick={() => run.mutate()}
+        >
           {t("run")}
         </Button>
       </div>
