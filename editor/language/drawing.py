@@ -29,6 +29,8 @@ from editor.language.reading import read_document
 from editor.language.surroundings import Surroundings
 from editor.language.values import read_point, with_role_ids, write_argument, write_place, write_value
 
+VARIABLE_FIELDS = frozenset({"variable", "result"})
+"""Parameters that name a variable."""
 _Drawn = tuple[str, dict[str, object], tuple[tuple[str, n.Block], ...]]
 """Kind, parameters and branches of one step."""
 
@@ -57,6 +59,17 @@ class _Before:
     raw: Mapping[str, Mapping[str, object]]
     said: Mapping[str, tuple[str, Mapping[str, object]]]
     """Kind and parameters of each step that takes part in the program."""
+
+    def variables(self) -> dict[str, str]:
+        """Return what the document calls the variables that a script speaks of."""
+        names: dict[str, str] = {}
+        for step, (_, said) in self.said.items():
+            raw = mapping(self.raw[step].get("params"))
+            for field_name in VARIABLE_FIELDS:
+                name, written = raw.get(field_name), said.get(field_name)
+                if isinstance(name, str) and isinstance(written, str):
+                    names[written] = name
+        return names
 
 
 @dataclass(slots=True)
@@ -124,6 +137,8 @@ class _Builder:
 
     def _named(self, given: Mapping[str, object], arguments: Mapping[str, str]) -> dict[str, object]:
         named = {key: with_document_names(value, self.names) for key, value in given.items()}
+        for key in VARIABLE_FIELDS & given.keys():
+            named[key] = self.names.get(str(given[key]), given[key])
         if arguments and "args" in named:
             named["args"] = {arguments.get(key, key): value for key, value in mapping(named["args"]).items()}
         return named
@@ -298,6 +313,7 @@ def tree_to_document(
     layout = Layout(surroundings)
     for step in before.raw.values():
         layout.occupy(read_point(step.get("pos")))
+    names = {**before.variables(), **names}
     builder = _Builder(_Drawer(role_ids, functions.ids), before, layout, functions, names)
     builder.block(PROGRAM, "body", aligned.body)
     builder.block(PROGRAM, "events", aligned.events)

@@ -204,6 +204,31 @@ def test_a_role_that_is_renamed_is_one_value_of_each_step() -> None:
     assert differences(before, tree_to_document(tree, factory(), before)) == ["roles.carrier.name"]
 
 
+def test_variables_keep_the_names_that_the_document_has_for_them() -> None:
+    before = order_of_paint()
+    before["steps"]["set"] = step("set", "program", "A", {"variable": "My count", "value": 1})
+    before["steps"]["if"] = step(
+        "while", "program", "B", {"condition": {"op": "<", "args": [{"param": "My count"}, 9]}}
+    )
+    after = redraw(before, ("self.my_count < 9", "self.my_count < 8"), ("self.my_count = 1\n", "self.my_count = 2\n"))
+    assert after["steps"]["set"]["params"] == {"variable": "My count", "value": 2}
+    assert after["steps"]["if"]["params"] == {"condition": {"op": "<", "args": [{"param": "My count"}, 8]}}
+    more = redraw(before, ("self.my_count = 1\n", "self.my_count = 1\n        self.my_count = self.my_count + 1\n"))
+    new = more["steps"]["s1"]["params"]
+    assert new == {"variable": "My count", "value": {"op": "+", "args": [{"param": "My count"}, 1]}}
+
+
+def test_events_keep_their_ids_and_bodies() -> None:
+    before = order_of_paint()
+    hot = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 80]}
+    event = {"kind": "on_event", "place": ["program", "events", "V"], "pos": [3.0, -2.0]}
+    before["steps"]["e"] = {**event, "params": {"condition": hot, "starts": "branch"}}
+    before["steps"]["tell"] = step("notify", "e", "V", {"message": "Hot!", "level": "warning"})
+    assert redraw(before) == before
+    after = redraw(before, ("temperature > 80", "temperature > 85"), ('"Hot!"', '"Very hot!"'))
+    assert {d.split(".")[1] for d in differences(before, after)} == {"e", "tell"}
+
+
 def test_separate_picks_and_drops_stay_separate() -> None:
     before = order_of_paint()
     load = {"role": "robot", "object": "box", "quantity": 1}
