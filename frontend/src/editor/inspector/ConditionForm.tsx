@@ -1,12 +1,14 @@
-/** A condition built as property, comparison, value; several joined by "and" or "or". */
+/** A condition: chosen as property, comparison, value, several joined by "and" or "or"; or written in one line. */
 import { Button, SegmentedControl, Select } from "@mantine/core";
 import { Plus, X } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
 import { IconButton } from "@/design/IconButton";
-import { useLiveStore } from "@/live/store";
 import { useOpenProgram } from "../state/context";
-import { joinComparisons, splitComparisons, type Comparison } from "../model/conditions";
+import { fitsForm, joinComparisons, splitComparisons, type Comparison } from "../model/conditions";
 import type { Value } from "../model/types";
-import { withUnit } from "../scene/words";
+import { ExpressionField } from "./expression/ExpressionField";
+import { Reading } from "./expression/Readings";
 import { useFieldProblems, FieldFrame, ValueField } from "./fields";
 import classes from "./inspector.module.css";
 import { useStepEditor } from "./stepEditor";
@@ -21,6 +23,43 @@ const SIGNS = [
 ];
 
 export function ConditionForm({ field }: { field: string }) {
+  const { t: words } = useTranslation();
+  const { t } = useOpenProgram();
+  const { id, step, set, disabled } = useStepEditor();
+  const value = (step.params[field] ?? null) as Value;
+  const fits = fitsForm(value);
+  const [writes, setWrites] = useState(!fits);
+  const written = writes || !fits;
+  return (
+    <div className={classes.field}>
+      <SegmentedControl
+        size="xs"
+        aria-label={t("condition.label")}
+        disabled={disabled}
+        value={written ? "self" : "form"}
+        onChange={(next) => setWrites(next === "self")}
+        data={[
+          { value: "form", label: words("expression.form"), disabled: !fits },
+          { value: "self", label: words("expression.self") },
+        ]}
+      />
+      {written ? (
+        <ExpressionField
+          label={t("condition.label")}
+          field={field}
+          step={id}
+          wanted="boolean"
+          value={value}
+          onChange={(next) => set(field, next)}
+        />
+      ) : (
+        <ComparisonForm field={field} />
+      )}
+    </div>
+  );
+}
+
+function ComparisonForm({ field }: { field: string }) {
   const { t } = useOpenProgram();
   const { step, set, disabled } = useStepEditor();
   const problems = useFieldProblems(field);
@@ -118,9 +157,7 @@ function Row({
           </div>
         )}
       </FieldFrame>
-      {device && property ? (
-        <Now device={device.id} name={property.name} unit={facts?.unit ?? ""} label={device.name} />
-      ) : null}
+      {device && property ? <Reading device={device.id} name={property.name} /> : null}
       <div className={classes.pair}>
         <FieldFrame label={t("condition.comparison")} field={`${field}.sign`} problems={[]}>
           {({ control }) => (
@@ -147,17 +184,6 @@ function Row({
       </div>
     </div>
   );
-}
-
-/** The current reading, straight from the live store. */
-function Now({ device, name, unit, label }: { device: string; name: string; unit: string; label: string }) {
-  const { t } = useOpenProgram();
-  const value = useLiveStore((live) => {
-    const found = live.deviceById[device]?.properties.find((each) => each.name === name)?.value;
-    return typeof found === "number" ? Math.round(found * 10) / 10 : (found ?? null);
-  });
-  if (value === null) return null;
-  return <p className={classes.now}>{t("condition.now", { device: label, value: withUnit(String(value), unit) })}</p>;
 }
 
 function propertyOf(left: Value): { device: string; name: string } | null {

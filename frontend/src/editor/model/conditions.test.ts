@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { joinComparisons, splitComparisons } from "./conditions";
+import { fitsForm, joinComparisons, readingsOf, splitComparisons } from "./conditions";
 import type { Value } from "./types";
 
 const hot: Value = { op: ">", args: [{ property: ["oven", "temperature"] }, 40] };
@@ -24,4 +24,26 @@ test("nothing entered stays nothing, half entered stays half", () => {
     op: "<",
     args: [{ param: "x" }, null],
   });
+});
+
+test("the form shows comparisons of readings with plain values, joined by one word", () => {
+  expect([null, hot, { op: "and", args: [hot, good, null] } as Value].map(fitsForm)).toEqual([true, true, true]);
+  const written: Value[] = [
+    true,
+    { op: "not", args: [hot] },
+    { op: "and", args: [hot, { op: "or", args: [hot, good] }] },
+    { op: ">", args: [40, { property: ["oven", "temperature"] }] },
+    { op: ">", args: [{ property: ["oven", "temperature"] }, { quantity: [1, "MIN"] }] },
+    { op: "in", args: [{ at: { role: "robot" } }, { zone: "z1" }] },
+    { op: ">", args: [{ op: "now", args: [] }, 3] },
+  ];
+  expect(written.map(fitsForm)).toEqual(written.map(() => false));
+});
+
+test("each reading of a value is found once", () => {
+  expect(readingsOf({ op: "and", args: [hot, good, hot] })).toEqual([
+    ["oven", "temperature"],
+    ["oven", "quality"],
+  ]);
+  expect(readingsOf({ property: [{ param: "mixer" }, "level"] })).toEqual([]);
 });

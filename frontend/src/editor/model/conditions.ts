@@ -37,3 +37,46 @@ export function joinComparisons(comparisons: readonly Comparison[], joiner: "and
   const [only = null] = values;
   return values.length > 1 ? { op: joiner, args: values } : only;
 }
+
+const COMPARED = ["==", "!=", "<", "<=", ">", ">="];
+
+/** Whether the form of property, comparison and value can show it all; what it cannot show is written. */
+export function fitsForm(value: Value): boolean {
+  if (value === null || typeof value !== "object") return value === null;
+  if (!("op" in value)) return "property" in value || "param" in value;
+  if (value.op === "and" || value.op === "or") return value.args.every((each) => fitsForm(each) && !isJoined(each));
+  const [left, right] = value.args;
+  return COMPARED.includes(value.op) && isNamed(left) && (isPlain(right) || isParameter(right));
+}
+
+function isJoined(value: Value): boolean {
+  return value !== null && typeof value === "object" && "op" in value && (value.op === "and" || value.op === "or");
+}
+
+function isNamed(value: Value | undefined): boolean {
+  if (value === null || value === undefined) return true;
+  if (typeof value !== "object") return false;
+  return isParameter(value) || ("property" in value && typeof value.property[0] === "string");
+}
+
+function isParameter(value: Value | undefined): boolean {
+  return typeof value === "object" && value !== null && "param" in value;
+}
+
+function isPlain(value: Value | undefined): boolean {
+  return value === undefined || typeof value !== "object" || value === null;
+}
+
+/** The readings that a value looks at, as device and property, each once. */
+export function readingsOf(value: Value): readonly (readonly [string, string])[] {
+  const found = new Map<string, readonly [string, string]>();
+  const look = (each: Value | undefined): void => {
+    if (each === null || each === undefined || typeof each !== "object") return;
+    if ("op" in each) each.args.forEach(look);
+    if (!("property" in each)) return;
+    const [device, name] = each.property;
+    if (typeof device === "string") found.set(`${device}\n${name}`, [device, name]);
+  };
+  look(value);
+  return [...found.values()];
+}

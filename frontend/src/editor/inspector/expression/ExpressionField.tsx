@@ -2,6 +2,7 @@
 import { ExpressionInput } from "./ExpressionInput";
 import { FieldFrame, useFieldProblems } from "../fields";
 import type { Value } from "../../model/types";
+import { Readings } from "./Readings";
 import { useExpression } from "./useExpression";
 
 export interface ExpressionFieldProps {
@@ -24,13 +25,16 @@ export function ExpressionField(props: ExpressionFieldProps) {
   return (
     <FieldFrame label={label} field={field} problems={problems}>
       {({ control, note, bad }) => (
-        <ExpressionInput
-          id={control}
-          note={bad ? note : undefined}
-          bad={bad}
-          expression={expression}
-          placeholder={props.placeholder}
-        />
+        <>
+          <ExpressionInput
+            id={control}
+            note={bad ? note : undefined}
+            bad={bad}
+            expression={expression}
+            placeholder={props.placeholder}
+          />
+          <Readings value={value} />
+        </>
       )}
     </FieldFrame>
   );

@@ -1,0 +1,32 @@
+/** The current readings that a value looks at, straight from the live store. */
+import { useLiveStore } from "@/live/store";
+import { readingsOf } from "../../model/conditions";
+import type { Value } from "../../model/types";
+import { withUnit } from "../../scene/words";
+import { useOpenProgram } from "../../state/context";
+import classes from "../inspector.module.css";
+
+export function Readings({ value }: { value: Value | undefined }) {
+  return readingsOf(value ?? null).map(([device, name]) => (
+    <Reading key={`${device}\n${name}`} device={device} name={name} />
+  ));
+}
+
+export function Reading({ device, name }: { device: string; name: string }) {
+  const { t, devices } = useOpenProgram();
+  const facts = devices.find((each) => each.id === device);
+  const unit = facts?.properties.find((each) => each.name === name)?.unit ?? "";
+  const value = useReading(device, name);
+  if (!facts || value === null) return null;
+  return (
+    <p className={classes.now}>{t("condition.now", { device: facts.name, value: withUnit(String(value), unit) })}</p>
+  );
+}
+
+/** A reading as it is now, numbers to a tenth. */
+export function useReading(device: string, name: string) {
+  return useLiveStore((live) => {
+    const found = live.deviceById[device]?.properties.find((each) => each.name === name)?.value;
+    return typeof found === "number" ? Math.round(found * 10) / 10 : (found ?? null);
+  });
+}
