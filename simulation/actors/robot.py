@@ -23,6 +23,8 @@ DRIVING_PERCENT_S = 100.0 / (4 * 3600)
 STANDING_PERCENT_S = 100.0 / (24 * 3600)
 CHARGING_PERCENT_S = 100.0 / 1800
 DOCKED_M = 0.3
+ASTRAY_M = 0.6
+"""How far from its end the next piece of way may begin."""
 Bounds = tuple[float, float, float, float]
 
 
@@ -246,6 +248,8 @@ class Robot(Actor):
         theta = arguments.get("theta")
         if theta is not None and not is_number(theta):
             return "theta must be a number in radians."
+        if why := self._refusal_of_beginning(arguments):
+            return why
         x1, y1, x2, y2 = self._bounds
         if not all(x1 <= x <= x2 and y1 <= y <= y2 for x, y in points):
             return "The path leaves the map."
@@ -254,6 +258,19 @@ class Robot(Actor):
             return "speed must be a number above 0, in metres a second."
         heading, limit = (float(n) if isinstance(n, int | float) else None for n in (theta, speed))
         return Task(command, "move", {}, tuple(points), heading, limit)
+
+    def _refusal_of_beginning(self, arguments: Mapping[str, object]) -> str:
+        """Return why a way that begins elsewhere is not driven: to get there straight on may lead through walls."""
+        begin = arguments.get("from")
+        if begin is None:
+            return ""
+        points = read_path({"path": [begin]})
+        if isinstance(points, str):
+            return "from must be a point [x, y] in metres."
+        ends = [task.points[-1] for task in self._tasks if task.points]
+        here = ends[-1] if ends else (self._at.x, self._at.y)
+        away_m = hypot(points[0][0] - here[0], points[0][1] - here[1])
+        return f"The way begins {away_m:.1f} m from where {self.description.name} will be." if away_m > ASTRAY_M else ""
 
     def _cancel(self, t_s: float, command: str) -> None:
         """End a command; a move takes the moves after it along."""

@@ -1,7 +1,7 @@
 """The order in which commands leave, also when a gateway dies between claiming and sending."""
 
 from datetime import UTC, datetime, timedelta
-from uuid import uuid4
+from uuid import UUID, uuid4
 
 from execution import services
 from execution.models import Command
@@ -50,3 +50,36 @@ def test_a_gateway_that_died_with_a_piece_does_not_let_the_next_one_overtake_it(
     assert claimed() == [first]
     assert accept("robot01", first)
     assert claimed() == [second]
+
+
+def answer(device, command, status):
+    now = datetime.now(UTC)
+    return services.record_ack(device=device, command_id=command, status=status, why="", result={}, at=now)
+
+
+def test_who_has_driven_a_piece_has_driven_those_before_it_even_when_that_was_not_heard(db):
+    site = Site.objects.create(name="Hall", slug="hall")
+    pieces = [add(site, position) for position in (1, 2, 3)]
+    pick = add(site, 4, method="pick", piece=False)
+    for piece in pieces:
+        claimed()
+        accept("robot01", piece)
+    assert answer("robot01", pieces[1], "DONE")
+    statuses = dict(Command.objects.values_list("id", "status"))
+    assert [statuses[UUID(piece)] for piece in pieces] == ["done", "done", "accepted"]
+    assert statuses[UUID(pick)] == "pending"
+
+
+def test_nothing_new_goes_out_so_far_behind_an_open_command_that_the_device_might_do_it_again(db):
+    site = Site.objects.create(name="Hall", slug="hall")
+    open_one = add(site, 1, method="greet", piece=False)
+    others = [add(site, position, method="wave", piece=False) for position in range(2, 16)]
+    cancel = add(site, 16, method="cancel", piece=False)
+    elsewhere = add(site, 17, "oven", "curePaint", piece=False)
+    sent = [command.id for command in services.claim_commands(limit=100)]
+    assert sent == [open_one, *others[:11], cancel, elsewhere]
+    for command in others[:11]:
+        answer("robot01", command, "DONE")
+    assert claimed() == []
+    answer("robot01", open_one, "DONE")
+    assert claimed() == others[11:]

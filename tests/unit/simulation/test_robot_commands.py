@@ -77,3 +77,17 @@ def test_objects_are_neither_made_nor_lost(handling: list[tuple[str, int]]) -> N
         held = world.stocks()["shelf"]["box"] + world.robots()["robot"].carrying.get("box", 0)
         assert held == 24
         assert world.robots()["robot"].carrying.get("box", 0) <= 2
+
+
+def test_a_way_that_begins_elsewhere_is_refused_and_not_driven() -> None:
+    world = Stage(scene(), KinematicDriver)
+    here = world.robots()["robot"].pose
+    world.command("robot", "move", {"path": [[3.0, 6.0]], "from": [here.x + 2.0, here.y]}, "astray")
+    (refusal,) = [e for e in world.advance(1.0) if isinstance(e, Ack)]
+    assert (refusal.status, refusal.command) == ("REJECTED", "astray")
+    assert "begins 2.0 m from where" in refusal.why
+    assert world.robots()["robot"].pose == here
+    world.command("robot", "move", {"path": [[3.0, 6.0]], "from": [here.x, here.y]}, "first")
+    world.command("robot", "move", {"path": [[3.0, 6.2]], "from": [3.0, 6.0]}, "second")
+    finals = {e.command: e.status for e in world.advance(60.0) if isinstance(e, Ack)}
+    assert finals == {"first": "DONE", "second": "DONE"}
