@@ -84,12 +84,13 @@ export function EditorMap({ insets, fitInsets }: { insets: Insets; fitInsets: In
           ? (link) => useUi.setState({ into: { branch: link.into, link: link.id, word: link.word ?? t("then") } })
           : undefined,
       }}
-      onStep={gesture.tool === ZONE_TOOL ? undefined : pressStep}
+      onlyFloor={gesture.tool === ZONE_TOOL}
+      onStep={pressStep}
       onEditStep={(step) => {
         select([step]);
         toggleHull(document.steps[step]?.params.function);
       }}
-      onDevice={(device, press) => (gesture.tool === ZONE_TOOL ? pressZoneTool(open, press.at) : pressDevice(device))}
+      onDevice={pressDevice}
       onDeviceDown={drawing.dragFrom}
       onDeviceUp={drawing.dragTo}
       onFloor={pressFloor}

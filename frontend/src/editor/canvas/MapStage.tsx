@@ -56,6 +56,8 @@ export interface MapStageProps {
   insets: Insets;
   label: string;
   mode: "select" | "pan" | "draw";
+  /** Presses go through steps, lines and machines to the floor. */
+  onlyFloor?: boolean;
   lines?: Pick<DrawingProps, "onSelectLink" | "chosenLink" | "onSwap" | "swapLabel">;
   onStep?: (step: string, add: boolean) => void;
   onEditStep?: (step: string) => void;
@@ -128,6 +130,7 @@ function Stage(props: MapStageProps) {
       className={classes.stage}
       data-lod={lod}
       data-tool={mode}
+      data-only-floor={props.onlyFloor || undefined}
       role="application"
       aria-label={props.label}
       onPointerMove={props.onPointer ? (event) => props.onPointer?.(press(event).at) : undefined}

@@ -28,23 +28,8 @@ const NUDGES: Readonly<Record<string, Position>> = {
 
 export function CornerHandles(props: CornerHandlesProps) {
   const { points, onChange, fewest } = props;
-  const flow = useReactFlow();
-  const [held, setHeld] = useState<{ at: number; points: readonly Position[] } | null>(null);
+  const { held, hold } = useHeldCorner(onChange);
   const shown = held?.points ?? points;
-  const hold = (event: PointerEvent<SVGElement>, at: number, from: readonly Position[]) => {
-    event.stopPropagation();
-    event.currentTarget.setPointerCapture(event.pointerId);
-    setHeld({ at, points: from });
-  };
-  const drag = (event: PointerEvent) => {
-    if (!held) return;
-    const to = toMetres(flow.screenToFlowPosition({ x: event.clientX, y: event.clientY }));
-    setHeld({ ...held, points: held.points.map((point, index) => (index === held.at ? to : point)) });
-  };
-  const release = () => {
-    if (held) onChange(held.points);
-    setHeld(null);
-  };
   const press = (event: KeyboardEvent, at: number) => {
     const way = NUDGES[event.key];
     if (way) onChange(pushed(points, at, way));
@@ -55,7 +40,7 @@ export function CornerHandles(props: CornerHandlesProps) {
     event.stopPropagation();
   };
   return (
-    <g className="nopan nodrag" onPointerMove={drag} onPointerUp={release} onPointerCancel={() => setHeld(null)}>
+    <g className="nopan nodrag">
       {held ? <path className={classes.changing} d={outlineOf(props, shown)} /> : null}
       {shown.map((point, at) => (
         <Corner
@@ -70,6 +55,37 @@ export function CornerHandles(props: CornerHandlesProps) {
       {held ? null : <Between {...props} onHold={hold} />}
     </g>
   );
+}
+
+interface Held {
+  readonly at: number;
+  readonly points: readonly Position[];
+}
+
+/** The corner under the pointer, followed over the whole window until it is let go. */
+function useHeldCorner(onChange: CornerHandlesProps["onChange"]) {
+  const flow = useReactFlow();
+  const [held, setHeld] = useState<Held | null>(null);
+  const hold = (event: PointerEvent<SVGElement>, at: number, from: readonly Position[]) => {
+    event.stopPropagation();
+    let now: Held = { at, points: from };
+    setHeld(now);
+    const listening = new AbortController();
+    const drag = ({ clientX, clientY }: globalThis.PointerEvent) => {
+      const to = toMetres(flow.screenToFlowPosition({ x: clientX, y: clientY }));
+      now = { at, points: now.points.map((point, index) => (index === at ? to : point)) };
+      setHeld(now);
+    };
+    const release = ({ type }: globalThis.PointerEvent) => {
+      listening.abort();
+      setHeld(null);
+      if (type === "pointerup") onChange(now.points);
+    };
+    window.addEventListener("pointermove", drag, { signal: listening.signal });
+    window.addEventListener("pointerup", release, { signal: listening.signal });
+    window.addEventListener("pointercancel", release, { signal: listening.signal });
+  };
+  return { held, hold };
 }
 
 function outlineOf({ closed, ends }: CornerHandlesProps, points: readonly Position[]): string {
