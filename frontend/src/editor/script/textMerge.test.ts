@@ -18,6 +18,17 @@ test("where both changed the same line mine stays, and theirs is told", () => {
   });
 });
 
+test("where both only add lines, both are kept; what both give in run is given once", () => {
+  expect(mergeTexts(BASE, "a\nb\nmine\nc\nd\n", "a\nb\ntheirs\nc\nd\n")).toEqual({
+    text: "a\nb\ntheirs\nmine\nc\nd\n",
+    conflicts: [],
+  });
+  const give = '        self.oven = ctx.get("oven01")';
+  expect(mergeTexts(BASE, `a\n${give}\nx\nb\nc\nd\n`, `a\ny\n${give}\nb\nc\nd\n`).text).toBe(
+    `a\ny\n${give}\nx\nb\nc\nd\n`,
+  );
+});
+
 function apply(text: string, changes: ReturnType<typeof changesBetween>): string {
   return [...changes]
     .reverse()

@@ -13,13 +13,19 @@ export interface Conflict {
   readonly theirs: readonly string[];
 }
 
-/** Bring what they changed since `base` into my text; where both changed the same lines, the preferred ones stay. */
+const GIVEN = /^\s*self\.\w+ = ctx\./;
+
+/** Bring what they changed since `base` into my text; where both changed the same lines, the preferred ones stay.
+ * Where both only added lines, theirs come before mine. */
 export function mergeTexts(base: string, mine: string, theirs: string, prefer: "mine" | "theirs" = "mine"): Merged {
   const lines: string[] = [];
   const conflicts: Conflict[] = [];
   for (const region of diff3Merge(linesOf(mine), linesOf(base), linesOf(theirs), { excludeFalseConflicts: true })) {
     if (region.ok) lines.push(...region.ok);
-    if (region.conflict) {
+    if (region.conflict && region.conflict.o.length === 0) {
+      const { a, b } = region.conflict;
+      lines.push(...b.filter((line) => !(GIVEN.test(line) && a.includes(line))), ...a);
+    } else if (region.conflict) {
       conflicts.push({ line: lines.length + 1, theirs: region.conflict.b });
       lines.push(...(prefer === "mine" ? region.conflict.a : region.conflict.b));
     }
