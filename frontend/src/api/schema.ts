@@ -937,6 +937,12 @@ export interface components {
             initials: string;
             name: string;
         };
+        /** @description A field of a description that changed: its JSON before and after, empty where it was or is not there. */
+        ChangeShape: {
+            after: string;
+            before: string;
+            path: string;
+        };
         /** @description A compiled program; `lines` has the step of each line of the script, or an empty text. */
         CompiledShape: {
             added_moves: string[];
@@ -982,6 +988,7 @@ export interface components {
         DeviceEventShape: {
             at: string;
             by: string;
+            changes: components["schemas"]["ChangeShape"][];
             kind: string;
             text: string;
         };

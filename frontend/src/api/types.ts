@@ -122,11 +122,19 @@ export interface Device {
   description: string;
 }
 
+/** A field of a description that changed; its JSON, empty where it was or is not there. */
+export interface FieldChange {
+  path: string;
+  before: string;
+  after: string;
+}
+
 export interface DeviceEvent {
   at: string;
   kind: string;
   text: string;
   by: string | null;
+  changes: FieldChange[];
 }
 
 /* The program document, format 1. */

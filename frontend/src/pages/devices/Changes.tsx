@@ -3,11 +3,29 @@ import { Cpu } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
-import type { DeviceEvent } from "@/api/types";
+import type { DeviceEvent, FieldChange } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { Panel } from "@/design/Panel";
 import { formatMoment } from "@/i18n/format";
 import styles from "./detail.module.css";
+
+/** Which wording a field's change needs: it came, it went, or it is another. */
+function wording(change: FieldChange): "fieldAdded" | "fieldRemoved" | "fieldChanged" {
+  if (!change.before) return "fieldAdded";
+  return change.after ? "fieldChanged" : "fieldRemoved";
+}
+
+function Fields({ changes }: { changes: readonly FieldChange[] }) {
+  const { t } = useTranslation();
+  return (
+    <details>
+      <summary>{t("pages.devices.fieldChanges", { count: changes.length })}</summary>
+      {changes.map((change) => (
+        <code key={change.path}>{t(`pages.devices.${wording(change)}`, { ...change })}</code>
+      ))}
+    </details>
+  );
+}
 
 function Change({ event }: { event: DeviceEvent }) {
   return (
@@ -23,6 +41,7 @@ function Change({ event }: { event: DeviceEvent }) {
         {event.by ? <b>{event.by} </b> : null}
         {event.text}
         <small>{formatMoment(event.at)}</small>
+        {event.changes.length > 0 ? <Fields changes={event.changes} /> : null}
       </span>
     </li>
   );

@@ -58,3 +58,17 @@ test("script: words of the language, calls and self", () => {
 test("an empty line has no tokens", () => {
   expect(tokenise("", "turtle")).toEqual([]);
 });
+
+test("the paper's message is coloured by keys, texts and truths", () => {
+  const tokens = (line: string) => tokenise(line, "message").map(({ kind, text }) => [kind, text]);
+  expect(tokens('  topic_name: "a: b"')).toEqual([
+    ["fn", "  topic_name"],
+    ["", ": "],
+    ["str", '"a: b"'],
+  ]);
+  expect(tokens("done: False")).toEqual([
+    ["fn", "done"],
+    ["", ": "],
+    ["kw", "False"],
+  ]);
+});

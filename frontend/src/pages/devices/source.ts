@@ -1,11 +1,11 @@
-/** Colours for Turtle, JSON and the script: one small tokeniser, no grammar. Pure. */
+/** Colours for Turtle, JSON, the paper's message and the script: one small tokeniser, no grammar. Pure. */
 
 export type TokenKind = "com" | "str" | "num" | "kw" | "cls" | "fn" | "self" | "";
 export interface Token {
   readonly kind: TokenKind;
   readonly text: string;
 }
-export type Dialect = "turtle" | "json" | "script";
+export type Dialect = "turtle" | "json" | "message" | "script";
 
 const RULES: Readonly<Record<Dialect, readonly [TokenKind, string][]>> = {
   turtle: [
@@ -20,6 +20,12 @@ const RULES: Readonly<Record<Dialect, readonly [TokenKind, string][]>> = {
     ["fn", '"(?:[^"\\\\]|\\\\.)*"(?=\\s*:)'],
     ["str", '"(?:[^"\\\\]|\\\\.)*"'],
     ["kw", "\\b(?:true|false|null)\\b"],
+    ["num", "[-+]?\\d+(?:\\.\\d+)?(?:[eE][-+]?\\d+)?"],
+  ],
+  message: [
+    ["fn", "^\\s*[A-Za-z_]+(?=:)"],
+    ["str", '"(?:[^"\\\\]|\\\\.)*"'],
+    ["kw", "\\b(?:True|False)\\b"],
     ["num", "[-+]?\\d+(?:\\.\\d+)?(?:[eE][-+]?\\d+)?"],
   ],
   script: [
