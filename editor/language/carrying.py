@@ -14,6 +14,7 @@ from editor.language.diagnostics import Problem
 from editor.language.phrases import Argument
 from editor.language.plan import Constant, Expression, Variable
 from editor.language.values import is_number
+from editor.language.variables import set_by
 from editor.language.walking import walk
 
 ANY = (0, None)
@@ -38,13 +39,19 @@ class _Follower:
     silent: bool = False
     calls: int = 0
     depth: int = 0
+    breaks: list[list[Carried]] = field(default_factory=list)
+    """For each loop around, innermost last, what is carried at the steps that leave it."""
+    returns: list[list[Carried]] = field(default_factory=list)
+    """The same for the functions being followed."""
 
-    def block(self, block: n.Block, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    def block(self, block: n.Block, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
+        """Return what is carried after a block; None where its end is never reached."""
+        after: Carried | None = carried
         for node in block:
             follow = _FOLLOW.get(type(node))
-            if follow is not None:
-                carried = follow(self, node, carried, values)
-        return carried
+            if follow is not None and after is not None:
+                after = follow(self, node, after, values)
+        return after
 
     def tell(self, node: n.Pick | n.Drop, code: str, args: dict[str, Argument]) -> None:
         if not self.silent:
@@ -107,37 +114,78 @@ def _drop(follower: _Follower, node: n.Drop, carried: Carried, values: Mapping[s
     return {**carried, key: after}
 
 
-def _if(follower: _Follower, node: n.If, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+def _if(follower: _Follower, node: n.If, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
     return _either(follower.block(node.then, carried, values), follower.block(node.otherwise, carried, values))
 
 
-def _while(follower: _Follower, node: n.While, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+def _loop(
+    follower: _Follower, node: n.While | n.Repeat | n.ForEach, carried: Carried, values: Mapping[str, Expression]
+) -> Carried | None:
+    """Walk the body once in silence to see what it changes, then with what is known in every round."""
+    if isinstance(node, n.ForEach):
+        values = {name: value for name, value in values.items() if name != node.variable}
     if follower.silent:
         return _forget(carried, _roles(follower, node.body))
     follower.silent = True
-    once = follower.block(node.body, carried, values)
+    once, _ = _round(follower, node.body, carried, values)
     follower.silent = False
-    steady = {key: count if _count(once, key) == count else ANY for key, count in carried.items()}
-    grown = {key: ANY for key, count in once.items() if key not in carried and count != (0, 0)}
-    entry = {**steady, **grown}
-    return _either(entry, follower.block(node.body, entry, values))
+    entry = carried if once is None else _in_every_round(carried, once)
+    after, ways_out = _round(follower, node.body, entry, values)
+    over = _either(entry, after)
+    for way_out in ways_out:
+        over = _either(over, way_out)
+    return over
 
 
-def _try(follower: _Follower, node: n.Try, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+def _in_every_round(before: Carried, after: Carried) -> Carried:
+    """Return what is known at the beginning of a round, given what one round changes."""
+    steady = {key: count if _count(after, key) == count else ANY for key, count in before.items()}
+    grown = {key: ANY for key, count in after.items() if key not in before and count != (0, 0)}
+    return {**steady, **grown}
+
+
+def _round(
+    follower: _Follower, body: n.Block, carried: Carried, values: Mapping[str, Expression]
+) -> tuple[Carried | None, list[Carried]]:
+    """Return what is carried after one round, and where a step leaves the loop."""
+    follower.breaks.append([])
+    after = follower.block(body, carried, values)
+    return after, follower.breaks.pop()
+
+
+def _try(follower: _Follower, node: n.Try, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
+    """The catch begins anywhere in the body, the final part anywhere in both; it changes every way out."""
+    ways_out = [*follower.breaks[-1:], *follower.returns[-1:]]
+    marks = [len(way_out) for way_out in ways_out]
     after = follower.block(node.body, carried, values)
-    caught = follower.block(node.catch, _forget(carried, _roles(follower, node.body)), values)
-    return _either(after, caught)
+    failed = _forget(carried, _roles(follower, node.body))
+    if node.catches:
+        after = _either(after, follower.block(node.catch, failed, values))
+    if not node.final:
+        return after
+    roles = _roles(follower, node.final)
+    for way_out, mark in zip(ways_out, marks, strict=True):
+        way_out[mark:] = [_forget(left, roles) for left in way_out[mark:]]
+    final = follower.block(node.final, _forget(failed, _roles(follower, node.catch)), values)
+    if after is None or final is None:
+        return None
+    kept = {key: count for key, count in after.items() if key[0] not in roles}
+    return {**kept, **{key: count for key, count in final.items() if key[0] in roles}}
 
 
-def _parallel(follower: _Follower, node: n.Parallel, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+def _parallel(
+    follower: _Follower, node: n.Parallel, carried: Carried, values: Mapping[str, Expression]
+) -> Carried | None:
     result = dict(carried)
     for branch in node.branches:
         after = follower.block(branch, carried, values)
+        if after is None:
+            return None
         result.update({key: count for key, count in after.items() if carried.get(key) != count})
     return result
 
 
-def _call(follower: _Follower, node: n.Call, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+def _call(follower: _Follower, node: n.Call, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
     function = follower.functions.get(node.function)
     if function is None:
         return carried
@@ -145,11 +193,32 @@ def _call(follower: _Follower, node: n.Call, carried: Carried, values: Mapping[s
         return _forget(carried, frozenset(role for role, _ in carried) | _roles(follower, function.body))
     given = {name: values.get(v.name, v) if isinstance(v, Variable) else v for name, v in node.arguments}
     defaults = {p.name: Constant(p.default) for p in function.parameters if p.default is not None}
+    changed = {set_by(inner) for inner in walk(function.body)}
+    known = {name: value for name, value in {**defaults, **given}.items() if name not in changed}
     follower.calls += 1
     follower.depth += 1
-    result = follower.block(function.body, carried, {**values, **defaults, **given})
+    breaks, follower.breaks = follower.breaks, []
+    follower.returns.append([])
+    result = follower.block(function.body, carried, known)
+    for returned in follower.returns.pop():
+        result = _either(result, returned)
+    follower.breaks = breaks
     follower.depth -= 1
     return result
+
+
+def _break(follower: _Follower, node: n.Break, carried: Carried, values: Mapping[str, Expression]) -> None:
+    if follower.breaks:
+        follower.breaks[-1].append(carried)
+
+
+def _return(follower: _Follower, node: n.Return, carried: Carried, values: Mapping[str, Expression]) -> None:
+    if follower.returns:
+        follower.returns[-1].append(carried)
+
+
+def _end(follower: _Follower, node: n.End, carried: Carried, values: Mapping[str, Expression]) -> None:
+    """Nothing follows."""
 
 
 def _roles(follower: _Follower, block: n.Block) -> frozenset[str]:
@@ -161,11 +230,16 @@ def _roles(follower: _Follower, block: n.Block) -> frozenset[str]:
     return frozenset(roles)
 
 
-_FOLLOW: Mapping[type[n.Node], Callable[..., Carried]] = {
+_FOLLOW: Mapping[type[n.Node], Callable[..., Carried | None]] = {
     n.Pick: _pick,
     n.Drop: _drop,
     n.If: _if,
-    n.While: _while,
+    n.While: _loop,
+    n.Repeat: _loop,
+    n.ForEach: _loop,
+    n.Break: _break,
+    n.Return: _return,
+    n.End: _end,
     n.Try: _try,
     n.Parallel: _parallel,
     n.Call: _call,
@@ -184,10 +258,12 @@ def _forget(carried: Carried, roles: frozenset[str]) -> Carried:
     return {**kept, **known, **{(role, _EVERYTHING): ANY for role in roles}}
 
 
-def _either(first: Carried, second: Carried) -> Carried:
-    """Return what holds after one or the other."""
-    if first is second:
+def _either(first: Carried | None, second: Carried | None) -> Carried | None:
+    """Return what holds after one or the other; a way that leads nowhere has no say."""
+    if first is second or second is None:
         return first
+    if first is None:
+        return second
     merged: dict[tuple[str, str], Range] = {}
     for key in {**first, **second}:
         a, b = _count(first, key), _count(second, key)
@@ -205,4 +281,6 @@ def follow_loads(
     functions = {function.method: function for function in tree.functions}
     follower = _Follower(functions, capacity, robot)
     follower.block(tree.body, {}, {})
+    for event in tree.events:
+        follower.block(event.body, _forget({}, frozenset(role.name for role in tree.roles)), {})
     return follower.found
