@@ -29,7 +29,7 @@ export const StepChip = memo(function StepChip({ chip, selected, state, other, n
       data-tag={chip.shape === "diamond" ? chip.tagSide : undefined}
       data-selected={selected || undefined}
       data-problem={chip.problem ?? undefined}
-      data-state={state ?? undefined}
+      data-state={(chip.shape === "note" ? null : state) ?? undefined}
       data-draft={chip.draft || undefined}
       data-inner={chip.inner || undefined}
     >

@@ -101,6 +101,7 @@ function Binding({ name, role, store }: { name: string; role: Role; store: (role
       />
       {role.device ? null : (
         <MultiSelect
+          classNames={{ pill: classes.pill }}
           aria-label={t("role.can", { role: name })}
           placeholder={role.can?.length ? undefined : t("role.can_what_is_needed")}
           data={methods}

@@ -72,6 +72,7 @@ function Options({ answer }: { answer: Answer }) {
     <FieldFrame label={t("ask.options")} field="answer.options">
       {({ control, note, bad }) => (
         <TagsInput
+          classNames={{ pill: classes.pill }}
           id={control}
           aria-describedby={bad ? note : undefined}
           error={bad}

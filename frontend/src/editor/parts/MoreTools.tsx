@@ -33,7 +33,7 @@ export function MoreTools() {
           </button>
         </Tooltip>
       </Popover.Target>
-      <Popover.Dropdown p={0} aria-label={t("more.label")}>
+      <Popover.Dropdown p={0} className={classes.dropdown} aria-label={t("more.label")}>
         <Search onDone={() => show(false)} />
       </Popover.Dropdown>
     </Popover>

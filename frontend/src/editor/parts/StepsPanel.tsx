@@ -1,7 +1,7 @@
 /** The program as a list: everything that the map shows, by keyboard. */
 import { useRef, type KeyboardEvent } from "react";
 import { VipoIcon } from "@/map/VipoIcon";
-import { chipLabel } from "../scene/announce";
+import { chipLabel, detailOf } from "../scene/announce";
 import type { Chip } from "../scene/chips";
 import { branchWord } from "../scene/links";
 import { placeName } from "../scene/words";
@@ -16,7 +16,8 @@ export function StepsPanel() {
   const { scene, t } = open;
   const selected = useUi((ui) => ui.selected);
   const list = useRef<HTMLUListElement>(null);
-  const rows = [...scene.tree.reading, ...scene.tree.loose].flatMap((id) => scene.chips.get(id) ?? []);
+  const comments = [...scene.chips.values()].filter((chip) => chip.kind === "comment").map((chip) => chip.id);
+  const rows = [...scene.tree.reading, ...scene.tree.loose, ...comments].flatMap((id) => scene.chips.get(id) ?? []);
   const current = selected.at(-1) ?? rows[0]?.id;
   const go = (id: string | undefined) => {
     if (!id) return;
@@ -57,8 +58,8 @@ export function StepsPanel() {
           <BranchName step={chip.id} />
           <span>
             {t(`kind.${chip.kind}`)}
-            {textOf(chip).length > 0 ? ": " : " "}
-            {textOf(chip).map((part, at) => (
+            {detailOf(chip).length > 0 ? ": " : " "}
+            {detailOf(chip).map((part, at) => (
               <span key={at} className={part.tone === "missing" ? classes.missing : undefined}>
                 {`${part.text} `}
               </span>
@@ -70,12 +71,6 @@ export function StepsPanel() {
       ))}
     </ul>
   );
-}
-
-/** What the chip says, without the name of its kind once more. */
-function textOf(chip: Chip): Chip["parts"] {
-  if (chip.condition) return chip.condition;
-  return ["try", "parallel", "end", "break"].includes(chip.kind) ? [] : chip.parts;
 }
 
 /** The word of its arrow, or the function whose own step it is. */

@@ -104,3 +104,15 @@ test("a step is told with where it stands", () => {
     "4a, kind.set, x = 3, announce.inside kind.repeat 4",
   );
 });
+
+test("the name of a kind is not told twice", () => {
+  const [scene, document] = sceneOf({
+    loop: step("repeat", ["program", "body", "A"], [5, -3], { times: 3 }),
+    over: step("end", ["program", "body", "B"], [5, -8]),
+  });
+  const told = ["loop", "over"].map((id) => {
+    const chip = scene.chips.get(id);
+    return chip && chipLabel(chip, { document, surroundings, t });
+  });
+  expect(told).toEqual(["kind.repeat, 3 ×", "kind.end"]);
+});
