@@ -12,6 +12,7 @@ from string import ascii_lowercase
 
 from editor.language import nodes as n
 from editor.language.diagnostics import Diagnostic, Problem, put_into_words
+from editor.language.mistakes import count_characters, explain_syntax, instead_of_call, instead_of_statement
 from editor.language.names import RESERVED_ATTRIBUTES, ROBOT_METHODS, unique_name
 from editor.language.outline import DEEPEST_STEP
 from editor.language.parsing_bindings import Entry, parse_arguments, parse_parameters, parse_run, read_type
@@ -56,9 +57,9 @@ def parse_script(text: str, surroundings: Surroundings) -> Parsed:
     if len(text) > LONGEST_SCRIPT:
         return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "The script is too long."}),))
     try:
-        module = ast.parse(text)
+        module = count_characters(ast.parse(text), text)
     except SyntaxError as error:
-        detail = {"detail": f"Python says: {error.msg}."}
+        detail = {"detail": explain_syntax(error, text)}
         return Parsed(None, (_diagnostic("not_python", error.lineno or 1, error.offset or 1, detail),))
     except (ValueError, RecursionError, MemoryError):
         return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "It is nested too deeply, or no text."}),))
@@ -141,7 +142,7 @@ class Parser:
                 return self._for(statement)
             case ast.Try():
                 return self._try(statement)
-        raise Refused(statement, quoted(statement), _STATEMENTS)
+        raise Refused(statement, quoted(statement), instead_of_statement(statement) or _STATEMENTS)
 
     def value(self, node: ast.expr) -> Expression:
         """Return an expression."""
@@ -205,6 +206,9 @@ class Parser:
             node = _ROBOT_CALLS[function.attr](self, call, robot)
             self.origins[id(node)] = call
             return node
+        instead = instead_of_call(call)
+        if instead is not None:
+            raise Refused(call, quoted(call), instead)
         return self._operate(call, function)
 
     def _operate(self, call: ast.Call, function: ast.Attribute) -> n.Node:
@@ -216,8 +220,9 @@ class Parser:
         names = [method.name for method in methods]
         method = next((m for m in methods if member_name(m.name, names) == function.attr), None)
         if method is None:
-            known = ", ".join(filter(None, (member_name(name, names) for name in names))) or "nothing"
-            raise Refused(call, quoted(call), f"What it can do: {known}.")
+            is_robot = description is not None and description.kind == "robot"
+            able = ROBOT_METHODS if is_robot else filter(None, (member_name(name, names) for name in names))
+            raise Refused(call, quoted(call), f"What it can do: {', '.join(able) or 'nothing'}.")
         parameters = [parameter.name for parameter in method.parameters]
         return n.Operate(device, method.name, parse_arguments(call, parameters, self.scope))
 

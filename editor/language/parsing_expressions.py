@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from editor.language.mistakes import instead_of_call, instead_of_expression
 from editor.language.names import ROBOT_METHODS, snake_case
 from editor.language.nodes import MISSING, NOWHERE, Point
 from editor.language.plan import Constant, Expression, Located, PlaceRef, Quantity, Reading, Variable
@@ -88,7 +89,8 @@ def parse_expression(node: ast.expr, scope: Scope, depth: int = 0) -> Expression
         raise Refused(node, "An expression as deep as this", "Write it in several steps.")
     parse = _PARSERS.get(type(node))
     if parse is None:
-        raise Refused(node, quoted(node), "Use readings of devices, parameters, numbers, texts and comparisons.")
+        use = "Use readings of devices, parameters, numbers, texts and comparisons."
+        raise Refused(node, quoted(node), instead_of_expression(node) or use)
     return parse(node, scope, depth + 1)
 
 
@@ -175,6 +177,9 @@ def _call(node: ast.Call, scope: Scope, depth: int) -> Expression:
             return Reading(Constant(device.device), name)
         if isinstance(name, str) and name and device.value is not None:
             return Reading(device.value, name)
+    instead = instead_of_call(node)
+    if instead is not None:
+        raise Refused(node, quoted(node), instead)
     known = ", ".join((*FUNCTIONS, *_MAKERS))
     raise Refused(node, quoted(node), f"In expressions only these can be called: {known}.")
 

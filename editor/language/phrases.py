@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
+from editor.language.mistakes_de import MISTAKES_DE
 from editor.language.refusals_de import REFUSALS_DE
 from editor.language.words_de import WORDS_DE
 
@@ -173,7 +174,7 @@ def refused_in_german(english: str) -> str:
 
 @cache
 def _refusals() -> tuple[tuple[re.Pattern[str], str], ...]:
-    return tuple((_pattern(english), german) for english, german in REFUSALS_DE.items())
+    return tuple((_pattern(english), german) for english, german in {**MISTAKES_DE, **REFUSALS_DE}.items())
 
 
 def _pattern(english: str) -> re.Pattern[str]:

@@ -139,7 +139,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     ),
     "zone_too_small": ("warning", "{zone} is smaller than {robot}, so it has no effect. Make it larger."),
     # a script that was written by hand
-    "not_python": ("error", "Line {line}, column {column}: this is not complete. {detail}"),
+    "not_python": ("error", "Line {line}, column {column}: this cannot be read. {detail}"),
     "not_in_language": ("error", "Line {line}, column {column}: {found} is not part of the language. {instead}"),
 }  # fmt: skip
 

@@ -129,7 +129,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     ),
     "zone_too_small": "{zone} ist kleiner als {robot} und bewirkt deshalb nichts. Vergrößern Sie die Zone.",
     # a script that was written by hand
-    "not_python": "Zeile {line}, Spalte {column}: Das ist nicht vollständig. {detail}",
+    "not_python": "Zeile {line}, Spalte {column}: Das kann nicht gelesen werden. {detail}",
     "not_in_language": "Zeile {line}, Spalte {column}: {found} gehört nicht zur Sprache. {instead}",
 }  # fmt: skip
 
