@@ -10,6 +10,17 @@ DEVICES = ("itemInventory01", "paintInventory01", "paintMixer02", "paintMachine0
 ROLES = ("robot", "box_carrier", "paint_carrier", "bound")
 
 names = st.sampled_from(["minutes", "shade", "n"])
+variables = st.sampled_from(["minutes", "total", "Paint count", "wait", "robot", "", None])
+answers = st.sampled_from(
+    [
+        {"type": "boolean"},
+        {"type": "number", "unit": "MIN", "minimum": 1, "maximum": 2.5},
+        {"type": "choice", "options": ["red", "blue", "red", ""]},
+        {"type": "text", "minimum": 4},
+        {"type": "colour"},
+        None,
+    ]
+)
 places = st.one_of(
     st.sampled_from([{"device": device} for device in DEVICES]),
     st.sampled_from([{"place": "dock1"}, {"point": [1.5, -2]}, {"param": "minutes"}, None, {"device": "gone"}]),
@@ -30,7 +41,7 @@ leaves = st.one_of(
     st.text(max_size=6),
     readings,
     st.just(None),
-    st.just({"param": "minutes"}),
+    st.sampled_from([{"param": "minutes"}, {"param": "total"}, {"param": "Paint count"}, {"param": "robot"}]),
     st.just([1, "a"]),
 )
 
@@ -63,18 +74,35 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
         }
     ),
     "wait": st.one_of(
-        st.fixed_dictionaries({"seconds": values}),
-        st.fixed_dictionaries({"until": values, "timeout_s": values}),
+        st.fixed_dictionaries({"duration": values}),
+        st.fixed_dictionaries({"until": values, "timeout": values}),
     ),
     "if": st.fixed_dictionaries({"condition": values}),
     "while": st.fixed_dictionaries({"condition": values}),
     "parallel": st.sampled_from([{"branches": ["a", "b"]}, {"branches": ["a", "b", "c"]}, {}]),
-    "try": st.sampled_from([{"kinds": []}, {"kinds": ["failed", "offline"]}, {"kinds": ["timed_out"]}, {}]),
-    "call": st.fixed_dictionaries(
-        {"function": st.sampled_from(["f", "g", "gone", None]), "args": st.dictionaries(names, values, max_size=2)}
+    "try": st.sampled_from(
+        [{"kinds": []}, {"kinds": ["failed", "offline"]}, {"kinds": ["timed_out"]}, {}, {"catch": False}]
     ),
+    "call": st.fixed_dictionaries(
+        {
+            "function": st.sampled_from(["f", "g", "gone", None]),
+            "args": st.dictionaries(names, values, max_size=2),
+            "result": variables,
+        }
+    ),
+    "repeat": st.fixed_dictionaries({"times": values}),
+    "for_each": st.fixed_dictionaries({"variable": variables, "items": st.lists(values, max_size=3)}),
+    "set": st.fixed_dictionaries({"variable": variables, "value": values}),
+    "ask": st.fixed_dictionaries(
+        {"question": values, "answer": answers, "variable": variables, "timeout": st.one_of(st.none(), values)}
+    ),
+    "notify": st.fixed_dictionaries({"message": values, "level": st.sampled_from(["info", "warning", "loud"])}),
+    "end": st.just({}),
+    "return": st.fixed_dictionaries({"value": values}),
+    "break": st.just({}),
+    "on_event": st.fixed_dictionaries({"condition": values, "starts": st.sampled_from(["branch", "run", None])}),
 }
-BRANCHES = ["body", "then", "else", "catch", "a", "b", "c"]
+BRANCHES = ["body", "then", "else", "catch", "finally", "a", "b", "c"]
 
 
 @st.composite
@@ -87,14 +115,17 @@ def documents(draw: st.DrawFn, largest: int = 12) -> dict[str, Any]:
         kind = draw(st.sampled_from(sorted(PARAMS)))
         parent = draw(st.sampled_from(["program", "program", "f", "g", *ids[: max(index, 1)], *ids]))
         branch = "body" if parent in {"program", "f", "g"} else draw(st.sampled_from(BRANCHES))
+        if kind == "on_event" and draw(st.booleans()):
+            parent, branch = "program", "events"
         order = draw(st.sampled_from(["1", "5", "V", "a"]))
         steps[name] = {"kind": kind, "place": [parent, branch, order], "pos": [index, 0], "params": draw(PARAMS[kind])}
     parameters = draw(st.lists(names, unique=True, max_size=2))
     function = {"name": "mixPaint", "parameters": [{"name": n, "type": "number"} for n in parameters]}
+    function["result"] = draw(st.sampled_from([None, {"type": "number", "unit": "MIN"}, {"type": "text"}]))
     default = draw(st.sampled_from(["minutes", "n"]))
     second = {"name": "Class", "parameters": [{"name": "n", "default": 3}, {"name": "shade"}]}
     return {
-        "format": 1,
+        "format": 2,
         "start_pos": [0, 0],
         "steps": steps,
         "functions": {"f": function, "g": second},
