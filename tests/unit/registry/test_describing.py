@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -270,3 +271,16 @@ def test_a_damaged_message_brings_no_more_than_a_refusal(data: st.DataObject) ->
     except BadDescription as error:
         refusals.append(error.detail)
     assert all(detail.startswith("The description") for detail in refusals)
+
+
+def test_the_examples_of_the_protocol_are_read() -> None:
+    page = (Path(__file__).parents[3] / "docs" / "protocol.md").read_text()
+    section = page[page.index("## Descriptions") :]
+    examples = re.findall(r"```(json|text)\n(.*?)```", section, re.DOTALL)
+    found = [read(text.encode()) for _, text in examples]
+    assert [(reading.form, reading.description.id) for reading in found] == [
+        ("td", "lamp01"),
+        ("paper", "paintMixer02"),
+    ]
+    assert found[0].description.methods[0].parameters == (ParameterSpec("value", "number", "PERCENT", 0.0, 100.0),)
+    assert examples[1][1].encode() == FIGURE_5
