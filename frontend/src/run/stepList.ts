@@ -14,6 +14,8 @@ export interface StepLine {
   count: number;
 }
 
+/** Numbers of events, which are no part of the program's course. */
+const EVENT = /^e\d/;
 const NOT_YET: RunStep = { status: "waiting", started_at: null, ended_at: null, robot: null, wait: null, count: 0 };
 
 export function stepLines(compiled: Compiled, steps: Record<string, RunStep>): StepLine[] {
@@ -34,7 +36,7 @@ export function currentStep(lines: readonly StepLine[]): StepLine | null {
 
 /** How many of the program's outer steps are over, and how many there are. */
 export function outerProgress(lines: readonly StepLine[]): { done: number; all: number } {
-  const outer = lines.filter((line) => line.depth === 0);
+  const outer = lines.filter((line) => line.depth === 0 && !EVENT.test(line.number));
   return { done: outer.filter((line) => line.status === "done").length, all: outer.length };
 }
 

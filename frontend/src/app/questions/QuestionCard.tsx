@@ -79,7 +79,13 @@ function Field(props: FormProps) {
     >
       <Group gap={8} align="flex-start">
         {question.answer.type === "number" ? (
-          <NumberInput {...common} value={typed} onChange={setTyped} description={range || undefined} />
+          <NumberInput
+            {...common}
+            value={typed}
+            onChange={setTyped}
+            description={range || undefined}
+            inputWrapperOrder={["input", "description", "error"]}
+          />
         ) : (
           <TextInput {...common} value={typed} maxLength={500} onChange={(event) => setTyped(event.target.value)} />
         )}
