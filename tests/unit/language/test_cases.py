@@ -1,4 +1,4 @@
-"""Every file in tests/fixtures/programs: a document, what the site is like, and what shall come out."""
+"""Every program in tests: a document, what the site is like, and what shall come out."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from editor.language import (
 )
 from tests.unit.language.site import ROOT, factory
 
-CASES = sorted((ROOT / "tests" / "fixtures" / "programs").glob("*.json"))
+FOLDERS = (ROOT / "tests" / "fixtures" / "programs", ROOT / "tests" / "cases" / "constructs")
+CASES = sorted(path for folder in FOLDERS for path in folder.glob("*.json"))
 
 
 def _site(changes: dict[str, Any]) -> Surroundings:
@@ -58,4 +59,4 @@ def test_a_case_reads_back_from_its_script(path: Path) -> None:
 
 
 def test_there_is_a_good_number_of_cases() -> None:
-    assert len(CASES) >= 30
+    assert len(CASES) >= 120
