@@ -13,6 +13,8 @@ from editor.language import compile_document, compiled_to_json, plan_to_json
 from editor.language.compiled import Compiled, diagnostic_to_json
 from editor.language.phrases import LANGUAGES, Language
 from registry.rdf_text import FORMS
+from vipo_site.draw_file import add_arguments as add_draw_arguments
+from vipo_site.draw_file import draw_file
 from vipo_site.program_file import FaultyScript, ProgramFile, UnreadableFile, read_program_file
 
 CLEAN, FAULTY, UNUSABLE = 0, 1, 2
@@ -71,7 +73,8 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="vipo", description="Check, print, plan and rehearse programs for robots and machines.")
-    commands = parser.add_subparsers(required=True, metavar="check|script|plan|rehearse|describe", parser_class=_Parser)
+    names = "|".join([*(name for name, _, _ in _COMMANDS), "describe"])
+    commands = parser.add_subparsers(required=True, metavar=names, parser_class=_Parser)
     for name, command, text in _COMMANDS:
         sub = commands.add_parser(name, help=text, description=text)
         sub.add_argument("file", type=Path, help="a program file (.json), a document (.json) or a script (.py)")
@@ -79,6 +82,8 @@ def _parser() -> argparse.ArgumentParser:
         sub.add_argument("--json", action="store_true", help="write JSON for machines")
         sub.add_argument("--lang", choices=LANGUAGES, default="en", help="the language of what the checks say (en)")
         sub.set_defaults(command=command, run=_run_on_program)
+        if name == "draw":
+            add_draw_arguments(sub)
         if name == "rehearse":
             sub.add_argument("--seed", type=int, default=0, help="another seed, another course of chance (0)")
             sub.add_argument(
@@ -157,6 +162,7 @@ def _rehearse(program: ProgramFile, options: argparse.Namespace) -> int:
 _COMMANDS: tuple[tuple[str, Callable[[ProgramFile, argparse.Namespace], int], str], ...] = (
     ("check", _check, "Say what is wrong with a program, or odd about it."),
     ("script", _script, "Print a program as a task script."),
+    ("draw", draw_file, "Turn a script into a program file with a drawing."),
     ("plan", _plan, "Print the instructions that a run carries out."),
     ("rehearse", _rehearse, "Run a program in simulation, in virtual time, and say how it went."),
 )

@@ -29,6 +29,55 @@ def test_a_script_that_was_written_out_prints_the_same_again(
     assert capsys.readouterr().out == text
 
 
+def test_a_script_is_drawn_into_a_program_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    script, drawn = tmp_path / "order.py", tmp_path / "order.json"
+    assert main(["script", str(EXAMPLES / "paint-order.json")]) == 0
+    text = capsys.readouterr().out
+    script.write_text(text)
+    assert main(["draw", str(script), "--site", SITE, "-o", str(drawn)]) == 0
+    assert capsys.readouterr().out == ""
+    assert (json.loads(drawn.read_text())["vipo"], json.loads(drawn.read_text())["name"]) == (1, "order")
+    assert main(["script", str(drawn)]) == 0
+    assert capsys.readouterr().out == text
+
+
+def test_a_script_drawn_over_its_program_changes_only_what_it_says(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program, script = EXAMPLES / "paint-order.json", tmp_path / "order.py"
+    assert main(["script", str(program)]) == 0
+    script.write_text(capsys.readouterr().out)
+    assert main(["draw", str(script), "--site", SITE, "--over", str(program)]) == 0
+    drawn, before = json.loads(capsys.readouterr().out), json.loads(program.read_text())
+    assert drawn["document"] == before["document"]
+    assert main(["draw", str(script), "--site", SITE, "--json"]) == 0
+    body = json.loads(capsys.readouterr().out)
+    assert body["script"] == script.read_text()
+    assert body["document"]["steps"].keys() == set(body["order"])
+
+
+def test_a_faulty_script_is_not_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    script, drawn = tmp_path / "bad.py", tmp_path / "bad.json"
+    script.write_text("import os\n")
+    assert main(["draw", str(script), "--site", SITE, "-o", str(drawn)]) == 1
+    assert "bad.py: Line 1, column 1: " in capsys.readouterr().err
+    assert not drawn.exists()
+    assert main(["draw", str(EXAMPLES / "paint-order.json"), "-o", str(tmp_path / "no" / "x.json")]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize("command", ["check", "plan", "script"])
+def test_every_command_takes_a_script(command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "order.py"
+    assert main(["script", str(EXAMPLES / "paint-order.json")]) == 0
+    path.write_text(capsys.readouterr().out)
+    assert main([command, str(path), "--site", SITE]) == 0
+    from_script = capsys.readouterr().out
+    assert main([command, str(EXAMPLES / "paint-order.json")]) == 0
+    from_script = from_script.replace("order:", "Paint order:").replace('"mix_paint"', '"mixPaint"')
+    assert from_script == capsys.readouterr().out
+
+
 def test_the_plan_is_json_for_machines(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plan", str(EXAMPLES / "pick-and-drop.json"), "--json"]) == 0
     plan = json.loads(capsys.readouterr().out)
@@ -104,6 +153,6 @@ def test_a_bad_file_gives_code_2_and_one_sentence(
 
 def test_bad_usage_gives_code_2_and_one_sentence(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
-        main(["draw", "x.json"])
+        main(["paint", "x.json"])
     assert stop.value.code == 2
     assert capsys.readouterr().err.count("\n") == 1
