@@ -22,7 +22,7 @@ KINDS: tuple[tuple[str, dict[str, Any], str], ...] = (
     ("if", {"condition": HOT}, "then"),
     ("pick_and_drop", ERRAND, ""),
     ("operate", {"device": {"device": "curingOven01"}, "method": "curePaint", "args": {"time": 10}}, ""),
-    ("wait", {"seconds": 5}, ""),
+    ("wait", {"duration": 5}, ""),
     ("while", {"condition": HOT}, "body"),
     ("wait", {"until": HOT, "timeout_s": 60}, ""),
     ("pick_and_drop", ERRAND, ""),
@@ -87,5 +87,5 @@ def measure_thousand(site: Surroundings) -> Iterator[dict[str, object]]:
 
 
 def _edited(document: dict[str, Any]) -> dict[str, Any]:
-    step = {**document["steps"]["s503"], "params": {"seconds": 7}}
+    step = {**document["steps"]["s503"], "params": {"duration": 7}}
     return {**document, "steps": {**document["steps"], "s503": step}}
