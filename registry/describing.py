@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from registry.capability import Description, description_to_json, find_faults
 from registry.ontology import describe_json_ld, describe_turtle, write_rdf
-from registry.paper_message import describe_message, read_message, write_message
+from registry.paper_message import describe_message, write_message
+from registry.paper_text import read_text
 from registry.rdf_text import (
     FORMS,
     BadDescription,
@@ -67,15 +68,17 @@ def _read_json_form(text: str) -> Reading:
         check_thing(body)
         return Reading(describe_thing(body), form)
     if form == "paper":
-        return Reading(*describe_message(body))
+        description, notes = describe_message(body)
+        return Reading(description, form, notes)
     return Reading(describe_json_ld(body), form)
 
 
 def _read_text_form(text: str) -> Reading:
     form = form_of_text(text)
     if form == "paper":
-        message = read_message(text)
-        return Reading(*describe_message(message.body, message.places, message.notes))
+        message = read_text(text)
+        description, notes = describe_message(message.body, message.places, message.notes)
+        return Reading(description, form, notes)
     return Reading(describe_turtle(text), form)
 
 

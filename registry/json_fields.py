@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
+from registry.capability import Pose, Size
 from registry.rdf_text import BadDescription, Fault
 
 
@@ -114,6 +115,24 @@ class Fields:
             if not isinstance(value, dict):
                 group.need(str(position), "an object")
             yield group.inside(str(position))
+
+
+def read_pose(fields: Fields, key: str) -> Pose:
+    """Return a pose of two to four numbers. Raises BadDescription."""
+    numbers = fields.numbers(key)
+    if len(numbers) not in (2, 3, 4):
+        fields.need(key, "[x, y, z, theta] in metres and radians")
+    return Pose(*numbers)
+
+
+def read_size(fields: Fields, key: str, radius: float) -> Size:
+    """Return a size of three numbers; a robot's may follow from its radius. Raises BadDescription."""
+    numbers = fields.numbers(key)
+    if not numbers and radius:
+        return Size(2 * radius, 2 * radius, 2 * radius)
+    if len(numbers) != 3:
+        fields.need(key, "[x, y, z] in metres")
+    return Size(*numbers)
 
 
 def _is_number(value: object) -> bool:

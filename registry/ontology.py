@@ -69,7 +69,7 @@ def graph_of_turtle(text: str) -> Graph:
     """Return the triples of a text. Raises BadDescription."""
     check_turtle(text)
     try:
-        return _bounded(Graph().parse(data=text, format="turtle"))
+        return _bounded(Graph(bind_namespaces="none").parse(data=text, format="turtle"))
     except _PARSER_FAILURES as error:
         raise BadDescription(_parser_fault(text, error)) from error
 
@@ -78,7 +78,7 @@ def graph_of_json_ld(body: Any) -> Graph:
     """Return the triples of a JSON-LD value; nothing is fetched for it. Raises BadDescription."""
     pinned = pin_contexts(body)
     try:
-        return _bounded(to_rdf(pinned, Graph(), base=""))
+        return _bounded(to_rdf(pinned, Graph(bind_namespaces="none"), base=""))
     except _PARSER_FAILURES as error:
         raise BadDescription("The description is not JSON-LD: the parser could not follow it.") from error
 

@@ -16,13 +16,11 @@ from registry.capability import (
     Size,
     ValueType,
 )
-from registry.json_fields import Fields
-from registry.paper_text import KEYS, MessageText, read_text
-from registry.rdf_text import DescriptionForm, paper_key
-from registry.thing import read_pose, read_size
+from registry.json_fields import Fields, read_pose, read_size
+from registry.paper_text import KEYS
+from registry.rdf_text import paper_key
 from registry.wire import down_topic
 
-read_message: Callable[[str], MessageText] = read_text
 SIZES_M: Mapping[str, float] = {"small": 0.5, "medium": 1.0, "large": 2.0}
 """The paper calls sizes by name; a word stands for a cube of that many metres."""
 MESSAGE_TYPES: Mapping[str, tuple[ParameterSpec, ...]] = {
@@ -38,13 +36,13 @@ _ROS_NAME = re.compile(r"/[A-Za-z0-9_ ]{1,100}")
 
 def describe_message(
     body: Mapping[str, Any], places: Mapping[str, tuple[int, int]] | None = None, notes: tuple[str, ...] = ()
-) -> tuple[Description, DescriptionForm, tuple[str, ...]]:
+) -> tuple[Description, tuple[str, ...]]:
     """Return what a message says of a device, and what was mended or left out. Raises BadDescription."""
     told = list(notes)
     fields = Fields(_spelt(body, "", told), "", places or {})
     if not fields.text("id"):
         fields.need("id", "text")
-    return _description(fields, told), "paper", tuple(dict.fromkeys(told))
+    return _description(fields, told), tuple(dict.fromkeys(told))
 
 
 def _spelt(value: Any, path: str, told: list[str]) -> Any:
@@ -57,10 +55,10 @@ def _spelt(value: Any, path: str, told: list[str]) -> Any:
     for written, inner in value.items():
         key = _SPELLINGS.get(paper_key(written))
         if key is None:
-            told.append(f"Left out {path}/{written[:40]}, which means nothing here.")
+            told.append(f"Left out {f'{path}/{written}'[:80]!r}, which means nothing here.")
             continue
         if key != written:
-            told.append(f"Read {written!r} as {key}.")
+            told.append(f"Read {written[:40]!r} as {key}.")
         if key in found:
             Fields(value, path).refuse(written, f"says {key} twice")
         found[key] = _spelt(inner, f"{path}/{key}", told)

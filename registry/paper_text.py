@@ -18,9 +18,9 @@ KEYS = (
 )
 SECTIONS = frozenset({"properties", "methods", "parameters"})
 _SPELLINGS: Mapping[str, str] = {paper_key(key): key for key in KEYS}
-_LINE = re.compile(r"""(?P<key>"?[A-Za-z][A-Za-z_ -]*"?)\s*:(?:\s+(?P<value>\S.*))?""")
+_LINE = re.compile(r"""(?P<key>"?[A-Za-z](?:[A-Za-z_ -]*[A-Za-z_])?"?)\s*:(?:\s+(?P<value>\S.*))?""")
 _NO_COLON = re.compile(r"""(?P<key>[A-Za-z][A-Za-z_-]*)\s*(?P<value>["'].*)?""")
-_OTHER_QUOTE = re.compile(r"""(?P<open>["']?)(?P<text>[^"'\\]*)(?P<close>["']?)""")
+_OTHER_QUOTE = re.compile(r"""(?P<open>["'“”„\u2018\u2019]?)(?P<text>[^"'\\“”„]*?)(?P<close>["'“”\u2019]?)""")
 _PLAIN_START = re.compile(r"[^\[{0-9+.-]|[0-9]*[A-Za-z]")
 
 
@@ -160,7 +160,7 @@ def _value(reader: _Reader, line: _Line) -> Any:
         return parse_json(text.encode())
     except BadMessage as error:
         mended = _mended(text)
-        if mended is None or "not JSON" not in error.reason:
+        if mended is None or not error.line:
             told = error.reason.removeprefix("The message ")
             reader.refuse(line, f"{told.rstrip('.')} in the value of {line.key}")
         reader.notes.append((line.number, f"put the value of {line.key} in quotes: {mended!r}."))

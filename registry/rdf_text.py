@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 from registry.errors import RegistryError
@@ -37,7 +37,7 @@ PAPER_KEYS = frozenset(
 )
 _MARKUP = re.compile(rb"\s*<(?:\?xml|!DOCTYPE|!--|rdf:)", re.IGNORECASE)
 _FIRST_LINE = re.compile(r"(?m)^(?:---)?[ \t]*(?!#|---)(\S.*)$")
-_PAPER_LINE = re.compile(r"\"?([A-Za-z][A-Za-z_ -]*?)\"?\s*(?::(?:\s|$|[\"'\[])|$)")
+_PAPER_LINE = re.compile(r"\"?([A-Za-z](?:[A-Za-z_ -]*[A-Za-z_])?)\"?\s*(?::(?:\s|$|[\"'\[])|$)")
 _TRIPLE = re.compile(r"\s*(?:(?:<[^>]*>|_:\S+)\s+<[^>]*>\s.*\.\s*)?(?:#.*)?")
 _BRACKET = re.compile(
     r'"""(?:[^"\\]|\\.|"(?!""))*+(?:"""|\\?\Z)'
@@ -74,8 +74,14 @@ class BadDescription(RegistryError):
     status = 422
 
     def __init__(self, *faults: Fault | str, heading: str = "") -> None:
-        self.faults = tuple(Fault(fault) if isinstance(fault, str) else fault for fault in faults)
+        self.faults = tuple(_printable(Fault(fault) if isinstance(fault, str) else fault) for fault in faults)
         super().__init__(" ".join([heading, *(fault.sentence for fault in self.faults[:5])]).strip())
+
+
+def _printable(fault: Fault) -> Fault:
+    """Return a fault without what a terminal would obey or a page would hide: it quotes what strangers sent."""
+    text, path = ("".join(c if c.isprintable() else "\ufffd" for c in part) for part in (fault.text, fault.path))
+    return replace(fault, text=text, path=path)
 
 
 def form_of(payload: bytes) -> DescriptionForm:

@@ -12,12 +12,10 @@ from registry.capability import (
     DeviceKind,
     MethodSpec,
     ParameterSpec,
-    Pose,
     PropertySpec,
-    Size,
     ValueType,
 )
-from registry.json_fields import Fields
+from registry.json_fields import Fields, read_pose, read_size
 from registry.rdf_text import CONTEXT, NAMESPACES, TD_CONTEXT, TD_CONTEXTS, BadDescription, Fault
 from registry.wire import down_topic, up_topic
 
@@ -71,24 +69,6 @@ def describe_thing(body: Mapping[str, Any]) -> Description:
         ),
         methods=tuple(_method(device_id, name, item) for name, item in fields.named("actions")),
     )
-
-
-def read_pose(fields: Fields, key: str) -> Pose:
-    """Return a pose of two to four numbers. Raises BadDescription."""
-    numbers = fields.numbers(key)
-    if len(numbers) not in (2, 3, 4):
-        fields.need(key, "[x, y, z, theta] in metres and radians")
-    return Pose(*numbers)
-
-
-def read_size(fields: Fields, key: str, radius: float) -> Size:
-    """Return a size of three numbers; a robot's may follow from its radius. Raises BadDescription."""
-    numbers = fields.numbers(key)
-    if not numbers and radius:
-        return Size(2 * radius, 2 * radius, 2 * radius)
-    if len(numbers) != 3:
-        fields.need(key, "[x, y, z] in metres")
-    return Size(*numbers)
 
 
 def _with_our_prefixes(body: Mapping[str, Any]) -> dict[str, Any]:

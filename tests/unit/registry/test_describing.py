@@ -115,7 +115,7 @@ def test_the_papers_message_may_be_json_or_written_with_dashes() -> None:
         "colour": "red",
     }
     found = read(json.dumps(body).encode())
-    assert found.notes == ("Read 'ID' as id.", "Left out /colour, which means nothing here.")
+    assert found.notes == ("Read 'ID' as id.", "Left out '/colour', which means nothing here.")
     assert found.description == Description(
         "m1",
         "m1",
@@ -139,6 +139,8 @@ def test_the_papers_message_may_be_json_or_written_with_dashes() -> None:
         ('name: "Mixer', "Mixer", True),
         ('name: Mixer"', "Mixer", True),
         ("name: 'Mixer'", "Mixer", True),
+        ("name: “Mixer”", "Mixer", True),
+        ("name: Bob\u2019s mixer", "Bob\u2019s mixer", True),
         ("name: Paint Mixer B", "Paint Mixer B", True),
         ('name "Mixer"', "Mixer", True),
         ('Name: "Mixer"', "Mixer", True),

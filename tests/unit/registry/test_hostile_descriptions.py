@@ -257,6 +257,22 @@ def test_hostile_descriptions_are_refused_at_once_and_nothing_is_fetched(
     assert calls == []
 
 
+@pytest.mark.parametrize(
+    "payload",
+    [
+        thing(actions={"\x1b[2J\u202e": {"forms": 3}}),
+        thing(properties={"\x1b[2J": {"type": "object", "forms": [{"href": "x"}]}}),
+        message(methods=[{"name": "\x1b[2J"}]),
+        b"\x1b[2J:a <b> <c> .",
+        b'id: "m1"\n\x1b[2J\n',
+    ],
+)
+def test_a_refusal_quotes_nothing_that_a_terminal_obeys(payload: bytes) -> None:
+    with pytest.raises(BadDescription) as refusal:
+        read(payload)
+    assert refusal.value.detail.isprintable()
+
+
 @pytest.mark.parametrize("payload", [turtle(), message(), thing(), linked()])
 def test_what_the_hostile_ones_are_made_of_is_believed(payload: bytes) -> None:
     assert read(payload, device_id="m1").description.pose.y == 2.0
@@ -271,6 +287,9 @@ def test_what_the_hostile_ones_are_made_of_is_believed(payload: bytes) -> None:
         b"{" + b'"a' * 8000,
         b"<a> <b> " + b"." * 16000,
         b"- " * 8000,
+        b"id" + b" " * 16000 + b"x",
+        b"id: 1\nid" + b" " * 16000 + b"x",
+        b"id: 1\nid: " + b"\xe2\x80\x99" * 5000,
         b"id" + b" :" * 8000,
         b"_:a " * 4000,
         b"id: x\nmethods\n" + b" - name: a\n" * 1400,
