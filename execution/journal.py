@@ -13,6 +13,7 @@ from execution.models import Run, RunEvent
 from execution.views import event_to_json, run_to_json
 from registry import live
 
+TOLD_AT_LEAST = 100
 ANSWERS = {"DONE": "is done", "FAILED": "failed", "REJECTED": "refused", "CANCELED": "was called off"}
 ENDS = {
     "finished": "The run is finished.",
@@ -65,13 +66,20 @@ class Journal:
                 count = self.steps.get(step, {}).get("count", 0) + 1
                 self.steps[step] = {"status": "running", "started_at": self.now.isoformat(), "ended_at": None,
                                     "robot": None, "wait": None, "why": None, "count": count}  # fmt: skip
-                self.say("step", "The step begins.", step=step, code="step_entered", count=count)
+                if self._is_told(step):
+                    self.say("step", "The step begins.", step=step, code="step_entered", count=count)
             case r.StepLeft(step=step):
                 self._end(step, "done")
-                self.say("step", "The step is done.", step=step, code="step_done")
+                if self._is_told(step):
+                    self.say("step", "The step is done.", step=step, code="step_done")
             case r.StepFailed(step=step, kind=kind, why=why):
                 self._end(step, "skipped" if kind == "cancelled" else "failed")
                 self.say("step", why or "The step was not done.", step=step, code=f"step_{kind}")
+
+    def _is_told(self, step: str) -> bool:
+        """Tell whether a step's beginning is written down: of one in a long loop only every hundredth."""
+        count = self.steps[step]["count"]
+        return bool(count <= TOLD_AT_LEAST or count % TOLD_AT_LEAST == 0)
 
     def _end(self, step: str, status: str) -> None:
         mark = self.steps.setdefault(step, {"started_at": self.now.isoformat(), "robot": None, "count": 1})

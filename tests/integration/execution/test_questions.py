@@ -8,12 +8,14 @@ import pytest
 from editor.language.plan import (
     AnswerSpec,
     AskPerson,
+    Assign,
     Branch,
     Constant,
     End,
     Instruction,
     Jump,
     Notify,
+    Operation,
     Plan,
     Variable,
     Wait,
@@ -153,3 +155,18 @@ def test_a_variable_set_by_an_answer_is_read(factory):
     services.answer_question(question_id=question, value="b", by="Ada")
     factory.work()
     assert RunEvent.objects.get(run=run, kind="notice").text == "b"
+
+
+def test_a_step_that_begins_very_often_does_not_fill_the_journal(factory):
+    count = Operation("+", (Variable("n"), Constant(1)))
+    body = (
+        Instruction(Assign("n", count, True), "s"),
+        Instruction(Branch(Operation("<", (Variable("n"), Constant(250))), 4)),
+        Instruction(Wait(Constant(0.1))),
+        Instruction(Jump(0)),
+        Instruction(End()),
+    )
+    run = factory.start(Plan(body), n=0)
+    factory.go(lambda: status(run) == "finished")
+    assert Run.objects.get(id=run).steps["s"]["count"] == 250
+    assert RunEvent.objects.filter(run=run, step="s", code="step_entered").count() == 101

@@ -27,6 +27,7 @@ from editor.language.plan import (
     Variable,
     Wait,
     WaitUntil,
+    Zone,
 )
 from execution.monitor import FootprintMonitor
 from execution.rehearsal import Conditions, rehearse
@@ -168,6 +169,19 @@ def test_a_rehearsal_begins_at_eight_and_knows_where_robots_are():
     assert (result["ok"], result["errors"]) == (True, [])
     assert [step["ended_s"] for step in result["steps"] if step["step"] == "late"] == [20.0]
     assert len(result["steps"]) == 2
+
+
+def test_robots_drive_slowly_in_a_slow_zone():
+    points = ((0.0, -14.0), (30.0, -14.0), (30.0, 0.0), (0.0, 0.0))
+    zones = (Zone("z", "Everywhere", "slow", points, 0.2),)
+    body = (Instruction(Move("robot", SHELF), "m"), Instruction(End()))
+    quick, slow = (
+        rehearse(Plan(body, ROLES, zones=z), scene(), places=demo_floor.places(), conditions=KINEMATIC)
+        for z in ((), zones)
+    )
+    distance_m = slow["robots"]["robot01"]["distance_m"]
+    assert distance_m == quick["robots"]["robot01"]["distance_m"]
+    assert slow["duration_s"] > max(distance_m / 0.2, 1.5 * quick["duration_s"])
 
 
 def test_an_event_of_the_program_happens_in_a_rehearsal_too():
