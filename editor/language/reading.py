@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from editor.language.answers import settle_answer
 from editor.language.diagnostics import Fix, Problem, TextArguments
 from editor.language.ladder import FORMAT, format_of
-from editor.language.names import RESERVED_ATTRIBUTES, attribute_name, local_name, unique_name
+from editor.language.names import RESERVED_ATTRIBUTES, attribute_name, local_name
 from editor.language.nodes import (
     MISSING,
     NOWHERE,
@@ -27,7 +27,6 @@ from editor.language.nodes import (
     Notify,
     Operate,
     Parallel,
-    Parameter,
     Pick,
     Point,
     Repeat,
@@ -43,14 +42,20 @@ from editor.language.nodes import (
 from editor.language.outline import EVENTS, PROGRAM, Outline, Params, make_outline, mapping
 from editor.language.phrases import Options
 from editor.language.plan import Expression, Located, PlaceRef
-from editor.language.type_names import settle_type
-from editor.language.values import Names, UnknownParameter, plain, read_place, read_point, read_value
+from editor.language.reading_names import (
+    DEFAULT_ROLE,
+    by_id,
+    read_arguments,
+    read_functions,
+    read_parameters,
+    read_roles,
+    text_of,
+    variables_by_root,
+)
+from editor.language.values import Names, UnknownParameter, read_place, read_point, read_value
 from editor.language.walking import in_reading_order
 
-DEFAULT_ROLE = "robot"
 _DRIVING = frozenset({"move", "pick", "drop", "pick_and_drop"})
-_SETTERS = {"set": "variable", "ask": "variable", "call": "result"}
-"""The kinds of steps that set a variable, with the parameter that names it."""
 FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
 
 
@@ -127,7 +132,7 @@ class _Reader:
 
     def variable(self, params: Params, name: str = "variable") -> str:
         """Return the script name of the variable that a step sets, empty when it is still to be named."""
-        wanted = _text(params.get(name))
+        wanted = text_of(params.get(name))
         return self.names.get(wanted, "") if wanted else ""
 
     def block(self, parent: str, branch: str) -> Block:
@@ -257,7 +262,7 @@ def _repeat(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
 
 def _for_each(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
     """The variable of the loop can be seen in its body, and hides what else has its name."""
-    listed, wanted = params.get("items"), _text(params.get("variable"))
+    listed, wanted = params.get("items"), text_of(params.get("variable"))
     items = listed if isinstance(listed, list | tuple) else ()
     values = tuple(reader.value(step, {"items": item}, "items") for item in items)
     outside = reader.names
@@ -323,21 +328,21 @@ def read_document(document: object) -> Reading:
     """Read a document (plain JSON, format 2); nothing in it makes this raise."""
     whole = mapping(document)
     outline = make_outline(whole)
-    parameters, names = _read_parameters(_by_id(whole.get("parameters")).items())
+    parameters, names = read_parameters(by_id(whole.get("parameters")).items())
     taken = {*RESERVED_ATTRIBUTES, *names.values()}
-    roles = _read_roles(_by_id(whole.get("roles")), taken)
+    roles = read_roles(by_id(whole.get("roles")), taken)
     taken |= {role.name for role in roles.values()}
-    given = _by_id(whole.get("functions"))
-    functions = _read_functions(given, taken)
+    given = by_id(whole.get("functions"))
+    functions = read_functions(given, taken)
     taken |= {function.method for function in functions.values()}
-    variables = _variables_by_root(outline)
+    variables = variables_by_root(outline)
     for name in sorted(variables.get(PROGRAM, ())):
         if name not in names:
             names[name] = attribute_name(name, taken)
             taken.add(names[name])
     reader = _Reader(outline, roles, functions, {}, names)
     for key, function in functions.items():
-        listed, reader.argument_names[key] = _read_arguments(given[key], names)
+        listed, reader.argument_names[key] = read_arguments(given[key], names)
         functions[key] = replace(function, parameters=listed)
     body, events = reader.block(PROGRAM, "body"), _read_events(reader)
     finished = [_with_body(reader, function, names, variables.get(key, ())) for key, function in functions.items()]
@@ -368,96 +373,3 @@ def _with_body(reader: _Reader, function: Function, names: Names, variables: Ite
             seen[name] = local_name(name, (script for other, script in seen.items() if other != name))
     reader.names = seen
     return replace(function, body=reader.block(function.id, "body"))
-
-
-def _variables_by_root(outline: Outline) -> dict[str, set[str]]:
-    """Return the names that are set in the program (its events, too) and in each function but no variables of loops.
-
-    What is set in the program belongs to the program, also where a function sets it.
-    """
-    found: dict[str, set[str]] = {}
-    setting = [(step, _text(outline.params[step].get(_SETTERS[kind]))) for step, kind in outline.kinds.items()
-               if kind in _SETTERS]  # fmt: skip
-    if not any(name for _, name in setting):
-        return found
-    parents = {child: parent for (parent, _), steps in outline.children.items() for child in steps}
-    for step, name in setting:
-        root = _root_of(step, name, outline, parents) if name else None
-        if root is not None:
-            found.setdefault(root, set()).add(name)
-    shared = found.get(PROGRAM, set())
-    return {root: names if root == PROGRAM else names - shared for root, names in found.items()}
-
-
-def _root_of(step: str, name: str, outline: Outline, parents: Mapping[str, str]) -> str | None:
-    """Return the program or the function that a step belongs to; None for a draft, or for a loop's own variable."""
-    here = parents.get(step)
-    while here is not None and here in outline.kinds:
-        if outline.kinds[here] == "for_each" and _text(outline.params[here].get("variable")) == name:
-            return None
-        here = parents.get(here)
-    return here
-
-
-def _by_id(value: object) -> dict[str, Mapping[str, object]]:
-    return {name: mapping(item) for name, item in sorted(mapping(value).items(), key=lambda pair: str(pair[0])) if name}
-
-
-def _read_parameters(
-    given: Iterable[tuple[str, Mapping[str, object]]], outside: Names | None = None
-) -> tuple[tuple[Parameter, ...], dict[str, str]]:
-    """Return the parameters, and their names in the document with those in the script.
-
-    `outside` are the names that can be seen around a function; without them the parameters are the program's.
-    """
-    parameters: list[Parameter] = []
-    names: dict[str, str] = {}
-    for key, item in given:
-        wanted = _text(item.get("name")) or key
-        if wanted and wanted not in names:
-            if outside is None:
-                names[wanted] = attribute_name(wanted, names.values())
-            else:
-                hidden = (script for name, script in {**outside, **names}.items() if name != wanted)
-                names[wanted] = local_name(wanted, hidden)
-            default, (kind, unit) = plain(item.get("default")), settle_type(item.get("type"), item.get("unit"))
-            parameters.append(Parameter(names[wanted], default, kind, unit))
-    return tuple(parameters), names
-
-
-def _read_roles(given: Mapping[str, Mapping[str, object]], taken: Iterable[str]) -> dict[str, Role]:
-    roles: dict[str, Role] = {}
-    names = set(taken)
-    for key, item in {DEFAULT_ROLE: given.get(DEFAULT_ROLE, {}), **given}.items():
-        wanted = _text(item.get("name")) if key != DEFAULT_ROLE else DEFAULT_ROLE
-        name = unique_name(wanted or key, names)
-        names.add(name)
-        device, can = item.get("device"), item.get("can")
-        listed = can if isinstance(can, list | tuple) else ()
-        methods = tuple(dict.fromkeys(method for method in listed if isinstance(method, str) and method))
-        bound = device if isinstance(device, str) and device else None
-        roles[key] = Role(name, bound, () if bound else methods, None, key)
-    return roles
-
-
-def _read_functions(given: Mapping[str, Mapping[str, object]], taken: Iterable[str]) -> dict[str, Function]:
-    """Return the functions by id, still without parameters and bodies."""
-    functions: dict[str, Function] = {}
-    used = set(taken)
-    for key, item in given.items():
-        name = _text(item.get("name")) or key
-        method = unique_name(name, used)
-        used.add(method)
-        result = mapping(item.get("result"))
-        functions[key] = Function(method, (), (), *settle_type(result.get("type"), result.get("unit")), key, name)
-    return functions
-
-
-def _read_arguments(function: Mapping[str, object], names: Names) -> tuple[tuple[Parameter, ...], dict[str, str]]:
-    listed = function.get("parameters")
-    items = [("", mapping(entry)) for entry in listed] if isinstance(listed, list | tuple) else []
-    return _read_parameters(items, names)
-
-
-def _text(value: object) -> str:
-    return value if isinstance(value, str) else ""
