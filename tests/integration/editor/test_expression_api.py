@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from typing import Any
 from uuid import uuid4
 
 import pytest
@@ -45,7 +46,7 @@ def test_a_line_is_read_and_its_value_printed_again(web: Web, program: str) -> N
     with web.client("author") as client:
         read = client.post(f"/programs/{program}/expression", json={"text": "90s < 2 minutes"})
         printed = client.post(f"/programs/{program}/expression", json={"value": value})
-    expected = {"value": value, "type": "boolean", "unit": "", "problem": None, "names": []}
+    expected: dict[str, Any] = {"value": value, "type": "boolean", "unit": "", "problem": None, "names": []}
     assert read.json() == {**expected, "text": "90s < 2 minutes"}
     assert printed.json() == {**expected, "text": "90 s < 2 min"}
 
@@ -61,6 +62,7 @@ def test_a_line_that_means_nothing_says_where_and_why(web: Web, program: str) ->
 
 def test_nonsense_for_a_value_is_printed_as_nothing(web: Web, program: str) -> None:
     with web.client("viewer") as client:
-        for value in (None, {}, {"op": "boom", "args": []}, {"param": "gone"}, [[]], {"quantity": "x"}):
+        nonsense: list[Any] = [None, {}, {"op": "boom", "args": []}, {"param": "gone"}, [[]], {"quantity": "x"}]
+        for value in nonsense:
             answer = client.post(f"/programs/{program}/expression", json={"value": value})
             assert (answer.status_code, answer.json()["text"]) == (200, "")
