@@ -102,14 +102,14 @@ def _unblock(turn: Turn, robot: Robot) -> None:
 
 
 def _wait_for_zone(turn: Turn, robot: Robot, zone: FloorZone, holder: Robot) -> None:
-    """Say what the robot waits for; who has nothing to do in the zone leaves it, who stands before a machine too."""
+    """Say what the robot waits for; who stands in the zone without getting on leaves it, who is at a machine too."""
     job = turn.job_of(robot)
     if job:
         text = f"{turn.name(robot.id)} waits until {zone.name} is free."
         turn.wait(job, "zone_taken", text, robot=robot.id, zone=zone.name, others=holder.id)
-    if turn.is_idle(holder) and holder.online and holder.run not in turn.paused:
-        _move_blocker(turn, robot, holder)
-    elif turn.node(robot) in turn.layout.stations:
+    _move_blocker(turn, robot, holder)
+    robot = turn.robots[robot.id]
+    if not robot.evading and turn.node(robot) in turn.layout.stations:
         _evade(turn, robot, robot)
 
 

@@ -1,6 +1,9 @@
 """Zones on the floor: kept out of, one robot at a time, slow."""
 
+import random
 from math import hypot
+
+import pytest
 
 from execution.mission import Mission, Target
 from execution.places import lies_in
@@ -140,6 +143,32 @@ def test_a_robot_that_stands_idle_in_the_zone_leaves_it_for_another():
     assert floor.over["b", 1] == ("", "")
     assert any(w.reason and w.reason.code == "zone_taken" for w in floor.waits)
     assert hypot(floor.at["robot02"][0] - 3.0, floor.at["robot02"][1] + 7.5) < 0.1
+
+
+@pytest.mark.parametrize("seed", [3, 17, 52])
+def test_robots_with_many_errands_through_random_zones_all_arrive(seed):
+    """With 17 and 52 one waits in a zone for a machine, which another has that waits for the zone."""
+    rng = random.Random(seed)
+    layout = demo_floor.layout()
+    targets = [*layout.stations, *layout.docks]
+    zones = []
+    for number in range(rng.randint(1, 3)):
+        x, y, wide, deep = rng.uniform(1, 18), rng.uniform(-12, -3), rng.uniform(1, 5), rng.uniform(1, 5)
+        outline = ((x, y), (x + wide, y), (x + wide, y + deep), (x, y + deep))
+        zones.append(zone("one_at_a_time", outline, f"p/z{number}"))
+    floor = PretendFloor(layout)
+    runs = {f"run{number}": robot for number, robot in enumerate(sorted(floor.state.robots))}
+    done = dict.fromkeys(runs, 0)
+
+    def ask():
+        for run, robot in runs.items():
+            if done[run] < 4 and (not done[run] or (run, done[run]) in floor.over):
+                done[run] += 1
+                go(floor, run, rng.choice(targets), tuple(zones), done[run], wants=robot)
+        assert all(sum(lies_in(at, each.points) for at in floor.at.values()) <= 1 for each in zones)
+
+    drive(floor, lambda: all((run, 4) in floor.over for run in runs), ask)
+    assert set(floor.over.values()) == {("", "")}
 
 
 def test_a_floor_with_zones_is_stored_and_read_again():
