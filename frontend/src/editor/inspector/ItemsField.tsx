@@ -115,6 +115,7 @@ function AddItem({
   const [text, setText] = useState("");
   const [round, setRound] = useState(0);
   const input = useRef<HTMLInputElement>(null);
+  const chosen = useRef<string | null>(null);
   useEffect(() => {
     if (round > 0) input.current?.focus();
   }, [round]);
@@ -143,8 +144,15 @@ function AddItem({
       value={text}
       placeholder={t("for_each.add")}
       disabled={disabled}
-      onChange={setText}
-      onOptionSubmit={add}
+      onChange={(next) => {
+        // The field writes a chosen name into itself after it has been added.
+        setText(next === chosen.current ? "" : next);
+        chosen.current = null;
+      }}
+      onOptionSubmit={(name) => {
+        add(name);
+        chosen.current = name;
+      }}
       onKeyDown={(event) => {
         if (event.key === "Enter" && !event.defaultPrevented) add(text);
       }}

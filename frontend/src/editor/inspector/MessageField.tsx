@@ -58,6 +58,7 @@ export function MessageField({ label, field, placeholder }: { label: string; fie
             value={null}
             onChange={insert}
             searchable
+            selectFirstOptionOnChange
             disabled={disabled || groups.length === 0}
           />
         </>

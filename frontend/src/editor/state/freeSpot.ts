@@ -1,27 +1,58 @@
 /** A free place for a chip that belongs to no place of its own. */
-import { toMetres, toPixels, type Point } from "@/map/projection";
+import { knownBox } from "@/map/floor";
+import { toMetres, type Box, type Point } from "@/map/projection";
+import type { PixelPoint } from "@/map/routePath";
 import { boxAt, grown, overlaps } from "../scene/geometry";
+import { isFramed } from "../scene/kinds";
+import { outerBox } from "../scene/scene";
 import { deviceBox } from "../scene/surroundings";
 import type { OpenProgram } from "./context";
 import { useUi } from "./ui";
 
-/** Near the selected or the last step, covering neither chips nor machines. */
-export function freeSpot({ scene, devices }: OpenProgram): Point {
+const CHIP = { width: 150, height: 30 };
+/** Room for a frame's first step, too. */
+const FRAME = { width: 190, height: 110 };
+const WAYS = [
+  [0, 1],
+  [1, 0],
+  [-1, 0],
+  [0, -1],
+  [1, 1],
+  [-1, 1],
+  [1, -1],
+  [-1, -1],
+] as const;
+
+/** On the floor near the selected or the last step, covering neither chips, frames nor machines. */
+export function freeSpot(open: OpenProgram, kind = ""): Point {
+  const { scene, devices, plan } = open;
   const last = useUi.getState().selected.at(-1) ?? scene.tree.reading.at(-1);
   const from = (last ? scene.chips.get(last)?.at : undefined) ?? scene.start;
   const taken = [
-    ...[...scene.chips.values()].map((chip) => chip.box),
+    ...[...scene.chips.values()].map((chip) => outerBox(scene, chip.id) ?? chip.box),
     ...devices.filter((device) => device.kind !== "robot").map(deviceBox),
+    boxAt(scene.start, 90, 40),
   ];
-  for (let ring = 1; ring < 12; ring += 1)
-    for (const [dx, dy] of [
-      [0, 1],
-      [1, 0],
-      [0, -1],
-      [-1, 0],
-    ] as const) {
-      const at = { x: from.x + dx * ring * 70, y: from.y + dy * ring * 44 };
-      if (!taken.some((box) => overlaps(box, grown(boxAt(at, 150, 30), 6)))) return toMetres(at);
+  const size = isFramed(kind) ? FRAME : CHIP;
+  return toMetres(freeNear(from, size, taken, plan ? knownBox(plan) : null) ?? from);
+}
+
+/** The nearest point of widening rings where the box is inside the floor and covers nothing. */
+export function freeNear(
+  from: PixelPoint,
+  size: { readonly width: number; readonly height: number },
+  taken: readonly Box[],
+  floor: Box | null,
+): PixelPoint | null {
+  for (let ring = 1; ring < 14; ring += 1)
+    for (const [dx, dy] of WAYS) {
+      const at = { x: from.x + dx * ring * 70, y: from.y + dy * ring * 46 };
+      const box = grown(boxAt(at, size.width, size.height), 6);
+      if ((!floor || inside(box, floor)) && !taken.some((each) => overlaps(each, box))) return at;
     }
-  return toMetres(from ?? toPixels([1, -1]));
+  return null;
+}
+
+function inside(box: Box, floor: Box): boolean {
+  return box.left > floor.left && box.right < floor.right && box.top > floor.top && box.bottom < floor.bottom;
 }

@@ -2,6 +2,7 @@
 import { useEffect } from "react";
 import { shiftStep } from "../model/gestures";
 import type { Position } from "../model/edits";
+import { undoLast } from "../gestures/undo";
 import { KINDS } from "../scene/kinds";
 import { duplicateSelected, nudgeSelected, removeSelected } from "./actions";
 import { useOpenProgram, type OpenProgram } from "./context";
@@ -45,7 +46,7 @@ function controlKey(open: OpenProgram, event: KeyboardEvent): boolean {
   if (key === "a") select(open.scene.tree.reading);
   if (!canEdit) return key === "a";
   const actions: Record<string, () => void> = {
-    z: () => (event.shiftKey ? shared.undo.redo() : shared.undo.undo()),
+    z: () => (event.shiftKey ? shared.undo.redo() : undoLast(open)),
     y: () => shared.undo.redo(),
     a: () => undefined,
     d: () => duplicateSelected(document, apply),
@@ -102,7 +103,7 @@ function enter(open: OpenProgram, target: EventTarget | null): boolean {
   const { gesture, selected } = useUi.getState();
   if (target instanceof HTMLElement && target.closest("button, a, [role=treeitem]")) return false;
   if (open.canEdit && gesture.byKeyboard && askOf(gesture) === "floor") {
-    createOnFloor(open, gesture, freeSpot(open));
+    createOnFloor(open, gesture, freeSpot(open, gesture.tool));
     return true;
   }
   if (selected.length !== 1) return false;
