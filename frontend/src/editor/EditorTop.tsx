@@ -11,6 +11,7 @@ import { Crumb, TopBar } from "@/app/TopBar";
 import { Avatar } from "@/design/Avatar";
 import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
+import { undoLast } from "./gestures/undo";
 import { FollowButton } from "./gestures/FollowButton";
 import { useOpenProgram } from "./state/context";
 import { say, select, showTab, useUi } from "./state/ui";
@@ -100,7 +101,11 @@ function UndoButtons() {
   }, [shared]);
   return (
     <>
-      <IconButton label={t("undo")} disabled={!canEdit || !shared.undo.canUndo()} onClick={() => shared.undo.undo()}>
+      <IconButton
+        label={t("undo")}
+        disabled={!canEdit || !shared.undo.canUndo()}
+        onClick={() => undoLast({ shared, t })}
+      >
         <Undo2 size={17} aria-hidden="true" />
       </IconButton>
       <IconButton label={t("redo")} disabled={!canEdit || !shared.undo.canRedo()} onClick={() => shared.undo.redo()}>

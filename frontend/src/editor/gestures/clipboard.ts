@@ -1,6 +1,8 @@
 /** Copy, cut and paste: in this browser's memory and on the system's clipboard, so that other windows take it, too. */
 import { useEffect } from "react";
 import { clip, clippingFromText, clippingToText } from "../model/clipping";
+import { looksLikeScript } from "../script/pasteScript";
+import { pasteScript } from "../script/pasting";
 import { copySelected, pasteCopied, putCopies, removeSelected } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { isTyping } from "../state/shortcuts";
@@ -33,8 +35,10 @@ export function useClipboard(open: OpenProgram): void {
     };
     const put = (event: ClipboardEvent) => {
       if (isElsewhere(event.target) || !open.canEdit) return;
-      const clipping = clippingFromText(event.clipboardData?.getData("text/plain") ?? "");
+      const text = event.clipboardData?.getData("text/plain") ?? "";
+      const clipping = clippingFromText(text);
       if (clipping) putCopies(open.document, open.apply, clipping);
+      else if (looksLikeScript(text)) void pasteScript(open, text);
       else pasteCopied(open.document, open.apply);
       event.preventDefault();
     };

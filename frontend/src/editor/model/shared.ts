@@ -10,6 +10,8 @@ import type { ProgramDocument } from "./types";
 
 /** The server's own message: a number, and the state vector of what is in the database. */
 const MESSAGE_SAVED = 100;
+/** Under this name an entry of the undo list keeps its edits. */
+const EDITS = "edits";
 
 export type Connection = "connecting" | "live" | "reconnecting" | "refused";
 
@@ -40,7 +42,11 @@ export class SharedProgram {
   constructor(program: string, serverUrl: string, readOnly: boolean) {
     this.#document = readDocument(this.doc);
     const roots = ROOTS.map((name) => this.doc.getMap(name));
-    this.undo = new Y.UndoManager(roots, { trackedOrigins: new Set([this.#origin]), captureTimeout: 0 });
+    this.undo = new Y.UndoManager(roots, {
+      trackedOrigins: new Set([this.#origin]),
+      captureTimeout: 0,
+      ignoreRemoteMapChanges: true,
+    });
     ROOTS.forEach((name, index) => roots[index]?.observeDeep((events) => this.#note(name, events)));
     this.doc.on("afterTransaction", () => this.#publish());
     this.doc.on("update", (_update, origin) => this.#noteUnsaved(origin));
@@ -73,6 +79,12 @@ export class SharedProgram {
     this.undo.stopCapturing();
     applyEditsToDoc(this.doc, edits, this.#origin);
     this.undo.stopCapturing();
+    this.undo.undoStack.at(-1)?.meta.set(EDITS, edits);
+  }
+
+  /** What the gesture set that would be undone next. */
+  lastEdits(): readonly Edit[] {
+    return (this.undo.undoStack.at(-1)?.meta.get(EDITS) as readonly Edit[] | undefined) ?? [];
   }
 
   close(): void {
