@@ -194,7 +194,7 @@ def _function(node: ast.Call, name: str, scope: Scope, depth: int) -> Expression
 
 def _quantity(node: ast.Call) -> Expression:
     match [parse_scalar(argument) for argument in node.args]:
-        case [value, str(unit)] if is_number(value) and unit_code(unit) in UNITS:
+        case [value, str(unit)] if is_number(value) and unit:
             return Quantity(value, unit_code(unit))
     units = ", ".join(unit.symbol for unit in UNITS.values())
     raise Refused(node, quoted(node), f'Write quantity(10, "min"), with one of these units: {units}.')

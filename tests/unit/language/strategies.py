@@ -35,8 +35,26 @@ readings = st.sampled_from(
         {"property": [{"param": "minutes"}, "jobStatus"]},
     ]
 )
+things = st.sampled_from(
+    [
+        {"at": {"device": "curingOven01"}},
+        {"at": {"place": "dock1"}},
+        {"at": {"point": [3.5, -8]}},
+        {"at": {"role": "box_carrier"}},
+        {"at": {"role": "bound"}},
+        {"at": {"param": "minutes"}},
+        {"device": "dropOff01"},
+        {"zone": "z1"},
+        {"zone": "gone"},
+        {"quantity": [10, "MIN"]},
+        {"quantity": [-2.5, "°C"]},
+        {"quantity": [3, "widgets"]},
+        {"op": "now", "args": []},
+    ]
+)
 leaves = st.one_of(
     numbers,
+    things,
     st.booleans(),
     st.text(max_size=6),
     readings,
@@ -52,8 +70,11 @@ def _operations(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
         st.builds(lambda op, a, b: {"op": op, "args": [a, b]}, two, inner, inner),
         st.builds(lambda op, a: {"op": op, "args": [a]}, st.sampled_from(["-", "not", "abs", "round"]), inner),
         st.builds(
-            lambda op, a: {"op": op, "args": a}, st.sampled_from(["and", "or"]), st.lists(inner, min_size=2, max_size=3)
+            lambda op, a: {"op": op, "args": a},
+            st.sampled_from(["and", "or", "text", "count", "nearest", "min", "max"]),
+            st.lists(inner, min_size=2, max_size=3),
         ),
+        st.builds(lambda a, b: {"op": "distance", "args": [a, b]}, inner, inner),
     )
 
 
@@ -135,7 +156,7 @@ def documents(draw: st.DrawFn, largest: int = 12) -> dict[str, Any]:
             "paint_carrier": {"name": "drop off", "can": []},
         },
         "parameters": {"p": {"name": default, "type": "number", "default": 2}},
-        "zones": {},
+        "zones": {"z1": {"name": "robot", "rule": "slow", "points": [[0, 0], [3, 0], [3, -3]]}},
     }
 
 
