@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
@@ -13,7 +14,7 @@ from editor.language.alignment import common_row
 from editor.language.ladder import climb
 from editor.language.ordering import keep_orders, order_between
 from tests.unit.language.site import factory
-from tests.unit.language.strategies import documents
+from tests.unit.language.strategies import broken_documents, documents, json_values
 
 ERRAND = {
     "role": "robot",
@@ -331,3 +332,25 @@ def test_a_script_drawn_over_any_document_means_what_it_says(first: dict[str, An
     steps: Any = drawn["steps"]
     drafts = old["steps"].keys() - kept.numbers.keys()
     assert {name: steps[name]["params"] for name in drafts} == {name: old["steps"][name]["params"] for name in drafts}
+
+
+@quick
+@given(documents(6), st.one_of(broken_documents, json_values))
+def test_nothing_in_the_document_before_makes_drawing_raise(document: dict[str, Any], before: Any) -> None:
+    tree = parse_script(compile_document(document, factory()).script, factory()).tree
+    assert tree is not None
+    drawn = tree_to_document(tree, factory(), before if isinstance(before, dict) else {"steps": before})
+    assert json.dumps(drawn)
+
+
+@quick
+@given(documents(8), st.data())
+def test_nothing_in_a_step_before_makes_drawing_raise(document: dict[str, Any], data: st.DataObject) -> None:
+    text = compile_document(document, factory()).script
+    for old in document["steps"].values():
+        for name in [*old["params"], "place", "pos", "kind"]:
+            if data.draw(st.integers(0, 3)) == 0:
+                (old["params"] if name in old["params"] else old)[name] = data.draw(json_values)
+    tree = parse_script(text, factory()).tree
+    assert tree is not None
+    assert compile_document(tree_to_document(tree, factory(), document), factory()).tree == tree
