@@ -11,10 +11,11 @@ import pytest
 from editor import services
 from editor.document import SharedDocument, empty_document, encode_document
 from editor.errors import NoSuchProgram
-from editor.models import DocumentUpdate, Program, Snapshot
+from editor.models import DocumentUpdate, Program, Snapshot, Version
 from editor.room import Change
 from editor.store import SnapshotDiffers, append_changes, compact_document, load_document
 from registry import services as registry
+from registry.models import Site
 
 NOW = datetime(2026, 1, 2, 3, 4, tzinfo=UTC)
 pytestmark = pytest.mark.django_db
@@ -107,3 +108,22 @@ def test_the_demo_has_its_programs_and_seeding_again_changes_nothing(author: Any
     assert [program.id for program in programs] == first
     assert [program.name for program in programs] == ["Paint order", "First errand"]
     assert {"pick_and_drop", "operate", "while"} <= set(programs[0].kinds)
+
+
+def test_an_old_program_is_told_in_the_format_of_today(author: Any) -> None:
+    old = {"format": 1, "steps": {"w": {"kind": "wait", "place": ["program", "body", "V"], "params": {"seconds": 5}}}}
+    program = Program.objects.create(site=Site.objects.get(slug="hall"), name="Old", edited_at=NOW, last_seq=1)
+    Snapshot.objects.create(program=program, seq=1, data=encode_document(old))
+    document = services.get_document(program_id=program.pk)
+    assert (document["format"], document["steps"]["w"]["params"]) == (2, {"duration": 5})
+    version = services.pin_version(program_id=program.pk, user=author)
+    assert version.document == document
+    assert "self.wait(5)" in version.script
+
+
+def test_a_version_of_a_former_format_is_told_in_the_format_of_today(program: str, author: Any) -> None:
+    version = services.pin_version(program_id=program, user=author)
+    old = {"format": 1, "steps": {"w": {"kind": "wait", "params": {"seconds": 5}}}}
+    Version.objects.filter(pk=version.id).update(document=old)
+    told = services.get_version(version_id=version.id).document
+    assert told == {"format": 2, "steps": {"w": {"kind": "wait", "params": {"duration": 5}}}}
