@@ -173,11 +173,21 @@ def _parallel(context: Context, node: n.Parallel) -> None:
     check_branches(context, node)
 
 
+def _only_function(context: Context, node: n.Call) -> Fix | None:
+    """Return the fix that chooses the program's only function, if the call does not stand in it."""
+    if len(context.tree.functions) != 1:
+        return None
+    only = context.tree.functions[0]
+    if any(inner is node for inner in walk(only.body)):
+        return None
+    return Fix("choose", node.step, "function", only.id, {"value": only.name or only.method})
+
+
 def _call(context: Context, node: n.Call) -> None:
     function = context.functions.get(node.function)
     if function is None:
         if not any(p.step == node.step and p.code == "unknown_function" for p, _ in context.found):
-            context.tell(node, "missing_function", "function")
+            context.tell(node, "missing_function", "function", fix=_only_function(context, node))
         return
     given = dict(node.arguments)
     for parameter in function.parameters:
