@@ -29,6 +29,8 @@ STALE_AFTER = timedelta(seconds=45)
 """A device speaks at least every 30 s (docs/protocol.md); its last will usually tells long before this."""
 MOST_EVENTS = 200
 MOST_READINGS = 128
+MOST_CHARACTERS = 300
+MOST_LINES = 8
 PROBLEM_EVERY = timedelta(seconds=10)
 RESERVED_IDS = frozenset({"server"})
 
@@ -113,8 +115,19 @@ def _describe(device: Device, reading: Reading, payload: bytes, digest: str, at:
     device.save()
     if text:
         _write_event(device, at, "described", text, changes=changes)
-    if text and reading.notes:
-        _write_event(device, at, "mended", " ".join(reading.notes))
+        for line in reversed(_packed(reading.notes)):
+            _write_event(device, at, "mended", line)
+
+
+def _packed(notes: tuple[str, ...]) -> list[str]:
+    """Put what was mended into few lines of history, none longer than one may be."""
+    lines: list[str] = []
+    for note in notes:
+        if lines and len(lines[-1]) + len(note) < MOST_CHARACTERS:
+            lines[-1] += f" {note}"
+        elif len(lines) < MOST_LINES:
+            lines.append(note)
+    return lines
 
 
 def _difference(before: Description | None, after: Description) -> str:
@@ -131,7 +144,7 @@ def _difference(before: Description | None, after: Description) -> str:
         words.append(f"says it stands at {after.pose.x:.2f}, {after.pose.y:.2f}")
     if not words and replace(before, done=after.done) != after:
         words.append("changed its description")
-    told = "; ".join(words)[:300]
+    told = "; ".join(words)[:MOST_CHARACTERS]
     return told[:1].upper() + told[1:]
 
 
@@ -220,7 +233,7 @@ def _write_event(
 ) -> None:
     """Add a line of history and forget the ones beyond the newest 200."""
     told = [asdict(change) for change in changes]
-    DeviceEvent.objects.create(device=device, at=at, kind=kind, text=text[:300], by=by, changes=told)
+    DeviceEvent.objects.create(device=device, at=at, kind=kind, text=text[:MOST_CHARACTERS], by=by, changes=told)
     oldest = DeviceEvent.objects.filter(device=device).order_by("-pk").values_list("pk", flat=True)[MOST_EVENTS:][:1]
     for key in list(oldest):
         DeviceEvent.objects.filter(device=device, pk__lte=key).delete()

@@ -97,7 +97,9 @@ def plain_text(payload: bytes) -> str:
     if len(payload) > MAX_BYTES:
         raise BadDescription(f"The description has {len(payload)} bytes; {MAX_BYTES} is the most.")
     if _MARKUP.match(payload.removeprefix(b"\xef\xbb\xbf")) or b"<rdf:RDF" in payload:
-        raise BadDescription("The description is RDF/XML, which is not accepted. Send Turtle, N-Triples or JSON-LD.")
+        raise BadDescription(
+            "The description is RDF/XML, which is not accepted. Send Turtle, N-Triples, JSON-LD or a TD."
+        )
     try:
         text = payload.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -3,13 +3,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from datetime import timedelta
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from registry import joining, live, services
 from registry.capability import MethodSpec, Pose
-from registry.describing import write_description
+from registry.describing import read, write_description
 from registry.models import Device, DeviceEvent, User
 from registry.rdf_text import CONTENT_TYPES, FORMS, BadDescription
 from registry.services import BadDevice, NoSuchDevice, NotPending, Principal
@@ -95,6 +96,15 @@ def test_what_was_mended_is_told_once_and_news_of_values_are_no_change(hall: str
         ),
         ("described", "Described itself for the first time: mixer1, machine"),
     ]
+
+
+def test_all_that_was_mended_stands_in_the_history(hall: str) -> None:
+    figure = (Path(__file__).parents[2] / "fixtures" / "figure-5.txt").read_bytes() + b"site: hall\n"
+    services.ingest_description(device_id="paintMixer02", payload=figure, at=NOW)
+    events = services.list_device_events(site="hall", device_id="paintMixer02")
+    assert [e.kind for e in events] == ["mended", "mended", "mended", "described"]
+    assert all(len(e.text) <= 300 for e in events)
+    assert " ".join(e.text for e in events[:3]) == " ".join(read(figure).notes)
 
 
 def test_an_unchanged_description_is_not_parsed_again(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
