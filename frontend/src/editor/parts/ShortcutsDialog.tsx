@@ -1,5 +1,6 @@
 /** The list of keys. */
 import { Modal } from "@mantine/core";
+import { COMMANDS } from "../gestures/commands";
 import { KINDS } from "../scene/kinds";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
@@ -23,6 +24,9 @@ const KEYS: readonly [string, string][] = [
   ["Esc", "back"],
 ];
 
+/** What the list above has in its own words is not said twice. */
+const GESTURES = COMMANDS.filter((command) => command.keys.includes("Arrow") || /Shift/.test(command.keys));
+
 export function ShortcutsDialog() {
   const { t } = useOpenProgram();
   const opened = useUi((ui) => ui.dialog === "shortcuts");
@@ -32,6 +36,12 @@ export function ShortcutsDialog() {
         {KINDS.filter((kind) => kind.key).map((kind) => [
           <dt key={`${kind.kind}-key`}>{kind.key}</dt>,
           <dd key={kind.kind}>{t(`kind.${kind.kind}`)}</dd>,
+        ])}
+        <dt>Shift+F10</dt>
+        <dd>{t("gesture.menu")}</dd>
+        {GESTURES.map(({ id, keys }) => [
+          <dt key={`${id}-key`}>{keys.replace("Arrow", "")}</dt>,
+          <dd key={id}>{t(`gesture.command.${id}`)}</dd>,
         ])}
         {KEYS.map(([key, what]) => [<dt key={`${what}-key`}>{key}</dt>, <dd key={what}>{t(`keys.${what}`)}</dd>])}
       </dl>

@@ -1,0 +1,29 @@
+import { expect, test } from "vitest";
+import { START_ID } from "../canvas/buildNodes";
+import { EMPTY_DOCUMENT, type ProgramDocument } from "../model/types";
+import type { Chip } from "../scene/chips";
+import { boxAt } from "../scene/geometry";
+import { decideJoin, joinTarget } from "./joining";
+
+const chip = (id: string, x: number) =>
+  [id, { id, at: { x, y: 0 }, box: boxAt({ x, y: 0 }, 100, 28) } as Chip] as const;
+const chips = new Map([chip("a", 0), chip("b", 140)]);
+
+test("an arrow snaps to the nearest step within 24 pixels of the screen", () => {
+  expect(joinTarget(chips, START_ID, { x: 0, y: 37 }, 1)).toBe("a");
+  expect(joinTarget(chips, START_ID, { x: 0, y: 39 }, 1)).toBeNull();
+  expect(joinTarget(chips, START_ID, { x: 0, y: 37 }, 2)).toBeNull();
+  expect(joinTarget(chips, START_ID, { x: 72, y: 0 }, 1)).toBe("b");
+});
+
+test("an arrow never leads back into its own step", () => {
+  expect(joinTarget(chips, "a", { x: 0, y: 0 }, 1)).toBeNull();
+});
+
+test("an arrow out of the start makes its step the first", () => {
+  const step = (order: string) => ({ kind: "wait", place: ["program", "body", order] as const, pos: null, params: {} });
+  const document: ProgramDocument = { ...EMPTY_DOCUMENT, steps: { a: step("A"), b: step("B") } };
+  const decision = decideJoin(document, START_ID, "b");
+  expect("edits" in decision && decision.edits.map((edit) => "id" in edit && edit.id)).toEqual(["b"]);
+  expect(decideJoin(document, "a", "b")).toHaveProperty("edits");
+});
