@@ -61,6 +61,7 @@ export function AskForm() {
       {answer.type === "number" ? <Range answer={answer} /> : null}
       <VariableField label={t("ask.variable")} field="variable" optional placeholder={t("ask.no_variable")} />
       <WrittenValue label={t("wait.limit")} field="timeout" wanted="number" placeholder={t("wait.no_limit")} />
+      <p className={classes.now}>{t("wait.unit")}</p>
     </>
   );
 }

@@ -68,6 +68,7 @@ export function WaitForm() {
       ) : (
         <WrittenValue label={t("wait.seconds")} field="duration" wanted="number" placeholder={t("wait.example")} />
       )}
+      <p className={classes.now}>{t("wait.unit")}</p>
     </>
   );
 }

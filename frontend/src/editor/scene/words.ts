@@ -127,12 +127,12 @@ function setText(step: Step, speaker: Speaker): TextPart[] {
 }
 
 function valuePart(value: Value, speaker: Speaker): TextPart {
-  const text = valueText(value, speaker);
+  const text = valueText(value, { ...speaker, full: true });
   return text === null ? MISSING : { ...plain(shortened(text)), ...swatchOf(value) };
 }
 
 function sentenceText(word: "ask" | "notify", value: unknown, speaker: Speaker): TextPart[] {
-  const text = valueText(value as Value, speaker);
+  const text = valueText(value as Value, { ...speaker, full: true });
   return [plain(speaker.t(`chip.${word}`)), text === null ? MISSING : { text: shortened(text), tone: "soft" }];
 }
 
