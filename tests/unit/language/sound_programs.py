@@ -1,0 +1,93 @@
+"""Programs made by chance that mean something: most of them have a plan, with every construct in every other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from hypothesis import strategies as st
+
+HOT = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 60]}
+PLAIN: dict[str, dict[str, Any]] = {
+    "wait": {"duration": {"quantity": [1, "MIN"]}},
+    "notify": {"message": "done", "level": "warning"},
+    "set": {"variable": "total", "value": 1},
+    "ask": {"question": "How many?", "answer": {"type": "number"}, "variable": "count"},
+    "call": {"function": "f", "result": "total"},
+    "end": {},
+    "pick_and_drop": {
+        "source": {"device": "itemInventory01"},
+        "target": {"device": "paintMachine01"},
+        "object": "box",
+        "quantity": 1,
+    },
+}
+HOLDING: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
+    "if": ({"condition": HOT}, ("then", "else")),
+    "while": ({"condition": HOT}, ("body",)),
+    "repeat": ({"times": 2}, ("body",)),
+    "for_each": ({"variable": "item", "items": [1, 2, 3]}, ("body",)),
+    "try": ({"kinds": ["failed"]}, ("body", "catch", "finally")),
+    "parallel": ({"branches": ["a", "b"]}, ("a", "b")),
+}
+LOOPS = frozenset({"while", "repeat", "for_each"})
+DEEPEST = 4
+
+
+@dataclass(frozen=True)
+class Around:
+    """What stands around a block: how deep it is, and whether a loop or a function could be left there."""
+
+    depth: int = 0
+    loop: bool = False
+    function: bool = False
+
+
+@dataclass
+class Steps:
+    """The steps so far."""
+
+    draw: st.DrawFn
+    steps: dict[str, Any] = field(default_factory=dict)
+
+    def add(self, kind: str, parent: str, branch: str, order: str, params: dict[str, Any]) -> str:
+        name = f"s{len(self.steps)}"
+        self.steps[name] = {"kind": kind, "place": [parent, branch, order], "pos": [0, 0], "params": params}
+        return name
+
+    def block(self, parent: str, branch: str, around: Around) -> None:
+        for index in range(self.draw(st.integers(0, 3))):
+            kinds = [*PLAIN, *(HOLDING if around.depth < DEEPEST else ())]
+            kinds += (["break"] * 2 if around.loop else []) + (["return"] * 2 if around.function else [])
+            kind = self.draw(st.sampled_from(kinds))
+            if kind in HOLDING:
+                self.holding(kind, parent, branch, f"{index}V", around)
+            else:
+                self.add(kind, parent, branch, f"{index}V", PLAIN.get(kind, {"value": 2} if kind == "return" else {}))
+
+    def holding(self, kind: str, parent: str, branch: str, order: str, around: Around) -> None:
+        params, branches = HOLDING[kind]
+        if kind == "try" and self.draw(st.booleans()):
+            params, branches = {"catch": False}, ("body", "finally")
+        step = self.add(kind, parent, branch, order, params)
+        for name in branches:
+            inside = replace(around, depth=around.depth + 1, loop=around.loop or kind in LOOPS)
+            closed = kind == "parallel" or name == "finally"
+            self.block(step, name, Around(inside.depth) if closed else inside)
+
+
+@st.composite
+def sound_documents(draw: st.DrawFn) -> dict[str, Any]:
+    """Draw a program with a function and with events."""
+    steps = Steps(draw)
+    steps.add("wait", "program", "body", "0", PLAIN["wait"])
+    steps.block("program", "body", Around())
+    steps.block("f", "body", Around(1, function=True))
+    steps.add("return", "f", "body", "zz", {"value": 4})
+    for index in range(draw(st.integers(0, 2))):
+        starts = draw(st.sampled_from(["branch", "run"]))
+        event = steps.add("on_event", "program", "events", f"{index}V", {"condition": HOT, "starts": starts})
+        steps.block(event, "body", Around(1))
+    functions = {"f": {"name": "mix_paint", "result": {"type": "number"}}}
+    empty: dict[str, Any] = {"roles": {}, "parameters": {}, "zones": {}}
+    return {"format": 2, "start_pos": [0, 0], "steps": steps.steps, "functions": functions, **empty}
