@@ -13,7 +13,7 @@ from editor.language.line_sugar import Desugared, desugar
 from editor.language.line_texts import LINE_TEXTS
 from editor.language.nodes import MISSING
 from editor.language.parsing_expressions import Refused, parse_expression
-from editor.language.phrases import LANGUAGES, Said
+from editor.language.phrases import LANGUAGES, Refusal
 from editor.language.plan import Expression, Located, Quantity
 from editor.language.printing import member_name
 from editor.language.quoting import quote
@@ -40,7 +40,7 @@ class NotUnderstood(Exception):
         self.column = column
         self.messages: dict[str, str] = {
             language: LINE_TEXTS[code][language].format_map(
-                {name: Said(argument).say(language) for name, argument in args.items()}
+                {name: _bare(Refusal(argument).say(language)) for name, argument in args.items()}
             )
             for language in LANGUAGES
         }
@@ -123,9 +123,9 @@ def _parse(text: str, line: LineScope) -> Expression:
     try:
         return parse_expression(_Named(line, source, margin).visit(tree.body), line.scope)
     except Refused as refused:
-        found, instead = _bare(refused.found), _bare(refused.instead)
+        instead = _USE_A_DEVICE if refused.instead.startswith("Give it in run") else refused.instead
         column = margin + _column(source, _characters(source.text, refused.column - 1))
-        raise NotUnderstood(column, "not_in_value", found=found, instead=instead) from refused
+        raise NotUnderstood(column, "not_in_value", found=refused.found, instead=instead) from refused
     except RecursionError as error:
         raise NotUnderstood(1, "not_complete") from error
 
@@ -144,7 +144,7 @@ def _unfinished(error: SyntaxError) -> str:
 
 
 def _bare(text: str) -> str:
-    return _USE_A_DEVICE if text.startswith("Give it in run") else text.replace("self.", "")
+    return text.replace("self.", "")
 
 
 class _Named(ast.NodeTransformer):

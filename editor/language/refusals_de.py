@@ -75,6 +75,7 @@ REFUSALS_DE: Final[Mapping[str, str]] = {
     "einen Messwert wie {x}.",
     "Use “not” or “-”.": "Verwenden Sie „not“ oder „-“.",
     "Use {x} or {y}.": "Verwenden Sie {x} oder {y}.",
+    "Write for example: oven.temperature.": "Schreiben Sie zum Beispiel: oven.temperature.",
     "What can be read here: {x}.": "Was hier gelesen werden kann: {x}.",
     "{x} takes {y} value(s).": "{x} nimmt {y} Werte.",
     "{x} takes {y}.": "{x} nimmt {y}.",

@@ -106,6 +106,13 @@ def test_a_line_is_read_and_printed(text: str, value: object, printed: str | Non
     assert print_line(value, line) == (text if printed is None else printed)
 
 
+def test_a_refusal_is_told_in_german_too() -> None:
+    with pytest.raises(NotUnderstood) as caught:
+        parse_line("curing_oven.temprature > 1", scope())
+    expected = "„curing_oven.temprature“ kann hier nicht stehen. Was hier gelesen werden kann: job_status, temperature,"
+    assert caught.value.messages["de"] == f"{expected} quality."
+
+
 def test_what_a_function_is_given_can_be_seen_only_in_it() -> None:
     assert parse_line("paint_shade", scope("inner")) == {"param": "Paint shade"}
     with pytest.raises(NotUnderstood):

@@ -4,6 +4,8 @@ import type { Value } from "../../model/types";
 
 export interface ExpressionProblem {
   readonly message: string;
+  /** The message by language. */
+  readonly messages: Readonly<Record<string, string>>;
   readonly column: number;
 }
 

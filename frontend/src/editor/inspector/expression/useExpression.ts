@@ -37,15 +37,17 @@ export function useExpression({
   step: string;
 }): Expression {
   const { program } = useOpenProgram();
-  const { t } = useTranslation();
+  const { t, i18n } = useTranslation();
   const key = JSON.stringify(value ?? null);
   const [written, setWritten] = useState<Written>({ text: plainText(value) ?? "", of: "", read: null, refusal: null });
   const turn = useRef(0);
+  const typing = useRef(false);
   const known = useRef(plainText(value) === null ? "" : key);
 
   useEffect(() => {
     if (known.current === key) return;
     known.current = key;
+    if (typing.current) return;
     const mine = ++turn.current;
     const plain = plainText(value);
     if (plain !== null) {
@@ -62,6 +64,7 @@ export function useExpression({
 
   const store = async (text: string) => {
     const mine = ++turn.current;
+    typing.current = false;
     try {
       const read = await readExpression(program.id, step, { text });
       if (mine !== turn.current) return;
@@ -78,14 +81,15 @@ export function useExpression({
   };
   const later = useDebouncedCallback((text: string) => void store(text), { delay: PAUSE_MS, flushOnUnmount: true });
   const problem = written.read?.problem ?? null;
+  const message = problem && (problem.messages[i18n.language] ?? problem.message);
   return {
     text: written.text,
     column: problem?.column ?? null,
-    problem:
-      written.refusal ?? (problem && t("expression.column", { column: problem.column, message: problem.message })),
+    problem: written.refusal ?? (problem && t("expression.column", { column: problem.column, message })),
     type: written.read?.type ?? "",
     write: (text) => {
       turn.current += 1;
+      typing.current = true;
       setWritten((before) => ({ ...before, text }));
       later(text);
     },
