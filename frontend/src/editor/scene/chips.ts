@@ -40,6 +40,8 @@ export interface Chip {
 interface ChipInput {
   readonly compiled: Pick<Compiled, "numbers" | "diagnostics" | "added_moves"> | null;
   readonly measure: Measure;
+  /** Steps that are joined to nothing. */
+  readonly drafts: ReadonlySet<string>;
 }
 
 export function buildChip(id: string, step: Step, at: PixelPoint, input: ChipInput, speaker: Speaker): Chip {
@@ -66,7 +68,7 @@ export function buildChip(id: string, step: Step, at: PixelPoint, input: ChipInp
     tagSide: "right",
     tagWidth: condition ? input.measure(plainText(condition), "mono") + 16 : 0,
     inner,
-    draft: !step.place && step.kind !== "comment",
+    draft: input.drafts.has(id),
     inside: insideOf(step, compiled, speaker),
     problem: worst(found),
     errors: found.filter((each) => each.severity === "error").length,

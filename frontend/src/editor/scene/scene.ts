@@ -49,6 +49,7 @@ export function buildScene(input: SceneInput): Scene {
   const ways = waysOf(document, tree, surroundings).filter((way) => shown.includes(way.step));
   const routes = shapeRoutes(ways, input.routes);
   const chips = new Map<string, Chip>();
+  const chipInput = { ...input, drafts: new Set(tree.drafts) };
   for (const id of shown) {
     const step = document.steps[id];
     if (step)
@@ -58,7 +59,7 @@ export function buildScene(input: SceneInput): Scene {
           id,
           step,
           chipPosition(step, standsInFrame(document, step) ? undefined : routes.get(id)),
-          input,
+          chipInput,
           speaker,
         ),
       );
