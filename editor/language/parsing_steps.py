@@ -25,7 +25,7 @@ from editor.language.parsing_expressions import (
 from editor.language.parsing_questions import parse_ask, parse_notify
 from editor.language.parsing_variables import check_local, parse_target
 from editor.language.plan import Expression, PlaceRef
-from editor.language.printing import ERROR_CLASSES, member_name
+from editor.language.printing_steps import ERROR_CLASSES, member_name
 
 _KINDS = {name: kind for kind, name in ERROR_CLASSES.items()}
 _STATEMENTS = (
