@@ -118,7 +118,8 @@ def test_a_pick_at_an_unknown_place_says_what_to_put_before_it() -> None:
     where, message = refusal('self.robot.pick({"value": 1, "object": "box"})')
     assert (where, message) == (
         3,
-        "Line 3, column 9: A pick or drop at an unknown place is not part of the language. Put self.robot.move(…) before it.",
+        "Line 3, column 9: A pick or drop at an unknown place is not part of the language. "
+        "Put self.robot.move(…) before it.",
     )
 
 
