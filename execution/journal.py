@@ -125,6 +125,13 @@ class Journal:
         else:
             self.say("wait", "It goes on.", step=data["step"], code="wait_over", robot=robot)
 
+    def ask(self, step: str, text: str) -> None:
+        """Write down a question; its step waits."""
+        mark = self.steps.get(step)
+        if mark is not None and mark["status"] == "running":
+            mark.update(status="waiting", wait="It waits for an answer.", why={"code": "question", "args": {}})
+        self.say("question", text, step=step, code="asked")
+
     def _note_command(self, data: Mapping[str, Any]) -> None:
         device = data["device"]
         mark = self.steps.get(data["step"])

@@ -168,7 +168,7 @@ def _do(step: _Step, actions: tuple[r.Action, ...]) -> None:
             case r.CancelTimer(timer=timer):
                 Timer.objects.filter(run=run, timer=timer).delete()
             case r.AskPeople(step=name, text=text):
-                journal.say("question", text, step=name, code="asked")
+                journal.ask(name, text)
                 questions.ask(run, action, journal.now)
             case r.CancelQuestion(question=number):
                 questions.withdraw(run, number)

@@ -55,6 +55,8 @@ def test_a_question_is_shown_answered_and_the_run_goes_on(factory):
     shown = services.list_questions(site=SITE)[0]
     assert (shown["run"], shown["run_number"], shown["text"], shown["state"]) == (run, 1, "How is it?", "open")
     assert shown["answer"] == {"type": "boolean", "unit": "", "minimum": None, "maximum": None, "options": []}
+    step = Run.objects.get(id=run).steps["q"]
+    assert (step["status"], step["why"]) == ("waiting", {"code": "question", "args": {}})
     answer = services.answer_question(question_id=question, value=False, by="Ada")
     assert (answer["state"], answer["value"], answer["answered_by"]) == ("answered", False, "Ada")
     factory.work()
