@@ -1,6 +1,7 @@
 /** The robots of the program: each is one robot by name, or any that can do what is asked. */
 import { ActionIcon, Button, MultiSelect, Select } from "@mantine/core";
 import { Plus, Trash2 } from "lucide-react";
+import { drivenBy } from "../model/fixes";
 import type { ProgramDocument, Role } from "../model/types";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
@@ -41,7 +42,7 @@ export function RolesSection() {
 }
 
 function isUsed(document: ProgramDocument, role: string): boolean {
-  return Object.values(document.steps).some((step) => step.params.role === role);
+  return Object.keys(document.steps).some((id) => drivenBy(document, id) === role);
 }
 
 function RoleCard({ id, role }: { id: string; role: Role }) {

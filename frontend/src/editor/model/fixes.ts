@@ -75,7 +75,8 @@ function ownRobot(document: ProgramDocument, fix: Fix, fresh: Fresh): readonly E
 
 const DRIVING = new Set(["move", "pick", "drop", "pick_and_drop"]);
 
-function drivenBy(document: ProgramDocument, id: string): string | null {
+/** The role whose robot carries out the step, null where no robot does. */
+export function drivenBy(document: ProgramDocument, id: string): string | null {
   const step = document.steps[id];
   return step && DRIVING.has(step.kind) ? String(step.params.role ?? DEFAULT_ROLE) : null;
 }
