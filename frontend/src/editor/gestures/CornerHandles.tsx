@@ -4,7 +4,7 @@ import { useState, type KeyboardEvent, type PointerEvent } from "react";
 import { toMetres, toPixels } from "@/map/projection";
 import type { PixelPoint } from "@/map/routePath";
 import type { Position } from "../model/edits";
-import { pushed, withCorner, withoutCorner } from "./corners";
+import { nearestLeg, pushed, withCorner, withoutCorner } from "./corners";
 import classes from "./gestures.module.css";
 
 export interface CornerHandlesProps {
@@ -27,7 +27,8 @@ const NUDGES: Readonly<Record<string, Position>> = {
 };
 
 export function CornerHandles(props: CornerHandlesProps) {
-  const { points, onChange, fewest } = props;
+  const { points, onChange, fewest, ends } = props;
+  const flow = useReactFlow();
   const { held, hold } = useHeldCorner(onChange);
   const shown = held?.points ?? points;
   const press = (event: KeyboardEvent, at: number) => {
@@ -41,6 +42,17 @@ export function CornerHandles(props: CornerHandlesProps) {
   };
   return (
     <g className="nopan nodrag">
+      {ends ? (
+        <path
+          className={classes.grab}
+          d={outlineOf(props, points)}
+          onPointerDown={(event) => {
+            const at = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
+            const leg = nearestLeg([ends[0], ...points.map(toPixels), ends[1]], at);
+            hold(event, leg, withCorner(points, leg, toMetres(at)));
+          }}
+        />
+      ) : null}
       {held ? <path className={classes.changing} d={outlineOf(props, shown)} /> : null}
       {shown.map((point, at) => (
         <Corner
@@ -68,18 +80,17 @@ function useHeldCorner(onChange: CornerHandlesProps["onChange"]) {
   const [held, setHeld] = useState<Held | null>(null);
   const hold = (event: PointerEvent<SVGElement>, at: number, from: readonly Position[]) => {
     event.stopPropagation();
-    let now: Held = { at, points: from };
-    setHeld(now);
+    let now: Held | null = null;
     const listening = new AbortController();
     const drag = ({ clientX, clientY }: globalThis.PointerEvent) => {
       const to = toMetres(flow.screenToFlowPosition({ x: clientX, y: clientY }));
-      now = { at, points: now.points.map((point, index) => (index === at ? to : point)) };
+      now = { at, points: from.map((point, index) => (index === at ? to : point)) };
       setHeld(now);
     };
     const release = ({ type }: globalThis.PointerEvent) => {
       listening.abort();
       setHeld(null);
-      if (type === "pointerup") onChange(now.points);
+      if (now && type === "pointerup") onChange(now.points);
     };
     window.addEventListener("pointermove", drag, { signal: listening.signal });
     window.addEventListener("pointerup", release, { signal: listening.signal });

@@ -1,5 +1,7 @@
 /** Lists of corners changed one at a time; pure. */
 import { toCentimetre } from "../model/clipping";
+import type { PixelPoint } from "@/map/routePath";
+import { nearestOn } from "../scene/geometry";
 import type { Position } from "../model/edits";
 
 export function pushed(points: readonly Position[], at: number, [dx, dy]: Position): Position[] {
@@ -14,4 +16,10 @@ export function withCorner(points: readonly Position[], at: number, corner: Posi
 
 export function withoutCorner(points: readonly Position[], at: number): Position[] {
   return points.filter((_, index) => index !== at);
+}
+
+/** Which leg of a way a point lies nearest to; 0 is the first. */
+export function nearestLeg(way: readonly PixelPoint[], to: PixelPoint): number {
+  const far = way.slice(1).map((end, index) => nearestOn([way[index] ?? end, end], to)?.off ?? Infinity);
+  return Math.max(0, far.indexOf(Math.min(...far)));
 }

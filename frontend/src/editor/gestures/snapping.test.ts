@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { pushed, withCorner, withoutCorner } from "./corners";
+import { nearestLeg, pushed, withCorner, withoutCorner } from "./corners";
 import { nameOfKeys } from "./keys";
 import { plannedBends } from "./routes";
 import { portsOf, snap } from "./snapping";
@@ -51,6 +51,15 @@ test("corners are pushed, added and taken away one at a time", () => {
     [1, 0],
     [1, 1],
   ]);
+});
+
+test("a way that is dragged bends on the leg under the pointer", () => {
+  const way = [
+    { x: 0, y: 0 },
+    { x: 100, y: 0 },
+    { x: 100, y: 100 },
+  ];
+  expect([nearestLeg(way, { x: 40, y: 5 }), nearestLeg(way, { x: 95, y: 60 })]).toEqual([0, 1]);
 });
 
 test("the bends of a planned way begin a drawn one; a straight way gives one in its middle", () => {
