@@ -10,6 +10,7 @@ from uuid import UUID
 from editor.checking import build_surroundings
 from editor.errors import EditorError
 from editor.language import Diagnostic, compile_document, parse_script, tree_to_document
+from editor.language.phrases import LANGUAGES, Refusal
 from editor.programs import get_document, get_program
 
 LONGEST_SCRIPT = 400_000
@@ -67,6 +68,7 @@ def draw_script(
 def diagnostic_shape(diagnostic: Diagnostic) -> dict[str, Any]:
     """Return where a script leaves the language, as JSON."""
     details = {name: diagnostic.args.get(name) for name in _POSITION_ARGUMENTS}
+    expected = str(details["instead"] or diagnostic.args.get("detail", ""))
     return {
         "code": diagnostic.code,
         "line": diagnostic.line or 1,
@@ -76,5 +78,6 @@ def diagnostic_shape(diagnostic: Diagnostic) -> dict[str, Any]:
         "message": diagnostic.message,
         "messages": diagnostic.messages,
         "found": str(details["found"] or ""),
-        "expected": str(details["instead"] or diagnostic.args.get("detail", "")),
+        "expected": expected,
+        "hints": {language: Refusal(expected).say(language) for language in LANGUAGES},
     }

@@ -144,6 +144,7 @@ class ScriptProblem(Schema):
     messages: dict[str, str]
     found: str
     expected: str
+    hints: dict[str, str] = Field(description="What is expected, by language.")
 
 
 class DrawnScriptShape(Schema):

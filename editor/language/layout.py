@@ -13,6 +13,7 @@ from editor.language.values import read_point
 CHIP_WIDTH_M, CHIP_HEIGHT_M = 2.6, 0.8
 """The room that a step's chip takes on the map."""
 _TRIES = 400
+_OFF_WALLS_M = 0.1
 
 
 @dataclass(slots=True)
@@ -87,4 +88,5 @@ class Layout:
             reach_x, reach_y = device.size.x / 2 + CHIP_WIDTH_M / 2, device.size.y / 2 + CHIP_HEIGHT_M / 2 - 0.1
             if device.kind == "machine" and abs(x - device.pose.x) < reach_x and abs(y - device.pose.y) < reach_y:
                 return False
-        return True
+        floor = self.surroundings.floor
+        return floor is None or (floor.is_inside(x, y) and floor.is_free(x, y, _OFF_WALLS_M))

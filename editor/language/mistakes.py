@@ -68,7 +68,7 @@ CALLS: Final[Mapping[str, str]] = {
 }
 """Calls by their last name."""
 
-ATTRIBUTE_ALONE: Final = "Call it, with brackets behind the name: self.end()."
+ATTRIBUTE_ALONE: Final = "Say what it does, for example self.oven.cure_paint(10) or self.end()."
 VALUE_ALONE: Final = "Put it where it is used, or keep it: self.count = 5."
 
 

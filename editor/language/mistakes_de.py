@@ -52,8 +52,7 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     'f"{{self.count}} boxes".',
     "Use round(…), or write the number.": "Verwenden Sie round(…) oder schreiben Sie die Zahl.",
     "Leave “float” out and write the value.": "Lassen Sie „float“ weg und schreiben Sie den Wert.",
-    "Call it, with brackets behind the name: self.end().": "Rufen Sie es auf, mit Klammern hinter dem Namen: "
-    "self.end().",
+    "Say what it does, for example {x} or {y}.": "Sagen Sie, was es tut, zum Beispiel {x} oder {y}.",
     "Put it where it is used, or keep it: self.count = 5.": "Setzen Sie es dorthin, wo es gebraucht wird, oder "
     "behalten Sie es: self.count = 5.",
     # where Python cannot read on

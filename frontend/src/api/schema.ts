@@ -1535,6 +1535,10 @@ export interface components {
             end_line: number | null;
             expected: string;
             found: string;
+            /** @description What is expected, by language. */
+            hints: {
+                [key: string]: string;
+            };
             line: number;
             message: string;
             messages: {

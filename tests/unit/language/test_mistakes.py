@@ -58,7 +58,7 @@ MISTAKES = [
     ("match 5:\n            case 5: pass", 0, "Write if and else instead."),
     ("wait(60)", 0, "Write self. before it: self.wait(60)."),
     ("time.sleep(5)", 0, "Wait by self.wait(60)."),
-    ("self.end", 0, "Call it, with brackets behind the name: self.end()."),
+    ("self.end", 0, "Say what it does, for example self.oven.cure_paint(10) or self.end()."),
     ("5 > 3", 0, "Put it where it is used, or keep it: self.count = 5."),
     ("self.wait(len([1]))", 10, "Use count(condition, …), or write the number."),
     ("self.wait(self.items[0])", 10, "Name a value itself; the language has no places in lists."),

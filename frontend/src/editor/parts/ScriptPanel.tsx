@@ -4,7 +4,7 @@ import i18next from "i18next";
 import { completeScript } from "../script/completion";
 import type { LineMessage, ScriptContent } from "../script/decorations";
 import { openScript, type ScriptView } from "../script/scriptView";
-import type { ScriptSession, ScriptState } from "../script/session";
+import type { ScriptProblem, ScriptSession, ScriptState } from "../script/session";
 import { sameLines } from "../script/textMerge";
 import { useScriptSession } from "../script/useScriptSession";
 import { useOpenProgram, type OpenProgram } from "../state/context";
@@ -80,8 +80,12 @@ function ScriptStrip({ state, session, id }: { state: ScriptState; session: Scri
   );
 }
 
-function inWords(problem: ScriptState["problems"][number]): string {
+function inWords(problem: ScriptProblem): string {
   return problem.messages?.[i18next.resolvedLanguage ?? "en"] ?? problem.message;
+}
+
+function hintOf(problem: ScriptProblem): string {
+  return problem.hints?.[i18next.resolvedLanguage ?? "en"] ?? problem.expected;
 }
 
 function contentOf(
@@ -97,7 +101,7 @@ function contentOf(
   const checks = diagnostics.flatMap(({ line: at, message: said, severity }): LineMessage[] =>
     at && line(at) > 0 ? [{ line: line(at), text: said, severity }] : [],
   );
-  const refusals = problems.map((each): LineMessage => ({ line: each.line, text: each.expected, severity: "error" }));
+  const refusals = problems.map((each): LineMessage => ({ line: each.line, text: hintOf(each), severity: "error" }));
   return {
     text,
     lines: places ? places.map((at) => lines[at] ?? "") : lines,

@@ -15,6 +15,7 @@ export interface ScriptProblem {
   readonly message: string;
   readonly expected: string;
   readonly messages?: Readonly<Record<string, string>>;
+  readonly hints?: Readonly<Record<string, string>>;
 }
 
 /** What the server made of a script. */
