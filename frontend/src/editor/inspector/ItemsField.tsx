@@ -10,9 +10,9 @@ import { FieldFrame } from "./fields";
 import classes from "./inspector.module.css";
 import { useStepEditor } from "./stepEditor";
 
-export function ItemsField() {
-  const { t, speaker } = useOpenProgram();
-  const { step, set, disabled } = useStepEditor();
+/** The items with what the keys and buttons do to them; the row that was changed keeps the focus. */
+function useItems() {
+  const { step, set } = useStepEditor();
   const items = Array.isArray(step.params.items) ? (step.params.items as Value[]) : [];
   const list = useRef<HTMLUListElement>(null);
   const focus = (index: number) =>
@@ -36,6 +36,13 @@ export function ItemsField() {
     event.preventDefault();
     event.stopPropagation();
   };
+  return { items, list, remove, shift, press };
+}
+
+export function ItemsField() {
+  const { t, speaker } = useOpenProgram();
+  const { set, disabled } = useStepEditor();
+  const { items, list, remove, shift, press } = useItems();
   return (
     <FieldFrame label={t("for_each.items")} field="items">
       {({ control, note, bad }) => (
@@ -100,6 +107,21 @@ function Row({
   );
 }
 
+/** Machines and places by their names; a machine goes before a place of the same name. */
+function useAddable() {
+  const { t, devices, plan } = useOpenProgram();
+  const known = new Map<string, Value>();
+  for (const place of plan?.places ?? []) known.set(place.name, { at: { place: place.id } });
+  for (const device of devices) if (device.kind !== "robot") known.set(device.name, { at: { device: device.id } });
+  const machines = devices.filter((device) => device.kind !== "robot").map((device) => device.name);
+  const places = (plan?.places ?? []).map((place) => place.name).filter((name) => !machines.includes(name));
+  const groups = [
+    { group: t("field.machines"), items: [...new Set(machines)] },
+    { group: t("field.places"), items: [...new Set(places)] },
+  ];
+  return { known, groups };
+}
+
 function AddItem({
   control,
   note,
@@ -111,7 +133,8 @@ function AddItem({
   disabled: boolean;
   onAdd: (value: Value) => void;
 }) {
-  const { t, devices, plan } = useOpenProgram();
+  const { t } = useOpenProgram();
+  const { known, groups } = useAddable();
   const [text, setText] = useState("");
   const [round, setRound] = useState(0);
   const input = useRef<HTMLInputElement>(null);
@@ -119,11 +142,6 @@ function AddItem({
   useEffect(() => {
     if (round > 0) input.current?.focus();
   }, [round]);
-  const known = new Map<string, Value>();
-  for (const place of plan?.places ?? []) known.set(place.name, { at: { place: place.id } });
-  for (const device of devices) if (device.kind !== "robot") known.set(device.name, { at: { device: device.id } });
-  const machines = devices.filter((device) => device.kind !== "robot").map((device) => device.name);
-  const places = (plan?.places ?? []).map((place) => place.name).filter((name) => !machines.includes(name));
   const add = (written: string) => {
     const value = written.trim();
     if (!value) return;
@@ -137,10 +155,7 @@ function AddItem({
       id={control}
       ref={input}
       aria-describedby={note}
-      data={[
-        { group: t("field.machines"), items: [...new Set(machines)] },
-        { group: t("field.places"), items: [...new Set(places)] },
-      ]}
+      data={groups}
       value={text}
       placeholder={t("for_each.add")}
       disabled={disabled}

@@ -9,9 +9,10 @@ import { FieldFrame } from "./fields";
 import classes from "./inspector.module.css";
 import { useStepEditor } from "./stepEditor";
 
-export function MessageField({ label, field, placeholder }: { label: string; field: string; placeholder?: string }) {
-  const { speaker, t } = useOpenProgram();
-  const { step, set, disabled } = useStepEditor();
+/** The text as it is being written; it is kept when the field is left, or when a value is put in. */
+function useMessage(field: string) {
+  const { speaker } = useOpenProgram();
+  const { step, set } = useStepEditor();
   const value = step.params[field] as Value | undefined;
   const labelOf = useMemo(() => (each: Value) => valueText(each, { ...speaker, full: true }) ?? "?", [speaker]);
   const stored = messageText(value, labelOf) ?? "";
@@ -31,6 +32,13 @@ export function MessageField({ label, field, placeholder }: { label: string; fie
     keep(next);
     area.current?.focus();
   };
+  return { text, setText, keep, insert, area, groups };
+}
+
+export function MessageField({ label, field, placeholder }: { label: string; field: string; placeholder?: string }) {
+  const { t } = useOpenProgram();
+  const { disabled } = useStepEditor();
+  const { text, setText, keep, insert, area, groups } = useMessage(field);
   return (
     <FieldFrame label={label} field={field}>
       {({ control, note, bad }) => (

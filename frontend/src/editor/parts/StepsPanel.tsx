@@ -38,38 +38,58 @@ export function StepsPanel() {
   return (
     <ul className={classes.steps} role="tree" aria-label={t("drawer.steps")} aria-multiselectable ref={list}>
       {rows.map((chip, index) => (
-        <li
+        <StepRow
           key={chip.id}
-          data-step={chip.id}
-          className={classes.step}
-          role="treeitem"
-          aria-level={scene.tree.depth(chip.id) + 1}
-          aria-selected={selected.includes(chip.id)}
-          aria-label={chipLabel(chip, open.speaker)}
-          tabIndex={chip.id === current ? 0 : -1}
-          style={{ paddingLeft: 8 + scene.tree.depth(chip.id) * 22 }}
-          onClick={(event) => (event.shiftKey ? toggleSelected(chip.id) : select([chip.id]))}
-          onKeyDown={(event) => press(event, chip, index)}
-        >
-          <span className={classes.number}>{chip.number || "–"}</span>
-          <span style={{ color: `var(--${chip.family})`, display: "inline-flex" }}>
-            <VipoIcon name={chip.icon} size={16} />
-          </span>
-          <BranchName step={chip.id} />
-          <span>
-            {t(`kind.${chip.kind}`)}
-            {detailOf(chip).length > 0 ? ": " : " "}
-            {detailOf(chip).map((part, at) => (
-              <span key={at} className={part.tone === "missing" ? classes.missing : undefined}>
-                {`${part.text} `}
-              </span>
-            ))}
-            <Where step={chip.id} />
-          </span>
-          {chip.draft ? <span className={classes.branch}>{t("steps.draft")}</span> : null}
-        </li>
+          chip={chip}
+          current={chip.id === current}
+          onPress={(event) => press(event, chip, index)}
+        />
       ))}
     </ul>
+  );
+}
+
+function StepRow({
+  chip,
+  current,
+  onPress,
+}: {
+  chip: Chip;
+  current: boolean;
+  onPress: (event: KeyboardEvent) => void;
+}) {
+  const { scene, speaker, t } = useOpenProgram();
+  const selected = useUi((ui) => ui.selected);
+  return (
+    <li
+      data-step={chip.id}
+      className={classes.step}
+      role="treeitem"
+      aria-level={scene.tree.depth(chip.id) + 1}
+      aria-selected={selected.includes(chip.id)}
+      aria-label={chipLabel(chip, speaker)}
+      tabIndex={current ? 0 : -1}
+      style={{ paddingLeft: 8 + scene.tree.depth(chip.id) * 22 }}
+      onClick={(event) => (event.shiftKey ? toggleSelected(chip.id) : select([chip.id]))}
+      onKeyDown={onPress}
+    >
+      <span className={classes.number}>{chip.number || "–"}</span>
+      <span style={{ color: `var(--${chip.family})`, display: "inline-flex" }}>
+        <VipoIcon name={chip.icon} size={16} />
+      </span>
+      <BranchName step={chip.id} />
+      <span>
+        {t(`kind.${chip.kind}`)}
+        {detailOf(chip).length > 0 ? ": " : " "}
+        {detailOf(chip).map((part, at) => (
+          <span key={at} className={part.tone === "missing" ? classes.missing : undefined}>
+            {`${part.text} `}
+          </span>
+        ))}
+        <Where step={chip.id} />
+      </span>
+      {chip.draft ? <span className={classes.branch}>{t("steps.draft")}</span> : null}
+    </li>
   );
 }
 
