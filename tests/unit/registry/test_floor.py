@@ -115,3 +115,11 @@ def test_a_robot_at_a_machines_station_stands_beside_it_and_one_on_the_way_does_
     assert machine_beside([oven], robot(5.8, 5)) == "oven"
     assert machine_beside([oven], robot(5, 6.5)) == "oven"
     assert machine_beside([oven], robot(6.2, 5)) is None
+
+
+def test_a_floor_knows_the_station_of_each_of_its_machines() -> None:
+    high = machine("high", 3, 4)
+    plan = FloorPlan(hall(6, 6), [high])
+    assert plan.station("high", 0.18) == (3, 3.17)
+    assert plan.station("gone", 0.18) is None
+    assert [plan.has_machine("high"), plan.has_machine("gone")] == [True, False]
