@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -22,12 +23,17 @@ class Layout:
 
     surroundings: Surroundings
     taken: list[Point] = field(default_factory=list)
+    cells: dict[tuple[int, int], list[Point]] = field(default_factory=dict)
+    """The taken places by cells of a chip's size."""
+    tried: dict[Point, int] = field(default_factory=dict)
+    """How many places around a wanted one are known to be taken."""
     last: Point = (1.0, -1.0)
 
     def occupy(self, point: Point | None) -> None:
         """Keep a place for a step that stands there already."""
         if point is not None:
             self.taken.append(point)
+            self.cells.setdefault(_cell(point), []).append(point)
 
     def follow(self, point: Point | None) -> None:
         """Put the next step that has no place of its own below this one."""
@@ -42,7 +48,7 @@ class Layout:
     def put(self, kind: str, params: Mapping[str, object]) -> list[float]:
         """Return a free place for a step."""
         point = self._free_near(self._wanted(kind, params))
-        self.taken.append(point)
+        self.occupy(point)
         self.last = point
         return list(point)
 
@@ -70,18 +76,22 @@ class Layout:
 
     def _free_near(self, wanted: Point) -> Point:
         """Look around the wanted place in growing rings, above and below first."""
-        for index in range(_TRIES):
+        for index in range(self.tried.get(wanted, 0), _TRIES):
             ring, side = divmod(index, 4)
             dx = (0.0, 0.0, 1.0, -1.0)[side] * ring * CHIP_WIDTH_M / 2
             dy = (-1.0, 1.0, 0.0, 0.0)[side] * ring * CHIP_HEIGHT_M / 2
             point = (round(wanted[0] + dx, 2), round(wanted[1] + dy, 2))
             if self._is_free(point):
+                self.tried[wanted] = index
                 return point
+        self.tried[wanted] = _TRIES
         return round(wanted[0], 2), round(wanted[1], 2)
 
     def _is_free(self, point: Point) -> bool:
         x, y = point
-        if any(abs(x - a) < CHIP_WIDTH_M and abs(y - b) < CHIP_HEIGHT_M for a, b in self.taken):
+        column, row = _cell(point)
+        near = (self.cells.get((column + i, row + j), ()) for i in (-1, 0, 1) for j in (-1, 0, 1))
+        if any(abs(x - a) < CHIP_WIDTH_M and abs(y - b) < CHIP_HEIGHT_M for points in near for a, b in points):
             return False
         for facts in self.surroundings.devices.values():
             device = facts.description
@@ -90,3 +100,7 @@ class Layout:
                 return False
         floor = self.surroundings.floor
         return floor is None or (floor.is_inside(x, y) and floor.is_free(x, y, _OFF_WALLS_M))
+
+
+def _cell(point: Point) -> tuple[int, int]:
+    return math.floor(point[0] / CHIP_WIDTH_M), math.floor(point[1] / CHIP_HEIGHT_M)
