@@ -3,6 +3,7 @@ import { useReactFlow } from "@xyflow/react";
 import { useState, type KeyboardEvent, type PointerEvent } from "react";
 import { toMetres, toPixels } from "@/map/projection";
 import type { PixelPoint } from "@/map/routePath";
+import stage from "../canvas/stage.module.css";
 import type { Position } from "../model/edits";
 import { nearestLeg, pushed, withCorner, withoutCorner } from "./corners";
 import classes from "./gestures.module.css";
@@ -41,31 +42,35 @@ export function CornerHandles(props: CornerHandlesProps) {
     event.stopPropagation();
   };
   return (
-    <g className="nopan nodrag">
-      {ends ? (
-        <path
-          className={classes.grab}
-          d={outlineOf(props, points)}
-          onPointerDown={(event) => {
-            const at = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
-            const leg = nearestLeg([ends[0], ...points.map(toPixels), ends[1]], at);
-            hold(event, leg, withCorner(points, leg, toMetres(at)));
-          }}
-        />
-      ) : null}
-      {held ? <path className={classes.changing} d={outlineOf(props, shown)} /> : null}
-      {shown.map((point, at) => (
-        <Corner
-          key={at}
-          at={toPixels(point)}
-          name={props.nameOf(at + 1)}
-          onHold={(event) => hold(event, at, shown)}
-          onKey={(event) => press(event, at)}
-          onRemove={() => points.length > fewest && onChange(withoutCorner(points, at))}
-        />
-      ))}
-      {held ? null : <Between {...props} onHold={hold} />}
-    </g>
+    <>
+      <svg className={`${stage.drawing} nopan nodrag`} width={1} height={1}>
+        {ends ? (
+          <path
+            className={classes.grab}
+            d={outlineOf(props, points)}
+            onPointerDown={(event) => {
+              const at = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
+              const leg = nearestLeg([ends[0], ...points.map(toPixels), ends[1]], at);
+              hold(event, leg, withCorner(points, leg, toMetres(at)));
+            }}
+          />
+        ) : null}
+        {held ? <path className={classes.changing} d={outlineOf(props, shown)} /> : null}
+        {held ? null : <Between {...props} onHold={hold} />}
+      </svg>
+      <svg className={`${stage.drawing} ${classes.over} nopan nodrag`} width={1} height={1}>
+        {shown.map((point, at) => (
+          <Corner
+            key={at}
+            at={toPixels(point)}
+            name={props.nameOf(at + 1)}
+            onHold={(event) => hold(event, at, shown)}
+            onKey={(event) => press(event, at)}
+            onRemove={() => points.length > fewest && onChange(withoutCorner(points, at))}
+          />
+        ))}
+      </svg>
+    </>
   );
 }
 

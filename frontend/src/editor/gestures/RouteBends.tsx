@@ -1,7 +1,6 @@
 /** The bends of the selected step's route, to be dragged; whoever drags one has drawn the route. */
 import { simplified } from "@/map/routePath";
 import { toMetres } from "@/map/projection";
-import stage from "../canvas/stage.module.css";
 import { drawnRoute } from "../model/drawnRoute";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
@@ -17,16 +16,14 @@ export function RouteBends() {
   if (!canEdit || !resting || id === undefined || second !== undefined || !route || !first || !last) return null;
   const bends = drawnRoute(document.steps[id]) ?? simplified(route.points).slice(1, -1).map(toMetres);
   return (
-    <svg className={stage.drawing} width={1} height={1}>
-      <CornerHandles
-        points={bends}
-        closed={false}
-        ends={[first, last]}
-        fewest={0}
-        nameOf={(number) => t("gesture.route.bend", { number })}
-        nameOfNew={(number) => t("gesture.route.new_bend", { number })}
-        onChange={(points) => apply([{ do: "set_param", id, name: "route", value: points.length > 0 ? points : null }])}
-      />
-    </svg>
+    <CornerHandles
+      points={bends}
+      closed={false}
+      ends={[first, last]}
+      fewest={0}
+      nameOf={(number) => t("gesture.route.bend", { number })}
+      nameOfNew={(number) => t("gesture.route.new_bend", { number })}
+      onChange={(points) => apply([{ do: "set_param", id, name: "route", value: points.length > 0 ? points : null }])}
+    />
   );
 }

@@ -87,16 +87,14 @@ export function ZoneHandles({ pointer }: { pointer: ViewportCell }) {
   if (corners.length > 0) return <Corners corners={corners} pointer={pointer} />;
   if (!zone || id === null || !canEdit || !resting) return null;
   return (
-    <svg className={stage.drawing} width={1} height={1}>
-      <CornerHandles
-        points={zone.points}
-        closed
-        fewest={FEWEST_CORNERS}
-        nameOf={(number) => t("gesture.zone.corner", { number, name: zone.name })}
-        nameOfNew={(number) => t("gesture.zone.new_corner", { number })}
-        onChange={(points) => changeZone(open, id, { points })}
-      />
-    </svg>
+    <CornerHandles
+      points={zone.points}
+      closed
+      fewest={FEWEST_CORNERS}
+      nameOf={(number) => t("gesture.zone.corner", { number, name: zone.name })}
+      nameOfNew={(number) => t("gesture.zone.new_corner", { number })}
+      onChange={(points) => changeZone(open, id, { points })}
+    />
   );
 }
 
