@@ -11,8 +11,8 @@ from editor.language.diagnostics import Fix
 from editor.language.plan import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.typing_of_values import constant_value
 from editor.language.values import parts_of
-from editor.language.variables import set_in
-from editor.language.walking import functions_in_circles, walk
+from editor.language.variables import set_in, sets_of_functions
+from editor.language.walking import callees_first, functions_in_circles, walk
 
 Ways = frozenset[str]
 """How a block can be left: `on` to what follows, `break`, `return`, `end`; without any it never ends."""
@@ -26,6 +26,8 @@ class _Flow:
 
     functions: dict[str, Ways] = field(default_factory=dict)
     context: Context | None = None
+    sets: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    """The variables that each function sets."""
     beside: frozenset[str] = frozenset()
     """Variables that events or the branches of a Parallel set; they may change at any time."""
 
@@ -76,7 +78,7 @@ def _may_change(flow: _Flow, node: n.While) -> bool:
     missing = any(isinstance(part, Constant) and part.value is None for part in parts)
     if missing or any(_is_measured(part) for part in parts) or names & flow.beside:
         return True
-    return flow.context is None or bool(names & set_in(node.body, flow.context.functions))
+    return flow.context is None or bool(names & set_in(node.body, flow.sets))
 
 
 def _is_measured(part: Expression) -> bool:
@@ -140,10 +142,10 @@ _FOLLOW: Mapping[type[n.Node], Callable[..., Ways]] = {
 def ways_of_functions(tree: n.Tree) -> dict[str, Ways]:
     """Return how each function can be left; a call of itself that never comes back leads nowhere."""
     flow = _Flow({function.method: NOWAY for function in tree.functions})
-    changed = bool(tree.functions)
+    changed, functions = bool(tree.functions), callees_first(tree)
     while changed:
         changed = False
-        for function in tree.functions:
+        for function in functions:
             ways = flow.block(function.body)
             if ways != flow.functions[function.method]:
                 flow.functions[function.method] = ways
@@ -154,7 +156,8 @@ def ways_of_functions(tree: n.Tree) -> dict[str, Ways]:
 def check_flow(context: Context) -> None:
     """Check all ways through the program, its events and its functions."""
     tree = context.tree
-    flow = _Flow(ways_of_functions(tree), context, _set_beside(context))
+    sets = sets_of_functions(tree)
+    flow = _Flow(ways_of_functions(tree), context, sets, _set_beside(tree, sets))
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         flow.block(block)
     if tree.functions:
@@ -163,14 +166,14 @@ def check_flow(context: Context) -> None:
         _check_use(context)
 
 
-def _set_beside(context: Context) -> frozenset[str]:
-    tree, names = context.tree, frozenset[str]()
+def _set_beside(tree: n.Tree, sets: Mapping[str, frozenset[str]]) -> frozenset[str]:
+    names = frozenset[str]()
     for event in tree.events:
-        names |= set_in(event.body, context.functions)
+        names |= set_in(event.body, sets)
     for block in (tree.body, *(function.body for function in tree.functions)):
         for node in walk(block):
             if isinstance(node, n.Parallel):
-                names = names.union(*(set_in(branch, context.functions) for branch in node.branches))
+                names = names.union(*(set_in(branch, sets) for branch in node.branches))
     return names
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from editor.language import nodes as n
 from editor.language.check_context import Context
 from editor.language.typing_of_values import constant_value
-from editor.language.variables import read_by, set_by, set_in
+from editor.language.variables import read_by, set_by, set_in, sets_of_functions
 from editor.language.walking import callees_first, functions_in_circles, walk
 
 Names = frozenset[str]
@@ -45,6 +45,8 @@ class _Follower:
     context: Context
     shared: Names
     """The variables of the program; all others belong to one function."""
+    sets_of: Mapping[str, Names]
+    """Function → the variables that it sets, also by the functions that it calls."""
     telling: bool = False
     tracked: Names = frozenset()
     effects: dict[str, Names] = field(default_factory=dict)
@@ -73,7 +75,7 @@ class _Follower:
                 self.context.tell(node, code, field_name, {"variable": name})
 
     def sets(self, block: n.Block) -> Names:
-        return set_in(block, self.context.functions)
+        return set_in(block, self.sets_of)
 
     def function(self, function: n.Function, entry: _State) -> _State | None:
         """Follow a function's body; return what is set when it gives back."""
@@ -94,7 +96,7 @@ def _call(follower: _Follower, node: n.Call, state: _State) -> _State:
         return state
     before = follower.entries.get(node.function)
     follower.entries[node.function] = _meet(before, state)
-    changed = follower.sets(function.body) & follower.shared
+    changed = follower.sets_of[function.method] & follower.shared
     after = state.perhaps(changed).plus(follower.effects.get(node.function, frozenset()))
     return after.plus(frozenset({node.result})) if node.result else after
 
@@ -206,7 +208,7 @@ def _check_order(context: Context) -> None:
     tree = context.tree
     own = [tree.body, *(event.body for event in tree.events)]
     shared = frozenset(set_by(node) for block in own for node in walk(block)) - {""}
-    follower = _Follower(context, shared)
+    follower = _Follower(context, shared, sets_of_functions(tree))
     everything = shared | frozenset(parameter.name for parameter in tree.parameters)
     circular = functions_in_circles(tree)
     for function in callees_first(tree):

@@ -34,7 +34,7 @@ from editor.language.nodes import (
     While,
 )
 from editor.language.plan import PlaceRef, Variable
-from editor.language.variables import set_in
+from editor.language.variables import set_in, sets_of_functions
 from editor.language.walking import callees_first, functions_in_circles, roles_used, walk
 
 Standing = dict[str, PlaceRef]
@@ -53,7 +53,7 @@ class _Follower:
 
     moved: Mapping[str, frozenset[str]]
     """Function → the roles whose robot it moves."""
-    functions: Mapping[str, Function]
+    sets: Mapping[str, frozenset[str]]
     circular: frozenset[str]
     settle: bool
     initial: Standing
@@ -185,7 +185,7 @@ class _Follower:
     def _without_set_in(self, blocks: Iterable[Block], standing: Standing) -> Standing:
         if not self._looks_up(standing):
             return standing
-        return _without_values(standing, {name for block in blocks for name in set_in(block, self.functions)})
+        return _without_values(standing, {name for block in blocks for name in set_in(block, self.sets)})
 
     def _looks_up(self, standing: Standing) -> bool:
         return any(place.value is not None for place in standing.values())
@@ -255,8 +255,7 @@ def settle_places(tree: Tree) -> tuple[Tree, tuple[Pick | Drop, ...]]:
 def _follow(tree: Tree, initial: Standing, *, settle: bool) -> tuple[Tree, tuple[Pick | Drop, ...]]:
     circular = functions_in_circles(tree) if tree.functions else frozenset()
     moved = {function.method: roles_used(function.body, tree) for function in tree.functions}
-    functions = {function.method: function for function in tree.functions}
-    follower = _Follower(moved, functions, circular, settle, initial)
+    follower = _Follower(moved, sets_of_functions(tree), circular, settle, initial)
     finished = {function.method: follower.function(function) for function in callees_first(tree)}
     body, _ = follower.block(tree.body, initial)
     events = tuple(replace(event, body=follower.block(event.body, {})[0]) for event in tree.events)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from editor.language import nodes as n
 from editor.language.plan import Expression, PlaceRef, Variable
 from editor.language.values import parts_of
-from editor.language.walking import walk
+from editor.language.walking import callees_first, walk
 
 
 def set_by(node: n.Node) -> str:
@@ -17,17 +17,26 @@ def set_by(node: n.Node) -> str:
     return node.result if isinstance(node, n.Call) else ""
 
 
-def set_in(block: n.Block, functions: Mapping[str, n.Function]) -> frozenset[str]:
-    """Return the names that are set in a block and in the functions that it calls, theirs included."""
+def sets_of_functions(tree: n.Tree) -> dict[str, frozenset[str]]:
+    """Return the names that each function sets, also by way of the functions that it calls."""
+    sets: dict[str, frozenset[str]] = {function.method: frozenset() for function in tree.functions}
+    changed, functions = bool(sets), callees_first(tree)
+    while changed:
+        changed = False
+        for function in functions:
+            names = set_in(function.body, sets)
+            changed = changed or names != sets[function.method]
+            sets[function.method] = names
+    return sets
+
+
+def set_in(block: n.Block, sets: Mapping[str, frozenset[str]]) -> frozenset[str]:
+    """Return the names that are set in a block and in the functions that it calls, whose `sets` are known."""
     names: set[str] = set()
-    seen: set[str] = set()
-    left = [block]
-    while left:
-        for node in walk(left.pop()):
-            names.add(set_by(node))
-            if isinstance(node, n.Call) and node.function in functions and node.function not in seen:
-                seen.add(node.function)
-                left.append(functions[node.function].body)
+    for node in walk(block):
+        names.add(set_by(node))
+        if isinstance(node, n.Call):
+            names.update(sets.get(node.function, ()))
     return frozenset(names - {""})
 
 
