@@ -16,6 +16,7 @@ from tests.e2e.screens import (
     open_program,
     script_lines,
     steps_in_list,
+    the_map,
 )
 from tests.e2e.test_keyboard_and_axe import violations
 
@@ -143,3 +144,18 @@ def test_the_keyboard_gets_out_of_the_script_and_the_step_follows_the_cursor(sig
     page.keyboard.press("Escape")
     expect(page.get_by_role("tab", name="Script")).to_be_focused()
     expect(editor(page)).not_to_be_focused()
+
+
+def test_script_pasted_on_the_map_becomes_steps(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    make_program(page, "Pasted")
+    draw_errand(page)
+    expect(editor(page)).to_contain_text("self.robot.drop(")
+    page.evaluate("navigator.clipboard.writeText('self.wait(7)\\nself.curing_oven.cure_paint(4)')")
+    the_map(page).focus()
+    page.keyboard.press("Control+v")
+    expect(chip(page, "2, Wait")).to_be_visible()
+    expect(chip(page, "3, Operate, Cure paint")).to_be_visible()
+    page.keyboard.press("Control+z")
+    expect(chip(page, "2, Wait")).to_have_count(0)
+    expect(chip(page, "1, Pick-and-Drop")).to_be_visible()
