@@ -59,6 +59,7 @@ class FunctionShape(Schema):
 
     name: str
     parameters: list[ParameterDefinition]
+    result: ResultShape | None = None
     source: LibrarySource | None = None
 
 
@@ -70,16 +71,32 @@ class RoleShape(Schema):
     can: list[str] | None = None
 
 
-class DocumentShape(Schema):
-    """A program's document, format 1; see docs/architecture.md."""
+class ZoneShape(Schema):
+    """A named area of the map: a polygon in metres, and what it asks of robots."""
 
-    format: Literal[1]
+    name: str
+    rule: Literal["keep_out", "one_at_a_time", "slow"]
+    points: list[Position]
+    speed_m_s: float | None = None
+
+
+class ResultShape(Schema):
+    """What a function gives back."""
+
+    type: str
+    unit: str = ""
+
+
+class DocumentShape(Schema):
+    """A program's document, format 2; see docs/architecture.md."""
+
+    format: Literal[2]
     start_pos: Position | None = None
     steps: dict[str, StepShape]
     functions: dict[str, FunctionShape]
     roles: dict[str, RoleShape]
     parameters: dict[str, ParameterDefinition]
-    zones: dict[str, Any]
+    zones: dict[str, ZoneShape]
 
 
 Document = Annotated[dict[str, Any], Shown(DocumentShape)]

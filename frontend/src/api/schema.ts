@@ -1046,10 +1046,10 @@ export interface components {
              */
             when: "now" | "ever";
         };
-        /** @description A program's document, format 1; see docs/architecture.md. */
+        /** @description A program's document, format 2; see docs/architecture.md. */
         DocumentShape: {
             /** @constant */
-            format: 1;
+            format: 2;
             functions: {
                 [key: string]: components["schemas"]["FunctionShape"];
             };
@@ -1067,7 +1067,7 @@ export interface components {
                 [key: string]: components["schemas"]["StepShape"];
             };
             zones: {
-                [key: string]: unknown;
+                [key: string]: components["schemas"]["ZoneShape"];
             };
         };
         /**
@@ -1139,6 +1139,7 @@ export interface components {
         FunctionShape: {
             name: string;
             parameters: components["schemas"]["ParameterDefinition"][];
+            result?: components["schemas"]["ResultShape"] | null;
             source?: components["schemas"]["LibrarySource"] | null;
         };
         /** @description A function of a program that shall go into the library. */
@@ -1429,6 +1430,12 @@ export interface components {
             status: "waiting" | "running" | "done" | "failed" | "skipped";
             step: string;
         };
+        /** @description What a function gives back. */
+        ResultShape: {
+            type: string;
+            /** @default  */
+            unit: string;
+        };
         /** @description What a robot did, and its charge at the end (%). */
         RobotFigures: {
             battery: number;
@@ -1655,6 +1662,17 @@ export interface components {
         Words: {
             de: string;
             en: string;
+        };
+        /** @description A named area of the map: a polygon in metres, and what it asks of robots. */
+        ZoneShape: {
+            name: string;
+            points: [
+                number,
+                number
+            ][];
+            /** @enum {string} */
+            rule: "keep_out" | "one_at_a_time" | "slow";
+            speed_m_s?: number | null;
         };
     };
     responses: never;
