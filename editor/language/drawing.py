@@ -4,13 +4,13 @@ their devices.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from string import ascii_lowercase
 
 from editor.language import nodes as n
 from editor.language.alignment import align
-from editor.language.answers import answer_to_json
+from editor.language.drawers import Drawer, Drawn
 from editor.language.grouping import Drawable, grouped
 from editor.language.keeping import (
     Functions,
@@ -27,29 +27,10 @@ from editor.language.outline import PROGRAM, branches_of, make_outline, mapping
 from editor.language.positions import add_moves
 from editor.language.reading import read_document
 from editor.language.surroundings import Surroundings
-from editor.language.values import read_point, with_role_ids, write_argument, write_place, write_value
+from editor.language.values import read_point
 
 VARIABLE_FIELDS = frozenset({"variable", "result"})
 """Parameters that name a variable."""
-_Drawn = tuple[str, dict[str, object], tuple[tuple[str, n.Block], ...]]
-"""Kind, parameters and branches of one step."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Drawer:
-    """The ids of roles and functions by their names in a tree."""
-
-    role_ids: Mapping[str, str]
-    function_ids: Mapping[str, str]
-
-    def draw(self, nodes: Sequence[Drawable]) -> _Drawn:
-        """Return the step that some nodes are."""
-        loads = [node for node in nodes if isinstance(node, n.Pick | n.Drop)]
-        if len(loads) == 2:
-            return _pick_and_drop(self, tuple(node for node in nodes if not isinstance(node, n.Event)))
-        node = loads[0] if loads else nodes[0]
-        drawn = _event(self, node) if isinstance(node, n.Event) else DRAWERS[type(node)](self, node)
-        return drawn[0], dict(mapping(with_role_ids(drawn[1], self.role_ids))), drawn[2]
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +57,7 @@ class _Before:
 class _Builder:
     """The steps so far."""
 
-    drawer: _Drawer
+    drawer: Drawer
     before: _Before
     layout: Layout
     functions: Functions
@@ -109,7 +90,7 @@ class _Builder:
         same = isinstance(place, list | tuple) and len(place) == 3 and list(place[:2]) == [parent, branch]
         return str(place[2]) if same and isinstance(place, list | tuple) else None
 
-    def _step(self, step: str, place: list[str], drawn: _Drawn) -> None:
+    def _step(self, step: str, place: list[str], drawn: Drawn) -> None:
         kind, given, branches = drawn
         raw = self.before.raw.get(step)
         names = self.functions.names.get(self._method(given), {}) if kind == "call" else {}
@@ -162,139 +143,6 @@ def _letters(params: object, count: int | None) -> list[str]:
     return [*known, *spare][:count]
 
 
-def _kept(**params: object) -> dict[str, object]:
-    """Return the parameters that have a value."""
-    return {name: value for name, value in params.items() if value not in (None, [], {})}
-
-
-def _pick_and_drop(drawer: _Drawer, nodes: n.Block) -> _Drawn:
-    pick, drop = (node for node in nodes if isinstance(node, n.Pick | n.Drop))
-    moves = [node for node in nodes[nodes.index(pick) :] if isinstance(node, n.Move)]
-    params = _kept(
-        role=drawer.role_ids[pick.role],
-        source=write_place(pick.at),
-        target=write_place(drop.at),
-        object=write_value(pick.object),
-        quantity=write_value(pick.quantity),
-        route=[list(point) for point in (moves[0].route if moves else drop.route)],
-    )
-    return "pick_and_drop", params, ()
-
-
-def _move(drawer: _Drawer, node: n.Move) -> _Drawn:
-    route = [list(point) for point in node.route]
-    return "move", _kept(role=drawer.role_ids[node.role], to=write_place(node.to), route=route), ()
-
-
-def _pick_or_drop(drawer: _Drawer, node: n.Pick | n.Drop) -> _Drawn:
-    thing, quantity = write_value(node.object), write_value(node.quantity)
-    params = _kept(role=drawer.role_ids[node.role], at=write_place(node.at), object=thing, quantity=quantity)
-    return "pick" if isinstance(node, n.Pick) else "drop", params, ()
-
-
-def _operate(drawer: _Drawer, node: n.Operate) -> _Drawn:
-    arguments = {name: write_value(value) for name, value in node.arguments}
-    return "operate", _kept(device=write_place(node.device), method=node.method or None, args=arguments), ()
-
-
-def _wait(drawer: _Drawer, node: n.Wait) -> _Drawn:
-    return "wait", _kept(duration=write_value(node.seconds)), ()
-
-
-def _wait_until(drawer: _Drawer, node: n.WaitUntil) -> _Drawn:
-    until = write_value(node.condition)
-    missing = {} if until is None else until
-    return "wait", {"until": missing, **_kept(timeout=write_value(node.timeout_s))}, ()
-
-
-def _if(drawer: _Drawer, node: n.If) -> _Drawn:
-    return "if", _kept(condition=write_value(node.condition)), (("then", node.then), ("else", node.otherwise))
-
-
-def _while(drawer: _Drawer, node: n.While) -> _Drawn:
-    return "while", _kept(condition=write_value(node.condition)), (("body", node.body),)
-
-
-def _parallel(drawer: _Drawer, node: n.Parallel) -> _Drawn:
-    letters = [chr(97 + index) for index in range(len(node.branches))]
-    return "parallel", {"branches": letters}, tuple(zip(letters, node.branches, strict=True))
-
-
-def _try(drawer: _Drawer, node: n.Try) -> _Drawn:
-    branches = (("body", node.body), ("catch", node.catch), ("finally", node.final))
-    if not node.catches:
-        return "try", {"catch": False}, (branches[0], branches[2])
-    return "try", {"kinds": list(node.kinds)}, branches
-
-
-def _call(drawer: _Drawer, node: n.Call) -> _Drawn:
-    arguments = {name: write_argument(value) for name, value in node.arguments}
-    function, result = drawer.function_ids.get(node.function), node.result or None
-    return "call", _kept(function=function, args=arguments, result=result), ()
-
-
-def _repeat(drawer: _Drawer, node: n.Repeat) -> _Drawn:
-    return "repeat", _kept(times=write_value(node.times)), (("body", node.body),)
-
-
-def _for_each(drawer: _Drawer, node: n.ForEach) -> _Drawn:
-    items = [write_value(item) for item in node.items]
-    return "for_each", _kept(variable=node.variable or None, items=items), (("body", node.body),)
-
-
-def _set(drawer: _Drawer, node: n.Set) -> _Drawn:
-    return "set", _kept(variable=node.variable or None, value=write_value(node.value)), ()
-
-
-def _ask(drawer: _Drawer, node: n.Ask) -> _Drawn:
-    question, timeout = write_value(node.question), write_value(node.timeout_s)
-    variable, answer = node.variable or None, answer_to_json(node.answer)
-    return "ask", _kept(question=question, answer=answer, variable=variable, timeout=timeout), ()
-
-
-def _notify(drawer: _Drawer, node: n.Notify) -> _Drawn:
-    return "notify", _kept(message=write_value(node.message), level=node.level), ()
-
-
-def _end(drawer: _Drawer, node: n.End) -> _Drawn:
-    return "end", {}, ()
-
-
-def _return(drawer: _Drawer, node: n.Return) -> _Drawn:
-    return "return", _kept(value=write_value(node.value)), ()
-
-
-def _break(drawer: _Drawer, node: n.Break) -> _Drawn:
-    return "break", {}, ()
-
-
-def _event(drawer: _Drawer, node: n.Event) -> _Drawn:
-    return "on_event", _kept(condition=write_value(node.condition), starts=node.starts), (("body", node.body),)
-
-
-DRAWERS: Mapping[type[n.Node], Callable[..., _Drawn]] = {
-    n.Move: _move,
-    n.Pick: _pick_or_drop,
-    n.Drop: _pick_or_drop,
-    n.Operate: _operate,
-    n.Wait: _wait,
-    n.WaitUntil: _wait_until,
-    n.If: _if,
-    n.While: _while,
-    n.Parallel: _parallel,
-    n.Try: _try,
-    n.Call: _call,
-    n.Repeat: _repeat,
-    n.ForEach: _for_each,
-    n.Set: _set,
-    n.Ask: _ask,
-    n.Notify: _notify,
-    n.End: _end,
-    n.Return: _return,
-    n.Break: _break,
-}
-
-
 def tree_to_document(
     tree: n.Tree, surroundings: Surroundings, previous: Mapping[str, object] | None = None
 ) -> dict[str, object]:
@@ -314,7 +162,7 @@ def tree_to_document(
     for step in before.raw.values():
         layout.occupy(read_point(step.get("pos")))
     names = {**before.variables(), **names}
-    builder = _Builder(_Drawer(role_ids, functions.ids), before, layout, functions, names)
+    builder = _Builder(Drawer(role_ids, functions.ids), before, layout, functions, names)
     builder.block(PROGRAM, "body", aligned.body)
     builder.block(PROGRAM, "events", aligned.events)
     for function in aligned.functions:
@@ -340,7 +188,7 @@ def _standing(surroundings: Surroundings) -> dict[str, str]:
 
 def _look_back(old: Mapping[str, object], tree: n.Tree) -> _Before:
     roles = {role.name: role.id for role in tree.roles}
-    drawer = _Drawer(roles, {function.method: function.id for function in tree.functions})
+    drawer = Drawer(roles, {function.method: function.id for function in tree.functions})
     said: dict[str, tuple[str, Mapping[str, object]]] = {}
     left: list[Sequence[Drawable]] = [tree.body, tree.events, *(function.body for function in tree.functions)]
     for block in left:
