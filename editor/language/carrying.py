@@ -223,10 +223,10 @@ def _end(follower: _Follower, node: n.End, carried: Carried, values: Mapping[str
 
 def _roles(follower: _Follower, block: n.Block) -> frozenset[str]:
     """Return the roles that may carry something else after the block; a call may change every one."""
-    roles = {node.role for node in walk(block) if isinstance(node, n.Pick | n.Drop)}
+    roles = {node.role for node in walk(block) if isinstance(node, n.LOADS)}
     if any(isinstance(node, n.Call) for node in walk(block)):
         bodies = (function.body for function in follower.functions.values())
-        roles |= {node.role for body in bodies for node in walk(body) if isinstance(node, n.Pick | n.Drop)}
+        roles |= {node.role for body in bodies for node in walk(body) if isinstance(node, n.LOADS)}
     return frozenset(roles)
 
 

@@ -34,6 +34,7 @@ class Context:
     stations: dict[tuple[str, str], tuple[n.Point | None, ...]] = field(default_factory=dict)
     """Where each robot of a role would stand to serve a device, as far as it was asked for."""
     _robots: dict[str, tuple[Description, ...]] = field(default_factory=dict)
+    _names: dict[str, Robot] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.functions = {function.method: function for function in self.tree.functions}
@@ -73,6 +74,11 @@ class Context:
 
     def robot_name(self, role: str) -> Robot:
         """Return what to call the role's robot: its name, or that of its sort where any will do."""
+        if role not in self._names:
+            self._names[role] = self._robot_name(role)
+        return self._names[role]
+
+    def _robot_name(self, role: str) -> Robot:
         robots, device = self.robots(role), self.roles[role].device
         if device is not None:
             return Robot(robots[0].name if robots else device)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from editor.language import nodes as n
 from editor.language.check_context import Context
 from editor.language.diagnostics import Fix, TextArguments
 from editor.language.phrases import Options
 from editor.language.plan import Constant, Expression, PlaceRef, Reading
 from editor.language.surroundings import DeviceFacts
-from editor.language.values import parts_of
 from registry.capability import Description
 
 
@@ -92,9 +93,9 @@ def _check_floor(context: Context, node: n.Move, point: n.Point, field: str) -> 
         context.tell(node, "place_unreachable", field, name)
 
 
-def check_readings(context: Context, node: n.Node, expression: Expression, field: str) -> None:
-    """Check the readings in an expression against what the devices report."""
-    for part in parts_of(expression):
+def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
+    """Check the readings among the parts of an expression against what the devices report."""
+    for part in parts:
         if not isinstance(part, Reading) or not isinstance(part.device, Constant):
             continue
         facts = known_device(context, node, str(part.device.value), field)

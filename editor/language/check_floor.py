@@ -22,7 +22,7 @@ def check_floor(context: Context, document: object) -> None:
     closed = [zone for zone in zones if zone.rule == "keep_out"]
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         for node in walk(block):
-            if isinstance(node, n.Pick | n.Drop):
+            if isinstance(node, n.LOADS):
                 _check_goal(context, node, node.at, node.place_field, closed)
             elif isinstance(node, n.Move) and not node.added:
                 _check_goal(context, node, node.to, "to", closed)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from editor.language import nodes as n
 from editor.language.check_context import Context
 from editor.language.check_devices import check_readings, known_device
@@ -37,8 +39,9 @@ def check_value(
     """Check what a value reads and of which type and unit it is; tell whether it is good."""
     before = len(context.found)
     if not isinstance(value, Constant):
-        check_readings(context, node, value, field)
-        _check_things(context, node, value, field)
+        parts = parts_of(value)
+        check_readings(context, node, parts, field)
+        _check_things(context, node, parts, field)
     typing = Typing(context.surroundings, context.variables, [])
     kind = typing.kind_of(value)
     for mismatch in typing.mismatches:
@@ -52,9 +55,9 @@ def check_value(
     return len(context.found) == before
 
 
-def _check_things(context: Context, node: n.Node, value: Expression, field: str) -> None:
+def _check_things(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
     """Check that the devices, places and zones that an expression speaks of exist."""
-    for part in parts_of(value):
+    for part in parts:
         if not isinstance(part, Located):
             continue
         if part.device is not None:

@@ -293,7 +293,7 @@ def _check_roles(context: Context) -> None:
     first: dict[str, n.Node] = {}
     for block in _bodies(tree):
         for node in walk(block):
-            if isinstance(node, n.Move | n.Pick | n.Drop):
+            if isinstance(node, n.DRIVES):
                 first.setdefault(node.role, node)
     for role in tree.roles:
         check_role(context, first[role.name], role, needed[role.name])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -13,7 +13,7 @@ from editor.language.kinds_of_variables import kinds_of_function, kinds_of_progr
 from editor.language.plan_builder import Builder, Compiler, Leaves
 from editor.language.scopes import local_variables, program_variables
 from editor.language.surroundings import Surroundings
-from editor.language.values import parts_of, rename_roles
+from editor.language.values import rename_roles
 
 
 def _move(builder: Builder, node: n.Move, leaves: Leaves) -> None:
@@ -138,7 +138,7 @@ def compile_tree(
     roles = {role.id or role.name: p.RoleBinding(role.id or role.name, role.device, role.can) for role in tree.roles}
     parameters = {parameter.name: parameter.default for parameter in tree.parameters}
     instructions, events = _with_role_ids(tree, builder.instructions, events)
-    return p.Plan(instructions, roles, parameters, _readings(instructions, events), events=events, zones=zones)
+    return p.Plan(instructions, roles, parameters, tuple(sorted(builder.readings)), events=events, zones=zones)
 
 
 def _function(builder: Builder, function: n.Function) -> int:
@@ -208,24 +208,3 @@ def _with_roles(value: Any, renamed: Mapping[str, str]) -> Any:
     if isinstance(value, Mapping):
         return {name: rename_roles(inner, renamed) for name, inner in value.items()}
     return None if value is None else rename_roles(value, renamed)
-
-
-def _readings(instructions: tuple[p.Instruction, ...], events: tuple[p.EventEntry, ...]) -> tuple[tuple[str, str], ...]:
-    """Return the (device, property) pairs that the program looks at, sorted."""
-    found: set[tuple[str, str]] = set()
-    for expression in _expressions(instructions, events):
-        for part in parts_of(expression):
-            if isinstance(part, p.Reading) and isinstance(part.device, p.Constant):
-                found.add((str(part.device.value), part.property))
-    return tuple(sorted(found))
-
-
-def _expressions(instructions: tuple[p.Instruction, ...], events: tuple[p.EventEntry, ...]) -> Iterator[p.Expression]:
-    yield from (event.condition for event in events)
-    for instruction in instructions:
-        for name in _EXPRESSIONS.get(type(instruction.do), ()):
-            value = getattr(instruction.do, name)
-            if isinstance(value, Mapping):
-                yield from value.values()
-            elif value is not None:
-                yield value

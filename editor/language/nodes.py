@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Final
 
 from editor.language.plan import AnswerSpec, Constant, Expression, PlaceRef
 from registry.capability import Scalar
@@ -209,6 +210,9 @@ Node = (
     | Set | Ask | Notify | End | Return | Break
 )  # fmt: skip
 Block = tuple[Node, ...]
+LOADS: Final = (Pick, Drop)
+DRIVES: Final = (Move, Pick, Drop)
+"""What a robot does. (A check of a class against such a row is several times as quick as against a union.)"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -270,12 +274,13 @@ class Tree:
     events: tuple[Event, ...] = ()
 
 
-_COMPOSITES = frozenset({If, While, Repeat, ForEach, Parallel, Try})
+COMPOSITES = frozenset({If, While, Repeat, ForEach, Parallel, Try})
+"""The nodes that hold others."""
 
 
 def blocks_of(node: Node) -> tuple[Block, ...]:
     """Return the branches of a node, in reading order."""
-    if node.__class__ not in _COMPOSITES:
+    if node.__class__ not in COMPOSITES:
         return ()
     match node:
         case If(then=then, otherwise=otherwise):

@@ -77,7 +77,7 @@ class Outline:
 
 def mapping(value: object) -> Mapping[str, object]:
     """Return the value if it is an object, else an empty one."""
-    return value if isinstance(value, Mapping) else {}
+    return value if value.__class__ is dict or isinstance(value, Mapping) else {}
 
 
 def branches_of(kind: str, params: Params) -> tuple[str, ...]:

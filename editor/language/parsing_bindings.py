@@ -123,7 +123,8 @@ def parse_parameters(method: ast.FunctionDef) -> tuple[n.Parameter, ...]:
         Refused: they are of a form that the language does not have.
     """
     a = method.args
-    if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or not a.args or a.args[0].arg != "self":
+    bare_self = a.args and a.args[0].arg == "self" and len(a.defaults) < len(a.args)
+    if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or not bare_self:
         raise Refused(method, "This form of parameters", f"Write def {method.name}(self, minutes):.")
     given = a.args[1:]
     defaults = [None] * (len(given) - len(a.defaults)) + [parse_scalar(default) for default in a.defaults]

@@ -11,6 +11,7 @@ from editor.language import plan as p
 from editor.language.settling_units import settle_units
 from editor.language.surroundings import Surroundings
 from editor.language.typing_of_values import UNKNOWN_KIND, Kind, Typing
+from editor.language.values import parts_of
 from registry.capability import Description
 
 Leaves = tuple[str, ...]
@@ -65,6 +66,8 @@ class Builder:
     """The variables of the loops around, each with its hidden name."""
     function: n.Function | None = None
     hidden: dict[str, int] = field(default_factory=dict)
+    readings: set[tuple[str, str]] = field(default_factory=set)
+    """The (device, property) pairs that the values of the plan look at."""
 
     def here(self) -> int:
         """Return the address of the next instruction."""
@@ -84,7 +87,8 @@ class Builder:
 
     def patch(self, address: int, do: p.Action) -> None:
         """Write an instruction again, now that its target is known."""
-        self.instructions[address] = replace(self.instructions[address], do=do)
+        before = self.instructions[address]
+        self.instructions[address] = p.Instruction(do, before.step, before.line, before.enters, before.leaves)
 
     def block(self, block: n.Block) -> None:
         """Compile the nodes of a block; the last node of each step tells that it is over."""
@@ -127,10 +131,12 @@ class Builder:
         """Return an expression as a plan has it: without quantities, in the wanted unit if one is wanted."""
         if isinstance(expression, p.Constant):
             return expression
-        if not unit and isinstance(expression, p.Reading | p.Variable):
-            return self._named(expression)
         typing = Typing(self.surroundings, self.kinds, [])
-        return self._named(settle_units(expression, unit, typing))
+        settled = self._named(settle_units(expression, unit, typing))
+        for part in parts_of(settled):
+            if isinstance(part, p.Reading) and isinstance(part.device, p.Constant):
+                self.readings.add((str(part.device.value), part.property))
+        return settled
 
     def given(self, expression: p.Expression | None, unit: str = "") -> p.Expression | None:
         """Return an expression that may be left out as a plan has it."""

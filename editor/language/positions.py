@@ -9,8 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
+from typing import Final
 
 from editor.language.nodes import (
+    DRIVES,
+    LOADS,
     NOWHERE,
     Ask,
     Block,
@@ -42,6 +45,9 @@ Standing = dict[str, PlaceRef]
 
 
 _Composite = If | While | Repeat | ForEach | Parallel | Try
+_COMPOSITE: Final = (If, While, Repeat, ForEach, Parallel, Try)
+_SETS: Final = (Set, Ask)
+_LEAVES: Final = (End, Return, Break)
 
 
 @dataclass(slots=True)
@@ -74,21 +80,21 @@ class _Follower:
             if isinstance(node, Move):
                 standing = {**standing, node.role: node.to}
                 nodes.append(node)
-            elif isinstance(node, Pick | Drop):
+            elif isinstance(node, LOADS):
                 standing = self._load(node, standing, nodes)
             elif isinstance(node, Call):
                 standing = _without_values(self._call(node, standing), {node.result})
                 nodes.append(node)
-            elif isinstance(node, Set | Ask):
+            elif isinstance(node, _SETS):
                 standing = _without_values(standing, {node.variable})
                 nodes.append(node)
-            elif isinstance(node, _Composite):
+            elif isinstance(node, _COMPOSITE):
                 inner, after = self._composite(node, standing)
                 ends, standing = ends or after is None, after or {}
                 nodes.append(inner)
             else:
                 nodes.append(node)
-                if isinstance(node, End | Return | Break):
+                if isinstance(node, _LEAVES):
                     self._leave(node, standing)
                     ends, standing = True, {}
         return tuple(nodes), None if ends else standing
@@ -216,7 +222,7 @@ class _Follower:
         """Return the roles whose robot a block moves, also in the functions it calls."""
         nodes = tuple(walk(block))
         called = (self.moved.get(node.function, frozenset()) for node in nodes if isinstance(node, Call))
-        return frozenset(node.role for node in nodes if isinstance(node, Move | Pick | Drop)).union(*called)
+        return frozenset(node.role for node in nodes if isinstance(node, DRIVES)).union(*called)
 
 
 def _without(standing: Standing, roles: frozenset[str]) -> Standing:

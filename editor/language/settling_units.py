@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from editor.language.plan import Constant, Expression, Located, Operation, Quantity
+from editor.language.plan import Constant, Expression, Located, Operation, Quantity, Reading
 from editor.language.surroundings import Surroundings
 from editor.language.typing_of_values import Kind, Typing, common_unit, is_written
 from editor.language.units import conversion, convert, same_dimension, tidy, unit_symbol
-from editor.language.values import ARITHMETIC, COMPARISONS, is_number
+from editor.language.values import ARITHMETIC, COMPARISONS, is_number, parts_of
 
+_WITH_UNITS = frozenset({"now", "distance", "nearest", "text"})
 _MEETING = frozenset({*COMPARISONS, "+", "-", "min", "max", "abs", "round"})
 
 
@@ -15,8 +16,22 @@ def settle_units(expression: Expression, wanted_unit: str, typing: Typing) -> Ex
     """Return an expression without quantities, in the wanted unit if one is wanted (empty: in its own)."""
     if isinstance(expression, Constant):
         return expression
-    own = _kind(expression, typing).unit
-    return _into(_settle(expression, typing), own, wanted_unit)
+    settled = expression if _has_one_unit(expression) else _settle(expression, typing)
+    return _into(settled, _kind(expression, typing).unit, wanted_unit) if wanted_unit else settled
+
+
+def _has_one_unit(expression: Expression) -> bool:
+    """Tell that nothing in an expression is converted: at most one of its parts has a unit, and that is measured."""
+    measured = 0
+    for part in parts_of(expression):
+        if isinstance(part, Reading):
+            measured += 1
+        elif isinstance(part, Operation):
+            if part.operator in _WITH_UNITS:
+                return False
+        elif not isinstance(part, Constant):
+            return False
+    return measured <= 1
 
 
 def _kind(expression: Expression, typing: Typing) -> Kind:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from typing import TypeGuard
+from collections.abc import Callable, Mapping
+from typing import Final, TypeGuard
 
 from editor.language.nodes import MISSING, NOWHERE, Point
 from editor.language.plan import Constant, Expression, Located, Operation, PlaceRef, Quantity, Reading, Variable
@@ -18,6 +18,10 @@ FUNCTIONS: Mapping[str, tuple[int, int | None]] = {
     "count": (1, None), "now": (0, 0), "text": (1, None),
 }  # fmt: skip
 """The functions of the language, with how many values they take at least and at most."""
+_NUMBERS: Final = (int, float)
+_WORDS: Final = (bool, str)
+_SCALARS: Final = (str, bool, float, int)
+_LISTS: Final = (list, tuple)
 DEEPEST_EXPRESSION = 24
 LARGEST = 1e15
 
@@ -33,12 +37,12 @@ class UnknownParameter(Exception):
 
 def is_number(value: object) -> TypeGuard[int | float]:
     """Tell whether a value is a number that can be worked with."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and -LARGEST <= value <= LARGEST
+    return isinstance(value, _NUMBERS) and not isinstance(value, bool) and -LARGEST <= value <= LARGEST
 
 
 def plain(value: object) -> Scalar:
     """Return a scalar in its normal form: whole numbers as int, nonsense as None."""
-    if isinstance(value, bool | str):
+    if isinstance(value, _WORDS):
         return value
     if not is_number(value) or math.isnan(value):
         return None
@@ -122,10 +126,10 @@ def read_value(value: object, names: Names, robot_of: RobotOf = no_robot, depth:
     Raises:
         UnknownParameter: it names a parameter that does not exist here.
     """
-    if value.__class__ is int or isinstance(value, str | bool | float | int):
+    if isinstance(value, _SCALARS):
         scalar = plain(value)
         return MISSING if scalar is None else Constant(scalar)
-    if isinstance(value, list | tuple):
+    if isinstance(value, _LISTS):
         scalars = tuple(plain(item) for item in value)
         return MISSING if not scalars or None in scalars else Constant(scalars)
     if not isinstance(value, Mapping) or depth > DEEPEST_EXPRESSION:
@@ -142,7 +146,7 @@ def read_value(value: object, names: Names, robot_of: RobotOf = no_robot, depth:
 
 
 def _quantity(value: object) -> Expression:
-    if not isinstance(value, list | tuple) or len(value) != 2:
+    if not isinstance(value, _LISTS) or len(value) != 2:
         return MISSING
     number, unit = plain(value[0]), value[1]
     if not is_number(number) or not isinstance(unit, str):
@@ -173,7 +177,7 @@ def _variable(name: object, names: Names) -> Expression:
 
 
 def _reading(value: object, names: Names) -> Expression:
-    if not isinstance(value, list | tuple) or len(value) != 2:
+    if not isinstance(value, _LISTS) or len(value) != 2:
         return MISSING
     device, name = value
     if not isinstance(name, str) or not name:
@@ -188,7 +192,7 @@ def _reading(value: object, names: Names) -> Expression:
 
 def _operation(value: Mapping[str, object], names: Names, robot_of: RobotOf, depth: int) -> Expression:
     operator, given = value.get("op"), value.get("args")
-    if not isinstance(operator, str) or not isinstance(given, list | tuple) or not arity_fits(operator, len(given)):
+    if not isinstance(operator, str) or not isinstance(given, _LISTS) or not arity_fits(operator, len(given)):
         return MISSING
     return operation(operator, tuple(read_value(argument, names, robot_of, depth + 1) for argument in given))
 
@@ -215,7 +219,7 @@ def read_place(value: object, names: Names) -> PlaceRef:
 
 def read_point(value: object) -> Point | None:
     """Return a point in metres, or None when the value is none."""
-    if not isinstance(value, list | tuple) or len(value) != 2:
+    if not isinstance(value, _LISTS) or len(value) != 2:
         return None
     x, y = plain(value[0]), plain(value[1])
     return (x, y) if is_number(x) and is_number(y) else None
@@ -280,14 +284,20 @@ def write_place(place: PlaceRef) -> object:
     return None if place.value is None else write_value(place.value)
 
 
-def parts_of(expression: Expression) -> Iterator[Expression]:
-    """Yield an expression and everything in it, the outermost first."""
-    yield expression
+def parts_of(expression: Expression) -> list[Expression]:
+    """Return an expression and everything in it, the outermost first."""
+    parts: list[Expression] = []
+    _gather(expression, parts)
+    return parts
+
+
+def _gather(expression: Expression, parts: list[Expression]) -> None:
+    parts.append(expression)
     if isinstance(expression, Operation):
         for argument in expression.arguments:
-            yield from parts_of(argument)
+            _gather(argument, parts)
     elif isinstance(expression, Reading):
-        yield expression.device
+        parts.append(expression.device)
 
 
 def rename_roles(expression: Expression, names: Mapping[str, str]) -> Expression:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import Final
 
 from editor.language import nodes as n
 from editor.language.plan import Expression, PlaceRef, Variable
 from editor.language.values import parts_of
 from editor.language.walking import callees_first, walk
 
+_SETS: Final = (n.Set, n.Ask)
+
 
 def set_by(node: n.Node) -> str:
     """Return the name of the variable that a step sets, empty when it sets none."""
-    if isinstance(node, n.Set | n.Ask):
+    if isinstance(node, _SETS):
         return node.variable
     return node.result if isinstance(node, n.Call) else ""
 

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 
 from editor.language.names import ROBOT_METHODS
-from editor.language.nodes import Block, Call, Drop, Function, Move, Node, Pick, Role, Tree, blocks_of
+from editor.language.nodes import COMPOSITES, DRIVES, Block, Call, Function, Node, Role, Tree, blocks_of
 
 
-def walk(block: Block) -> Iterator[Node]:
-    """Yield the nodes of a block and of everything in it, in reading order."""
+def walk(block: Block) -> list[Node]:
+    """Return the nodes of a block and of everything in it, in reading order."""
+    nodes: list[Node] = []
+    _gather(block, nodes)
+    return nodes
+
+
+def _gather(block: Block, nodes: list[Node]) -> None:
     for node in block:
-        yield node
-        for inner in blocks_of(node):
-            yield from walk(inner)
+        nodes.append(node)
+        if node.__class__ in COMPOSITES:
+            for inner in blocks_of(node):
+                _gather(inner, nodes)
 
 
 def reading_order(tree: Tree) -> tuple[Function, ...]:
@@ -42,7 +49,7 @@ def needed_of_roles(blocks: Iterable[Block]) -> dict[str, tuple[str, ...]]:
     needed: dict[str, set[str]] = {}
     for block in blocks:
         for node in walk(block):
-            if isinstance(node, Move | Pick | Drop):
+            if isinstance(node, DRIVES):
                 needed.setdefault(node.role, set()).add(type(node).__name__.lower())
     return {role: _without_move(methods) for role, methods in needed.items()}
 
@@ -102,7 +109,7 @@ def roles_used(block: Block, tree: Tree) -> frozenset[str]:
     left = [block]
     while left:
         for node in walk(left.pop()):
-            if isinstance(node, Move | Pick | Drop):
+            if isinstance(node, DRIVES):
                 roles.add(node.role)
             elif isinstance(node, Call) and node.function in by_method and node.function not in seen:
                 seen.add(node.function)

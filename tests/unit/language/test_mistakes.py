@@ -107,3 +107,11 @@ def test_what_helps_is_said_in_german_too(english: str) -> None:
     german = refused_in_german(english)
     assert german != english
     assert re.sub(r"[a-zA-Z]", "", german)[-1] == english[-1]
+
+
+def test_self_takes_no_value_of_its_own() -> None:
+    text = script("self.wait(1)").replace(
+        "def new_task(self)", "def other(self=1):\n        pass\n\n    def new_task(self)"
+    )
+    (told,) = parse_script(text, factory()).diagnostics
+    assert told.args["instead"] == "Write def other(self, minutes):."
