@@ -1,0 +1,102 @@
+"""The programs of examples/: sound, printed and read back, rehearsed; and between them the whole language."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from editor.language import compile_document, parse_script, tree_to_document
+from editor.language.outline import BRANCHES
+from execution.rehearsal import rehearse_program
+from tests.unit.language.site import ROOT
+from vipo_site.cli import main
+from vipo_site.program_file import read_program_file
+
+SITE = "painting-factory"
+PROGRAMS = sorted(path for path in (ROOT / "examples").glob("*.json") if path.stem != SITE)
+CAUGHT = {"cure-until-cool": [("s8", "timed_out")] * 3}
+"""What goes wrong on purpose, and is caught."""
+NOTICES = {
+    "ask-before-painting": ["Painted matt with 1 coats"],
+    "cure-until-cool": ["The oven has 60 degrees", "Cool, after 3 min and more"],
+    "deliver-colours": [
+        "red stands at the mixer",
+        "white stands at the mixer",
+        "blue stands at the mixer",
+        "3 cans were delivered",
+    ],
+    "nearest-mixer": ["The paint is mixed; the nearest dock is dock1"],
+    "patrol-zones": ["The guard is in the busy corner"],
+    "restock-when-low": ["Only 7 cans of paint are left", "2 cans were brought"],
+    "rework-until-good": ["Good, with 3 tries to spare"],
+    "two-mixers": ["Both are mixed, 4 degrees apart"],
+}
+
+
+def _document(path: Path) -> dict[str, Any]:
+    document: dict[str, Any] = json.loads(path.read_text())["document"]
+    return document
+
+
+def _words(value: object) -> set[str]:
+    """Return the operators and the forms of values that stand anywhere in a document."""
+    if isinstance(value, list):
+        return set().union(*map(_words, value))
+    if not isinstance(value, dict):
+        return set()
+    own = {str(value["op"])} if "op" in value else set(value) & {"quantity", "at", "zone", "property", "param", "point"}
+    return own.union(*map(_words, value.values()))
+
+
+def test_there_are_twelve_programs() -> None:
+    assert len(PROGRAMS) == 12
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def test_an_example_is_checked_printed_and_planned(path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    name = json.loads(path.read_text())["name"]
+    assert main(["check", str(path)]) == 0
+    assert capsys.readouterr().out == f"{name}: 0 errors, 0 warnings.\n"
+    assert main(["script", str(path)]) == 0
+    assert capsys.readouterr().out.startswith("class Task(object):\n    def new_task(self):\n")
+    assert main(["plan", str(path)]) == 0
+    assert " End" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def test_the_script_of_an_example_draws_the_same_document(path: Path) -> None:
+    program = read_program_file(path, None)
+    compiled = compile_document(program.document, program.surroundings)
+    parsed = parse_script(compiled.script, program.surroundings)
+    assert parsed.tree == compiled.tree
+    assert parsed.tree is not None
+    assert tree_to_document(parsed.tree, program.surroundings, program.document) == program.document
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def test_an_example_ends_well_when_it_is_rehearsed(path: Path) -> None:
+    program = read_program_file(path, None)
+    result = rehearse_program(document=program.document, site=dict(program.site), driver="kinematic")
+    assert result["ok"] is True
+    assert [(each["step"], each["kind"]) for each in result["errors"]] == CAUGHT.get(path.stem, [])
+    assert (result["collisions"], result["near_misses"]) == ([], [])
+    steps = {step for step, each in program.document["steps"].items() if each["kind"] == "notify"}
+    told = [each["text"].removeprefix("Told: ") for each in result["log"] if each["step"] in steps]
+    assert told == NOTICES.get(path.stem, [])
+
+
+def test_the_examples_use_every_construct() -> None:
+    kinds = {step["kind"] for path in PROGRAMS for step in _document(path)["steps"].values()}
+    assert kinds == {*BRANCHES, "comment"}
+    rules = {zone["rule"] for path in PROGRAMS for zone in _document(path)["zones"].values()}
+    assert rules == {"keep_out", "one_at_a_time", "slow"}
+
+
+def test_the_examples_use_every_form_of_value() -> None:
+    words = set().union(*(_words(_document(path)) for path in PROGRAMS))
+    assert words >= {"quantity", "at", "zone", "property", "param", "point"}
+    assert words >= {"+", "-", ">", "<", ">=", "<=", "==", "and", "or", "not", "in", "text"}
+    assert words >= {"abs", "round", "min", "max", "distance", "nearest", "count", "now"}
