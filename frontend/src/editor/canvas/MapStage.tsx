@@ -22,7 +22,7 @@ import {
 import { FloorCanvas } from "@/map/FloorCanvas";
 import { planBox, type FloorPlan } from "@/map/floor";
 import { knownBox } from "@/map/floor";
-import { fitViewport, toMetres, type Insets, type Point } from "@/map/projection";
+import { fitViewport, toMetres, type Insets, type Point, type Viewport } from "@/map/projection";
 import { RobotLayer } from "@/map/RobotLayer";
 import type { RobotSource } from "@/map/robots";
 import { ViewportCell } from "@/map/viewport";
@@ -102,15 +102,16 @@ function Stage(props: MapStageProps) {
   const box = useBoxDirection();
   const fit = useCallback(
     (animate: boolean) => {
-      if (!plan || size.width === 0) return;
+      if (!plan || size.width === 0) return null;
       const view = fitViewport(knownBox(plan), size.width, size.height, insets, 1.6);
       void flow.setViewport(view, { duration: animate ? 280 : 0 });
+      return view;
     },
     [flow, plan, size.width, size.height, insets],
   );
-  useFitOnce(fit, plan, size.width > 0);
+  useFirstFit(fit, plan && size.width > 0 ? plan : null, insets.bottom, viewport);
   const handle = useMemo<StageHandle>(
-    () => ({ viewport, pane: size, fit: () => fit(true), flow }),
+    () => ({ viewport, pane: size, fit: () => void fit(true), flow }),
     [viewport, size, fit, flow],
   );
   const press = (event: MouseEvent | PointerEvent): StagePress => ({
@@ -217,14 +218,27 @@ function Stage(props: MapStageProps) {
 
 const NO_EDGES: never[] = [];
 
-/** The map is brought into the free area when it is first there, and stays where people move it. */
-function useFitOnce(fit: (animate: boolean) => void, plan: FloorPlan | null, ready: boolean): void {
-  const fitted = useRef<FloorPlan | null>(null);
+/**
+ * The map is brought into the free area when it is first there, and again when what stands below it opens or closes;
+ * once people have moved it, it stays where they put it.
+ */
+function useFirstFit(
+  fit: (animate: boolean) => Viewport | null,
+  plan: FloorPlan | null,
+  bottom: number,
+  viewport: StageHandle["viewport"],
+): void {
+  const last = useRef<{ plan: FloorPlan; bottom: number; view: Viewport | null } | null>(null);
   useEffect(() => {
-    if (!plan || !ready || fitted.current === plan) return;
-    fitted.current = plan;
-    fit(false);
-  }, [fit, plan, ready]);
+    const before = last.current;
+    if (!plan || (before?.plan === plan && before.bottom === bottom)) return;
+    const moved = before?.plan === plan && !isSameView(before.view, viewport.get());
+    last.current = { plan, bottom, view: moved ? null : fit(false) };
+  }, [fit, plan, bottom, viewport]);
+}
+
+function isSameView(one: Viewport | null, other: Viewport): boolean {
+  return one !== null && one.zoom === other.zoom && one.x === other.x && one.y === other.y;
 }
 
 function extentOf(plan: FloorPlan): [[number, number], [number, number]] {
