@@ -13,6 +13,7 @@ from editor.language import nodes as n
 from editor.language.diagnostics import Problem
 from editor.language.phrases import Argument
 from editor.language.plan import Constant, Expression, Variable
+from editor.language.remembering import Memory, Told
 from editor.language.values import is_number
 from editor.language.variables import set_by
 from editor.language.walking import walk
@@ -43,6 +44,9 @@ class _Follower:
     """For each loop around, innermost last, what is carried at the steps that leave it."""
     returns: list[list[Carried]] = field(default_factory=list)
     """The same for the functions being followed."""
+    known: Memory = field(default_factory=Memory)
+    met: int = 0
+    """Calls that were met, also those that were not followed."""
 
     def block(self, block: n.Block, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
         """Return what is carried after a block; None where its end is never reached."""
@@ -50,8 +54,22 @@ class _Follower:
         for node in block:
             follow = _FOLLOW.get(type(node))
             if follow is not None and after is not None:
-                after = follow(self, node, after, values)
+                remembers = node.__class__ in n.COMPOSITES and not (self.silent or self.depth)
+                after = self._followed(node, after) if remembers else follow(self, node, after, values)
         return after
+
+    def _followed(self, node: n.Node, carried: Carried) -> Carried | None:
+        """Follow a step outside of functions that holds others; what depends on nothing else is remembered."""
+        known: tuple[Carried | None, Told] | None = self.known.recall(node, carried)
+        if known is None:
+            told, ways_out = len(self.found), (self.met, len(self.breaks[-1]) if self.breaks else 0)
+            after = _FOLLOW[type(node)](self, node, carried, {})
+            known = after, tuple(self.found[told:])
+            if ways_out == (self.met, len(self.breaks[-1]) if self.breaks else 0):
+                self.known.keep(node, known, carried)
+        else:
+            self.found.extend(known[1])
+        return known[0]
 
     def tell(self, node: n.Pick | n.Drop, code: str, args: dict[str, Argument]) -> None:
         if not self.silent:
@@ -186,6 +204,7 @@ def _parallel(
 
 
 def _call(follower: _Follower, node: n.Call, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
+    follower.met += 1
     function = follower.functions.get(node.function)
     if function is None:
         return carried
@@ -272,14 +291,17 @@ def _either(first: Carried | None, second: Carried | None) -> Carried | None:
 
 
 def follow_loads(
-    tree: n.Tree, capacity: Callable[[str], int], robot: Callable[[str], Argument]
+    tree: n.Tree, capacity: Callable[[str], int], robot: Callable[[str], Argument], known: Memory | None = None
 ) -> list[tuple[Problem, int]]:
     """Return what is wrong with what robots carry, each with its node's identity.
 
-    `capacity` tells how many objects a role's robot holds (0: not known), `robot` what to call it.
+    `capacity` tells how many objects a role's robot holds (0: not known), `robot` what to call it; `known` has what
+    was found at the last look.
     """
     functions = {function.method: function for function in tree.functions}
-    follower = _Follower(functions, capacity, robot)
+    follower = _Follower(functions, capacity, robot, known=known or Memory())
+    drivers = frozenset(node.role for f in tree.functions for node in walk(f.body) if isinstance(node, n.LOADS))
+    follower.known.begin((drivers, [(role.name, capacity(role.name), robot(role.name)) for role in tree.roles]))
     follower.block(tree.body, {}, {})
     for event in tree.events:
         follower.block(event.body, _forget({}, frozenset(role.name for role in tree.roles)), {})

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from editor.language import nodes as n
 from editor.language.diagnostics import Fix, Problem, TextArguments
 from editor.language.phrases import Driver, Robot
+from editor.language.remembering import Memories
 from editor.language.surroundings import DeviceFacts, Surroundings
 from editor.language.typing_of_values import UNKNOWN_KIND, Kind
 from registry.capability import Description
@@ -31,6 +32,8 @@ class Context:
     found: list[tuple[Problem, int]] = field(default_factory=list)
     functions: Mapping[str, n.Function] = field(init=False)
     roles: Mapping[str, n.Role] = field(init=False)
+    memories: Memories = field(default_factory=Memories)
+    """What was found at the last look."""
     stations: dict[tuple[str, str], tuple[n.Point | None, ...]] = field(default_factory=dict)
     """Where each robot of a role would stand to serve a device, as far as it was asked for."""
     _robots: dict[str, tuple[Description, ...]] = field(default_factory=dict)

@@ -9,6 +9,7 @@ from editor.language import nodes as n
 from editor.language.check_context import Context
 from editor.language.diagnostics import Fix
 from editor.language.plan import Constant, Expression, Located, Operation, Reading, Variable
+from editor.language.remembering import Memory, Told
 from editor.language.typing_of_values import constant_value
 from editor.language.values import parts_of
 from editor.language.variables import set_in, sets_of_functions
@@ -30,6 +31,8 @@ class _Flow:
     """The variables that each function sets."""
     beside: frozenset[str] = frozenset()
     """Variables that events or the branches of a Parallel set; they may change at any time."""
+    known: Memory = field(default_factory=Memory)
+    calls: int = 0
 
     def block(self, block: n.Block) -> Ways:
         """Return how the block can be left."""
@@ -38,11 +41,26 @@ class _Flow:
             follow = _FOLLOW.get(type(node))
             if follow is None:
                 continue
-            ways = (ways - ON) | follow(self, node)
+            after = self._followed(node) if node.__class__ in n.COMPOSITES else follow(self, node)
+            ways = (ways - ON) | after
             if "on" not in ways:
                 self._tell_unreached(block, index)
                 break
         return ways
+
+    def _followed(self, node: n.Node) -> Ways:
+        """Follow a step that holds others; without calls what is found depends on nothing else."""
+        if self.context is None:
+            return _FOLLOW[type(node)](self, node)
+        known: tuple[Ways, Told] | None = self.known.recall(node)
+        if known is None:
+            calls, told = self.calls, len(self.context.found)
+            known = _FOLLOW[type(node)](self, node), tuple(self.context.found[told:])
+            if calls == self.calls:
+                self.known.keep(node, known)
+        else:
+            self.context.found.extend(known[1])
+        return known[0]
 
     def _tell_unreached(self, block: n.Block, last: int) -> None:
         rest = [node for node in block[last + 1 :] if node.step != block[last].step]
@@ -115,6 +133,7 @@ def _try(flow: _Flow, node: n.Try) -> Ways:
 
 
 def _call(flow: _Flow, node: n.Call) -> Ways:
+    flow.calls += 1
     ways = flow.functions.get(node.function)
     if ways is None:
         return ON
@@ -157,7 +176,8 @@ def check_flow(context: Context) -> None:
     """Check all ways through the program, its events and its functions."""
     tree = context.tree
     sets = sets_of_functions(tree)
-    flow = _Flow(ways_of_functions(tree), context, sets, _set_beside(tree, sets))
+    flow = _Flow(ways_of_functions(tree), context, sets, _set_beside(tree, sets), context.memories.flow)
+    flow.known.begin((flow.beside, sets))
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         flow.block(block)
     if tree.functions:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import cast
 
 from editor.language import nodes as n
@@ -22,8 +23,9 @@ from editor.language.outline import PROGRAM, Outline
 from editor.language.phrases import Options, Span
 from editor.language.plan import Constant
 from editor.language.reading import Reading
+from editor.language.remembering import Memories, Told
 from editor.language.scopes import program_variables
-from editor.language.surroundings import Surroundings
+from editor.language.surroundings import Surroundings, what_checks_see
 from editor.language.typing_of_values import NUMBER, SECONDS, TEXT, Kind, constant_value, plain_type
 from editor.language.walking import needed_of_roles, walk
 from editor.language.zones import read_zones
@@ -31,13 +33,18 @@ from registry.capability import ParameterSpec
 
 
 def check(
-    reading: Reading, tree: n.Tree, surroundings: Surroundings, document: object = None
+    reading: Reading,
+    tree: n.Tree,
+    surroundings: Surroundings,
+    document: object = None,
+    memories: Memories | None = None,
 ) -> list[tuple[Problem, int]]:
     """Return the problems of a program, each with the identity of its node (0: none); the order is always the same.
 
-    `tree` is the reading's tree with the moves that were put in, `document` what was read.
+    `tree` is the reading's tree with the moves that were put in, `document` what was read; `memories` have what was
+    found at the last look.
     """
-    context = Context(tree, surroundings)
+    context = Context(tree, surroundings, memories=memories or Memories())
     context.zones = frozenset(zone.id for zone in read_zones(document))
     found = context.found
     found.extend((problem, 0) for problem in reading.problems)
@@ -53,7 +60,7 @@ def check(
     check_parallel(context)
     check_library(context, document)
     check_floor(context, document)
-    context.found.extend(follow_loads(tree, context.capacity, context.robot_name))
+    context.found.extend(follow_loads(tree, context.capacity, context.robot_name, context.memories.loads))
     _check_left_over(context, reading)
     return context.found
 
@@ -62,22 +69,43 @@ def _check_steps(context: Context) -> None:
     """Check every step for itself, with what is known where it stands."""
     tree, site = context.tree, context.surroundings
     kinds = kinds_of_program(tree, program_variables(tree), site)
-    _check_block(context, tree.body, kinds)
+    context.memories.begin_checks(_all_around(context))
+    _check_block(context, PROGRAM, tree.body, kinds)
     for event in tree.events:
-        _check_block(context, event.body, kinds)
+        _check_block(context, event.step, event.body, kinds)
         check_condition(context, cast("n.Node", event), event.condition, "condition")  # an event has a step as nodes do
     for function in tree.functions:
         context.result = Kind(plain_type(function.result_type), function.result_unit)
-        _check_block(context, function.body, kinds_of_function(tree, function, kinds, site))
+        _check_block(context, function.method, function.body, kinds_of_function(tree, function, kinds, site))
     context.result = Kind()
 
 
-def _check_block(context: Context, block: n.Block, kinds: Mapping[str, Kind]) -> None:
+def _all_around(context: Context) -> object:
+    """Return all that the check of a step looks at beside the step, but for where robots are and other steps."""
+    functions = [(f.id, f.name, replace(f, body=())) for f in context.tree.functions]
+    roles = [(role.id, role) for role in context.tree.roles]
+    return functions, roles, context.zones, what_checks_see(context.surroundings)
+
+
+def _check_block(context: Context, name: str, block: n.Block, kinds: Mapping[str, Kind]) -> None:
     nodes = tuple(walk(block))
     loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
     context.variables = {name: kind for name, kind in kinds.items() if name not in loops} if loops else kinds
+    known = context.memories.of_block(name, (context.variables, context.result))
     for node in nodes:
-        CHECKS[type(node)](context, node)
+        told: Told | None = known.recall(node)
+        if told is None:
+            before = len(context.found)
+            CHECKS[type(node)](context, node)
+            if not _looks_around(node):
+                known.keep(node, tuple(context.found[before:]))
+        else:
+            context.found.extend(told)
+
+
+def _looks_around(node: n.Node) -> bool:
+    """Tell whether the check of a step looks at other steps, or at where robots are."""
+    return isinstance(node, n.Call | n.Parallel) or (isinstance(node, n.Move) and node.to.device is None)
 
 
 def _bodies(tree: n.Tree) -> tuple[n.Block, ...]:

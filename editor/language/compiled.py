@@ -16,7 +16,8 @@ from editor.language.phrases import LANGUAGES
 from editor.language.plan import Plan
 from editor.language.positions import add_moves
 from editor.language.printing import Script, print_tree
-from editor.language.reading import read_document
+from editor.language.reading import Reading, read_document
+from editor.language.remembering import Memories
 from editor.language.surroundings import Surroundings
 from editor.language.zones import read_zones, zone_names
 
@@ -41,21 +42,53 @@ class Compiled:
 
 def compile_document(document: object, surroundings: Surroundings) -> Compiled:
     """Compile a document (plain JSON, of any format so far) for a site. Nothing in the document makes this raise."""
-    reading = read_document(climb(document))
-    tree = add_moves(reading.tree, _standing(surroundings))
-    numbering = number_steps(tree)
-    numbers = numbering.numbers
-    script = print_tree(tree, surroundings, numbers, zone_names(document))
-    found = check(reading, tree, surroundings, document)
-    diagnostics = _in_words(found, numbers, script)
-    faulty = any(diagnostic.severity == "error" for diagnostic in diagnostics)
-    plan = None if faulty else compile_tree(tree, surroundings, script.line_of, read_zones(document))
-    outline = reading.outline
-    drafts = outline.with_inner((*outline.drafts, *outline.unknown))
-    order = (*numbers, *drafts)
-    depth = {**{step: numbering.depths[step] for step in numbers}, **drafts}
-    added = _added_moves(tree)
-    return Compiled(tree, script.text, script.lines, numbers, diagnostics, plan, added, order, depth)
+    return look_at(document, surroundings, Memories()).compiled()
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """A document read and checked; how it is shown and carried out is worked out when it is asked for."""
+
+    document: object
+    surroundings: Surroundings
+    reading: Reading
+    tree: Tree
+    found: list[tuple[Problem, int]]
+    """The problems, each with the identity of its node."""
+
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """Return the problems in words, in reading order."""
+        if not self.found:
+            return ()
+        numbers = number_steps(self.tree).numbers
+        return _in_words(self.found, numbers, self._script(numbers))
+
+    def compiled(self, *, with_plan: bool = True) -> Compiled:
+        """Return all forms of the program; the plan may be left out."""
+        tree, numbering = self.tree, number_steps(self.tree)
+        numbers, script = numbering.numbers, self._script(numbering.numbers)
+        diagnostics = _in_words(self.found, numbers, script)
+        faulty = any(diagnostic.severity == "error" for diagnostic in diagnostics)
+        plan = None
+        if with_plan and not faulty:
+            plan = compile_tree(tree, self.surroundings, script.line_of, read_zones(self.document))
+        outline = self.reading.outline
+        drafts = outline.with_inner((*outline.drafts, *outline.unknown))
+        order = (*numbers, *drafts)
+        depth = {**{step: numbering.depths[step] for step in numbers}, **drafts}
+        added = _added_moves(tree)
+        return Compiled(tree, script.text, script.lines, numbers, diagnostics, plan, added, order, depth)
+
+    def _script(self, numbers: Mapping[str, str]) -> Script:
+        return print_tree(self.tree, self.surroundings, numbers, zone_names(self.document))
+
+
+def look_at(document: object, surroundings: Surroundings, memories: Memories) -> Look:
+    """Read and check a document; what the memories hold of the last look is used, and they then hold this one."""
+    reading = read_document(climb(document), memories.read)
+    tree = add_moves(reading.tree, _standing(surroundings), memories.positions)
+    found = check(reading, tree, surroundings, document, memories)
+    return Look(document, surroundings, reading, tree, found)
 
 
 def _standing(surroundings: Surroundings) -> dict[str, str]:

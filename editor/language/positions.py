@@ -37,6 +37,7 @@ from editor.language.nodes import (
     While,
 )
 from editor.language.plan import PlaceRef, Variable
+from editor.language.remembering import Memory
 from editor.language.variables import set_in, sets_of_functions
 from editor.language.walking import callees_first, functions_in_circles, roles_used, walk
 
@@ -48,6 +49,15 @@ _Composite = If | While | Repeat | ForEach | Parallel | Try
 _COMPOSITE: Final = (If, While, Repeat, ForEach, Parallel, Try)
 _SETS: Final = (Set, Ask)
 _LEAVES: Final = (End, Return, Break)
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """A step with its moves, where robots stand after it, and where it relies on their standing at the beginning."""
+
+    node: Node
+    after: Standing | None
+    relied_on: Mapping[str, str]
 
 
 @dataclass(slots=True)
@@ -71,6 +81,8 @@ class _Follower:
     breaks: list[list[Standing]] = field(default_factory=list)
     """For each loop around, innermost last, where the robots stand at the steps that leave it."""
     returns: list[Standing] = field(default_factory=list)
+    known: Memory = field(default_factory=Memory)
+    calls: int = 0
 
     def block(self, block: Block, standing: Standing) -> tuple[Block, Standing | None]:
         """Return the block with its moves, and where the robots stand after it."""
@@ -89,7 +101,7 @@ class _Follower:
                 standing = _without_values(standing, {node.variable})
                 nodes.append(node)
             elif isinstance(node, _COMPOSITE):
-                inner, after = self._composite(node, standing)
+                inner, after = self._followed(node, standing)
                 ends, standing = ends or after is None, after or {}
                 nodes.append(inner)
             else:
@@ -98,6 +110,20 @@ class _Follower:
                     self._leave(node, standing)
                     ends, standing = True, {}
         return tuple(nodes), None if ends else standing
+
+    def _followed(self, node: _Composite, before: Standing) -> tuple[Node, Standing | None]:
+        """Follow a step that holds others; what depends on nothing else is remembered."""
+        known: _Found | None = self.known.recall(node, before)
+        if known is None:
+            outside, self.relied_on = self.relied_on, {}
+            ways_out = self.calls, len(self.returns), len(self.breaks[-1]) if self.breaks else 0
+            inner, after = self._composite(node, before)
+            known = _Found(inner, after, self.relied_on)
+            self.relied_on = outside
+            if ways_out == (self.calls, len(self.returns), len(self.breaks[-1]) if self.breaks else 0):
+                self.known.keep(node, known, before)
+        self.relied_on.update(known.relied_on)
+        return known.node, known.after
 
     def _leave(self, node: End | Return | Break, standing: Standing) -> None:
         if isinstance(node, Return):
@@ -202,6 +228,7 @@ class _Follower:
 
     def _call(self, node: Call, standing: Standing) -> Standing:
         """After a call a robot stands where the function leaves it, unless an argument decides that."""
+        self.calls += 1
         exits = self.exits.get(node.function, {})
         known = {role: place for role, place in exits.items() if place.value is None}
         kept = _without(standing, self.moved.get(node.function, frozenset()))
@@ -242,26 +269,30 @@ def _agreed(first: Standing | None, second: Standing | None) -> Standing | None:
     return {role: place for role, place in first.items() if second.get(role) == place}
 
 
-def add_moves(tree: Tree, standing_at: Mapping[str, str]) -> Tree:
-    """Return the tree with the moves that were missing; `standing_at` says where known robots stand (device ids)."""
+def add_moves(tree: Tree, standing_at: Mapping[str, str], known: Memory | None = None) -> Tree:
+    """Return the tree with the moves that were missing; `standing_at` says where known robots stand (device ids).
+
+    `known` has what was found at the last look.
+    """
     initial = {
         role.name: PlaceRef(device=standing_at[role.device])
         for role in tree.roles
         if role.device is not None and role.device in standing_at
     }
-    return _follow(tree, initial, settle=False)[0]
+    return _follow(tree, initial, known or Memory(), settle=False)[0]
 
 
 def settle_places(tree: Tree) -> tuple[Tree, tuple[Pick | Drop, ...]]:
     """Return the tree of a parsed script with the places of its picks and drops, and those without a place."""
     initial = {role.name: PlaceRef(device=role.at) for role in tree.roles if role.at is not None}
-    return _follow(tree, initial, settle=True)
+    return _follow(tree, initial, Memory(), settle=True)
 
 
-def _follow(tree: Tree, initial: Standing, *, settle: bool) -> tuple[Tree, tuple[Pick | Drop, ...]]:
+def _follow(tree: Tree, initial: Standing, known: Memory, *, settle: bool) -> tuple[Tree, tuple[Pick | Drop, ...]]:
+    known.begin(initial)
     circular = functions_in_circles(tree) if tree.functions else frozenset()
     moved = {function.method: roles_used(function.body, tree) for function in tree.functions}
-    follower = _Follower(moved, sets_of_functions(tree), circular, settle, initial)
+    follower = _Follower(moved, sets_of_functions(tree), circular, settle, initial, known=known)
     finished = {function.method: follower.function(function) for function in callees_first(tree)}
     body, _ = follower.block(tree.body, initial)
     events = tuple(replace(event, body=follower.block(event.body, {})[0]) for event in tree.events)

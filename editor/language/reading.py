@@ -52,6 +52,7 @@ from editor.language.reading_names import (
     text_of,
     variables_by_root,
 )
+from editor.language.remembering import ReadSteps, StepRead
 from editor.language.values import Names, UnknownParameter, read_place, read_point, read_value
 from editor.language.walking import in_reading_order
 
@@ -80,10 +81,14 @@ class _Reader:
     names: Names
     """The parameters and variables that can be seen in the block being read."""
     problems: list[Problem] = field(default_factory=list)
+    known: ReadSteps = field(default_factory=ReadSteps)
+    looked_around: bool = False
+    """Whether a value was read that depends on other steps."""
     _driven: frozenset[str] | None = None
 
     def robot(self, role: str) -> Expression:
         """Return what stands for the robot of a role: the role where steps drive it, else the device it is."""
+        self.looked_around = True
         if self._driven is None:
             self._driven = _driven_roles(self.outline)
         found = self.roles.get(role)
@@ -138,10 +143,24 @@ class _Reader:
     def block(self, parent: str, branch: str) -> Block:
         """Return the nodes of one branch."""
         nodes: list[Node] = []
-        outline = self.outline
-        for step in outline.children.get((parent, branch), ()):
-            nodes.extend(READERS[outline.kinds[step]](self, step, outline.params[step]))
+        for step in self.outline.children.get((parent, branch), ()):
+            known = self.known.steps.get(step)
+            if known is None or known.names != self.names:
+                nodes.extend(self._read(step))
+            else:
+                nodes.extend(known.nodes)
+                self.problems.extend(known.problems)
         return tuple(nodes)
+
+    def _read(self, step: str) -> tuple[Node, ...]:
+        """Read a step and keep what depends on nothing but it and the names that it sees."""
+        around, self.looked_around = self.looked_around, False
+        told = len(self.problems)
+        nodes = READERS[self.outline.kinds[step]](self, step, self.outline.params[step])
+        if not self.looked_around:
+            self.known.steps[step] = StepRead(nodes, tuple(self.problems[told:]), self.names)
+        self.looked_around = self.looked_around or around
+        return nodes
 
 
 def _driven_roles(outline: Outline) -> frozenset[str]:
@@ -324,8 +343,11 @@ READERS: Mapping[str, Reads] = {
 }
 
 
-def read_document(document: object) -> Reading:
-    """Read a document (plain JSON, format 2); nothing in it makes this raise."""
+def read_document(document: object, known: ReadSteps | None = None) -> Reading:
+    """Read a document (plain JSON, format 2); nothing in it makes this raise.
+
+    `known` has the steps as they were read last, and has them as they are read now.
+    """
     whole = mapping(document)
     outline = make_outline(whole)
     parameters, names = read_parameters(by_id(whole.get("parameters")).items())
@@ -340,10 +362,11 @@ def read_document(document: object) -> Reading:
         if name not in names:
             names[name] = attribute_name(name, taken)
             taken.add(names[name])
-    reader = _Reader(outline, roles, functions, {}, names)
+    reader = _Reader(outline, roles, functions, {}, names, known=known or ReadSteps())
     for key, function in functions.items():
         listed, reader.argument_names[key] = read_arguments(given[key], names)
         functions[key] = replace(function, parameters=listed)
+    reader.known.begin(outline, (roles, [(f.id, f.name, f) for f in functions.values()], reader.argument_names))
     body, events = reader.block(PROGRAM, "body"), _read_events(reader)
     finished = [_with_body(reader, function, names, variables.get(key, ())) for key, function in functions.items()]
     tree = in_reading_order(Tree(body, tuple(finished), tuple(roles.values()), parameters, events))

@@ -71,3 +71,13 @@ class Surroundings:
     floor: FloorFacts | None = None
     library: Mapping[str, LibraryFacts] | None = None
     """The functions of the library by id; None: nobody knows them here."""
+
+
+def what_checks_see(surroundings: Surroundings) -> object:
+    """Return all that checks of single steps look at, to compare; where robots are and what is measured is left out."""
+    devices = [
+        (facts.lifecycle, facts.online, d.id, d.name, d.kind, d.gives, d.takes, d.capacity, d.properties, d.methods)
+        for facts in surroundings.devices.values()
+        for d in (facts.description,)
+    ]
+    return [*surroundings.devices], devices, surroundings.places
