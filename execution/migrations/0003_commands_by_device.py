@@ -4,15 +4,14 @@ from django.db import migrations, models
 
 
 class Migration(migrations.Migration):
-
     dependencies = [
-        ('execution', '0002_whole_language'),
-        ('registry', '0002_device_event_changes'),
+        ("execution", "0002_whole_language"),
+        ("registry", "0002_device_event_changes"),
     ]
 
     operations = [
         migrations.AddIndex(
-            model_name='command',
-            index=models.Index(fields=['device', 'position'], name='execution_c_device_def2c3_idx'),
+            model_name="command",
+            index=models.Index(fields=["device", "position"], name="execution_c_device_def2c3_idx"),
         ),
     ]
