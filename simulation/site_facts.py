@@ -8,9 +8,9 @@ from registry import services as registry
 from registry.capability import Description, Pose
 from registry.demo import devices as demo
 from registry.demo.factory import make_grid, read_plan
+from registry.describing import read_description, write_description
 from registry.errors import RegistryError
 from registry.floor import Grid
-from registry.describing import read_description, write_description
 
 
 class NothingToSimulate(RegistryError):

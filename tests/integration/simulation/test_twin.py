@@ -17,8 +17,8 @@ from pathlib import Path
 import pytest
 
 from registry.capability import Pose
-from registry.mqtt import MqttClient, Will
 from registry.describing import read_description
+from registry.mqtt import MqttClient, Will
 from registry.wire import parse_presence, parse_state
 from simulation.site_facts import demo_facts
 from simulation.twin import Twin, TwinPlan
