@@ -44,7 +44,7 @@ class _Follower:
     """For each loop around, innermost last, what is carried at the steps that leave it."""
     returns: list[list[Carried]] = field(default_factory=list)
     """The same for the functions being followed."""
-    known: Memory = field(default_factory=Memory)
+    known: Memory | None = None
     met: int = 0
     """Calls that were met, also those that were not followed."""
 
@@ -55,18 +55,19 @@ class _Follower:
             follow = _FOLLOW.get(type(node))
             if follow is not None and after is not None:
                 remembers = node.__class__ in n.COMPOSITES and not (self.silent or self.depth)
-                after = self._followed(node, after) if remembers else follow(self, node, after, values)
+                known = self.known if remembers else None
+                after = follow(self, node, after, values) if known is None else self._followed(node, after, known)
         return after
 
-    def _followed(self, node: n.Node, carried: Carried) -> Carried | None:
+    def _followed(self, node: n.Node, carried: Carried, memory: Memory) -> Carried | None:
         """Follow a step outside of functions that holds others; what depends on nothing else is remembered."""
-        known: tuple[Carried | None, Told] | None = self.known.recall(node, carried)
+        known: tuple[Carried | None, Told] | None = memory.recall(node, carried)
         if known is None:
             told, ways_out = len(self.found), (self.met, len(self.breaks[-1]) if self.breaks else 0)
             after = _FOLLOW[type(node)](self, node, carried, {})
             known = after, tuple(self.found[told:])
             if ways_out == (self.met, len(self.breaks[-1]) if self.breaks else 0):
-                self.known.keep(node, known, carried)
+                memory.keep(node, known, carried)
         else:
             self.found.extend(known[1])
         return known[0]
@@ -299,9 +300,10 @@ def follow_loads(
     was found at the last look.
     """
     functions = {function.method: function for function in tree.functions}
-    follower = _Follower(functions, capacity, robot, known=known or Memory())
-    drivers = frozenset(node.role for f in tree.functions for node in walk(f.body) if isinstance(node, n.LOADS))
-    follower.known.begin((drivers, [(role.name, capacity(role.name), robot(role.name)) for role in tree.roles]))
+    follower = _Follower(functions, capacity, robot, known=known)
+    if known is not None:
+        drivers = frozenset(node.role for f in tree.functions for node in walk(f.body) if isinstance(node, n.LOADS))
+        known.begin((drivers, [(role.name, capacity(role.name), robot(role.name)) for role in tree.roles]))
     follower.block(tree.body, {}, {})
     for event in tree.events:
         follower.block(event.body, _forget({}, frozenset(role.name for role in tree.roles)), {})

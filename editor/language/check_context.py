@@ -32,7 +32,7 @@ class Context:
     found: list[tuple[Problem, int]] = field(default_factory=list)
     functions: Mapping[str, n.Function] = field(init=False)
     roles: Mapping[str, n.Role] = field(init=False)
-    memories: Memories = field(default_factory=Memories)
+    memories: Memories | None = None
     """What was found at the last look."""
     stations: dict[tuple[str, str], tuple[n.Point | None, ...]] = field(default_factory=dict)
     """Where each robot of a role would stand to serve a device, as far as it was asked for."""

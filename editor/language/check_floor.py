@@ -8,7 +8,6 @@ from editor.language import nodes as n
 from editor.language.check_context import Context
 from editor.language.diagnostics import TextArguments
 from editor.language.plan import PlaceRef, Zone
-from editor.language.walking import walk
 from editor.language.zones import area_m2, is_in, read_zones
 from registry.capability import Description
 
@@ -21,7 +20,7 @@ def check_floor(context: Context, document: object) -> None:
     tree = context.tree
     closed = [zone for zone in zones if zone.rule == "keep_out"]
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
-        for node in walk(block):
+        for node in tree.walked(block):
             if isinstance(node, n.LOADS):
                 _check_goal(context, node, node.at, node.place_field, closed)
             elif isinstance(node, n.Move) and not node.added:

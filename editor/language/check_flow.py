@@ -31,7 +31,7 @@ class _Flow:
     """The variables that each function sets."""
     beside: frozenset[str] = frozenset()
     """Variables that events or the branches of a Parallel set; they may change at any time."""
-    known: Memory = field(default_factory=Memory)
+    known: Memory | None = None
     calls: int = 0
 
     def block(self, block: n.Block) -> Ways:
@@ -50,7 +50,7 @@ class _Flow:
 
     def _followed(self, node: n.Node) -> Ways:
         """Follow a step that holds others; without calls what is found depends on nothing else."""
-        if self.context is None:
+        if self.context is None or self.known is None:
             return _FOLLOW[type(node)](self, node)
         known: tuple[Ways, Told] | None = self.known.recall(node)
         if known is None:
@@ -176,8 +176,10 @@ def check_flow(context: Context) -> None:
     """Check all ways through the program, its events and its functions."""
     tree = context.tree
     sets = sets_of_functions(tree)
-    flow = _Flow(ways_of_functions(tree), context, sets, _set_beside(tree, sets), context.memories.flow)
-    flow.known.begin((flow.beside, sets))
+    flow = _Flow(ways_of_functions(tree), context, sets, _set_beside(tree, sets))
+    if context.memories is not None:
+        flow.known = context.memories.flow
+        flow.known.begin((flow.beside, sets))
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         flow.block(block)
     if tree.functions:
@@ -191,7 +193,7 @@ def _set_beside(tree: n.Tree, sets: Mapping[str, frozenset[str]]) -> frozenset[s
     for event in tree.events:
         names |= set_in(event.body, sets)
     for block in (tree.body, *(function.body for function in tree.functions)):
-        for node in walk(block):
+        for node in tree.walked(block):
             if isinstance(node, n.Parallel):
                 names = names.union(*(set_in(branch, sets) for branch in node.branches))
     return names

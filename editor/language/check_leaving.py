@@ -27,6 +27,8 @@ class _Around:
 def check_leaving(context: Context) -> None:
     """Check every break and every return of the program."""
     tree = context.tree
+    if not tree.holds(n.Break, n.Return):
+        return
     for block in (tree.body, *(event.body for event in tree.events)):
         _block(context, block, _Around())
     for function in tree.functions:

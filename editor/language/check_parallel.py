@@ -60,7 +60,7 @@ def check_parallel(context: Context) -> None:
                 if key in main:
                     context.tell_step(event.step, "event_shares_robot", "", {"robot": context.driver_name(role)})
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
-        for node in walk(block):
+        for node in tree.walked(block):
             if isinstance(node, n.Parallel):
                 _check_waiting(context, node)
 
@@ -123,4 +123,4 @@ def _with(expression: Expression, values: Mapping[str, Expression]) -> Expressio
 
 def _all_nodes(tree: n.Tree) -> Iterator[n.Node]:
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
-        yield from walk(block)
+        yield from tree.walked(block)

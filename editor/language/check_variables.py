@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from editor.language import nodes as n
 from editor.language.check_context import Context
 from editor.language.typing_of_values import constant_value
-from editor.language.variables import read_by, set_by, set_in, sets_of_functions
+from editor.language.variables import SETTERS, read_by, set_by, set_in, sets_of_functions
 from editor.language.walking import callees_first, functions_in_circles, walk
 
 Names = frozenset[str]
@@ -179,7 +179,7 @@ _FOLLOW: Mapping[type[n.Node], Callable[..., _State | None]] = {
 def check_variables(context: Context) -> None:
     """Check where the variables of the program and of its functions get their values and where they are read."""
     blocks = _blocks(context.tree)
-    if not any(set_by(node) for block in blocks for node in walk(block)):
+    if not context.tree.holds(*SETTERS):
         return
     _check_use(context, blocks)
     _check_order(context)

@@ -25,7 +25,7 @@ from editor.language.plan import Constant
 from editor.language.reading import Reading
 from editor.language.remembering import Memories, Told
 from editor.language.scopes import program_variables
-from editor.language.surroundings import Surroundings, what_checks_see
+from editor.language.surroundings import Surroundings, what_programs_see
 from editor.language.typing_of_values import NUMBER, SECONDS, TEXT, Kind, constant_value, plain_type
 from editor.language.walking import needed_of_roles, walk
 from editor.language.zones import read_zones
@@ -44,7 +44,7 @@ def check(
     `tree` is the reading's tree with the moves that were put in, `document` what was read; `memories` have what was
     found at the last look.
     """
-    context = Context(tree, surroundings, memories=memories or Memories())
+    context = Context(tree, surroundings, memories=memories)
     context.zones = frozenset(zone.id for zone in read_zones(document))
     found = context.found
     found.extend((problem, 0) for problem in reading.problems)
@@ -60,7 +60,7 @@ def check(
     check_parallel(context)
     check_library(context, document)
     check_floor(context, document)
-    context.found.extend(follow_loads(tree, context.capacity, context.robot_name, context.memories.loads))
+    context.found.extend(follow_loads(tree, context.capacity, context.robot_name, memories.loads if memories else None))
     _check_left_over(context, reading)
     return context.found
 
@@ -69,7 +69,8 @@ def _check_steps(context: Context) -> None:
     """Check every step for itself, with what is known where it stands."""
     tree, site = context.tree, context.surroundings
     kinds = kinds_of_program(tree, program_variables(tree), site)
-    context.memories.begin_checks(_all_around(context))
+    if context.memories is not None:
+        context.memories.begin_checks(_all_around(context))
     _check_block(context, PROGRAM, tree.body, kinds)
     for event in tree.events:
         _check_block(context, event.step, event.body, kinds)
@@ -84,13 +85,17 @@ def _all_around(context: Context) -> object:
     """Return all that the check of a step looks at beside the step, but for where robots are and other steps."""
     functions = [(f.id, f.name, replace(f, body=())) for f in context.tree.functions]
     roles = [(role.id, role) for role in context.tree.roles]
-    return functions, roles, context.zones, what_checks_see(context.surroundings)
+    return functions, roles, context.zones, what_programs_see(context.surroundings)
 
 
 def _check_block(context: Context, name: str, block: n.Block, kinds: Mapping[str, Kind]) -> None:
-    nodes = tuple(walk(block))
+    nodes = context.tree.walked(block)
     loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
     context.variables = {name: kind for name, kind in kinds.items() if name not in loops} if loops else kinds
+    if context.memories is None:
+        for node in nodes:
+            CHECKS[type(node)](context, node)
+        return
     known = context.memories.of_block(name, (context.variables, context.result))
     for node in nodes:
         told: Told | None = known.recall(node)
@@ -317,12 +322,12 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
 def _check_roles(context: Context) -> None:
     """Check every robot at the first step that uses it."""
     tree = context.tree
-    needed = needed_of_roles(_bodies(tree))
+    needed = needed_of_roles(tree, tree.functions)
     first: dict[str, n.Node] = {}
     for block in _bodies(tree):
-        for node in walk(block):
-            if isinstance(node, n.DRIVES):
-                first.setdefault(node.role, node)
+        for node in tree.walked(block):
+            if isinstance(node, n.DRIVES) and node.role not in first:
+                first[node.role] = node
     for role in tree.roles:
         check_role(context, first[role.name], role, needed[role.name])
 

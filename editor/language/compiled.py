@@ -17,7 +17,7 @@ from editor.language.plan import Plan
 from editor.language.positions import add_moves
 from editor.language.printing import Script, print_tree
 from editor.language.reading import Reading, read_document
-from editor.language.remembering import Memories
+from editor.language.remembering import Memories, Memory
 from editor.language.surroundings import Surroundings
 from editor.language.zones import read_zones, zone_names
 
@@ -42,7 +42,7 @@ class Compiled:
 
 def compile_document(document: object, surroundings: Surroundings) -> Compiled:
     """Compile a document (plain JSON, of any format so far) for a site. Nothing in the document makes this raise."""
-    return look_at(document, surroundings, Memories()).compiled()
+    return look_at(document, surroundings).compiled()
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +55,7 @@ class Look:
     tree: Tree
     found: list[tuple[Problem, int]]
     """The problems, each with the identity of its node."""
+    printed: Memory | None
 
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """Return the problems in words, in reading order."""
@@ -80,15 +81,15 @@ class Look:
         return Compiled(tree, script.text, script.lines, numbers, diagnostics, plan, added, order, depth)
 
     def _script(self, numbers: Mapping[str, str]) -> Script:
-        return print_tree(self.tree, self.surroundings, numbers, zone_names(self.document))
+        return print_tree(self.tree, self.surroundings, numbers, zone_names(self.document), self.printed)
 
 
-def look_at(document: object, surroundings: Surroundings, memories: Memories) -> Look:
+def look_at(document: object, surroundings: Surroundings, memories: Memories | None = None) -> Look:
     """Read and check a document; what the memories hold of the last look is used, and they then hold this one."""
-    reading = read_document(climb(document), memories.read)
-    tree = add_moves(reading.tree, _standing(surroundings), memories.positions)
+    reading = read_document(climb(document), memories.read if memories else None)
+    tree = add_moves(reading.tree, _standing(surroundings), memories.positions if memories else None)
     found = check(reading, tree, surroundings, document, memories)
-    return Look(document, surroundings, reading, tree, found)
+    return Look(document, surroundings, reading, tree, found, memories.printed if memories else None)
 
 
 def _standing(surroundings: Surroundings) -> dict[str, str]:

@@ -272,6 +272,19 @@ class Tree:
     roles: tuple[Role, ...] = ()
     parameters: tuple[Parameter, ...] = ()
     events: tuple[Event, ...] = ()
+    _walked: dict[int, list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def walked(self, block: Block) -> list[Node]:
+        """Return the nodes of one of the tree's own blocks as `walk` does; they are gathered once."""
+        nodes = self._walked.get(id(block))
+        if nodes is None:
+            nodes = self._walked[id(block)] = walk(block)
+        return nodes
+
+    def holds(self, *kinds: type[Node]) -> bool:
+        """Tell whether any step of the program is of one of these kinds."""
+        blocks = (self.body, *(f.body for f in self.functions), *(event.body for event in self.events))
+        return any(node.__class__ in kinds for block in blocks for node in self.walked(block))
 
 
 COMPOSITES = frozenset({If, While, Repeat, ForEach, Parallel, Try})
@@ -292,3 +305,18 @@ def blocks_of(node: Node) -> tuple[Block, ...]:
         case Try(body=body, catch=catch, final=final):
             return (body, catch, final)
     return ()
+
+
+def walk(block: Block) -> list[Node]:
+    """Return the nodes of a block and of everything in it, in reading order."""
+    nodes: list[Node] = []
+    _gather(block, nodes)
+    return nodes
+
+
+def _gather(block: Block, nodes: list[Node]) -> None:
+    for node in block:
+        nodes.append(node)
+        if node.__class__ in COMPOSITES:
+            for inner in blocks_of(node):
+                _gather(inner, nodes)

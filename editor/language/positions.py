@@ -81,7 +81,7 @@ class _Follower:
     breaks: list[list[Standing]] = field(default_factory=list)
     """For each loop around, innermost last, where the robots stand at the steps that leave it."""
     returns: list[Standing] = field(default_factory=list)
-    known: Memory = field(default_factory=Memory)
+    known: Memory | None = None
     calls: int = 0
 
     def block(self, block: Block, standing: Standing) -> tuple[Block, Standing | None]:
@@ -113,6 +113,8 @@ class _Follower:
 
     def _followed(self, node: _Composite, before: Standing) -> tuple[Node, Standing | None]:
         """Follow a step that holds others; what depends on nothing else is remembered."""
+        if self.known is None:
+            return self._composite(node, before)
         known: _Found | None = self.known.recall(node, before)
         if known is None:
             outside, self.relied_on = self.relied_on, {}
@@ -279,17 +281,20 @@ def add_moves(tree: Tree, standing_at: Mapping[str, str], known: Memory | None =
         for role in tree.roles
         if role.device is not None and role.device in standing_at
     }
-    return _follow(tree, initial, known or Memory(), settle=False)[0]
+    return _follow(tree, initial, known, settle=False)[0]
 
 
 def settle_places(tree: Tree) -> tuple[Tree, tuple[Pick | Drop, ...]]:
     """Return the tree of a parsed script with the places of its picks and drops, and those without a place."""
     initial = {role.name: PlaceRef(device=role.at) for role in tree.roles if role.at is not None}
-    return _follow(tree, initial, Memory(), settle=True)
+    return _follow(tree, initial, None, settle=True)
 
 
-def _follow(tree: Tree, initial: Standing, known: Memory, *, settle: bool) -> tuple[Tree, tuple[Pick | Drop, ...]]:
-    known.begin(initial)
+def _follow(
+    tree: Tree, initial: Standing, known: Memory | None, *, settle: bool
+) -> tuple[Tree, tuple[Pick | Drop, ...]]:
+    if known is not None:
+        known.begin(initial)
     circular = functions_in_circles(tree) if tree.functions else frozenset()
     moved = {function.method: roles_used(function.body, tree) for function in tree.functions}
     follower = _Follower(moved, sets_of_functions(tree), circular, settle, initial, known=known)

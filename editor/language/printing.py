@@ -17,8 +17,9 @@ from editor.language.nodes import (
 )
 from editor.language.printing_steps import Printer
 from editor.language.quoting import quote
+from editor.language.remembering import Memory
 from editor.language.scopes import local_variables, program_variables
-from editor.language.surroundings import Surroundings
+from editor.language.surroundings import Surroundings, what_programs_see
 from editor.language.type_names import write_type
 
 
@@ -32,13 +33,22 @@ class Script:
 
 
 def print_tree(
-    tree: Tree, surroundings: Surroundings, numbers: Mapping[str, str], zone_names: Mapping[str, str] | None = None
+    tree: Tree,
+    surroundings: Surroundings,
+    numbers: Mapping[str, str],
+    zone_names: Mapping[str, str] | None = None,
+    known: Memory | None = None,
 ) -> Script:
-    """Return the script of a tree whose steps have these numbers; zones are called by `zone_names`, by id."""
+    """Return the script of a tree whose steps have these numbers; zones are called by `zone_names`, by id.
+
+    `known` has what was printed last.
+    """
     names = {role.name for role in tree.roles} | {function.method for function in tree.functions}
     shared = program_variables(tree)
     taken = RESERVED_ATTRIBUTES | names | shared | {parameter.name for parameter in tree.parameters}
-    printer = Printer(tree, surroundings, numbers, set(taken), zone_names=zone_names or {})
+    printer = Printer(tree, surroundings, numbers, set(taken), zone_names=zone_names or {}, known=known)
+    if known is not None:
+        known.begin(what_programs_see(surroundings))
     printer.line(0, "class Task(object):")
     _print_method(printer, "def new_task(self):", tree.body)
     for function in tree.functions:
@@ -47,7 +57,7 @@ def print_tree(
     for event in tree.events:
         _print_method(printer, f"def {_event_method(printer, event)}(self):", event.body, step=event.step)
     _print_run(printer)
-    return Script("\n".join(printer.texts) + "\n", tuple(printer.steps), printer.line_of)
+    return Script("\n".join(printer.texts) + "\n", tuple(printer.steps), dict(printer.places))
 
 
 def _heading(function: Function) -> str:
@@ -100,7 +110,7 @@ def _print_run(printer: Printer) -> None:
     for zone, attribute in printer.zones.items():
         printer.line(2, f"{attribute} = ctx.zone({quote(zone)})")
     for event, condition in watched:
-        printer.line_of[id(event)] = len(printer.texts) + 1
+        printer.places.append((id(event), len(printer.texts) + 1))
         when = "ctx.start_when" if event.starts == "run" else "ctx.when"
         printer.line(2, f"{when}({condition}, self.{_event_method(printer, event)})", event.step)
     printer.line(2, "self.new_task()")

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from editor.language.expression_text import quantity_text, scalar_text, write_expression
 from editor.language.names import RESERVED_MEMBERS, snake_case, unique_name
 from editor.language.nodes import (
+    COMPOSITES,
     Ask,
     Block,
     Break,
@@ -35,6 +36,7 @@ from editor.language.nodes import (
 from editor.language.numbering import letters_of
 from editor.language.plan import Expression, Located, PlaceRef, Quantity
 from editor.language.quoting import quote
+from editor.language.remembering import Memory
 from editor.language.surroundings import Surroundings
 
 ERROR_CLASSES: Mapping[str, str] = {
@@ -48,6 +50,16 @@ ERROR_CLASSES: Mapping[str, str] = {
 _INDENTS = tuple("    " * depth for depth in range(80))
 
 
+@dataclass(frozen=True, slots=True)
+class _Printed:
+    """The lines of a step that holds others, and where each node stands in them, counted from 1."""
+
+    texts: tuple[str, ...]
+    steps: tuple[str, ...]
+    places: tuple[tuple[int, int], ...]
+    names: Mapping[PlaceRef | Located | str, str]
+
+
 @dataclass(slots=True)
 class Printer:
     """The text so far, and the names that devices and places have in it."""
@@ -58,7 +70,8 @@ class Printer:
     taken: set[str]
     texts: list[str] = field(default_factory=list)
     steps: list[str] = field(default_factory=list)
-    line_of: dict[int, int] = field(default_factory=dict)
+    places: list[tuple[int, int]] = field(default_factory=list)
+    """The line of each node, by the node's identity."""
     attributes: dict[PlaceRef | str, str] = field(default_factory=dict)
     """Devices (by id) and places, with their names in the script, in the order of first use."""
     locals: tuple[str, ...] = ()
@@ -71,6 +84,9 @@ class Printer:
     """What people call the zones, by id."""
     zones: dict[str, str] = field(default_factory=dict)
     """Zones (by id) with their names in the script, in the order of first use."""
+    known: Memory | None = None
+    used: dict[PlaceRef | Located | str, str] = field(default_factory=dict)
+    """The devices, places and zones that the step being printed names, in the order of first use."""
 
     def line(self, depth: int, text: str, step: str = "") -> None:
         """Add a line."""
@@ -80,10 +96,46 @@ class Printer:
     def block(self, block: Block, depth: int) -> None:
         """Print a block; an empty one says so."""
         for node in block:
-            self.line_of[id(node)] = len(self.texts) + 1
-            PRINTERS[type(node)](self, node, depth)
+            if self.known is not None and node.__class__ in COMPOSITES:
+                self._holding(self.known, node, depth)
+            else:
+                self.places.append((id(node), len(self.texts) + 1))
+                PRINTERS[type(node)](self, node, depth)
         if not block:
             self.line(depth, "pass")
+
+    def _holding(self, memory: Memory, node: Node, depth: int) -> None:
+        """Print a step that holds others, or take its lines as they were when all names are still the same."""
+        given = depth, self.locals
+        known: _Printed | None = memory.recall(node, given)
+        begin = len(self.texts)
+        if known is None or any(self._name_of(key) != name for key, name in known.names.items()):
+            known = self._print_anew(node, depth)
+            if known is not None:
+                memory.keep(node, known, given)
+        else:
+            self.texts.extend(known.texts)
+            self.steps.extend(known.steps)
+            self.used.update(known.names)
+            self.places.extend([(key, begin + line) for key, line in known.places])
+
+    def _print_anew(self, node: Node, depth: int) -> _Printed | None:
+        """Print a step that holds others; None where its lines depend on its number, or print more elsewhere."""
+        outside, self.used = self.used, {}
+        begin, branches, placed = len(self.texts), len(self.branches), len(self.places)
+        self.places.append((id(node), begin + 1))
+        PRINTERS[type(node)](self, node, depth)
+        names, self.used = self.used, outside
+        self.used.update(names)
+        if len(self.branches) != branches:
+            return None
+        places = tuple((key, line - begin) for key, line in self.places[placed:])
+        return _Printed(tuple(self.texts[begin:]), tuple(self.steps[begin:]), places, names)
+
+    def _name_of(self, key: PlaceRef | Located | str) -> str:
+        if isinstance(key, str):
+            return self.device(key)
+        return self.named_place(key) if isinstance(key, PlaceRef) else self.zone(key.zone or "")
 
     def device(self, device_id: str) -> str:
         """Return the attribute of a device, giving it one at its first use."""
@@ -91,6 +143,7 @@ class Printer:
         if known is None:
             facts = self.surroundings.devices.get(device_id)
             known = self._new_attribute(device_id, facts.description.name if facts else device_id)
+        self.used[device_id] = known
         return known
 
     def named_place(self, place: PlaceRef) -> str:
@@ -99,6 +152,7 @@ class Printer:
         if known is None:
             facts = self.surroundings.places.get(place.place or "")
             known = self._new_attribute(place, facts.name if facts else place.place or "")
+        self.used[place] = known
         return known
 
     def zone(self, zone_id: str) -> str:
@@ -107,6 +161,7 @@ class Printer:
             attribute = unique_name(self.zone_names.get(zone_id) or zone_id, self.taken)
             self.taken.add(attribute)
             self.zones[zone_id] = f"self.{attribute}"
+        self.used[Located(zone=zone_id)] = self.zones[zone_id]
         return self.zones[zone_id]
 
     def located(self, located: Located) -> str:

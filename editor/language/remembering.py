@@ -73,13 +73,12 @@ class ReadSteps:
 
 def _changed(before: Outline, after: Outline) -> set[str]:
     """Return the steps that are gone or read otherwise, with the steps around them."""
-    changed = {step for step in before.kinds if step not in after.kinds}
-    for step, kind in after.kinds.items():
-        if kind != before.kinds.get(step) or not _same(before.params.get(step), after.params[step]):
-            changed.add(step)
-    for key in before.children.keys() | after.children.keys():
-        if before.children.get(key) != after.children.get(key):
-            changed.add(key[0])
+    others = [step for step, params in after.params.items() if params is not before.params.get(step)]
+    changed = {step for step in others if not _same(before.params.get(step), after.params[step])}
+    if before.kinds != after.kinds:
+        changed |= {step for step, _ in before.kinds.items() ^ after.kinds.items()}
+    if before.children != after.children:
+        changed |= {parent for (parent, _), _ in before.children.items() ^ after.children.items()}
     parents = {child: parent for (parent, _), steps in after.children.items() for child in steps}
     for step in tuple(changed):
         around = parents.get(step)
@@ -102,6 +101,7 @@ class Memories:
     positions: Memory = field(default_factory=Memory)
     flow: Memory = field(default_factory=Memory)
     loads: Memory = field(default_factory=Memory)
+    printed: Memory = field(default_factory=Memory)
     _around: object = None
     _last: dict[str, Memory] = field(default_factory=dict)
     _blocks: dict[str, Memory] = field(default_factory=dict)

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from editor.language.nodes import Block, ForEach, Function, Tree, blocks_of
-from editor.language.variables import set_by
+from editor.language.variables import SETTERS, set_by
 
 
 def program_variables(tree: Tree) -> frozenset[str]:
     """Return the variables that the program's body or an event's sets; they can be seen everywhere."""
+    if not tree.holds(*SETTERS):
+        return frozenset()
     bodies = (tree.body, *(event.body for event in tree.events))
     return frozenset(name for body in bodies for name in _set_in(body, frozenset()))
 

@@ -73,8 +73,8 @@ class Surroundings:
     """The functions of the library by id; None: nobody knows them here."""
 
 
-def what_checks_see(surroundings: Surroundings) -> object:
-    """Return all that checks of single steps look at, to compare; where robots are and what is measured is left out."""
+def what_programs_see(surroundings: Surroundings) -> object:
+    """Return what single steps are checked and printed by, to compare; not where robots are, nor what is measured."""
     devices = [
         (facts.lifecycle, facts.online, d.id, d.name, d.kind, d.gives, d.takes, d.capacity, d.properties, d.methods)
         for facts in surroundings.devices.values()

@@ -11,6 +11,8 @@ from editor.language.values import parts_of
 from editor.language.walking import callees_first, walk
 
 _SETS: Final = (n.Set, n.Ask)
+SETTERS: Final = (n.Set, n.Ask, n.Call)
+"""The steps that may set a variable."""
 
 
 def set_by(node: n.Node) -> str:

@@ -2,29 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from editor.language.names import ROBOT_METHODS
-from editor.language.nodes import COMPOSITES, DRIVES, Block, Call, Function, Node, Role, Tree, blocks_of
-
-
-def walk(block: Block) -> list[Node]:
-    """Return the nodes of a block and of everything in it, in reading order."""
-    nodes: list[Node] = []
-    _gather(block, nodes)
-    return nodes
-
-
-def _gather(block: Block, nodes: list[Node]) -> None:
-    for node in block:
-        nodes.append(node)
-        if node.__class__ in COMPOSITES:
-            for inner in blocks_of(node):
-                _gather(inner, nodes)
+from editor.language.nodes import DRIVES, Block, Call, Function, Role, Tree
+from editor.language.nodes import walk as walk
 
 
 def reading_order(tree: Tree) -> tuple[Function, ...]:
     """Return the functions in the order of their first call; those that nobody calls come last, by name."""
+    if not tree.functions:
+        return ()
     by_method = {function.method: function for function in tree.functions}
     found: dict[str, Function] = {}
     uncalled = sorted(tree.functions, key=lambda function: function.method, reverse=True)
@@ -44,13 +32,15 @@ def _called_in(block: Block, by_method: Mapping[str, Function]) -> list[Function
     return [by_method[name] for name in calls if name in by_method]
 
 
-def needed_of_roles(blocks: Iterable[Block]) -> dict[str, tuple[str, ...]]:
+def needed_of_roles(tree: Tree, functions: tuple[Function, ...]) -> dict[str, tuple[str, ...]]:
     """Return what each role must be able to do, roles in the order of first use; a robot that picks also drives."""
+    blocks = (tree.body, *(f.body for f in functions), *(event.body for event in tree.events))
+    uses = dict.fromkeys(
+        (node.role, node.__class__) for b in blocks for node in tree.walked(b) if isinstance(node, DRIVES)
+    )
     needed: dict[str, set[str]] = {}
-    for block in blocks:
-        for node in walk(block):
-            if isinstance(node, DRIVES):
-                needed.setdefault(node.role, set()).add(type(node).__name__.lower())
+    for role, use in uses:
+        needed.setdefault(role, set()).add(use.__name__.lower())
     return {role: _without_move(methods) for role, methods in needed.items()}
 
 
@@ -108,7 +98,7 @@ def roles_used(block: Block, tree: Tree) -> frozenset[str]:
     seen: set[str] = set()
     left = [block]
     while left:
-        for node in walk(left.pop()):
+        for node in tree.walked(left.pop()):
             if isinstance(node, DRIVES):
                 roles.add(node.role)
             elif isinstance(node, Call) and node.function in by_method and node.function not in seen:
@@ -120,7 +110,7 @@ def roles_used(block: Block, tree: Tree) -> frozenset[str]:
 def in_reading_order(tree: Tree) -> Tree:
     """Put functions in the order of their first call, and roles in that of their first use; unused roles go."""
     functions = reading_order(tree)
-    needed = needed_of_roles((tree.body, *(f.body for f in functions), *(event.body for event in tree.events)))
+    needed = needed_of_roles(tree, functions)
     by_name = {role.name: role for role in tree.roles}
     roles = (_fill(by_name[name], methods) for name, methods in needed.items())
     return Tree(tree.body, functions, tuple(roles), tree.parameters, tree.events)

@@ -65,7 +65,8 @@ def _with_step(document: Json, name: str, step: Json) -> Json:
 def _place(draw: st.DrawFn, document: Json) -> list[str] | None:
     parent = draw(st.sampled_from(["program", "program", "f", *sorted(document["steps"])]))
     branch = "body" if parent in {"program", "f"} else draw(st.sampled_from(BRANCHES))
-    return draw(st.sampled_from([None, [parent, branch, draw(st.sampled_from(ORDERS))]]))
+    place: list[str] | None = draw(st.sampled_from([None, [parent, branch, draw(st.sampled_from(ORDERS))]]))
+    return place
 
 
 @st.composite
