@@ -20,6 +20,7 @@ from editor.language import (
 from tests.unit.language.site import ROOT, factory
 
 FOLDERS = (ROOT / "tests" / "fixtures" / "programs", ROOT / "tests" / "cases" / "constructs")
+NAMES = ("lines", "numbers", "added_moves", "order", "depth")
 CASES = sorted(path for folder in FOLDERS for path in folder.glob("*.json"))
 
 
@@ -41,9 +42,7 @@ def test_a_program_compiles_as_its_case_says(path: Path) -> None:
     body = compiled_to_json(compiled)
     assert compiled.script.splitlines() == expected["script"]
     assert json.loads(json.dumps(body["diagnostics"])) == expected["diagnostics"]
-    assert {name: body[name] for name in ("lines", "numbers", "added_moves", "order")} == {
-        name: expected[name] for name in ("lines", "numbers", "added_moves", "order")
-    }
+    assert {name: body[name] for name in NAMES} == {name: expected[name] for name in NAMES}
     plan = None if compiled.plan is None else plan_to_json(compiled.plan)["instructions"]
     assert json.loads(json.dumps(plan)) == expected["plan"]
 
