@@ -60,12 +60,21 @@ function sayValue(value: Value, speaker: Speaker, around: number): string {
   if (typeof value === "boolean") return speaker.t(value ? "value.true" : "value.false");
   if (typeof value === "string") return value;
   if (isList(value)) return value.map((each) => sayValue(each, speaker, 0)).join(", ");
+  if (isNonsense(value)) return "?";
   if ("op" in value) return sayOperation(value.op, value.args, speaker, around);
   return sayAtom(value, speaker);
 }
 
 function isList(value: Value): value is readonly Value[] {
   return Array.isArray(value);
+}
+
+/** Others may have written anything: what is no value reads as missing. */
+function isNonsense(value: object): boolean {
+  const { op, args, quantity, at, property, param, zone } = value as Record<string, unknown>;
+  if (op !== undefined) return !Array.isArray(args);
+  const lists = Array.isArray(quantity) || Array.isArray(property);
+  return !lists && typeof (param ?? zone) !== "string" && (typeof at !== "object" || at === null);
 }
 
 type Atom = Exclude<Extract<Value, object>, readonly Value[] | { readonly op: string }>;
