@@ -72,7 +72,8 @@ def make_line_scope(
         if (kind, thing_id) not in line.things:
             line.name_thing(kind, thing_id, wanted)
     line.scope.variables = frozenset(line.names.values())
-    line.scope.robots = frozenset(line.role_ids)
+    robots = frozenset(line.role_ids)
+    line.scope.robots = lambda: robots
     return line
 
 

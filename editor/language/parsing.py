@@ -6,10 +6,12 @@ Nothing is ever executed. What is not part of the language is refused with line,
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 
 from editor.language import nodes as n
+from editor.language.collecting import without_collector
 from editor.language.diagnostics import Diagnostic, Problem, put_into_words
 from editor.language.mistakes import count_characters, explain_syntax
 from editor.language.names import RESERVED_ATTRIBUTES, unique_name
@@ -18,6 +20,7 @@ from editor.language.parsing_expressions import (
     Refused,
     Scope,
     attribute_of_self,
+    calls_in,
     quoted,
     robots_driven,
 )
@@ -42,6 +45,11 @@ def parse_script(text: str, surroundings: Surroundings) -> Parsed:
     """Return the tree of a script, or where it leaves the language; nothing in the text makes this raise."""
     if len(text) > LONGEST_SCRIPT:
         return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "The script is too long."}),))
+    with without_collector():
+        return _parse(text, surroundings)
+
+
+def _parse(text: str, surroundings: Surroundings) -> Parsed:
     try:
         module = count_characters(ast.parse(text), text)
     except SyntaxError as error:
@@ -72,15 +80,17 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
     for needed in ("new_task", "run"):
         if needed not in methods:
             raise Refused(module, "A task without this method", f"Write def {needed}(self…) in class Task.")
-    scope = Scope(surroundings, robots=robots_driven(module))
+    calls = cache(lambda: calls_in(module))
+    scope = Scope(surroundings, robots=cache(lambda: robots_driven(calls())))
     entries = parse_run(methods["run"], scope)
     parser = Parser(methods, scope)
     handlers = _handlers(entries, methods)
     shared = [names_assigned(method, methods).attributes for method in (methods["new_task"], *handlers)]
     scope.variables = frozenset[str]().union(*shared)
-    others = {"new_task", "run", *_branch_names(module), *(handler.name for handler in handlers)}
+    known = {"new_task", "run", *(handler.name for handler in handlers)}
+    branches = frozenset(_branch_names(calls())) if methods.keys() - known else frozenset()
     for name, method in methods.items():
-        if name not in others:
+        if name not in known | branches:
             parser.functions[name] = _signature(name, method)
     body = parser.block(methods["new_task"].body)
     events = tuple(_event(parser, *pair) for pair in zip(entries, handlers, strict=True))
@@ -145,11 +155,11 @@ def _roles_and_parameters(parser: Parser) -> tuple[tuple[n.Role, ...], tuple[n.P
     return roles, tuple(n.Parameter(name, b.default, b.type, b.unit) for name, b in bindings if b.kind == "parameter")
 
 
-def _branch_names(module: ast.Module) -> Iterator[str]:
+def _branch_names(calls: Iterable[ast.Call]) -> Iterator[str]:
     """Yield the methods that some `self.parallel(…)` names as branches."""
-    for node in ast.walk(module):
-        if isinstance(node, ast.Call) and attribute_of_self(node.func) == "parallel":
-            for argument in node.args:
+    for call in calls:
+        if attribute_of_self(call.func) == "parallel":
+            for argument in call.args:
                 name = attribute_of_self(argument)
                 if name is not None:
                     yield name

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Final, Literal
 
 from editor.language.mistakes import instead_of_call, instead_of_expression
 from editor.language.names import ROBOT_METHODS, snake_case
@@ -22,6 +22,9 @@ _COMPARE: Mapping[type[ast.cmpop], str] = {
     ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
     ast.In: "in", ast.NotIn: "not in",
 }  # fmt: skip
+
+
+_NO_SCALARS: Final = (bytes, complex, type(Ellipsis))
 
 
 class Refused(Exception):
@@ -57,7 +60,7 @@ class Scope:
     locals: frozenset[str] = frozenset()
     variables: frozenset[str] = frozenset()
     """The variables of the program, which are attributes of the task."""
-    robots: frozenset[str] = frozenset()
+    robots: Callable[[], frozenset[str]] = frozenset
     """The attributes that some step drives as a robot."""
 
     def description(self, device_id: str | None) -> Description | None:
@@ -105,9 +108,9 @@ def parse_scalar(node: ast.expr) -> Scalar:
     if not isinstance(inner, ast.Constant) or (minus and not is_number(inner.value)):
         raise Refused(node, quoted(node), "Write a number, a text, True or False here.")
     value = inner.value
-    if value is not None and (isinstance(value, bytes | complex) or value is Ellipsis or plain(value) is None):
+    scalar = None if isinstance(value, _NO_SCALARS) else plain(value)
+    if scalar is None and value is not None:
         raise Refused(node, quoted(node), "Write a number below 10¹⁵, a text, True or False here.")
-    scalar = plain(value)
     return -scalar if minus and is_number(scalar) else scalar
 
 
@@ -152,7 +155,7 @@ def _own_attribute(node: ast.Attribute, name: str, scope: Scope) -> Expression:
         if name in scope.locals:
             raise Refused(node, quoted(node), f"Here {name} is something else, which hides it. Write {name}.")
         return Variable(name)
-    if name in scope.robots:
+    if name in scope.robots():
         return Located(role=name)
     match binding:
         case Binding(kind="get", id=device):
@@ -314,14 +317,29 @@ def parse_place(node: ast.expr, scope: Scope) -> PlaceRef:
     raise Refused(node, quoted(node), "Write where it goes as self.oven.location, or as a point (x, y).")
 
 
-def robots_driven(module: ast.Module) -> frozenset[str]:
+def calls_in(module: ast.Module) -> list[ast.Call]:
+    """Return every call in a script, in any order."""
+    found: list[ast.Call] = []
+    left: list[ast.AST] = [module]
+    while left:
+        node = left.pop()
+        if node.__class__ is ast.Call:
+            found.append(node)
+        for name in node._fields:
+            value = getattr(node, name, None)
+            if value.__class__ is list:
+                left.extend(item for item in value if isinstance(item, ast.AST))
+            elif isinstance(value, ast.AST) and value.__class__ not in _BARE:
+                left.append(value)
+    return found
+
+
+_BARE: Final = frozenset({ast.Load, ast.Store, ast.Constant, ast.Name})
+"""What a syntax tree has most of; nothing stands in it."""
+
+
+def robots_driven(calls: Iterable[ast.Call]) -> frozenset[str]:
     """Return the attributes of the task that some step drives as a robot: x of `self.x.pick(…)`."""
-    return frozenset(_driven(module))
-
-
-def _driven(module: ast.Module) -> Iterator[str]:
-    for node in ast.walk(module):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in ROBOT_METHODS:
-            name = attribute_of_self(node.func.value)
-            if name is not None:
-                yield name
+    functions = (call.func for call in calls)
+    driving = (f.value for f in functions if isinstance(f, ast.Attribute) and f.attr in ROBOT_METHODS)
+    return frozenset(name for name in map(attribute_of_self, driving) if name is not None)

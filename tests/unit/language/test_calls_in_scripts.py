@@ -1,0 +1,41 @@
+"""Which calls a script has: also those that stand where the language has none."""
+
+from __future__ import annotations
+
+import ast
+import gc
+from pathlib import Path
+
+import pytest
+
+from editor.language import parse_script
+from editor.language.collecting import without_collector
+from editor.language.parsing_expressions import calls_in
+from tests.unit.language.site import factory
+
+MODULES = sorted((Path(__file__).resolve().parents[3] / "editor" / "language").glob("*.py"))
+ODD = "match f(1):\n    case g(a=h()) if i(): j[k():l()] = [m() for n in o() if p()]\nq = lambda r=s(): f'{t()!r:{u()}}'\n"
+
+
+@pytest.mark.parametrize(
+    "text", [ODD, *(path.read_text() for path in MODULES)], ids=["odd", *(p.stem for p in MODULES)]
+)
+def test_every_call_is_found(text: str) -> None:
+    module = ast.parse(text)
+    every = {id(node) for node in ast.walk(module) if isinstance(node, ast.Call)}
+    assert {id(call) for call in calls_in(module)} == every
+
+
+def test_the_collector_is_on_again_when_a_script_was_read() -> None:
+    assert parse_script("class Task(object):", factory()).tree is None
+    assert gc.isenabled()
+
+
+def test_a_collector_that_was_off_stays_off() -> None:
+    gc.disable()
+    try:
+        with without_collector():
+            assert not gc.isenabled()
+        assert not gc.isenabled()
+    finally:
+        gc.enable()
