@@ -14,7 +14,12 @@ from editor.language.parsing_expressions import calls_in
 from tests.unit.language.site import factory
 
 MODULES = sorted((Path(__file__).resolve().parents[3] / "editor" / "language").glob("*.py"))
-ODD = "match f(1):\n    case g(a=h()) if i(): j[k():l()] = [m() for n in o() if p()]\nq = lambda r=s(): f'{t()!r:{u()}}'\n"
+ODD = """
+match f(1):
+    case g(a=h.i) if j():
+        k[l():m()] = [n() for o in p() if q()]
+r = lambda s=t(): f'{u()!r:{v()}}'
+"""
 
 
 @pytest.mark.parametrize(
