@@ -4,7 +4,7 @@ BIN := .venv/bin
 SOURCES := vipo_site registry editor simulation execution tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
-.PHONY: demo test check bench checks-page openapi format frontend setup setup-dev servers clean
+.PHONY: demo test check bench mutation checks-page openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
 	@exec $(BIN)/python -m vipo_site.demo
@@ -70,6 +70,13 @@ checks-page: setup-dev
 
 bench: setup-dev
 	$(BIN)/python -m bench
+
+mutation: setup-dev var/mutation/bin/cosmic-ray
+	$(BIN)/python scripts/mutation.py
+
+var/mutation/bin/cosmic-ray:
+	@echo "Installing the mutation tester into an environment of its own"
+	@$(PYTHON) -m venv var/mutation && var/mutation/bin/pip install --quiet --disable-pip-version-check cosmic-ray==8.7.0
 
 clean:
 	rm -rf .venv frontend/node_modules frontend/dist var

@@ -1,0 +1,159 @@
+"""The edges of the language, found by changing it and seeing that no test noticed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from editor.language import Surroundings, compile_document, parse_script, tree_to_document
+from editor.language.nodes import MISSING
+from editor.language.plan import Constant, Operation, Reading
+from editor.language.possible_values import ANY, Range, range_of
+from editor.language.units import conversion, convert
+from editor.language.values import LARGEST, is_number, read_value
+from tests.unit.language.site import factory
+
+EMPTY = "class Task(object):\n    def new_task(self):\n        pass\n"
+CARRY = {"role": "robot", "object": "box", "quantity": 1}
+SHELF, BOOTH = {"device": "itemInventory01"}, {"device": "paintMachine01"}
+
+
+def program(*steps: tuple[str, dict[str, Any]]) -> dict[str, Any]:
+    body = {
+        f"s{i}": {"kind": kind, "place": ["program", "body", f"{i}V"], "params": params}
+        for i, (kind, params) in enumerate(steps)
+    }
+    return {"format": 2, "steps": body}
+
+
+def codes(document: dict[str, Any], site: Surroundings | None = None) -> list[tuple[str, str]]:
+    return [(d.step, d.code) for d in compile_document(document, site or factory()).diagnostics]
+
+
+def refused(text: str) -> str:
+    parsed = parse_script(text, factory())
+    assert parsed.tree is None
+    return parsed.diagnostics[0].message
+
+
+@pytest.mark.parametrize(
+    ("value", "source", "target", "expected"),
+    [(1500, "MilliM-PER-SEC", "M-PER-SEC", 1.5), (2, "M-PER-SEC", "MilliM-PER-SEC", 2000)],
+)
+def test_speeds_are_converted(value: float, source: str, target: str, expected: float) -> None:
+    assert convert(value, source, target) == expected
+
+
+def test_a_unit_goes_over_into_itself_unchanged() -> None:
+    assert conversion("MIN", "MIN") == (1, 0)
+    assert conversion("widgets", "widgets") == (1, 0)
+
+
+@pytest.mark.parametrize(
+    ("value", "is_one"),
+    [(LARGEST, True), (-LARGEST, True), (LARGEST * 2, False), (-LARGEST * 2, False), (True, False), ("1", False)],
+)
+def test_a_number_is_one_up_to_the_largest(value: object, is_one: bool) -> None:
+    assert is_number(value) is is_one
+
+
+def test_a_number_beyond_the_largest_reads_as_missing() -> None:
+    assert read_value({"op": "+", "args": [LARGEST * 10, 1]}, {}) != read_value({"op": "+", "args": [1, 1]}, {})
+    assert read_value(LARGEST * 10, {}) == MISSING
+
+
+@pytest.mark.parametrize("name", ["min", "max", "nearest"])
+def test_one_thing_alone_has_no_least_and_no_nearest(name: str) -> None:
+    assert read_value({"op": name, "args": [1]}, {}) == MISSING
+
+
+def test_only_readings_that_are_numbers_have_a_range() -> None:
+    temperature = Reading(Constant("curingOven01"), "temperature")
+    assert range_of(temperature, factory()) == Range(15.0, 250.0)
+    assert range_of(Reading(Constant("curingOven01"), "quality"), factory()) == ANY
+    assert range_of(Operation("abs", (Constant(-3),)), factory()) == Range(3, 3)
+
+
+def test_run_may_give_things_after_new_task_was_called() -> None:
+    text = (
+        "class Task(object):\n    def new_task(self):\n        self.robot.move(self.dock.location)\n\n"
+        '    def run(self, ctx):\n        """Runs."""\n        self.new_task()\n'
+        '        self.robot = ctx.get("robot01")\n        self.dock = ctx.place("dock1")\n'
+    )
+    parsed = parse_script(text, factory())
+    assert parsed.tree is not None
+    assert codes(dict(tree_to_document(parsed.tree, factory()))) == []
+
+
+@pytest.mark.parametrize("call", ['ctx.place("")', 'ctx.get("")', 'ctx.zone("")', 'ctx.place("dock1", at="x")'])
+def test_what_run_gives_has_a_name(call: str) -> None:
+    text = f"{EMPTY}\n    def run(self, ctx):\n        self.x = {call}\n"
+    assert refused(text).startswith(f"Line 6, column 18: “{call.replace(chr(34), chr(39))}”")
+
+
+def test_a_refusal_quotes_the_first_line_only() -> None:
+    body = "        with a:\n            b()\n            c()\n"
+    text = EMPTY.replace("        pass\n", body) + "\n    def run(self, ctx):\n        self.new_task()\n"
+    assert "“with a:”" in refused(text)
+
+
+@pytest.mark.parametrize(("seconds", "found"), [(0, []), (0.5, []), (1, []), (-1, [("s0", "out_of_range")])])
+def test_a_wait_may_be_short_but_not_negative(seconds: float, found: list[tuple[str, str]]) -> None:
+    assert codes(program(("wait", {"duration": seconds}))) == found
+
+
+def test_what_a_robot_carries_is_counted_one_by_one() -> None:
+    pick, drop = ("pick", {**CARRY, "at": SHELF}), ("drop", {**CARRY, "at": BOOTH})
+    assert codes(program(pick, pick, drop, drop)) == []
+    assert codes(program(pick, pick, pick)) == [("s2", "carrying_too_much")]
+    assert codes(program(pick, pick, drop, drop, drop)) == [("s4", "drops_nothing")]
+
+
+def test_two_waits_of_one_branch_do_not_wait_for_each_other() -> None:
+    waits = {"until": {"op": "==", "args": [{"param": "x"}, 1]}}
+    steps = {
+        "i": {"kind": "set", "place": ["program", "body", "1V"], "params": {"variable": "x", "value": 0}},
+        "p": {"kind": "parallel", "place": ["program", "body", "2V"], "params": {"branches": ["a", "b"]}},
+        "w": {"kind": "wait", "place": ["p", "a", "1V"], "params": waits},
+        "v": {"kind": "wait", "place": ["p", "a", "2V"], "params": waits},
+        "s": {"kind": "set", "place": ["p", "b", "1V"], "params": {"variable": "x", "value": 1}},
+    }
+    assert codes({"format": 2, "steps": steps}) == []
+
+
+def test_new_steps_never_lie_on_each_other() -> None:
+    lines = "\n".join("        self.curing_oven.cure_paint(10)" for _ in range(30))
+    text = (
+        f"class Task(object):\n    def new_task(self):\n{lines}\n\n"
+        '    def run(self, ctx):\n        self.curing_oven = ctx.get("curingOven01")\n        self.new_task()\n'
+    )
+    parsed = parse_script(text, factory())
+    assert parsed.tree is not None
+    spots = [step["pos"] for step in tree_to_document(parsed.tree, factory())["steps"].values()]
+    near = [
+        (a, b) for i, a in enumerate(spots) for b in spots[i + 1 :] if abs(a[0] - b[0]) < 2.0 and abs(a[1] - b[1]) < 0.5
+    ]
+    assert (len(spots), near) == (30, [])
+
+
+@pytest.mark.parametrize("given", ["", "self, a, /", "self, *a", "self, *, a", "this"])
+def test_parameters_of_other_forms_are_refused(given: str) -> None:
+    text = f"{EMPTY}\n    def dry({given}):\n        pass\n\n    def run(self, ctx):\n        self.new_task()\n"
+    assert refused(text).startswith("Line 5, column 5: This form of parameters is not part of the language.")
+
+
+def test_a_role_and_a_variable_of_one_name_are_told_apart() -> None:
+    document = program(
+        ("set", {"variable": "carrier", "value": 1}),
+        ("move", {"role": "r1", "to": {"place": "dock1"}}),
+        ("notify", {"message": {"op": "text", "args": [{"param": "carrier"}]}, "level": "info"}),
+    )
+    document["roles"] = {"r1": {"name": "Carrier", "can": []}}
+    compiled = compile_document(document, factory())
+    assert compiled.script.splitlines()[2:5] == [
+        "        self.carrier_2 = 1",
+        "        self.carrier.move(self.dock_1.location)",
+        '        self.notify(f"{self.carrier_2}", level="info")',
+    ]
+    assert parse_script(compiled.script, factory()).tree == compiled.tree
