@@ -25,7 +25,7 @@ export function FollowButton({ person }: { person: Person }) {
       type="button"
       className={classes.follow}
       aria-pressed={follows}
-      aria-label={label}
+      aria-label={`${person.initials}: ${label}`}
       title={label}
       onClick={press}
     >

@@ -1,0 +1,81 @@
+"""The whole language as people meet it: a run asks and is answered by somebody else, a program starts by itself."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.e2e.conftest import SignIn
+from tests.e2e.screens import draw_errand, make_program, reading, run_state, saved, show_programs, start_run
+from tests.e2e.test_script import editor, open_script
+
+pytestmark = pytest.mark.browser
+
+ASKING = """class Task(object):
+    def new_task(self):
+        self.count = 0
+        for _ in range(3):
+            self.count = self.count + 1
+        self.dry = self.ask("Is the paint dry?", type="boolean")
+        if self.dry:
+            self.notify(f"Counted to {self.count}", level="info")
+        else:
+            self.end()
+
+    def run(self, ctx):
+        self.new_task()
+"""
+RESTOCKING = """class Task(object):
+    def new_task(self):
+        self.wait(1)
+
+    def when_e1(self):
+        self.notify("Fewer than %d boxes are left", level="warning")
+
+    def run(self, ctx):
+        self.item_inventory = ctx.get("itemInventory01")
+        ctx.start_when(self.item_inventory.stock < %d, self.when_e1)
+        self.new_task()
+"""
+
+
+def write_program(page: Page, name: str, script: str) -> None:
+    """Make a program by putting a whole script into its panel."""
+    make_program(page, name)
+    open_script(page)
+    editor(page).click()
+    page.keyboard.press("Control+a")
+    page.keyboard.insert_text(script)
+    saved(page)
+
+
+def test_a_run_asks_and_somebody_else_answers(sign_in: SignIn) -> None:
+    author, admin = sign_in("author"), sign_in("admin")
+    write_program(author, "Asking", ASKING)
+    expect(author.get_by_role("tab", name="Problems")).to_be_visible()
+    start_run(author)
+    admin.get_by_role("button", name="1 question waits for an answer").click()
+    card = admin.get_by_role("region", name="A question")
+    expect(card).to_contain_text("Is the paint dry?")
+    card.get_by_role("button", name="Yes").click()
+    expect(run_state(author)).to_contain_text("Finished")
+    log = author.get_by_role("main")
+    expect(log).to_contain_text("Counted to 3")
+    expect(log).to_contain_text("answered: Yes")
+
+
+def test_an_armed_program_starts_when_its_condition_becomes_true(sign_in: SignIn) -> None:
+    page, operator = sign_in("author"), sign_in("admin")
+    boxes = int(reading(page, "itemInventory01", "stock"))
+    write_program(page, "Restocking", RESTOCKING % (boxes, boxes))
+    show_programs(operator)
+    row = operator.get_by_role("row").filter(has_text="Restocking")
+    row.get_by_role("switch", name=re.compile("^Starts by itself")).click(force=True)
+    expect(row.get_by_role("switch")).to_be_checked()
+    make_program(page, "Takes a box")
+    draw_errand(page)
+    start_run(page)
+    expect(operator.get_by_text(f"Fewer than {boxes} boxes are left")).to_be_visible()
+    expect(run_state(page)).to_contain_text("Finished")
