@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,9 @@ import pytest
 
 from editor.language import compile_document, parse_script, tree_to_document
 from editor.language.outline import BRANCHES
-from execution.rehearsal import rehearse_program
+from execution.program_site import read_site
+from execution.rehearsal import Conditions, rehearse, rehearse_program
+from simulation.world import Fault
 from tests.unit.language.site import ROOT
 from vipo_site.cli import main
 from vipo_site.program_file import read_program_file
@@ -86,6 +89,29 @@ def test_an_example_ends_well_when_it_is_rehearsed(path: Path) -> None:
     steps = {step for step, each in program.document["steps"].items() if each["kind"] == "notify"}
     told = [each["text"].removeprefix("Told: ") for each in result["log"] if each["step"] in steps]
     assert told == NOTICES.get(path.stem, [])
+
+
+def test_a_mixer_that_fails_is_tried_again() -> None:
+    result = _retried(Fault("paintMixer02", "fail_next", 60.0))
+    assert result["ok"] is True
+    assert [each["kind"] for each in result["errors"]] == ["failed"]
+    assert [each["count"] for each in result["steps"] if each["device"] == "paintMixer02"].count(2) == 1
+
+
+def test_a_person_is_called_when_the_mixer_is_gone() -> None:
+    result = _retried(Fault("paintMixer02", "offline", 60.0))
+    assert result["ok"] is True
+    assert {each["kind"] for each in result["errors"]} == {"timed_out"}
+    texts = [each["text"] for each in result["log"]]
+    assert "Told: No paint came out of the mixer after 3 tries" in texts
+
+
+def _retried(fault: Fault) -> dict[str, Any]:
+    program = read_program_file(ROOT / "examples" / "retry-then-call.json", None)
+    surroundings, scene, places = read_site(program.site, 0)
+    plan = compile_document(program.document, surroundings).plan
+    assert plan is not None
+    return rehearse(plan, replace(scene, faults=(fault,)), places=places, conditions=Conditions("kinematic"))
 
 
 def test_the_examples_use_every_construct() -> None:
