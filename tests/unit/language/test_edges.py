@@ -157,3 +157,51 @@ def test_a_role_and_a_variable_of_one_name_are_told_apart() -> None:
         '        self.notify(f"{self.carrier_2}", level="info")',
     ]
     assert parse_script(compiled.script, factory()).tree == compiled.tree
+
+
+def test_a_robot_in_a_value_is_its_role_where_steps_drive_it() -> None:
+    far = {"op": ">", "args": [{"op": "distance", "args": [{"at": {"role": "r1"}}, {"at": SHELF}]}, 2]}
+    driven = program(("move", {"role": "r1", "to": {"place": "dock1"}}), ("wait", {"until": far, "timeout": 60}))
+    driven["roles"] = {"r1": {"name": "Carrier", "can": []}}
+    compiled = compile_document(driven, factory())
+    assert compiled.diagnostics == ()
+    assert "self.wait(until=distance(self.carrier, self.item_inventory) > 2, timeout=60)" in compiled.script
+    idle = program(("wait", {"until": far, "timeout": 60}))
+    idle["roles"] = {"r1": {"name": "Carrier", "device": "robot02"}}
+    assert "distance(self.turtle_bot_2, self.item_inventory) > 2" in compile_document(idle, factory()).script
+
+
+def test_what_a_role_can_is_read_only_where_it_is_a_text() -> None:
+    document = program(("move", {"role": "r1", "to": {"place": "dock1"}}))
+    document["roles"] = {"r1": {"name": "Carrier", "can": ["pick", "", 3, None, "pick"]}}
+    assert [role.can for role in compile_document(document, factory()).tree.roles if role.id == "r1"] == [
+        ("pick", "move")
+    ]
+
+
+def test_what_a_pick_and_drop_lacks_is_told_once() -> None:
+    params = {"role": "robot", "source": SHELF, "target": BOOTH}
+    assert codes(program(("pick_and_drop", params))) == [("s0", "missing_object"), ("s0", "missing_quantity")]
+
+
+def test_a_machine_that_a_parameter_names_is_written_by_its_name() -> None:
+    document = program(("call", {"function": "f", "args": {"machine": {"device": "paintMixer01"}}}))
+    operate = {"device": {"param": "machine"}, "method": "mixPaint", "args": {"time": 3}}
+    document["steps"]["o"] = {"kind": "operate", "place": ["f", "body", "1V"], "params": operate}
+    document["functions"] = {"f": {"name": "mix", "parameters": [{"name": "machine", "type": "device"}]}}
+    assert (
+        '        machine.operate("mixPaint", {"time": 3})' in compile_document(document, factory()).script.splitlines()
+    )
+
+
+def test_a_function_is_found_again_only_by_what_it_has_in_common() -> None:
+    text = f"{EMPTY}\n    def {{}}(self):\n        {{}}\n\n    def run(self, ctx):\n        self.new_task()\n"
+    before = parse_script(text.format("dry", "self.wait(1)"), factory()).tree
+    same = parse_script(text.format("rest", "self.wait(1)"), factory()).tree
+    other = parse_script(text.format("rest", 'self.notify("x", level="info")'), factory()).tree
+    assert before is not None
+    assert same is not None
+    assert other is not None
+    document = tree_to_document(before, factory())
+    assert list(tree_to_document(same, factory(), document)["functions"]) == list(document["functions"])
+    assert list(tree_to_document(other, factory(), document)["functions"]) == ["rest"]
