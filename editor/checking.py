@@ -8,7 +8,8 @@ from dataclasses import replace
 from typing import Any
 
 from editor.errors import NoSuchProgram
-from editor.language import Compiled, compile_document, compiled_to_json
+from editor.language import Compiled, compiled_to_json
+from editor.language.incremental import EditedProgram
 from editor.language.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
 from registry import live
@@ -69,21 +70,26 @@ def compiled_json(compiled: Compiled, revision: int) -> dict[str, Any]:
     return {**compiled_to_json(compiled), "revision": revision}
 
 
-def check_program(*, program_id: str, document: Mapping[str, Any], revision: int) -> dict[str, Any]:
-    """Compile a program's document and keep what lists show of it. Raises NoSuchProgram."""
+def check_program(
+    *, program_id: str, document: Mapping[str, Any], revision: int, edited: EditedProgram | None = None
+) -> dict[str, Any]:
+    """Check and print a program's document and keep what lists show of it. Raises NoSuchProgram.
+
+    `edited` has what was found when the program was looked at last, where it is looked at again and again.
+    """
     program = Program.objects.select_related("site").filter(pk=program_id).first()
     if program is None:
         raise NoSuchProgram("There is no such program. It may have been deleted.")
     surroundings = build_surroundings(site=program.site.slug)
-    compiled = compile_document(document, surroundings)
+    compiled = (edited or EditedProgram()).look(document, surroundings).compiled(with_plan=False)
     _keep(program_id, document, compiled, fingerprint_of(surroundings))
     _keep_uses(program, document)
     return compiled_json(compiled, revision)
 
 
-def check_and_publish(program_id: str, document: Mapping[str, Any], revision: int) -> None:
+def check_and_publish(program_id: str, document: Mapping[str, Any], revision: int, edited: EditedProgram) -> None:
     """Compile a program's document and tell all who watch its site. Raises NoSuchProgram."""
-    body = check_program(program_id=program_id, document=document, revision=revision)
+    body = check_program(program_id=program_id, document=document, revision=revision, edited=edited)
     site = Program.objects.values_list("site__slug", flat=True).get(pk=program_id)
     live.publish(site, {"type": "compiled", "program": program_id, **body})
 

@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from pycrdt import Doc, Map, TransactionEvent, merge_updates
+from pycrdt import Array, Doc, Map, Text, TransactionEvent, merge_updates
 from pycrdt import get_state as state_of_update
 
 from editor.language.ladder import FIRST_FORMAT, FORMAT, climb, format_of
@@ -22,6 +22,7 @@ _CONTENT = ROOTS[1:]
 EMPTY_UPDATE = b"\x00\x00"
 _LOG_LIMIT_BYTES = 1024 * 1024
 _LOG_LIMIT_ENTRIES = 2000
+_SHARED = (Array, Map, Text)
 _SAFE_INTEGER = 2**53
 
 
@@ -38,6 +39,9 @@ class SharedDocument:
         self._base = merge(updates)
         self._log: list[bytes] = []
         self._log_bytes = 0
+        self._steps: dict[str, Any] = {}
+        """The steps in their plain form, but for those that changed since it was asked for last."""
+        self._changed: set[str] = set()
         self._document = self._restored()
 
     def apply(self, update: bytes) -> list[bytes]:
@@ -66,10 +70,17 @@ class SharedDocument:
         except (ValueError, RuntimeError) as error:
             raise BadUpdate(str(error)) from error
         document.observe(self._on_change)
+        steps = document.get("steps", type=Map)
+        self._steps, self._changed = {}, set(steps.keys())
+        self._watching = steps, steps.observe_deep(self._on_steps)  # it ends with the last reference to it
         return document
 
     def _on_change(self, event: TransactionEvent) -> None:
         self._events.append(event.update)
+
+    def _on_steps(self, events: list[Any]) -> None:
+        for event in events:
+            self._changed.update(event.path[:1] or event.keys)
 
     def encode(self, state: bytes | None = None) -> bytes:
         """Return the document as one update: all of it, or what a peer in that state lacks. Raises BadUpdate."""
@@ -87,10 +98,25 @@ class SharedDocument:
         return len(self._document.get("steps", type=Map))
 
     def to_json(self) -> dict[str, Any]:
-        """Return the plain form (docs/architecture.md, "The document")."""
-        plain = {name: _plain(self._document.get(name, type=Map).to_py() or {}) for name in ROOTS}
+        """Return the plain form (docs/architecture.md, "The document"); not to be changed in place.
+
+        A step that has not changed since the last call is the same object.
+        """
+        plain = {name: _plain(self._document.get(name, type=Map).to_py() or {}) for name in ROOTS if name != "steps"}
         meta = plain.pop("meta")
-        return {"format": meta.get("format", FIRST_FORMAT), "start_pos": meta.get("start_pos"), **plain}
+        start = {"format": meta.get("format", FIRST_FORMAT), "start_pos": meta.get("start_pos")}
+        return {**start, "steps": self._plain_steps(), **plain}
+
+    def _plain_steps(self) -> dict[str, Any]:
+        shared = self._document.get("steps", type=Map)
+        for name in tuple(self._changed):
+            if name in shared:
+                value = shared[name]
+                self._steps[name] = _plain(value.to_py() if isinstance(value, _SHARED) else value)
+            else:
+                self._steps.pop(name, None)
+        self._changed.clear()
+        return dict(self._steps)
 
     def climb(self) -> bool:
         """Bring the content to today's format, by the same update whoever does it; tell whether there was a need.

@@ -16,6 +16,7 @@ from django.utils import timezone
 from editor.checking import check_and_publish
 from editor.document import BadUpdate, SharedDocument
 from editor.errors import NoSuchProgram
+from editor.language.incremental import EditedProgram
 from editor.member import Close
 from editor.room import Change, Room, encode_saved_note
 from editor.store import COMPACT_AFTER_ROWS, SnapshotDiffers, append_changes, compact_document, load_document
@@ -50,6 +51,7 @@ class OpenRoom:
         self._stream = stream
         self._after = after
         self._on_end = on_end
+        self._edited = EditedProgram()
         self._ended = False
         self._keeping = asyncio.Lock()
         self._telling = asyncio.Lock()
@@ -190,7 +192,7 @@ class OpenRoom:
         self.room.touched = False
         document = self.room.document.to_json()
         try:
-            await in_database(check_and_publish)(self.room.program, document, new_revision())
+            await in_database(check_and_publish)(self.room.program, document, new_revision(), self._edited)
         except (DatabaseError, NoSuchProgram) as error:
             log.warning("Program %s was not checked: %s", self.room.program, error)
 
