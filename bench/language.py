@@ -1,91 +1,99 @@
-"""How long a program takes from its document to a checked plan and a printed script."""
+"""How long a program takes from its document to what is wrong with it, a script and a plan, and back from a script."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from bench.figures import best_ms, figure
+from bench.blockly import measure_blockly
+from bench.figures import best_cpu_ms, figure
+from bench.programs import make_program, with_step
 from editor.language import Surroundings, compile_document, parse_script, surroundings_from_json
-from editor.language.numbering import number_steps
-from editor.language.positions import add_moves
-from editor.language.printing import print_tree
-from editor.language.reading import read_document
+from editor.language.incremental import EditedProgram
 
+Json = dict[str, Any]
 SITE = Path(__file__).resolve().parent.parent / "examples" / "painting-factory.json"
-LETTERS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-ERRAND = {"source": {"device": "itemInventory01"}, "target": {"device": "dropOff01"}, "object": "box", "quantity": 1}
-HOT = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 40]}
-KINDS: tuple[tuple[str, dict[str, Any], str], ...] = (
-    ("if", {"condition": HOT}, "then"),
-    ("pick_and_drop", ERRAND, ""),
-    ("operate", {"device": {"device": "curingOven01"}, "method": "curePaint", "args": {"time": 10}}, ""),
-    ("wait", {"duration": 5}, ""),
-    ("while", {"condition": HOT}, "body"),
-    ("wait", {"until": HOT, "timeout_s": 60}, ""),
-    ("pick_and_drop", ERRAND, ""),
-    ("try", {"kinds": []}, "body"),
-    ("move", {"to": {"device": "paintMachine01"}}, ""),
-    ("operate", {"device": {"device": "paintMixer01"}, "method": "mixPaint", "args": {"time": 3}}, ""),
-)
-"""Ten steps of a program: each block holds the steps behind it up to the next block."""
-
-
-def make_program(count: int) -> dict[str, Any]:
-    """Return a sound document of that many steps: errands, machines, conditions, loops and a Try, over and over."""
-    steps: dict[str, Any] = {}
-    parent, branch = "program", "body"
-    for index in range(count):
-        kind, params, inner = KINDS[index % len(KINDS)]
-        if inner:
-            parent, branch = "program", "body"
-        steps[f"s{index}"] = {
-            "kind": kind,
-            "place": [parent, branch, _order(index)],
-            "pos": [2 + index % 20, -2 - index % 7],
-            "params": {**params},
-        }
-        if inner:
-            parent, branch = f"s{index}", inner
-    return {
-        "format": 1,
-        "start_pos": [0, 0],
-        "steps": steps,
-        "functions": {},
-        "roles": {},
-        "parameters": {},
-        "zones": {},
-    }
-
-
-def _order(index: int) -> str:
-    return "".join(LETTERS[index // 62**power % 62] for power in (2, 1, 0)) + "V"
+CURVE = (10, 100, 500, 1000, 2000, 5000)
+WAIT: Json = {"kind": "wait", "pos": [3, -3], "params": {"duration": 7}}
+LINES = 5000
 
 
 def measure() -> Iterator[dict[str, object]]:
     site = surroundings_from_json(json.loads(SITE.read_text()))
-    yield from measure_thousand(site)
-    for count in (10, 100, 500, 1000, 2000, 5000):
-        tree = add_moves(read_document(make_program(count)).tree, {})
-        numbers = number_steps(tree).numbers
-        took = best_ms(lambda tree=tree, numbers=numbers: print_tree(tree, site, numbers))
-        yield figure("print a script", took, "ms", steps=count, us_per_step=round(took * 1000 / count, 2))
+    yield from measure_curve(site)
+    yield from measure_edits(site)
+    yield from measure_parsing(site)
+    yield from measure_blockly(1000)
 
 
-def measure_thousand(site: Surroundings) -> Iterator[dict[str, object]]:
-    document = make_program(1000)
-    compiled = compile_document(document, site)
-    errors = [d.message for d in compiled.diagnostics if d.severity == "error"]
-    assert compiled.plan is not None, errors[:3]
-    yield figure("check, print and compile", best_ms(lambda: compile_document(document, site)), "ms", steps=1000)
-    yield figure("the same after an edit of one step", best_ms(lambda: compile_document(_edited(document), site)), "ms",
-                 steps=1000)  # fmt: skip
-    yield figure("read the script back", best_ms(lambda: parse_script(compiled.script, site), 2), "ms", steps=1000)
-    yield figure("script", compiled.script.count("\n"), "lines", steps=1000)
+def measure_curve(site: Surroundings) -> Iterator[dict[str, object]]:
+    """Check, compile and print programs of more and more steps; twice the growth of a line would be 2."""
+    per_step: list[float] = []
+    for count in CURVE:
+        document = make_program(count)
+        assert compile_document(document, site).plan is not None
+        took = best_cpu_ms(lambda document=document: compile_document(document, site), 25 if count < 2000 else 8)
+        per_step.append(took / count)
+        yield figure("check, compile and print", took, "ms", steps=count, us_per_step=round(took * 1000 / count, 2))
+    yield figure("growth beyond a straight line", per_step[-1] / per_step[-2], "times", steps=list(CURVE[-2:]))
 
 
-def _edited(document: dict[str, Any]) -> dict[str, Any]:
-    step = {**document["steps"]["s503"], "params": {"duration": 7}}
-    return {**document, "steps": {**document["steps"], "s503": step}}
+def measure_edits(site: Surroundings) -> Iterator[dict[str, object]]:
+    """Change one step of a program of 1,000, again and again, as in a room; until the diagnostics are there."""
+    for name, edit in EDITS.items():
+        times = [*_times_of(make_program(1000), edit, site)]
+        yield figure(f"from an edit to diagnostics: {name}", min(times), "ms", steps=1000)
+
+
+def _times_of(document: Json, edit: Callable[[Json, int], Json], site: Surroundings) -> Iterator[float]:
+    program = EditedProgram()
+    program.look(document, site).compiled(with_plan=False)
+    for number in range(40):
+        edited = edit(document, number)
+        yield best_cpu_ms(lambda edited=edited: program.look(edited, site).diagnostics(), 1)
+
+
+def _value(document: Json, number: int) -> Json:
+    return with_step(document, "s503", {**document["steps"]["s503"], "params": {"duration": 7 + number}})
+
+
+def _new_step(document: Json, number: int) -> Json:
+    return with_step(document, "new", {**WAIT, "place": ["s500", "then", f"z{number}"]})
+
+
+def _moved_step(document: Json, number: int) -> Json:
+    step = document["steps"]["s503"]
+    return with_step(document, "s503", {**step, "place": [f"s{10 * number + 4}", "body", "zz"]})
+
+
+def _gone_step(document: Json, number: int) -> Json:
+    return with_step(document, f"s{500 + number}", None)
+
+
+def _missing_value(document: Json, number: int) -> Json:
+    return with_step(document, f"s{10 * number + 3}", {**document["steps"]["s503"], "params": {}})
+
+
+EDITS: dict[str, Callable[[Json, int], Json]] = {
+    "another value": _value,
+    "a new step": _new_step,
+    "a step elsewhere": _moved_step,
+    "a step taken away": _gone_step,
+    "a value taken away, which is told": _missing_value,
+}
+
+
+def measure_parsing(site: Surroundings) -> Iterator[dict[str, object]]:
+    """Read a script back that was printed from a program without two like steps."""
+    count = next(count for count in range(1000, 20000, 100) if _script(count, site).count("\n") >= LINES)
+    script = _script(count, site)
+    assert parse_script(script, site).tree is not None
+    took = best_cpu_ms(lambda: parse_script(script, site), 10)
+    lines = script.splitlines()
+    yield figure("read a script", took, "ms", lines=len(lines), different_lines=len({*lines}))
+
+
+def _script(count: int, site: Surroundings) -> str:
+    return compile_document(make_program(count), site).script
