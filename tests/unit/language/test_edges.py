@@ -205,3 +205,16 @@ def test_a_function_is_found_again_only_by_what_it_has_in_common() -> None:
     document = tree_to_document(before, factory())
     assert list(tree_to_document(same, factory(), document)["functions"]) == list(document["functions"])
     assert list(tree_to_document(other, factory(), document)["functions"]) == ["rest"]
+
+
+def test_the_most_that_a_robot_may_carry_counts_what_it_may_have_had_before() -> None:
+    drop = {**CARRY, "at": BOOTH}
+    document = program(("ask", {"question": "Two?", "answer": {"type": "boolean"}, "variable": "two"}))
+    document["steps"] |= {
+        "i": {"kind": "if", "place": ["program", "body", "1V"], "params": {"condition": {"param": "two"}}},
+        "p": {"kind": "pick", "place": ["i", "then", "1V"], "params": {**CARRY, "at": SHELF}},
+        "q": {"kind": "pick", "place": ["program", "body", "2V"], "params": {**CARRY, "at": SHELF}},
+        "d": {"kind": "drop", "place": ["program", "body", "3V"], "params": drop},
+        "e": {"kind": "drop", "place": ["program", "body", "4V"], "params": drop},
+    }
+    assert codes(document) == [("e", "may_drop_nothing")]
