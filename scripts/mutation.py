@@ -1,6 +1,6 @@
-"""Change the language in a few hundred small places, one at a time, and count how often its tests notice.
+"""Change the language in some small places, one at a time, and count how often its tests notice.
 
-python scripts/mutation.py [--mutants 250] [--seed 0] [--cosmic-ray var/mutation/bin/cosmic-ray]
+python scripts/mutation.py [--mutants 150] [--seed 0] [--cosmic-ray var/mutation/bin/cosmic-ray]
 
 Works on a copy of the tree. See docs/language/testing.md.
 """
@@ -135,7 +135,7 @@ def copy_tree(folder: Path) -> None:
 def main() -> None:
     """Make the mutants, test a sample of them, report."""
     parser = argparse.ArgumentParser(description="Mutation testing of editor/language.")
-    parser.add_argument("--mutants", type=int, default=250)
+    parser.add_argument("--mutants", type=int, default=150)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--cosmic-ray", default=str(ROOT / "var" / "mutation" / "bin" / "cosmic-ray"))
     options = parser.parse_args()
