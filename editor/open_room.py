@@ -195,6 +195,11 @@ class OpenRoom:
             await in_database(check_and_publish)(self.room.program, document, new_revision(), self._edited)
         except (DatabaseError, NoSuchProgram) as error:
             log.warning("Program %s was not checked: %s", self.room.program, error)
+        except Exception:  # the edge of the room: a fault in the checks must not end those of later edits
+            log.exception(
+                "Program %s was not checked; the next edit is looked at from the beginning.", self.room.program
+            )
+            self._edited = EditedProgram()
 
 
 def new_revision() -> int:
