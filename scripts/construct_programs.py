@@ -167,7 +167,7 @@ def _words_with_people() -> dict[str, Picture]:
         "notify": Picture(
             {"a": count, "b": step("notify", 3.0, -5.4, "program.body.2V", message=painted, level="info")}
         ),
-        "end": Picture({"a": step("if", 2.6, -4.2, condition=HOT), "b": step("end", 4.2, -6.0, "a.then.1V")}),
+        "end": Picture({"a": step("if", 2.6, -4.7, condition=HOT), "b": step("end", 4.2, -6.3, "a.then.1V")}),
         "comment": Picture({"a": step("comment", 3.0, -4.6, "", text="Keep two cans")}),
         "zone": Picture({}, frame=(0.2, -2.7, 8.2, -7.1), zones=zones, start=(1.3, -6.2)),
     }
