@@ -58,8 +58,8 @@ check: setup-dev
 test: setup-dev servers frontend
 	cd frontend && npm run --silent check && npm run --silent test
 	$(BIN)/ruff format --check --quiet $(SOURCES) && $(BIN)/ruff check --quiet $(SOURCES) && $(BIN)/mypy && $(BIN)/lint-imports
-	$(BIN)/python -m pytest --tb=native tests/e2e
-	$(BIN)/python -m pytest --tb=native --ignore=tests/e2e tests
+	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native tests/e2e
+	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --ignore=tests/e2e tests
 
 openapi: setup-dev
 	$(BIN)/python manage.py openapi
