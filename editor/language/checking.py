@@ -108,9 +108,12 @@ def _check_block(context: Context, name: str, block: n.Block, kinds: Mapping[str
             context.found.extend(told)
 
 
+_LOOK_AROUND = (n.Call, n.Parallel)
+
+
 def _looks_around(node: n.Node) -> bool:
     """Tell whether the check of a step looks at other steps, or at where robots are."""
-    return isinstance(node, n.Call | n.Parallel) or (isinstance(node, n.Move) and node.to.device is None)
+    return isinstance(node, _LOOK_AROUND) or (isinstance(node, n.Move) and node.to.device is None)
 
 
 def _bodies(tree: n.Tree) -> tuple[n.Block, ...]:

@@ -10,6 +10,7 @@ from editor.language.plan_builder import Around, Builder, Composite, Guard, Leav
 from editor.language.typing_of_values import UNKNOWN_KIND, Typing
 from editor.language.walking import walk
 
+_LEAVE = frozenset({n.Return, n.Break})
 _ONE = p.Constant(1)
 _ZERO = p.Constant(0)
 
@@ -147,7 +148,7 @@ def compile_try(builder: Builder, node: n.Try, leaves: Leaves) -> None:
 def _flag(builder: Builder, node: n.Try) -> str:
     """Return the variable for ways out through the final part, empty where there are none."""
     inside = (part for block in (node.body, node.catch) for part in walk(block))
-    return builder.hide("way") if any(isinstance(part, n.Return | n.Break) for part in inside) else ""
+    return builder.hide("way") if any(part.__class__ in _LEAVE for part in inside) else ""
 
 
 def _guarded(builder: Builder, node: n.Try) -> None:

@@ -8,8 +8,9 @@ circle is the draft; brothers stand in the order of (order, id), both compared b
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from string import ascii_lowercase
+from typing import Final
 
 PROGRAM = "program"
 EVENTS = "events"
@@ -41,6 +42,7 @@ BRANCHES: Mapping[str, tuple[str, ...]] = {
 DEEPEST_STEP = 30
 MOST_BRANCHES = 26
 
+_LISTS: Final = (list, tuple)
 Place = tuple[str, str, str]
 Params = Mapping[str, object]
 
@@ -90,7 +92,7 @@ def branches_of(kind: str, params: Params) -> tuple[str, ...]:
 
 
 def _parallel_branches(value: object) -> tuple[str, ...]:
-    named = value if isinstance(value, list | tuple) else ()
+    named = value if isinstance(value, _LISTS) else ()
     names = dict.fromkeys(name for name in named if isinstance(name, str) and name in set(ascii_lowercase))
     return tuple(names)[:MOST_BRANCHES] or ("a", "b")
 
@@ -118,13 +120,45 @@ def make_outline(document: object) -> Outline:
     return Outline(kinds, params, children, drafts, deep, unknown)
 
 
+@dataclass(slots=True)
+class LastOutline:
+    """The outline of a document as it was last; where every step stands as it did, only parameters are read."""
+
+    outline: Outline | None = None
+    steps: Params = field(default_factory=dict)
+    functions: frozenset[str] = frozenset()
+
+    def look(self, document: object) -> Outline:
+        """Return the outline of the document as it is now."""
+        whole = mapping(document)
+        steps, functions = mapping(whole.get("steps")), frozenset(mapping(whole.get("functions")))
+        changed = [name for name, step in steps.items() if step is not self.steps.get(name)]
+        same = functions == self.functions and steps.keys() == self.steps.keys()
+        if self.outline is None or not same or not all(self._stands(name, steps[name]) for name in changed):
+            self.outline = make_outline(whole)
+        else:
+            params = {name: mapping(mapping(steps[name]).get("params")) for name in changed}
+            self.outline = replace(self.outline, params={**self.outline.params, **params})
+        self.steps, self.functions = steps, functions
+        return self.outline
+
+    def _stands(self, name: str, step: object) -> bool:
+        """Tell whether a step is of the kind, in the place and with the branches that it had."""
+        before, after = mapping(self.steps[name]), mapping(step)
+        kind = _kind(after)
+        if self.outline is None or name not in self.outline.kinds or kind != self.outline.kinds[name]:
+            return False
+        branches = branches_of(kind, mapping(after.get("params")))
+        return _place(before.get("place")) == _place(after.get("place")) and branches == self.outline.branches(name)
+
+
 def _kind(step: Mapping[str, object]) -> str:
     kind = step.get("kind")
     return kind if isinstance(kind, str) else ""
 
 
 def _place(value: object) -> Place | None:
-    if not isinstance(value, list | tuple) or len(value) != 3:
+    if not isinstance(value, _LISTS) or len(value) != 3:
         return None
     parent, branch, order = value
     if not (isinstance(parent, str) and isinstance(branch, str) and isinstance(order, str)):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Final
 
 from editor.language.answers import settle_answer
 from editor.language.diagnostics import Fix, Problem, TextArguments
@@ -57,6 +58,7 @@ from editor.language.values import Names, UnknownParameter, read_place, read_poi
 from editor.language.walking import in_reading_order
 
 _DRIVING = frozenset({"move", "pick", "drop", "pick_and_drop"})
+_LISTS: Final = (list, tuple)
 FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
 
 
@@ -81,7 +83,7 @@ class _Reader:
     names: Names
     """The parameters and variables that can be seen in the block being read."""
     problems: list[Problem] = field(default_factory=list)
-    known: ReadSteps = field(default_factory=ReadSteps)
+    known: ReadSteps | None = None
     looked_around: bool = False
     """Whether a value was read that depends on other steps."""
     _driven: frozenset[str] | None = None
@@ -143,22 +145,29 @@ class _Reader:
     def block(self, parent: str, branch: str) -> Block:
         """Return the nodes of one branch."""
         nodes: list[Node] = []
-        for step in self.outline.children.get((parent, branch), ()):
-            known = self.known.steps.get(step)
-            if known is None or known.names != self.names:
-                nodes.extend(self._read(step))
+        outline, known = self.outline, self.known
+        for step in outline.children.get((parent, branch), ()):
+            if known is None:
+                nodes.extend(READERS[outline.kinds[step]](self, step, outline.params[step]))
             else:
-                nodes.extend(known.nodes)
-                self.problems.extend(known.problems)
+                nodes.extend(self._remembered(step, known))
         return tuple(nodes)
 
-    def _read(self, step: str) -> tuple[Node, ...]:
+    def _remembered(self, step: str, known: ReadSteps) -> tuple[Node, ...]:
+        """Return the nodes of a step as they were read last, or read it anew."""
+        last = known.steps.get(step)
+        if last is None or last.names != self.names:
+            return self._read(step, known)
+        self.problems.extend(last.problems)
+        return last.nodes
+
+    def _read(self, step: str, known: ReadSteps) -> tuple[Node, ...]:
         """Read a step and keep what depends on nothing but it and the names that it sees."""
         around, self.looked_around = self.looked_around, False
         told = len(self.problems)
         nodes = READERS[self.outline.kinds[step]](self, step, self.outline.params[step])
         if not self.looked_around:
-            self.known.steps[step] = StepRead(nodes, tuple(self.problems[told:]), self.names)
+            known.steps[step] = StepRead(nodes, tuple(self.problems[told:]), self.names)
         self.looked_around = self.looked_around or around
         return nodes
 
@@ -202,7 +211,7 @@ def _load(reader: _Reader, step: str, params: Params) -> tuple[Expression, Expre
 
 
 def _route(value: object) -> tuple[Point, ...]:
-    points = [read_point(point) for point in value] if isinstance(value, list | tuple) else []
+    points = [read_point(point) for point in value] if isinstance(value, _LISTS) else []
     return tuple(point for point in points if point is not None)
 
 
@@ -242,7 +251,7 @@ def _parallel(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
 
 def _try(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
     named = params.get("kinds")
-    wanted = named if isinstance(named, list | tuple) else ()
+    wanted = named if isinstance(named, _LISTS) else ()
     kinds = tuple(kind for kind in FAILURE_KINDS if kind in wanted)
     body, catch, final = (reader.block(step, branch) for branch in ("body", "catch", "finally"))
     catches = params.get("catch") is not False
@@ -349,7 +358,7 @@ def read_document(document: object, known: ReadSteps | None = None) -> Reading:
     `known` has the steps as they were read last, and has them as they are read now.
     """
     whole = mapping(document)
-    outline = make_outline(whole)
+    outline = make_outline(whole) if known is None else known.last.look(whole)
     parameters, names = read_parameters(by_id(whole.get("parameters")).items())
     taken = {*RESERVED_ATTRIBUTES, *names.values()}
     roles = read_roles(by_id(whole.get("roles")), taken)
@@ -362,11 +371,12 @@ def read_document(document: object, known: ReadSteps | None = None) -> Reading:
         if name not in names:
             names[name] = attribute_name(name, taken)
             taken.add(names[name])
-    reader = _Reader(outline, roles, functions, {}, names, known=known or ReadSteps())
+    reader = _Reader(outline, roles, functions, {}, names, known=known)
     for key, function in functions.items():
         listed, reader.argument_names[key] = read_arguments(given[key], names)
         functions[key] = replace(function, parameters=listed)
-    reader.known.begin(outline, (roles, [(f.id, f.name, f) for f in functions.values()], reader.argument_names))
+    if known is not None:
+        known.begin(outline, (roles, [(f.id, f.name, f) for f in functions.values()], reader.argument_names))
     body, events = reader.block(PROGRAM, "body"), _read_events(reader)
     finished = [_with_body(reader, function, names, variables.get(key, ())) for key, function in functions.items()]
     tree = in_reading_order(Tree(body, tuple(finished), tuple(roles.values()), parameters, events))

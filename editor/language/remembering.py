@@ -12,7 +12,7 @@ from typing import Any
 
 from editor.language.diagnostics import Problem
 from editor.language.nodes import Node
-from editor.language.outline import Outline
+from editor.language.outline import LastOutline, Outline
 
 Told = tuple[tuple[Problem, int], ...]
 """Problems that were told of nodes, each with its node's identity."""
@@ -57,6 +57,7 @@ class StepRead:
 class ReadSteps:
     """The steps of a document as they were read last."""
 
+    last: LastOutline = field(default_factory=LastOutline)
     outline: Outline | None = None
     steps: dict[str, StepRead] = field(default_factory=dict)
     _context: object = None

@@ -18,6 +18,7 @@ TYPE_WORDS: Mapping[str, str] = {
     "number": "a number", "text": "a text", "boolean": "yes or no", "list": "a list", "object": "a kind of object",
     "device": "a device", "place": "a place", "location": "a place", "zone": "a zone", "point": "a point",
 }  # fmt: skip
+_NUMBERS = (int, float)
 _TEXT_LIKE = frozenset({"object", "device", "place", "location"})
 
 
@@ -185,7 +186,7 @@ def plain_type(name: str) -> str:
 def _constant_kind(value: object) -> Kind:
     if isinstance(value, bool):
         return BOOLEAN
-    if isinstance(value, int | float):
+    if isinstance(value, _NUMBERS):
         return NUMBER
     if isinstance(value, str):
         return Kind("text")
