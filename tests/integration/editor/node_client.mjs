@@ -49,7 +49,7 @@ function addStep(client, { id, kind, x, y, parent, params }) {
     step.set("kind", kind ?? "wait");
     step.set("place", [parent ?? "program", "body", id]);
     step.set("pos", [x ?? 1, y ?? 2.5]);
-    step.set("params", new Y.Map(Object.entries(params ?? { seconds: 5 })));
+    step.set("params", new Y.Map(Object.entries(params ?? { duration: 5 })));
     client.doc.getMap("steps").set(id, step);
   });
 }
