@@ -115,6 +115,8 @@ def show_run(page: Page, demo: Demo, camera: Camera, run: str) -> None:
     page.goto(f"{demo.url}/runs/{run}")
     expect(the_map(page).locator("[data-state=running]").first).to_be_visible()
     expect(page.get_by_role("tabpanel").get_by_role("button").nth(1)).to_be_visible()
+    page.wait_for_load_state("networkidle")
+    page.wait_for_timeout(1500)
     camera.take(page, "run-monitor")
 
 

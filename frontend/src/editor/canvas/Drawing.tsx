@@ -98,9 +98,11 @@ function routeColour(state: StepState): string {
 }
 
 function routeOpacity(state: StepState, guessed: boolean): number {
+  // A line that may cross a wall is never shown: a way appears when the server has found it.
+  if (guessed) return 0;
   if (state === "planned" || state === "skipped") return 0.45;
   if (state === "done") return 0.65;
-  return guessed ? 0.4 : 1;
+  return 1;
 }
 
 function HullShape({ hull }: { hull: Hull }) {
