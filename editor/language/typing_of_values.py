@@ -216,10 +216,19 @@ _COMPUTE_ONE: Mapping[str, Callable[[Any], Any]] = {
 
 def constant_value(expression: Expression) -> object:
     """Return what an expression without readings and parameters is always worth; None when that cannot be said."""
+    if _depends(expression):
+        return None
     try:
         return _compute(expression)
     except (TypeError, ArithmeticError, ValueError, LookupError):
         return None
+
+
+def _depends(expression: Expression) -> bool:
+    """Tell whether anything in an expression is measured or given, so that nothing need be worked out."""
+    if isinstance(expression, Operation):
+        return any(map(_depends, expression.arguments))
+    return not isinstance(expression, Constant)
 
 
 def _compute(expression: Expression) -> object:
