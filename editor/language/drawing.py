@@ -19,6 +19,7 @@ from editor.language.keeping import (
     keep_roles,
     keep_values,
     with_document_names,
+    without_unknown_names,
 )
 from editor.language.ladder import FORMAT, climb
 from editor.language.layout import CHIP_HEIGHT_M, Layout
@@ -152,7 +153,32 @@ def tree_to_document(
     says; drafts, comments and zones stay. New steps stand near their devices.
     """
     old = mapping(climb(previous or {})) if previous else {}
-    tree_before = add_moves(read_document(old).tree, _standing(surroundings)) if old else n.Tree()
+    if not old:
+        return _draw(tree, surroundings, {}, n.Tree())
+    before = _read(old, surroundings)
+    drawn = _draw(tree, surroundings, old, before)
+    if _read(drawn, surroundings) == tree:
+        return drawn
+    return _draw(tree, surroundings, _without_unknown_names(old, before), before)
+
+
+def _read(document: Mapping[str, object], surroundings: Surroundings) -> n.Tree:
+    return add_moves(read_document(document).tree, _standing(surroundings))
+
+
+def _without_unknown_names(old: Mapping[str, object], tree: n.Tree) -> dict[str, object]:
+    """Return the document without values that name what did not exist: a name that is new now would give them sense."""
+    before = _look_back(old, tree)
+    steps: dict[str, object] = dict(before.raw)
+    for name, (_, said) in before.said.items():
+        raw = before.raw[name]
+        steps[name] = {**raw, "params": without_unknown_names(mapping(raw.get("params")), said)}
+    return {**old, "steps": steps}
+
+
+def _draw(
+    tree: n.Tree, surroundings: Surroundings, old: Mapping[str, object], tree_before: n.Tree
+) -> dict[str, object]:
     aligned = align(tree, tree_before) if old else tree
     functions = keep_functions(aligned, tree_before, mapping(old.get("functions")), set(mapping(old.get("steps"))))
     roles, role_ids = keep_roles(aligned, tree_before, mapping(old.get("roles")))

@@ -32,6 +32,13 @@ def _kept_inside(raw: object, said: object, says: object) -> object:
     return keep_values(mapping(raw), mapping(said), mapping(says))
 
 
+def without_unknown_names(raw: Plain, said: Plain) -> dict[str, object]:
+    """Return parameters without those that name a parameter or variable and of which the script said nothing."""
+    known = {name: value for name, value in raw.items() if name in said or '"param"' not in json.dumps(value)}
+    inner = {"args": without_unknown_names(mapping(raw["args"]), mapping(said.get("args")))} if "args" in known else {}
+    return {**known, **inner}
+
+
 def _same(first: object, second: object) -> bool:
     return json.dumps(first, sort_keys=True) == json.dumps(second, sort_keys=True)
 

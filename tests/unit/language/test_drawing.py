@@ -354,3 +354,21 @@ def test_nothing_in_a_step_before_makes_drawing_raise(document: dict[str, Any], 
     tree = parse_script(text, factory()).tree
     assert tree is not None
     assert compile_document(tree_to_document(tree, factory(), document), factory()).tree == tree
+
+
+def test_a_value_that_named_nothing_gets_no_sense_from_a_new_variable() -> None:
+    before = climb(
+        {
+            "format": 2,
+            "steps": {"w": {"kind": "wait", "place": ["program", "body", "V"], "pos": [1, -1],
+                            "params": {"duration": {"param": "count"}}}},
+        }
+    )  # fmt: skip
+    script = compile_document(before, factory()).script
+    assert "self.wait(None)" in script
+    changed = script.replace("        self.wait(None)", "        self.count = 3\n        self.wait(None)")
+    tree = parse_script(changed, factory()).tree
+    assert tree is not None
+    drawn: Any = tree_to_document(tree, factory(), before)
+    assert compile_document(drawn, factory()).tree == tree
+    assert drawn["steps"]["w"] == {**before["steps"]["w"], "params": {}, "place": drawn["steps"]["w"]["place"]}
