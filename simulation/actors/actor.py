@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from registry.capability import Description, PropertySpec, Scalar
 from simulation.actors.arguments import refusal_of_arguments
-from simulation.actors.ledger import Answer, Ledger
+from simulation.actors.ledger import REMEMBERED, Answer, Ledger
 from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
 
 Emit = Callable[[WorldEvent], None]
@@ -43,7 +43,8 @@ class Actor(ABC):
         known = beginning.readings
         self.readings = {p.name: known.get(p.name, starting_value(p)) for p in description.properties}
         self.ledger = Ledger(beginning.remembered)
-        self.paused = self.held = False
+        self.held = False
+        self._pauses: list[str] = []
         self._emit = emit
         self._waiting_faults = sorted(beginning.faults, key=lambda f: f.at_s)
         self._faults: set[str] = set()
@@ -60,6 +61,11 @@ class Actor(ABC):
     @abstractmethod
     def _cancel(self, t_s: float, command: str) -> None:
         """End a command that is under way, or all of them when the id is empty."""
+
+    @property
+    def paused(self) -> bool:
+        """True while a command is under way that was paused, or everything was; a pause ends with its command."""
+        return any(not command or self.ledger.is_under_way(command) for command in self._pauses)
 
     @property
     def frozen(self) -> bool:
@@ -100,10 +106,14 @@ class Actor(ABC):
         return self._take_on(t_s, method, arguments, command)
 
     def _control(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> None:
+        named = arguments.get("command")
+        target = named if isinstance(named, str) else ""
         if method == "cancel":
-            self._cancel_named(t_s, arguments.get("command"))
+            self._cancel_named(t_s, named)
+        elif method == "pause":
+            self._pauses = [*self._pauses, target][-REMEMBERED:]
         else:
-            self.paused = method == "pause"
+            self._pauses = [command for command in self._pauses if target not in {"", command}]
         self._say(t_s, command, Answer("DONE"))
 
     def _cancel_named(self, t_s: float, target: object) -> None:

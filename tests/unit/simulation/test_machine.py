@@ -174,6 +174,31 @@ def test_pause_keeps_the_work_and_resume_goes_on() -> None:
     assert oven.answers("p") == oven.answers("r") == ["DONE"]
 
 
+def test_a_pause_ends_with_the_command_that_it_held() -> None:
+    oven = Watched(OVEN)
+    oven.tell("curePaint", "held", time=1)
+    oven.wait(5)
+    oven.tell("pause", "p", command="held")
+    oven.wait(100)
+    assert oven.machine.busy
+    oven.tell("cancel", "x", command="held")
+    assert oven.answers("held") == ["ACCEPTED", "RUNNING", "CANCELED"]
+    oven.tell("curePaint", "next", time=1)
+    oven.wait(61)
+    assert oven.answers("next") == ["ACCEPTED", "RUNNING", "DONE"]
+
+
+def test_a_pause_that_comes_before_its_command_holds_it() -> None:
+    oven = Watched(OVEN)
+    oven.tell("pause", "p", command="late")
+    oven.tell("curePaint", "late", time=1)
+    oven.wait(100)
+    assert oven.answers("late") == ["ACCEPTED", "RUNNING"]
+    oven.tell("resume", "r", command="late")
+    oven.wait(61)
+    assert oven.answers("late")[-1] == "DONE"
+
+
 def test_cancel_ends_the_work() -> None:
     oven = Watched(OVEN)
     oven.tell("curePaint", time=1)
