@@ -68,7 +68,8 @@ class Child:
         while not self.stopping.is_set():
             started = time.monotonic()
             # The command is built from this module's own constants and paths.
-            self.process = subprocess.Popen([sys.executable, "-m", "vipo_site.child", *command])  # noqa: S603
+            wrapped = [sys.executable, "-m", "vipo_site.child", str(os.getpid()), *command]
+            self.process = subprocess.Popen(wrapped)  # noqa: S603
             code = self.process.wait()
             if self.stopping.is_set():
                 return

@@ -21,6 +21,7 @@ from simulation.site_facts import SiteFacts, read_site_facts
 from simulation.twin import Twin, TwinPlan
 
 log = logging.getLogger(__name__)
+STOP_LIMIT_S = 8
 
 
 class Command(BaseCommand):
@@ -46,6 +47,8 @@ class Command(BaseCommand):
 
         def stop(_signal: int, _frame: FrameType | None) -> None:
             stopping.set()
+            # What counts was saved before it was said; a goodbye that hangs is not worth waiting for.
+            signal.alarm(STOP_LIMIT_S)
 
         signal.signal(signal.SIGTERM, stop)
         signal.signal(signal.SIGINT, stop)

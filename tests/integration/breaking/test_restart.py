@@ -45,7 +45,8 @@ def test_a_run_survives_ctrl_c_and_kill_9_and_does_each_thing_once(tmp_path: Pat
         demo.process.kill()
         demo.process.wait()
         assert children.keys() == {"twin", "firmware"}
-        wait_for("end of the children", lambda: not any(map(is_alive, children.values())), 15)
+        names = ", ".join(f"{name} (process {pid})" for name, pid in children.items())
+        wait_for(f"end of {names}", lambda: not any(map(is_alive, children.values())), 15)
     assert complaints(demo.log.read_text()) == []
 
     with running_demo(state, speed=10) as demo:
