@@ -190,7 +190,7 @@ def test_a_missing_value_is_marked_everywhere_and_its_button_mends_it(sign_in: S
     marked = chip(page, "1, Pick-and-Drop, ? \u00d7 box")
     expect(marked).to_be_visible()
     expect(marked).to_have_attribute("aria-label", re.compile(", 1 error$"))
-    quantity = page.get_by_role("textbox", name="Quantity")
+    quantity = page.get_by_role("combobox", name="Quantity")
     expect(quantity).to_have_attribute("aria-invalid", "true")
     row = problems(page).filter(has_text="carry")
     expect(row).to_have_count(1)

@@ -2,9 +2,11 @@
 import { Select } from "@mantine/core";
 import type { Parameter, Place, Value } from "../model/types";
 import { useOpenProgram } from "../state/context";
-import { FieldFrame, PlaceField, ValueField } from "./fields";
+import { ExpressionField } from "./expression/ExpressionField";
+import { FieldFrame } from "./fields";
 import { FunctionForm } from "./FunctionForm";
 import classes from "./inspector.module.css";
+import { PlaceField } from "./PlaceField";
 import { useStepEditor } from "./stepEditor";
 import { VariableField } from "./VariableField";
 
@@ -56,7 +58,7 @@ function WhichFunction({ functionId }: { functionId: string }) {
 }
 
 function ArgumentField({ parameter }: { parameter: Parameter }) {
-  const { step, set } = useStepEditor();
+  const { id, step, set } = useStepEditor();
   const args = (step.params.args ?? {}) as Record<string, Value | Place>;
   const { name, type } = parameter;
   const give = (value: unknown) => set("args", { ...args, [name]: value });
@@ -71,10 +73,11 @@ function ArgumentField({ parameter }: { parameter: Parameter }) {
       />
     );
   return (
-    <ValueField
+    <ExpressionField
       label={name}
+      step={id}
       field={`args.${name}`}
-      type={type}
+      wanted={type}
       unit={parameter.unit}
       value={args[name] as Value}
       onChange={give}

@@ -9,7 +9,7 @@ import { fitsForm, joinComparisons, splitComparisons, type Comparison } from "..
 import type { Value } from "../model/types";
 import { ExpressionField } from "./expression/ExpressionField";
 import { Reading } from "./expression/Readings";
-import { useFieldProblems, FieldFrame, ValueField } from "./fields";
+import { FieldFrame, useFieldProblems } from "./fields";
 import classes from "./inspector.module.css";
 import { useStepEditor } from "./stepEditor";
 
@@ -107,24 +107,61 @@ function ComparisonForm({ field }: { field: string }) {
   );
 }
 
-function Row({
-  row,
-  field,
-  first,
-  onChange,
-  onRemove,
-}: {
+interface RowProps {
   row: Comparison;
   field: string;
   first: boolean;
   onChange: (row: Comparison) => void;
   onRemove?: () => void;
-}) {
+}
+
+function Row(props: RowProps) {
+  const property = propertyOf(props.row.left);
+  return (
+    <div className={classes.comparison}>
+      <LeftField {...props} />
+      {property ? <Reading device={property.device} name={property.name} /> : null}
+      <div className={classes.pair}>
+        <SignField {...props} />
+        <RightField {...props} />
+      </div>
+    </div>
+  );
+}
+
+function LeftField({ row, field, onChange, onRemove }: RowProps) {
+  const { t } = useOpenProgram();
+  const { disabled } = useStepEditor();
+  const groups = useCompared();
+  return (
+    <FieldFrame label={t("condition.property")} field={`${field}.left`} problems={[]}>
+      {({ control }) => (
+        <div className={classes.row}>
+          <Select
+            id={control}
+            className={classes.grow}
+            data={groups}
+            value={keyOf(row.left)}
+            onChange={(next) => onChange({ ...row, left: leftFrom(next) })}
+            placeholder={t("condition.choose_property")}
+            searchable
+            disabled={disabled}
+          />
+          {onRemove ? (
+            <IconButton label={t("condition.remove")} onClick={onRemove} disabled={disabled}>
+              <X size={15} aria-hidden="true" />
+            </IconButton>
+          ) : null}
+        </div>
+      )}
+    </FieldFrame>
+  );
+}
+
+/** The readings of each device, and the names that the step can use. */
+function useCompared() {
   const { t, devices } = useOpenProgram();
-  const { disabled, parameters } = useStepEditor();
-  const property = propertyOf(row.left);
-  const device = devices.find((each) => each.id === property?.device);
-  const facts = device?.properties.find((each) => each.name === property?.name);
+  const { parameters } = useStepEditor();
   const groups = [
     ...devices
       .filter((each) => each.properties.length > 0 && each.lifecycle !== "pending")
@@ -133,56 +170,52 @@ function Row({
         items: each.properties.map((one) => ({ value: `${each.id}\n${one.name}`, label: one.name })),
       })),
     { group: t("field.parameters"), items: parameters.map((one) => ({ value: `\n${one.name}`, label: one.name })) },
-  ].filter((group) => group.items.length > 0);
+  ];
+  return groups.filter((group) => group.items.length > 0);
+}
+
+function SignField({ row, field, onChange }: RowProps) {
+  const { t } = useOpenProgram();
+  const { disabled } = useStepEditor();
   return (
-    <div className={classes.comparison}>
-      <FieldFrame label={t("condition.property")} field={`${field}.left`} problems={[]}>
-        {({ control }) => (
-          <div className={classes.row}>
-            <Select
-              id={control}
-              className={classes.grow}
-              data={groups}
-              value={keyOf(row.left)}
-              onChange={(next) => onChange({ ...row, left: leftFrom(next) })}
-              placeholder={t("condition.choose_property")}
-              searchable
-              disabled={disabled}
-            />
-            {onRemove ? (
-              <IconButton label={t("condition.remove")} onClick={onRemove} disabled={disabled}>
-                <X size={15} aria-hidden="true" />
-              </IconButton>
-            ) : null}
-          </div>
-        )}
-      </FieldFrame>
-      {device && property ? <Reading device={device.id} name={property.name} /> : null}
-      <div className={classes.pair}>
-        <FieldFrame label={t("condition.comparison")} field={`${field}.sign`} problems={[]}>
-          {({ control }) => (
-            <Select
-              id={control}
-              data={SIGNS}
-              value={row.sign}
-              onChange={(next) => onChange({ ...row, sign: next ?? "==" })}
-              allowDeselect={false}
-              disabled={disabled}
-            />
-          )}
-        </FieldFrame>
-        <ValueField
-          label={t("condition.value")}
-          field={first ? `${field}.right` : `${field}.other`}
-          type={
-            typeof facts?.value === "string" || facts?.type === "text" || facts?.type === "string" ? "text" : "number"
-          }
-          unit={facts?.unit}
-          value={row.right}
-          onChange={(right) => onChange({ ...row, right })}
+    <FieldFrame label={t("condition.comparison")} field={`${field}.sign`} problems={[]}>
+      {({ control }) => (
+        <Select
+          id={control}
+          data={SIGNS}
+          value={row.sign}
+          onChange={(next) => onChange({ ...row, sign: next ?? "==" })}
+          allowDeselect={false}
+          disabled={disabled}
         />
-      </div>
-    </div>
+      )}
+    </FieldFrame>
+  );
+}
+
+/** What it is compared with: typed as the reading is, with its unit and its range. */
+function RightField({ row, field, first, onChange }: RowProps) {
+  const { t, devices } = useOpenProgram();
+  const { id, parameters } = useStepEditor();
+  const property = propertyOf(row.left);
+  const reading = devices
+    .find((each) => each.id === property?.device)
+    ?.properties.find((each) => each.name === property?.name);
+  const name = keyOf(row.left)?.slice(1);
+  const facts = reading ?? parameters.find((each) => each.name === name);
+  return (
+    <ExpressionField
+      label={t("condition.value")}
+      step={id}
+      field={first ? `${field}.right` : `${field}.other`}
+      wanted={typeof reading?.value === "string" ? "text" : facts?.type}
+      unit={facts?.unit}
+      minimum={reading?.minimum}
+      maximum={reading?.maximum}
+      placeholder={reading ? undefined : "60"}
+      value={row.right}
+      onChange={(right) => onChange({ ...row, right })}
+    />
   );
 }
 

@@ -1,6 +1,7 @@
 /** Which robot does it: a role, and whether that is any robot or one by name. */
 import { Button, Select } from "@mantine/core";
 import { Plus } from "lucide-react";
+import type { Device } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
@@ -11,67 +12,15 @@ import { useStepEditor } from "./stepEditor";
 const ANY = ":any";
 
 export function RoleField() {
-  const { document, devices, apply, t } = useOpenProgram();
-  const { id, step, set, disabled } = useStepEditor();
+  const { document, devices, t } = useOpenProgram();
+  const { step } = useStepEditor();
   const role = String(step.params.role ?? "robot");
-  const entry = document.roles[role];
   const robots = devices.filter((device) => device.kind === "robot" && device.lifecycle === "approved");
-  const roles = ["robot", ...Object.keys(document.roles).filter((each) => each !== "robot")];
   const nameOf = (each: string) => document.roles[each]?.name ?? t("role.default");
-  const bind = (device: string | null) => {
-    const name = nameOf(role);
-    const value = device && device !== ANY ? { name, device } : { name, can: entry?.can ?? [] };
-    apply([{ do: "set_role", id: role, value }]);
-  };
-  const addRole = () => {
-    const fresh = makeId();
-    apply([
-      { do: "set_role", id: fresh, value: { name: t("role.numbered", { number: roles.length + 1 }), can: [] } },
-      { do: "set_param", id, name: "role", value: fresh },
-    ]);
-  };
   return (
     <>
-      <FieldFrame label={t("role.label")} field="role">
-        {({ control }) => (
-          <div className={classes.row}>
-            <Select
-              id={control}
-              className={classes.grow}
-              data={roles.map((each) => ({ value: each, label: nameOf(each) }))}
-              value={role}
-              onChange={(next) => set("role", next ?? "robot")}
-              allowDeselect={false}
-              disabled={disabled}
-            />
-            <Button
-              variant="default"
-              px={10}
-              onClick={addRole}
-              disabled={disabled}
-              aria-label={t("role.add")}
-              title={t("role.add")}
-            >
-              <Plus size={16} aria-hidden="true" />
-            </Button>
-          </div>
-        )}
-      </FieldFrame>
-      <FieldFrame label={t("role.who", { role: nameOf(role) })} field={`roles.${role}`}>
-        {({ control }) => (
-          <Select
-            id={control}
-            data={[
-              { value: ANY, label: t("role.any") },
-              ...robots.map((robot) => ({ value: robot.id, label: robot.name })),
-            ]}
-            value={entry?.device ?? ANY}
-            onChange={bind}
-            allowDeselect={false}
-            disabled={disabled}
-          />
-        )}
-      </FieldFrame>
+      <WhichRole role={role} nameOf={nameOf} />
+      <WhichRobot role={role} name={nameOf(role)} robots={robots} />
       <div className={classes.robots}>
         {robots.map((robot) => (
           <Chip key={robot.id} tone={robot.status === "offline" ? "plain" : "quiet"}>
@@ -80,5 +29,69 @@ export function RoleField() {
         ))}
       </div>
     </>
+  );
+}
+
+function WhichRole({ role, nameOf }: { role: string; nameOf: (role: string) => string }) {
+  const { document, apply, t } = useOpenProgram();
+  const { id, set, disabled } = useStepEditor();
+  const roles = ["robot", ...Object.keys(document.roles).filter((each) => each !== "robot")];
+  const add = () => {
+    const fresh = makeId();
+    apply([
+      { do: "set_role", id: fresh, value: { name: t("role.numbered", { number: roles.length + 1 }), can: [] } },
+      { do: "set_param", id, name: "role", value: fresh },
+    ]);
+  };
+  return (
+    <FieldFrame label={t("role.label")} field="role">
+      {({ control }) => (
+        <div className={classes.row}>
+          <Select
+            id={control}
+            className={classes.grow}
+            data={roles.map((each) => ({ value: each, label: nameOf(each) }))}
+            value={role}
+            onChange={(next) => set("role", next ?? "robot")}
+            allowDeselect={false}
+            disabled={disabled}
+          />
+          <Button
+            variant="default"
+            px={10}
+            onClick={add}
+            disabled={disabled}
+            aria-label={t("role.add")}
+            title={t("role.add")}
+          >
+            <Plus size={16} aria-hidden="true" />
+          </Button>
+        </div>
+      )}
+    </FieldFrame>
+  );
+}
+
+function WhichRobot({ role, name, robots }: { role: string; name: string; robots: readonly Device[] }) {
+  const { document, apply, t } = useOpenProgram();
+  const { disabled } = useStepEditor();
+  const entry = document.roles[role];
+  const bind = (device: string | null) => {
+    const value = device && device !== ANY ? { name, device } : { name, can: entry?.can ?? [] };
+    apply([{ do: "set_role", id: role, value }]);
+  };
+  return (
+    <FieldFrame label={t("role.who", { role: name })} field={`roles.${role}`}>
+      {({ control }) => (
+        <Select
+          id={control}
+          data={[{ value: ANY, label: t("role.any") }, ...robots.map(({ id, name: label }) => ({ value: id, label }))]}
+          value={entry?.device ?? ANY}
+          onChange={bind}
+          allowDeselect={false}
+          disabled={disabled}
+        />
+      )}
+    </FieldFrame>
   );
 }

@@ -5,10 +5,10 @@ import { branchesOf } from "../model/tree";
 import type { Place } from "../model/types";
 import { useOpenProgram } from "../state/context";
 import { ConditionForm } from "./ConditionForm";
-import { PlaceField } from "./fields";
 import classes from "./inspector.module.css";
-import { RouteNote } from "./LoadForm";
+import { PlaceField } from "./PlaceField";
 import { RoleField } from "./RoleField";
+import { RouteNote } from "./RouteNote";
 import { useStepEditor } from "./stepEditor";
 import { WrittenValue } from "./valueForms";
 

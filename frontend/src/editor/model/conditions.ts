@@ -45,8 +45,7 @@ export function fitsForm(value: Value): boolean {
   if (value === null || typeof value !== "object") return value === null;
   if (!("op" in value)) return "property" in value || "param" in value;
   if (value.op === "and" || value.op === "or") return value.args.every((each) => fitsForm(each) && !isJoined(each));
-  const [left, right] = value.args;
-  return COMPARED.includes(value.op) && isNamed(left) && (isPlain(right) || isParameter(right));
+  return COMPARED.includes(value.op) && isNamed(value.args[0]);
 }
 
 function isJoined(value: Value): boolean {
@@ -61,10 +60,6 @@ function isNamed(value: Value | undefined): boolean {
 
 function isParameter(value: Value | undefined): boolean {
   return typeof value === "object" && value !== null && "param" in value;
-}
-
-function isPlain(value: Value | undefined): boolean {
-  return value === undefined || typeof value !== "object" || value === null;
 }
 
 /** The readings that a value looks at, as device and property, each once. */

@@ -2,8 +2,10 @@
 import { ExpressionInput } from "./ExpressionInput";
 import { FieldFrame, useFieldProblems } from "../fields";
 import type { Value } from "../../model/types";
+import { unitText, withUnit } from "../../scene/words";
 import { Readings } from "./Readings";
 import { useExpression } from "./useExpression";
+import { useWanted } from "./useWanted";
 
 export interface ExpressionFieldProps {
   readonly value: Value | undefined;
@@ -12,14 +14,21 @@ export interface ExpressionFieldProps {
   readonly step: string;
   readonly field: string;
   readonly label: string;
-  /** The type that is wanted, when it matters: number, text or boolean. */
+  /** The type that is wanted, when it matters: number, text, boolean, object. */
   readonly wanted?: string;
+  /** What a bare number is in. */
+  readonly unit?: string | null;
+  readonly minimum?: number | null;
+  readonly maximum?: number | null;
+  /** What can be chosen. */
+  readonly options?: readonly unknown[] | null;
   readonly placeholder?: string;
 }
 
 export function ExpressionField(props: ExpressionFieldProps) {
   const { value, onChange, step, field, label } = props;
-  const expression = useExpression({ value, onChange, step });
+  const wanted = useWanted(props.wanted, props.options);
+  const expression = useExpression({ value, onChange, step, wanted });
   const found = useFieldProblems(field);
   const problems = expression.problem ? [expression.problem] : found;
   return (
@@ -31,11 +40,19 @@ export function ExpressionField(props: ExpressionFieldProps) {
             note={bad ? note : undefined}
             bad={bad}
             expression={expression}
-            placeholder={props.placeholder}
+            wanted={wanted}
+            unit={unitText(props.unit)}
+            placeholder={props.placeholder ?? rangeText(props)}
           />
           <Readings value={value} />
         </>
       )}
     </FieldFrame>
   );
+}
+
+/** "1 – 10 min", as far as it is known. */
+function rangeText({ minimum, maximum, unit }: ExpressionFieldProps): string | undefined {
+  if (typeof minimum !== "number" || typeof maximum !== "number") return undefined;
+  return withUnit(`${minimum} – ${maximum}`, unit);
 }

@@ -23,11 +23,3 @@ type Asked = { readonly text: string } | { readonly value: Value };
 export function readExpression(program: string, step: string, asked: Asked): Promise<ReadExpression> {
   return api.post<ReadExpression>(`/programs/${program}/expression`, { ...asked, step });
 }
-
-/** Whole numbers, texts and the like need no server to be shown. */
-export function plainText(value: Value | undefined): string | null {
-  if (value === null || value === undefined) return "";
-  if (typeof value === "number") return String(value);
-  if (typeof value === "boolean") return value ? "True" : "False";
-  return null;
-}

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { suggest, take, type LineName } from "./suggestions";
+import { suggest, suggestChoices, take, type LineName } from "./suggestions";
 
 const NAMES: readonly LineName[] = [
   { name: "count", kind: "variable", id: "count", properties: [] },
@@ -52,4 +52,14 @@ test("what is taken replaces the word before the caret only", () => {
   expect(chosen && take("cu > 60", 2, chosen)).toEqual({ text: "curing_oven > 60", caret: 11 });
   const [call] = suggest("dista", 5, NAMES);
   expect(call && take("dista", 5, call)).toEqual({ text: "distance(", caret: 9 });
+});
+
+test("what can be chosen is offered by its beginning, all of it in an opened list, and replaces the whole line", () => {
+  const choices = ["teal", "tan", "red"];
+  const offered = (text: string, all = false) => suggestChoices(text, choices, all).map((each) => each.label);
+  expect(offered("t")).toEqual(["teal", "tan"]);
+  expect(offered("teal")).toEqual([]);
+  expect(offered("teal", true)).toEqual(choices);
+  const [chosen] = suggestChoices("re", choices, false);
+  expect(chosen && take("re + 1", 2, chosen)).toEqual({ text: "red", caret: 3 });
 });

@@ -13,6 +13,8 @@ export interface Suggestion {
   /** What takes the place of the text from `from` to the caret. */
   readonly insert: string;
   readonly from: number;
+  /** It takes the place of the whole line. */
+  readonly whole?: boolean;
   /** Of a reading: where its current value is found. */
   readonly device: string | null;
   readonly property: string | null;
@@ -52,6 +54,14 @@ export function suggest(text: string, caret: number, names: readonly LineName[])
     ...FUNCTIONS.map((name) => entry(name, "function", name === "now" ? "now()" : `${name}(`, from)),
   ];
   return fitting(all, word);
+}
+
+/** The values to choose from whose beginning is written; all of them while the list has only been opened. */
+export function suggestChoices(text: string, choices: readonly string[], all: boolean): readonly Suggestion[] {
+  const wanted = text.trim().toLowerCase();
+  return choices
+    .filter((each) => all || (each.toLowerCase().startsWith(wanted) && each !== text.trim()))
+    .map((each) => ({ ...entry(each, "option", each, 0), whole: true }));
 }
 
 function readings(owner: LineName | undefined, word: string, from: number): readonly Suggestion[] {
@@ -99,6 +109,7 @@ function insideText(before: string): boolean {
 
 /** The text with a suggestion taken, and where the caret then stands. */
 export function take(text: string, caret: number, chosen: Suggestion): { text: string; caret: number } {
+  if (chosen.whole) return { text: chosen.insert, caret: chosen.insert.length };
   const written = text.slice(0, chosen.from) + chosen.insert;
   return { text: written + text.slice(caret), caret: written.length };
 }

@@ -5,80 +5,39 @@ import { useTranslation } from "react-i18next";
 import { ApiProblem } from "@/api/client";
 import type { Value } from "../../model/types";
 import { useOpenProgram } from "../../state/context";
-import { plainText, readExpression, type ReadExpression } from "./readExpression";
+import { readPlain, writePlain, type Wanted } from "./literal";
+import { readExpression, type ReadExpression } from "./readExpression";
 
 const PAUSE_MS = 250;
 
 export interface Expression {
   readonly text: string;
+  /** Where the line cannot be understood, counted from 1. */
   readonly column: number | null;
   readonly problem: string | null;
-  readonly type: string;
   readonly write: (text: string) => void;
   /** Store at once what is written. */
   readonly settle: () => void;
 }
 
+interface ExpressionInputs {
+  readonly value: Value | undefined;
+  readonly onChange: (value: Value) => void;
+  readonly step: string;
+  readonly wanted: Wanted;
+}
+
 interface Written {
   readonly text: string;
-  /** The value as it was stored last, as JSON; another one came from outside. */
-  readonly of: string;
   readonly read: ReadExpression | null;
   readonly refusal: string | null;
 }
 
-export function useExpression({
-  value,
-  onChange,
-  step,
-}: {
-  value: Value | undefined;
-  onChange: (value: Value) => void;
-  step: string;
-}): Expression {
-  const { program } = useOpenProgram();
-  const { t, i18n } = useTranslation();
-  const key = JSON.stringify(value ?? null);
-  const [written, setWritten] = useState<Written>({ text: plainText(value) ?? "", of: "", read: null, refusal: null });
-  const turn = useRef(0);
-  const typing = useRef(false);
-  const known = useRef(plainText(value) === null ? "" : key);
+const UNREAD = { read: null, refusal: null };
 
-  useEffect(() => {
-    if (known.current === key) return;
-    known.current = key;
-    if (typing.current) return;
-    const mine = ++turn.current;
-    const plain = plainText(value);
-    if (plain !== null) {
-      setWritten({ text: plain, of: key, read: null, refusal: null });
-      return;
-    }
-    readExpression(program.id, step, { value: value ?? null }).then(
-      (read) => {
-        if (mine === turn.current) setWritten({ text: read.text, of: key, read, refusal: null });
-      },
-      () => undefined,
-    );
-  }, [key, value, program.id, step]);
-
-  const store = async (text: string) => {
-    const mine = ++turn.current;
-    typing.current = false;
-    try {
-      const read = await readExpression(program.id, step, { text });
-      if (mine !== turn.current) return;
-      setWritten((before) => ({ ...before, read, refusal: null }));
-      const next = JSON.stringify(read.value);
-      if (read.problem === null && next !== known.current) {
-        known.current = next;
-        onChange(read.value);
-      }
-    } catch (error) {
-      const refusal = error instanceof ApiProblem ? error.detail : null;
-      if (mine === turn.current) setWritten((before) => ({ ...before, refusal }));
-    }
-  };
+export function useExpression(inputs: ExpressionInputs): Expression {
+  const { i18n, t } = useTranslation();
+  const { written, write, store } = useWritten(inputs);
   const later = useDebouncedCallback((text: string) => void store(text), { delay: PAUSE_MS, flushOnUnmount: true });
   const problem = written.read?.problem ?? null;
   const message = problem && (problem.messages[i18n.language] ?? problem.message);
@@ -86,13 +45,80 @@ export function useExpression({
     text: written.text,
     column: problem?.column ?? null,
     problem: written.refusal ?? (problem && t("expression.column", { column: problem.column, message })),
-    type: written.read?.type ?? "",
     write: (text) => {
-      turn.current += 1;
-      typing.current = true;
-      setWritten((before) => ({ ...before, text }));
+      write(text);
       later(text);
     },
     settle: () => later.flush(),
   };
+}
+
+/** The line as it stands in the field; a value that comes from outside takes its place unless somebody types. */
+function useWritten({ value, onChange, step, wanted }: ExpressionInputs) {
+  const { program } = useOpenProgram();
+  const key = JSON.stringify(value ?? null);
+  const plain = writePlain(value, wanted);
+  const [written, setWritten] = useState<Written>({ text: plain ?? "", ...UNREAD });
+  const turn = useRef(0);
+  const typing = useRef(false);
+  const known = useRef(plain === null ? "" : key);
+  const change = useLatest(onChange);
+
+  useEffect(() => {
+    if (known.current === key) return;
+    known.current = key;
+    if (typing.current) return;
+    const mine = ++turn.current;
+    if (plain !== null) {
+      setWritten({ text: plain, ...UNREAD });
+      return;
+    }
+    readExpression(program.id, step, { value: value ?? null }).then(
+      (read) => {
+        if (mine === turn.current) setWritten({ text: read.text, read, refusal: null });
+      },
+      () => undefined,
+    );
+  }, [key, plain, value, program.id, step]);
+
+  const keep = (next: Value) => {
+    const nextKey = JSON.stringify(next);
+    if (nextKey === known.current) return;
+    known.current = nextKey;
+    change.current(next);
+  };
+  const store = async (text: string) => {
+    const mine = ++turn.current;
+    typing.current = false;
+    const literal = readPlain(text, wanted);
+    const read = literal ? UNREAD : await readLine(program.id, step, text);
+    if (mine !== turn.current) return;
+    setWritten((before) => ({ ...before, ...read }));
+    if (literal) keep(literal.value);
+    else if (read.read?.problem === null) keep(read.read.value);
+  };
+  const write = (text: string) => {
+    turn.current += 1;
+    typing.current = true;
+    setWritten((before) => ({ ...before, text }));
+  };
+  return { written, write, store };
+}
+
+/** What the server reads, or why it refused; silence leaves the line as it is. */
+async function readLine(program: string, step: string, text: string): Promise<Omit<Written, "text">> {
+  try {
+    return { read: await readExpression(program, step, { text }), refusal: null };
+  } catch (error) {
+    return { read: null, refusal: error instanceof ApiProblem ? error.detail : null };
+  }
+}
+
+/** An answer that comes late must meet the handler of the present document. */
+function useLatest<T>(value: T) {
+  const latest = useRef(value);
+  useEffect(() => {
+    latest.current = value;
+  }, [value]);
+  return latest;
 }
