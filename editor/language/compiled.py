@@ -9,7 +9,7 @@ from editor.language.checking import check
 from editor.language.compiling import compile_tree
 from editor.language.diagnostics import Diagnostic, Fix, Problem, arguments_to_json, put_into_words
 from editor.language.ladder import climb
-from editor.language.nodes import Block, Tree, blocks_of
+from editor.language.nodes import COMPOSITES, Block, Tree, blocks_of
 from editor.language.nodes import Move as MoveNode
 from editor.language.numbering import number_steps
 from editor.language.phrases import LANGUAGES
@@ -106,7 +106,7 @@ def _added_moves(tree: Tree) -> tuple[str, ...]:
             if isinstance(node, MoveNode):
                 if node.added:
                     found[node.step] = None
-            else:
+            elif node.__class__ in COMPOSITES:
                 left.extend(inner for inner in blocks_of(node) if inner)
     return tuple(found)
 

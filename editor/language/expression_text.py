@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
 
 from editor.language.plan import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.quoting import escape, quote
@@ -48,26 +49,29 @@ def write_expression(expression: Expression, names: Names) -> str:
 
 
 def _write(expression: Expression, names: Names, around: int) -> str:
-    match expression:
-        case Constant(value=tuple() as values):
-            inside = ", ".join(map(scalar_text, values))
-            return f"({inside},)" if len(values) == 1 else f"({inside})"
-        case Constant(value=value):
-            return scalar_text(value)  # type: ignore[arg-type]  # lists are taken by the case above
-        case Variable(name=name):
-            return names.variable(name)
-        case Reading(device=Constant(value=device), property=name):
-            return names.reading(str(device), name)
-        case Reading(device=device, property=name):
-            return f"{_write(device, names, _ATOM)}.read({quote(name)})"
-        case Quantity():
-            return names.quantity(expression)
-        case Located(point=(x, y)):
-            return f"point({scalar_text(x)}, {scalar_text(y)})"
-        case Located():
-            return names.located(expression)
-        case Operation():
-            return _operation(expression, names, around)
+    return _WRITERS[expression.__class__](expression, names, around)
+
+
+def _constant(expression: Constant, names: Names, around: int) -> str:
+    value = expression.value
+    if not isinstance(value, tuple):
+        return scalar_text(value)
+    inside = ", ".join(map(scalar_text, value))
+    return f"({inside},)" if len(value) == 1 else f"({inside})"
+
+
+def _reading(expression: Reading, names: Names, around: int) -> str:
+    device, name = expression.device, expression.property
+    if isinstance(device, Constant):
+        return names.reading(str(device.value), name)
+    return f"{_write(device, names, _ATOM)}.read({quote(name)})"
+
+
+def _located(expression: Located, names: Names, around: int) -> str:
+    if expression.point is None:
+        return names.located(expression)
+    x, y = expression.point
+    return f"point({scalar_text(x)}, {scalar_text(y)})"
 
 
 def _operation(expression: Operation, names: Names, around: int) -> str:
@@ -104,3 +108,13 @@ def _formatted(parts: tuple[Expression, ...], written: list[str]) -> str | None:
             return None
         pieces.append(f"{{{inside}}}")
     return f'f"{"".join(pieces)}"'
+
+
+_WRITERS: Mapping[type[Expression], Callable[[Any, Names, int], str]] = {
+    Constant: _constant,
+    Variable: lambda expression, names, around: names.variable(expression.name),
+    Reading: _reading,
+    Quantity: lambda expression, names, around: names.quantity(expression),
+    Located: _located,
+    Operation: _operation,
+}

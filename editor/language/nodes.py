@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Final
+from dataclasses import field
+from typing import TYPE_CHECKING, Final
 
 from editor.language.plan import AnswerSpec, Constant, Expression, PlaceRef
 from registry.capability import Scalar
+
+if TYPE_CHECKING:
+    from dataclasses import dataclass
+else:
+    from editor.language.frozen import dataclass
 
 MISSING = Constant(None)
 """A value that is still to be entered."""

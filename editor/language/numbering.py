@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from string import ascii_lowercase
 
-from editor.language.nodes import Block, Call, ForEach, If, Node, Parallel, Repeat, Tree, Try, While
+from editor.language.nodes import COMPOSITES, Block, Call, ForEach, If, Node, Parallel, Repeat, Tree, Try, While
 
 _PARTS = re.compile(r"[0-9]+|[a-z]")
 
@@ -53,6 +53,8 @@ class Numbering:
         self.numbers[node.step], self.depths[node.step] = number, depth
         if isinstance(node, Call) and node.function:
             self.first_calls.setdefault(node.function, (number, depth))
+        if node.__class__ not in COMPOSITES:
+            return
         for letter, block in letters_of(node):
             if block and block[0].step == block[-1].step:
                 self.node(block[0], f"{number}{letter}", depth + 1)

@@ -8,7 +8,7 @@ circle is the draft; brothers stand in the order of (order, id), both compared b
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from string import ascii_lowercase
 from typing import Final
 
@@ -101,13 +101,11 @@ def make_outline(document: object) -> Outline:
     """Read what can be read of a document's steps; nothing is too broken for it."""
     whole = mapping(document)
     raw = {name: mapping(step) for name, step in mapping(whole.get("steps")).items() if name and name.__class__ is str}
-    kinds = {name: str(step["kind"]) for name, step in raw.items() if _kind(step) in BRANCHES}
+    kinds = {name: str(step["kind"]) for name, step in raw.items() if kind_of(step) in BRANCHES}
     params = {name: mapping(raw[name].get("params")) for name in kinds}
     functions = frozenset(mapping(whole.get("functions")))
-    places = {name: _place(raw[name].get("place")) for name in kinds}
-    sound = {
-        name: place for name, place in places.items() if place and _leads_on(name, place, kinds, params, functions)
-    }
+    places = {name: place_of(raw[name].get("place")) for name in kinds}
+    sound = {name: place for name, place in places.items() if place and leads_on(name, place, kinds, params, functions)}
     for name in _circle_breakers(sound):
         del sound[name]
     children = _children(sound)
@@ -120,44 +118,14 @@ def make_outline(document: object) -> Outline:
     return Outline(kinds, params, children, drafts, deep, unknown)
 
 
-@dataclass(slots=True)
-class LastOutline:
-    """The outline of a document as it was last; where every step stands as it did, only parameters are read."""
-
-    outline: Outline | None = None
-    steps: Params = field(default_factory=dict)
-    functions: frozenset[str] = frozenset()
-
-    def look(self, document: object) -> Outline:
-        """Return the outline of the document as it is now."""
-        whole = mapping(document)
-        steps, functions = mapping(whole.get("steps")), frozenset(mapping(whole.get("functions")))
-        changed = [name for name, step in steps.items() if step is not self.steps.get(name)]
-        same = functions == self.functions and steps.keys() == self.steps.keys()
-        if self.outline is None or not same or not all(self._stands(name, steps[name]) for name in changed):
-            self.outline = make_outline(whole)
-        else:
-            params = {name: mapping(mapping(steps[name]).get("params")) for name in changed}
-            self.outline = replace(self.outline, params={**self.outline.params, **params})
-        self.steps, self.functions = steps, functions
-        return self.outline
-
-    def _stands(self, name: str, step: object) -> bool:
-        """Tell whether a step is of the kind, in the place and with the branches that it had."""
-        before, after = mapping(self.steps[name]), mapping(step)
-        kind = _kind(after)
-        if self.outline is None or name not in self.outline.kinds or kind != self.outline.kinds[name]:
-            return False
-        branches = branches_of(kind, mapping(after.get("params")))
-        return _place(before.get("place")) == _place(after.get("place")) and branches == self.outline.branches(name)
-
-
-def _kind(step: Mapping[str, object]) -> str:
+def kind_of(step: Mapping[str, object]) -> str:
+    """Return the kind that a step says it is, empty for nonsense."""
     kind = step.get("kind")
     return kind if isinstance(kind, str) else ""
 
 
-def _place(value: object) -> Place | None:
+def place_of(value: object) -> Place | None:
+    """Return parent, branch and order as a step has them; None for nonsense."""
     if not isinstance(value, _LISTS) or len(value) != 3:
         return None
     parent, branch, order = value
@@ -166,9 +134,10 @@ def _place(value: object) -> Place | None:
     return parent, branch, order
 
 
-def _leads_on(
+def leads_on(
     name: str, place: Place, kinds: Mapping[str, str], params: Mapping[str, Params], functions: frozenset[str]
 ) -> bool:
+    """Tell whether a step's place is one where a step of its kind can stand."""
     parent, branch, _ = place
     is_event = kinds[name] == "on_event"
     if parent in kinds:

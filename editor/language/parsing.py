@@ -24,6 +24,7 @@ from editor.language.parsing_expressions import (
     quoted,
     robots_driven,
 )
+from editor.language.parsing_lines import parse_lines
 from editor.language.parsing_steps import Parser
 from editor.language.parsing_variables import check_local, names_assigned
 from editor.language.positions import settle_places
@@ -46,10 +47,23 @@ def parse_script(text: str, surroundings: Surroundings) -> Parsed:
     if len(text) > LONGEST_SCRIPT:
         return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "The script is too long."}),))
     with without_collector():
-        return _parse(text, surroundings)
+        return _parse_by_lines(text, surroundings) or parse_whole(text, surroundings)
 
 
-def _parse(text: str, surroundings: Surroundings) -> Parsed:
+def _parse_by_lines(text: str, surroundings: Surroundings) -> Parsed | None:
+    """Return what a script means; None where something is wrong with it, or its lines cannot be read one by one."""
+    module = parse_lines(text)
+    if module is None:
+        return None
+    try:
+        parsed = _parse_module(module, surroundings)
+    except (Refused, RecursionError):
+        return None
+    return None if parsed.tree is None else parsed
+
+
+def parse_whole(text: str, surroundings: Surroundings) -> Parsed:
+    """Return what a script means, read as a whole, so that everything in it knows where it stands."""
     try:
         module = count_characters(ast.parse(text), text)
     except SyntaxError as error:

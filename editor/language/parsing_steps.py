@@ -49,22 +49,32 @@ class Parser:
     branches: set[str] = field(default_factory=set)
     """The branch methods met so far; each belongs to one Parallel."""
     depth: int = 0
+    known: dict[tuple[ast.stmt, frozenset[str]], n.Node] = field(default_factory=dict)
+    """What statements mean where these names are a function's or a loop's own; one may stand in many places."""
 
     def block(self, statements: list[ast.stmt]) -> n.Block:
         """Return the nodes of some statements; those that are refused are noted and left out."""
         if self.depth > DEEPEST_STEP:  # the innermost step may still have an empty branch
             raise Refused(statements[0], "A step as deep as this", "Make a function of some of the steps.")
         self.depth += 1
-        nodes = []
+        nodes: list[n.Node] = []
         for statement in statements:
-            try:
-                node = self.statement(statement)
-            except Refused as refusal:
-                self.refusals.append(refusal)
-            else:
-                nodes.extend([] if node is None else [node])
+            node = self.known.get((statement, self.scope.locals)) or self._read(statement)
+            if node is not None:
+                nodes.append(node)
         self.depth -= 1
         return tuple(nodes)
+
+    def _read(self, statement: ast.stmt) -> n.Node | None:
+        """Return the node of a statement; None for one that means nothing, or is refused."""
+        try:
+            node = self.statement(statement)
+        except Refused as refusal:
+            self.refusals.append(refusal)
+            return None
+        if node is not None and node.__class__ not in n.COMPOSITES:
+            self.known[statement, self.scope.locals] = node
+        return node
 
     def statement(self, statement: ast.stmt) -> n.Node | None:
         """Return the node of a statement; None for one that means nothing."""

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Literal
+from dataclasses import field
+from typing import TYPE_CHECKING, Literal
 
 from registry.capability import Scalar
+
+if TYPE_CHECKING:
+    from dataclasses import dataclass
+else:
+    from editor.language.frozen import dataclass
 
 PLAN_FORMAT = 2
 

@@ -139,7 +139,8 @@ class _Follower:
             self._rely(node.role, here)
             if here is None:
                 self.homeless.append(node)
-            nodes.append(replace(node, at=here or NOWHERE))
+            place, settled = here or NOWHERE, node.__class__
+            nodes.append(settled(node.role, place, node.object, node.quantity, node.step, node.place_field, node.route))
             return standing
         if here is not None and here == node.at:
             self._rely(node.role, here)

@@ -6,14 +6,16 @@ of it holds as long as the pass comes to it with the same knowledge.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 from editor.language.diagnostics import Problem
+from editor.language.last_outline import LastOutline
 from editor.language.nodes import Node
-from editor.language.outline import LastOutline, Outline
+from editor.language.outline import Outline
 
+Key = TypeVar("Key")
 Told = tuple[tuple[Problem, int], ...]
 """Problems that were told of nodes, each with its node's identity."""
 
@@ -76,10 +78,8 @@ def _changed(before: Outline, after: Outline) -> set[str]:
     """Return the steps that are gone or read otherwise, with the steps around them."""
     others = [step for step, params in after.params.items() if params is not before.params.get(step)]
     changed = {step for step in others if not _same(before.params.get(step), after.params[step])}
-    if before.kinds != after.kinds:
-        changed |= {step for step, _ in before.kinds.items() ^ after.kinds.items()}
-    if before.children != after.children:
-        changed |= {parent for (parent, _), _ in before.children.items() ^ after.children.items()}
+    changed.update(_differing(before.kinds, after.kinds))
+    changed.update(parent for parent, _ in _differing(before.children, after.children))
     parents = {child: parent for (parent, _), steps in after.children.items() for child in steps}
     for step in tuple(changed):
         around = parents.get(step)
@@ -87,6 +87,13 @@ def _changed(before: Outline, after: Outline) -> set[str]:
             changed.add(around)
             around = parents.get(around)
     return changed
+
+
+def _differing(before: Mapping[Key, object], after: Mapping[Key, object]) -> Iterator[Key]:
+    """Yield the keys under which two mappings do not hold the same."""
+    if before is not after:
+        yield from (key for key, value in after.items() if before.get(key) is not value and before.get(key) != value)
+        yield from (key for key in before if key not in after)
 
 
 def _same(before: object, after: object) -> bool:

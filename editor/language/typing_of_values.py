@@ -40,7 +40,7 @@ class Mismatch:
 
 UNKNOWN_KIND = Kind()
 NUMBER, TEXT, BOOLEAN = Kind("number"), Kind("text"), Kind("boolean")
-ZONE, POINT = Kind("zone"), Kind("point")
+ZONE, POINT, LIST = Kind("zone"), Kind("point"), Kind("list")
 METRES, SECONDS = Kind("number", "M"), Kind("number", "SEC")
 
 
@@ -67,27 +67,42 @@ class Typing:
 
     def kind_of(self, expression: Expression) -> Kind:
         """Return the kind of value that the expression gives."""
-        match expression:
-            case Constant(value=value):
-                return _constant_kind(value)
-            case Variable(name=name):
-                return self.variables.get(name, UNKNOWN_KIND)
-            case Reading():
-                spec = property_spec(expression, self.surroundings)
-                return UNKNOWN_KIND if spec is None else Kind(plain_type(spec.type), spec.unit)
-            case Quantity(unit=unit):
-                return self._quantity(unit)
-            case Located(zone=zone, point=point):
-                return ZONE if zone is not None else (TEXT if point is None else POINT)
-            case Operation():
-                return self._operation(expression)
+        return _KINDS[expression.__class__](self, expression)
 
-    def _quantity(self, unit: str) -> Kind:
-        if unit not in UNITS:
-            self.mismatches.append(Mismatch("unknown_unit", {"unit": unit}))
-        return Kind("number", unit)
+    def constant(self, expression: Constant) -> Kind:
+        """Return the kind of a value that is written out."""
+        value = expression.value
+        if isinstance(value, bool):
+            return BOOLEAN
+        if isinstance(value, _NUMBERS):
+            return NUMBER
+        if isinstance(value, str):
+            return TEXT
+        return LIST if isinstance(value, tuple) else UNKNOWN_KIND
 
-    def _operation(self, expression: Operation) -> Kind:
+    def variable(self, expression: Variable) -> Kind:
+        """Return the kind of a parameter or a variable."""
+        return self.variables.get(expression.name, UNKNOWN_KIND)
+
+    def reading(self, expression: Reading) -> Kind:
+        """Return the kind of a device's property."""
+        spec = property_spec(expression, self.surroundings)
+        return UNKNOWN_KIND if spec is None else Kind(plain_type(spec.type), spec.unit)
+
+    def quantity(self, expression: Quantity) -> Kind:
+        """Return the kind of a number with a unit."""
+        if expression.unit not in UNITS:
+            self.mismatches.append(Mismatch("unknown_unit", {"unit": expression.unit}))
+        return Kind("number", expression.unit)
+
+    def located(self, expression: Located) -> Kind:
+        """Return the kind of something that has a place."""
+        if expression.zone is not None:
+            return ZONE
+        return TEXT if expression.point is None else POINT
+
+    def operation(self, expression: Operation) -> Kind:
+        """Return the kind of what an operation gives."""
         name, arguments = expression.operator, expression.arguments
         kinds = [self.kind_of(argument) for argument in arguments]
         if name in {"and", "or", "not", "count"}:
@@ -155,6 +170,16 @@ class Typing:
             self.mismatches.append(Mismatch("wrong_unit", words))
 
 
+_KINDS: Mapping[type[Expression], Callable[[Typing, Any], Kind]] = {
+    Constant: Typing.constant,
+    Variable: Typing.variable,
+    Reading: Typing.reading,
+    Quantity: Typing.quantity,
+    Located: Typing.located,
+    Operation: Typing.operation,
+}
+
+
 def common_unit(arguments: Sequence[Expression], kinds: Sequence[Kind]) -> str:
     """Return the unit in which values meet: that of the first one that is measured or given, else the first."""
     units = [kind.unit for kind in kinds if kind.unit]
@@ -181,16 +206,6 @@ def _unit_of_product(name: str, left: str, right: str) -> str:
 def plain_type(name: str) -> str:
     """Return the type that a value of this declared type has when it is compared."""
     return "text" if name in _TEXT_LIKE else name
-
-
-def _constant_kind(value: object) -> Kind:
-    if isinstance(value, bool):
-        return BOOLEAN
-    if isinstance(value, _NUMBERS):
-        return NUMBER
-    if isinstance(value, str):
-        return Kind("text")
-    return Kind("list") if isinstance(value, tuple) else UNKNOWN_KIND
 
 
 def is_measured(expression: Expression) -> bool:

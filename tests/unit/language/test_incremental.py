@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from editor.language import Surroundings, compile_document
 from editor.language.incremental import EditedProgram
+from editor.language.last_outline import LastOutline
+from editor.language.outline import make_outline
 from tests.unit.language.site import factory, with_device
 from tests.unit.language.sound_programs import sound_documents
 from tests.unit.language.strategies import BRANCHES, PARAMS, documents
@@ -92,6 +94,14 @@ def test_every_look_says_what_a_look_at_the_whole_document_says(looks: list[tupl
         assert compiled == whole
         assert repr(compiled) == repr(whole)
         assert program.look(document, site).diagnostics() == whole.diagnostics
+
+
+@settings(slow, max_examples=150)
+@given(edited())
+def test_the_outline_of_an_edited_document_is_that_of_the_whole(looks: list[tuple[Json, Surroundings]]) -> None:
+    last = LastOutline()
+    for document, _ in looks:
+        assert last.look(document) == make_outline(document)
 
 
 def test_a_number_that_becomes_a_yes_is_another_value() -> None:
