@@ -4,29 +4,32 @@ import asyncio
 import json
 
 from vipo import panel as lights
-from vipo.drivers import check_arguments
-from vipo.portable import seconds_since, ticks_ms
-from vipo.work import Cancelled, Work
+from vipo.commands import Answers, BadCommand, make_answer, read_command, read_object
+from vipo.declare import check_arguments
+from vipo.portable import seconds_since, show_error, ticks_ms
+from vipo.work import Cancelled, Failure, Work
 
-REMEMBERED = 16
 STATE_EVERY_S = 30
 CHECK_EVERY_S = 0.5
-FINAL = ("DONE", "FAILED", "REJECTED", "CANCELED")
 
 
 class Device:
-    """One machine on the bus. `run()` never returns."""
+    """One machine on the bus. `run()` never returns.
 
-    def __init__(self, client, driver, panel, description, boot, site="+", speed=1.0, location=None):
+    `feed` is called twice a second while all goes well; `output` switches what the machine drives.
+    """
+
+    def __init__(self, client, driver, panel, description, boot, site="+", speed=1.0, feed=None, output=None):
         self.client, self.driver, self.panel = client, driver, panel
         self.description = description
-        self.boot, self.site, self.speed = boot, site, speed
-        self.location = location
+        self.boot, self.speed = boot, speed
         self.base = "vipo/v1/dev/%s/" % client.client_id
         self.sequence = 0
         self.work = None
         self.stopped = False
-        self._answers = []
+        self._feed = feed
+        self._output = output or (lambda on: None)
+        self._answers = Answers()
         self._told = None
         self._told_at = 0
         self._running = None
@@ -38,25 +41,31 @@ class Device:
     async def run(self):
         """Serve for ever."""
         self.panel.show("VIPO", "connecting")
-        talking = asyncio.create_task(self.client.run())
+        self.panel.light(lights.AMBER)
+        tasks = [asyncio.create_task(self.client.run()), asyncio.create_task(self.panel.run())]
         last = ticks_ms()
         try:
             while True:
                 await asyncio.sleep(CHECK_EVERY_S / max(1.0, min(self.speed, 5.0)))
+                if self._feed and not any(task.done() for task in tasks):
+                    self._feed()
                 if self.work is None:
                     self.driver.idle(seconds_since(last) * self.speed)
                 last = ticks_ms()
                 self._tell_state(seconds_since(self._told_at) > STATE_EVERY_S)
         finally:
-            talking.cancel()
+            for task in tasks:
+                task.cancel()
 
     def _up(self):
-        self.panel.show("VIPO online", self.client.client_id)
+        if self.work is None:
+            self.panel.show("VIPO online", self.client.client_id)
         self._shine()
         self._describe()
 
     def _down(self, reason):
-        self.panel.show("No connection", reason)
+        if self.work is None:
+            self.panel.show("No connection", reason)
         self.panel.light(lights.RED)
 
     def _describe(self):
@@ -75,8 +84,6 @@ class Device:
             "cmd": self.work.command if self.work else "",
             "props": dict(self.driver.properties),
         }
-        if self.location:
-            state["loc"] = self.location
         if not self.client.connected or (state == self._told and not even_if_equal):
             return
         self._told, self._told_at = state, ticks_ms()
@@ -86,6 +93,7 @@ class Device:
         self.client.publish(self.base + "up/state", json.dumps(message).encode(), retain=True, replace=True)
 
     def _heard(self, topic, payload, retained):
+        """Take in a message; a payload of None was too long to be read."""
         if topic == "vipo/v1/srv/status":
             if not retained:
                 self._describe()
@@ -95,25 +103,25 @@ class Device:
             self._command(topic[len(self.base) + 5 :], payload)
 
     def _stop(self, payload):
-        """Hold or release everything; a stop that cannot be read holds."""
+        """Hold or release everything; a stop that cannot be read holds, one that was taken away does not."""
         try:
-            self.stopped = bool(payload) and bool(json.loads(payload).get("active", True))
-        except (ValueError, AttributeError):
+            self.stopped = payload != b"" and read_object(payload).get("active") is not False
+        except BadCommand:
             self.stopped = True
         self._shine()
 
     def _command(self, method, payload):
         try:
-            message = json.loads(payload)
-            command, values = message["id"], message.get("v") or {}
-            ttl_s = message.get("ttl_s", 1)
-        except (ValueError, KeyError, TypeError, AttributeError):
-            self.panel.show("Bad message", method)
+            command, values, ttl_s = read_command(payload)
+        except BadCommand as error:
+            if error.command:
+                self._answer(error.command, "REJECTED", error.why)
+            elif self.work is None:
+                self.panel.show("Bad message", error.why)
             return
-        if not isinstance(command, str) or not isinstance(values, dict):
-            self.panel.show("Bad message", method)
-        elif self._answer_again(command):
-            return
+        known = self._answers.find(command)
+        if known:
+            self._send(known)
         elif method in ("pause", "resume", "cancel"):
             self._steer(command, method, values.get("command"))
         else:
@@ -126,7 +134,7 @@ class Device:
     def _objection(self, method, values, ttl_s):
         if method not in self.driver.methods:
             return "there is no method %s" % method
-        if isinstance(ttl_s, (int, float)) and ttl_s <= 0:
+        if ttl_s <= 0:
             return "it came too late"
         if self.stopped:
             return "the site is stopped"
@@ -135,9 +143,13 @@ class Device:
         return check_arguments(self.driver.methods[method], values)
 
     def _begin(self, command, method, values):
-        self.work = Work(command, self.speed, lambda: self.stopped)
+        self.work = Work(command, self.speed, lambda: self.stopped, self._switch)
         self._answer(command, "ACCEPTED")
         self._running = asyncio.create_task(self._carry_out(command, method, values))
+
+    def _switch(self, on):
+        self._output(on)
+        self.driver.switched(on)
 
     async def _carry_out(self, command, method, values):
         self._shine()
@@ -149,11 +161,15 @@ class Device:
         except Cancelled:
             status, why = "CANCELED", "cancelled by the server"
             self.panel.show("Cancelled", method)
-        except (OSError, ValueError, RuntimeError) as error:
+        except (Failure, OSError) as error:
             status, why = "FAILED", str(error)
+        except Exception as error:  # the edge of a driver: the device must answer and work on
+            show_error(error)
+            status, why = "FAILED", "the driver has a fault: %r" % error
+        if status == "FAILED":
             self.panel.show("Failed", why)
         self.work = None
-        self._shine()
+        self._shine(failed=status == "FAILED")
         self._tell_state(False)
         self._answer(command, status, why, result)
 
@@ -170,33 +186,15 @@ class Device:
         self._answer(command, "DONE")
 
     def _answer(self, command, status, why="", result=None):
-        message = {"id": command, "st": status}
-        if why:
-            message["why"] = why
-        if result is not None:
-            message["result"] = result
-        self._remember(command, message)
-        self.client.publish(self.base + "up/ack", json.dumps(message).encode())
+        message = make_answer(command, status, why, result)
+        self._answers.remember(command, message, self.work.command if self.work else "")
+        self._send(message)
 
-    def _remember(self, command, message):
-        """Keep the last answer of each of the last 16 commands."""
-        for index, (known, _) in enumerate(self._answers):
-            if known == command:
-                self._answers[index] = (command, message)
-                return
-        self._answers.append((command, message))
-        if len(self._answers) > REMEMBERED:
-            self._answers.pop(0)
+    def _send(self, answer):
+        self.client.publish(self.base + "up/ack", answer)
 
-    def _answer_again(self, command):
-        for known, message in self._answers:
-            if known == command:
-                self.client.publish(self.base + "up/ack", json.dumps(message).encode())
-                return True
-        return False
-
-    def _shine(self):
-        if self.stopped:
+    def _shine(self, failed=False):
+        if self.stopped or failed:
             self.panel.light(lights.RED)
         elif self.work is None:
             self.panel.light(lights.GREEN)

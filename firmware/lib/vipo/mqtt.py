@@ -1,66 +1,87 @@
-"""An MQTT 3.1.1 client on asyncio streams: QoS 0 and 1, last will, keep-alive, reconnect with back-off.
+"""An MQTT 3.1.1 client on asyncio streams: QoS 1, last will, keep-alive, TLS, reconnect with back-off.
 
-What is to be sent waits in a queue and is sent again after a reconnect until the broker has acknowledged it. Every
-wait has a time limit, so a broker that fell silent is left and looked for again.
+What is to be sent waits in a queue and is sent again after a reconnect until the broker has acknowledged it. A few
+messages fly at once. One task reads, one writes, one watches the clock; when one ends, the connection is made anew.
 """
 
 import asyncio
+import random
 
-from vipo.portable import seconds_since, ticks_ms
+from vipo.packets import (
+    CONNACK,
+    PINGREQ,
+    PUBACK,
+    PUBLISH,
+    REFUSALS,
+    SUBACK,
+    SUBSCRIBE_FAILED,
+    MqttFailure,
+    connect_packet,
+    puback_packet,
+    publish_packet,
+    read_packet,
+    split_publish,
+    subscribe_packet,
+)
+from vipo.portable import close_stream, seconds_since, ticks_ms
 
-CONNECT, CONNACK, PUBLISH, PUBACK, SUBSCRIBE, SUBACK, PINGREQ, DISCONNECT = 1, 2, 3, 4, 8, 9, 12, 14
-REFUSALS = {1: "protocol", 2: "client id", 3: "broker not ready", 4: "user or password", 5: "not allowed"}
 ANSWER_TIMEOUT_S = 10
-MAX_PACKET = 16384
-MAX_QUEUE = 64
+MOST_FLYING = 8
+MOST_QUEUED = 64
+MOST_UNANSWERED = 16
 LONGEST_BACK_OFF_S = 30
+LAST_ID = 65535
+
+# A ValueError is a topic or an answer that cannot be read; a MemoryError lost a packet in the middle.
+FAILURES = (OSError, EOFError, ValueError, MemoryError, MqttFailure, asyncio.TimeoutError)
 
 
-class MqttFailure(Exception):
-    """The connection is of no use any more; the text says why."""
+class Message:
+    """One message on its way; `number` is 0 until it was sent, `sent_at` are ticks, None before this connection's."""
 
-
-# A ValueError is a topic or an answer that cannot be read.
-FAILURES = (OSError, EOFError, ValueError, MqttFailure, asyncio.TimeoutError)
+    def __init__(self, topic, payload, retain):
+        self.topic, self.payload, self.retain = topic, payload, retain
+        self.number = 0
+        self.sent_at = None
 
 
 class Client:
     """One connection that comes back by itself. `run()` never returns, cancel it to end."""
 
-    def __init__(self, host, port, client_id, user, password, will=None, keepalive_s=15, tls=None):
+    def __init__(self, host, port, client_id, user, password, keepalive_s=15, tls=None):
         self.host, self.port = host, port
         self.client_id, self.user, self.password = client_id, user, password
-        self.will = will
+        self.will = None
         self.keepalive_s = keepalive_s
         self.tls = tls
-        self.on_message = None
-        self.on_up = None
-        self.on_down = None
+        self.on_message = self.on_up = self.on_down = None
         self.topics = []
         self.connected = False
         self.first_back_off_s = 1
+        self.last_id = 0
         self._queue = []
-        self._news = asyncio.Event()
-        self._packet_id = 0
-        self._answers = {}
-        self._writer = None
-        self._reading = None
+        self._to_answer = []
+        self._codes = b""
+        self._ping_due = False
         self._broken = ""
         self._was_up = False
         self._heard = 0
-        self._lock = asyncio.Lock()
+        self._news, self._over, self._subscribed = asyncio.Event(), asyncio.Event(), asyncio.Event()
 
     def subscribe(self, topic):
         """Hear a topic filter at QoS 1, from the next connection on."""
         self.topics.append(topic)
 
     def publish(self, topic, payload, retain=False, replace=False):
-        """Queue a message for QoS 1. With `replace`, an older one of the same topic that still waits is left out."""
+        """Queue a message for QoS 1; with `replace`, older ones of its topic that do not fly are left out.
+
+        A full queue loses its oldest message that does not fly.
+        """
         if replace:
-            self._queue = [m for i, m in enumerate(self._queue) if m[0] != topic or (i == 0 and m[3])]
-        if len(self._queue) >= MAX_QUEUE:
-            self._queue.pop(1)
-        self._queue.append([topic, payload, retain, 0])
+            self._queue = [m for m in self._queue if m.topic != topic or m.sent_at is not None]
+        if len(self._queue) >= MOST_QUEUED:
+            self._queue.pop(len(self._flying()))
+        self._queue.append(Message(topic, payload, retain))
         self._news.set()
 
     def pending(self):
@@ -79,194 +100,145 @@ class Client:
                     self.on_down(str(error) or "no answer")
             if self._was_up:
                 pause_s = self.first_back_off_s
-            await asyncio.sleep(pause_s)
+            # Devices that lost their broker together do not come back all at once.
+            await asyncio.sleep(pause_s * (0.75 + random.random() / 2))
             pause_s = min(pause_s * 2, LONGEST_BACK_OFF_S)
 
-    async def close(self):
-        """Say goodbye, so that the will is not sent."""
-        if self.connected:
-            await self._write(bytes((DISCONNECT << 4, 0)))
-            self._writer.close()
-
     async def _session(self):
-        reader, self._writer = await asyncio.wait_for(self._open(), ANSWER_TIMEOUT_S)
-        helpers = []
-        self._broken = ""
-        self._answers = {}
+        reader, writer = await asyncio.wait_for(self._open(), ANSWER_TIMEOUT_S)
+        tasks = []
         try:
-            await self._handshake(reader)
-            self._heard = ticks_ms()
-            self.connected = self._was_up = True
-            self._reading = asyncio.create_task(self._read_loop(reader))
-            helpers = [asyncio.create_task(self._guard(loop)) for loop in (self._greet_and_send, self._ping_loop)]
-            await self._until_read_ends()
+            await asyncio.wait_for(self._handshake(reader, writer), ANSWER_TIMEOUT_S)
+            self._begin()
+            for part in (self._read_loop(reader), self._write_loop(writer), self._watch_loop()):
+                tasks.append(asyncio.create_task(self._guard(part)))
+            await self._over.wait()
         finally:
             self.connected = False
-            for task in helpers:
+            for task in tasks:
                 task.cancel()
-            if self._reading is not None:
-                self._reading.cancel()
-            self._reading = None
-            self._writer.close()
+            await close_stream(writer)
+        raise MqttFailure(self._broken)
 
-    async def _until_read_ends(self):
-        try:
-            await self._reading
-        except asyncio.CancelledError:
-            if not self._broken:
-                raise
-            raise MqttFailure(self._broken)
+    def _begin(self):
+        """Forget the connection before; what it left unacknowledged is sent again, in order."""
+        self._broken, self._ping_due = "", False
+        self._to_answer = []
+        for message in self._queue:
+            message.sent_at = None
+        for event in (self._over, self._subscribed):
+            event.clear()
+        self._heard = ticks_ms()
+        self.connected = self._was_up = True
 
     async def _open(self):
         if self.tls is None:
             return await asyncio.open_connection(self.host, self.port)
-        try:
-            return await asyncio.open_connection(self.host, self.port, ssl=self.tls, server_hostname=self.host)
-        except TypeError:
-            return await asyncio.open_connection(self.host, self.port, ssl=self.tls)
+        return await asyncio.open_connection(self.host, self.port, ssl=self.tls, server_hostname=self.host)
 
-    async def _guard(self, loop):
-        """Run a helper loop; when it fails, the reading ends and with it the session."""
+    async def _guard(self, part):
+        """Run a part of the session; when it ends, so does the session."""
         try:
-            await loop()
+            await part
         except FAILURES as error:
-            self._break(str(error) or "no answer")
+            self._broken = self._broken or str(error) or "no answer"
+        finally:
+            self._over.set()
 
-    def _break(self, reason):
-        self._broken = reason
-        if self._reading is not None:
-            self._reading.cancel()
-
-    async def _handshake(self, reader):
-        flags = 0x02 | 0xC0
-        payload = text(self.client_id)
-        if self.will:
-            topic, message, retain = self.will
-            flags |= 0x04 | (1 << 3) | (0x20 if retain else 0)
-            payload += text(topic) + blob(message)
-        payload += text(self.user) + text(self.password)
-        body = text("MQTT") + bytes((4, flags)) + self.keepalive_s.to_bytes(2, "big") + payload
-        await self._write(packet(CONNECT << 4, body))
-        kind, answer = await asyncio.wait_for(read_packet(reader), ANSWER_TIMEOUT_S)
+    async def _handshake(self, reader, writer):
+        writer.write(connect_packet(self.client_id, self.user, self.password, self.keepalive_s, self.will))
+        await writer.drain()
+        kind, answer, _ = await read_packet(reader)
         if kind >> 4 != CONNACK or len(answer) < 2:
             raise MqttFailure("the broker did not answer as one")
         if answer[1]:
             raise MqttFailure("refused: " + REFUSALS.get(answer[1], str(answer[1])))
 
-    async def _greet_and_send(self):
+    async def _write_loop(self, writer):
         if self.topics:
-            number = self._next_id()
-            body = number.to_bytes(2, "big") + b"".join(text(t) + b"\x01" for t in self.topics)
-            codes = await self._ask(number, packet(SUBSCRIBE << 4 | 2, body))
-            if 0x80 in codes:
+            writer.write(subscribe_packet(self._next_id(), self.topics))
+            await writer.drain()
+            await asyncio.wait_for(self._subscribed.wait(), ANSWER_TIMEOUT_S)
+            if SUBSCRIBE_FAILED in self._codes:
                 raise MqttFailure("refused: a topic")
         if self.on_up:
             self.on_up()
         while True:
-            while self._queue:
-                await self._send(self._queue[0])
-            self._news.clear()
-            await self._news.wait()
+            data = self._next_packet()
+            if data:
+                writer.write(data)
+                await writer.drain()
+            else:
+                self._news.clear()
+                await self._news.wait()
 
-    async def _send(self, message):
-        topic, payload, retain, number = message
-        repeated = bool(number)
-        number = number or self._next_id()
-        message[3] = number
-        head = PUBLISH << 4 | 0x02 | (0x08 if repeated else 0) | (1 if retain else 0)
-        await self._ask(number, packet(head, text(topic) + number.to_bytes(2, "big") + payload))
-        self._queue.remove(message)
+    def _next_packet(self):
+        """Return what is to be written next, or None; answers go first."""
+        if self._to_answer:
+            return puback_packet(self._to_answer.pop(0))
+        if self._ping_due:
+            self._ping_due = False
+            return bytes((PINGREQ << 4, 0))
+        flying = len(self._flying())
+        if flying == len(self._queue) or flying >= MOST_FLYING:
+            return None
+        message = self._queue[flying]
+        again = bool(message.number)
+        message.number = message.number or self._next_id()
+        message.sent_at = ticks_ms()
+        return publish_packet(message.number, message.topic, message.payload, message.retain, again)
 
-    async def _ask(self, number, data):
-        """Send a packet and wait for the answer that bears its number; return what follows the number."""
-        event = asyncio.Event()
-        self._answers[number] = (event, [])
-        try:
-            await self._write(data)
-            await asyncio.wait_for(event.wait(), ANSWER_TIMEOUT_S)
-            return self._answers[number][1]
-        finally:
-            self._answers.pop(number, None)
+    def _flying(self):
+        """Return the messages that wait for the broker's answer: they stand first in the queue."""
+        return [m for m in self._queue[: MOST_FLYING + 1] if m.sent_at is not None]
 
-    async def _ping_loop(self):
+    async def _watch_loop(self):
+        """See that the broker speaks and answers, and that it hears from this client often enough."""
+        pinged = ticks_ms()
         while True:
-            await asyncio.sleep(self.keepalive_s / 2)
+            await asyncio.sleep(min(1, self.keepalive_s / 4))
             if seconds_since(self._heard) > 1.5 * self.keepalive_s:
                 raise MqttFailure("the broker fell silent")
-            await self._write(bytes((PINGREQ << 4, 0)))
+            flying = self._flying()
+            if flying and seconds_since(flying[0].sent_at) > ANSWER_TIMEOUT_S:
+                raise MqttFailure("the broker does not answer")
+            if seconds_since(pinged) >= self.keepalive_s / 2:
+                pinged, self._ping_due = ticks_ms(), True
+                self._news.set()
 
     async def _read_loop(self, reader):
         while True:
-            kind, body = await read_packet(reader)
+            kind, body, whole = await read_packet(reader)
             self._heard = ticks_ms()
             if kind >> 4 == PUBLISH:
-                await self._received(kind, body)
-            elif kind >> 4 in (PUBACK, SUBACK) and len(body) >= 2:
-                waiting = self._answers.get(int.from_bytes(body[:2], "big"))
-                if waiting:
-                    waiting[1].extend(body[2:])
-                    waiting[0].set()
+                await self._received(kind, body, whole)
+            elif kind >> 4 == PUBACK:
+                self._acknowledged(int.from_bytes(body[:2], "big"))
+            elif kind >> 4 == SUBACK:
+                self._codes = body[2:]
+                self._subscribed.set()
 
-    async def _received(self, kind, body):
-        if body is None:
-            return
-        length = int.from_bytes(body[:2], "big")
-        topic, rest = bytes(body[2 : 2 + length]).decode(), body[2 + length :]
-        number = b""
-        if kind & 0x06:
-            number, rest = bytes(rest[:2]), rest[2:]
+    async def _received(self, kind, body, whole):
+        """Hand a message on, with None for a payload that is too long, and answer the broker."""
+        topic, payload, number = split_publish(kind, body)
         if self.on_message:
-            self.on_message(topic, bytes(rest), bool(kind & 1))
+            self.on_message(topic, payload if whole else None, bool(kind & 1))
         if number:
-            await self._write(bytes((PUBACK << 4, 2)) + number)
+            self._to_answer.append(number)
+            self._news.set()
+        while len(self._to_answer) > MOST_UNANSWERED:
+            await asyncio.sleep(0.01)
 
-    async def _write(self, data):
-        async with self._lock:
-            self._writer.write(data)
-            await asyncio.wait_for(self._writer.drain(), ANSWER_TIMEOUT_S)
+    def _acknowledged(self, number):
+        for index, message in enumerate(self._queue):
+            if message.number == number and message.sent_at is not None:
+                self._queue.pop(index)
+                self._news.set()
+                return
 
     def _next_id(self):
         """Return the next packet id: 1 to 65535, then from 1 again, leaving out those in use."""
         while True:
-            self._packet_id = self._packet_id % 65535 + 1
-            if self._packet_id not in self._answers:
-                return self._packet_id
-
-
-async def read_packet(reader):
-    """Return (first byte, body); a body over the limit is read and dropped, and None is returned for it."""
-    kind = (await reader.readexactly(1))[0]
-    length = shift = 0
-    while True:
-        byte = (await reader.readexactly(1))[0]
-        length |= (byte & 0x7F) << shift
-        shift += 7
-        if not byte & 0x80:
-            break
-        if shift > 21:
-            raise MqttFailure("the broker sent nonsense")
-    if length <= MAX_PACKET:
-        return kind, await reader.readexactly(length)
-    while length:
-        length -= len(await reader.readexactly(min(length, 1024)))
-    return kind, None
-
-
-def packet(kind, body):
-    """Return a packet with its length in front."""
-    length, head = len(body), bytearray((kind,))
-    while True:
-        byte, length = length & 0x7F, length >> 7
-        head.append(byte | 0x80 if length else byte)
-        if not length:
-            return bytes(head) + body
-
-
-def blob(data):
-    """Return bytes with their length in front."""
-    return len(data).to_bytes(2, "big") + data
-
-
-def text(value):
-    """Return a string as MQTT writes it."""
-    return blob(value.encode())
+            self.last_id = self.last_id % LAST_ID + 1
+            if not any(message.number == self.last_id for message in self._queue):
+                return self.last_id

@@ -1,6 +1,13 @@
-"""What MicroPython's and CPython's clocks call differently."""
+"""What MicroPython and CPython do differently: clocks, closing a connection, showing an error."""
 
+import asyncio
+import gc
+import sys
 import time
+
+CLOSING_S = 1
+UNIX_AND_CHIP_S = 946684800
+CLOCK_IS_SET_S = 1700000000
 
 try:
     from time import ticks_diff, ticks_ms
@@ -18,3 +25,31 @@ except ImportError:
 def seconds_since(ticks):
     """Return the seconds since an earlier `ticks_ms()`; right for up to six days on the chip."""
     return ticks_diff(ticks_ms(), ticks) / 1000
+
+
+def unix_time():
+    """Return seconds since 1970; the chip's clock counts from 2000."""
+    return int(time.time()) + (UNIX_AND_CHIP_S if time.gmtime(0)[0] == 2000 else 0)
+
+
+def clock_is_set():
+    """Tell whether the clock shows a day that can be today."""
+    return unix_time() > CLOCK_IS_SET_S
+
+
+async def close_stream(writer):
+    """Close a connection at once: MicroPython's `close()` alone leaves the socket open."""
+    try:
+        writer.close()
+        await asyncio.wait_for(writer.wait_closed(), CLOSING_S)
+    except (OSError, EOFError, ValueError, asyncio.TimeoutError):
+        pass  # it is gone already
+    gc.collect()
+
+
+def show_error(error):
+    """Write an unexpected error with its lines to the console."""
+    if hasattr(sys, "print_exception"):
+        sys.print_exception(error)
+    else:
+        sys.excepthook(type(error), error, error.__traceback__)

@@ -1,54 +1,50 @@
 """From a configuration to a running device; shared by the chip and by a computer."""
 
-import json
-import time
 from binascii import a2b_base64
 
+from vipo.configuration import BadConfiguration, next_boot
+from vipo.describe import describe
 from vipo.device import Device
 from vipo.drivers import make_driver
 from vipo.mqtt import Client
 
-CLOCK_IS_SET = 700000000
+BEGIN, END = "-----BEGIN CERTIFICATE-----", "-----END CERTIFICATE-----"
+LONGEST_FILE = 16384
 
 
-class BadConfiguration(Exception):
-    """The configuration cannot be used; the text says what to mend."""
+def make_device(configuration, panel, output=None, feed=None):
+    """Return a Device made as the configuration says. Raises BadConfiguration, NoSuchDriver."""
+    client = Client(
+        configuration["host"],
+        configuration["port"],
+        configuration["id"],
+        configuration["id"],
+        configuration["password"],
+        keepalive_s=int(configuration.get("keepalive_s", 15)),
+        tls=tls_context(configuration["ca"]) if configuration.get("ca") else None,
+    )
+    driver = make_driver(configuration.get("driver", "mixer"), panel, configuration)
+    return Device(
+        client,
+        driver,
+        panel,
+        make_description(configuration, driver),
+        next_boot(configuration.get("boot_file", "boot.txt")),
+        site=configuration.get("site", "+"),
+        speed=float(configuration.get("speed", 1)),
+        feed=feed,
+        output=output,
+    )
 
 
-def read_configuration(path):
-    """Read the JSON file and see that it has what a device cannot do without."""
-    try:
-        with open(path) as file:
-            configuration = json.load(file)
-    except OSError:
-        raise BadConfiguration("There is no configuration file %s." % path)
-    except ValueError:
-        raise BadConfiguration("%s is not JSON." % path)
-    for name in ("host", "port", "id", "password", "description"):
-        if not configuration.get(name):
-            raise BadConfiguration("%s does not say %r." % (path, name))
-    return configuration
-
-
-def next_boot(path):
-    """Return this start's number, one higher than the last, and keep it in a file."""
-    try:
-        with open(path) as file:
-            boot = int(file.read()) + 1
-    except (OSError, ValueError):
-        # A lost file must not take the numbers back: the server ignores older boots.
-        now = int(time.time())
-        boot = now if now > CLOCK_IS_SET else 1
-    with open(path, "w") as file:
-        file.write(str(boot))
-    return boot
-
-
-def read_description(path):
-    """Return the bytes that are published as they are."""
+def make_description(configuration, driver):
+    """Return what is published: a file as it is when the configuration names one, else what the driver declares."""
+    path = configuration.get("description")
+    if not path:
+        return describe(configuration["id"], driver, configuration)
     try:
         with open(path, "rb") as file:
-            return file.read()
+            return file.read(LONGEST_FILE)
     except OSError:
         raise BadConfiguration("There is no description file %s." % path)
 
@@ -61,7 +57,13 @@ def tls_context(authority_path):
         import ssl
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
     context.verify_mode = ssl.CERT_REQUIRED
-    certificate = read_certificate(authority_path)
+    try:
+        with open(authority_path) as file:
+            certificate = read_certificate(file.read(LONGEST_FILE))
+    except OSError:
+        raise BadConfiguration("There is no certificate file %s." % authority_path)
+    except ValueError:
+        raise BadConfiguration("%s holds no certificate in PEM form." % authority_path)
     try:
         context.load_verify_locations(cadata=certificate)
     except TypeError:  # MicroPython's takes it by position only
@@ -69,37 +71,8 @@ def tls_context(authority_path):
     return context
 
 
-def read_certificate(path):
-    """Return the first certificate of a PEM file as DER, which every port of MicroPython takes."""
-    try:
-        with open(path) as file:
-            text = file.read()
-    except OSError:
-        raise BadConfiguration("There is no certificate file %s." % path)
-    begin, end = "-----BEGIN CERTIFICATE-----", "-----END CERTIFICATE-----"
-    if begin not in text or end not in text:
-        raise BadConfiguration("%s holds no certificate in PEM form." % path)
-    return a2b_base64(text.split(begin, 1)[1].split(end, 1)[0])
-
-
-def make_device(configuration, panel):
-    """Return a Device made as the configuration says."""
-    client = Client(
-        configuration["host"],
-        int(configuration["port"]),
-        configuration["id"],
-        configuration["id"],
-        configuration["password"],
-        keepalive_s=int(configuration.get("keepalive_s", 15)),
-        tls=tls_context(configuration["ca"]) if configuration.get("ca") else None,
-    )
-    return Device(
-        client,
-        make_driver(configuration.get("driver", "mixer"), panel),
-        panel,
-        read_description(configuration["description"]),
-        next_boot(configuration.get("boot_file", "boot.txt")),
-        site=configuration.get("site", "+"),
-        speed=float(configuration.get("speed", 1)),
-        location=configuration.get("location"),
-    )
+def read_certificate(text):
+    """Return the first certificate of a PEM text as DER, which every port of MicroPython takes. Raises ValueError."""
+    if BEGIN not in text or END not in text:
+        raise ValueError("no certificate")
+    return a2b_base64(text.split(BEGIN, 1)[1].split(END, 1)[0])

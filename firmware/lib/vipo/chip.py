@@ -1,0 +1,119 @@
+"""The life of an ESP32: set-up page or Wi-Fi, the clock, then the machine that config.json describes."""
+
+import asyncio
+import gc
+import random
+import sys
+import time
+
+import machine
+import network
+from vipo.board import is_pressed, make_output, make_panel
+from vipo.configuration import BadConfiguration, read_configuration
+from vipo.panel import fit
+from vipo.portable import clock_is_set, show_error
+
+CONFIGURATION = "config.json"
+# Of the board in docs/devices/esp32.md; 0 is the BOOT button that most boards have.
+DEFAULT_PINS = {"sda": 21, "scl": 22, "red": 25, "green": 26, "blue": 27, "button": 0}
+NEEDED = ("host", "port", "id", "password", "wifi_name")
+WIFI_TIMEOUT_S = 30
+WATCHDOG_MS = 60000
+SHOWN_S = 5
+TIME_SERVER = "pool.ntp.org"
+ALPHABET = "23456789abcdefghjkmnpqrstuvwxyz"
+
+
+def run():
+    """Run for ever; whatever goes wrong ends in a restart, with the reason on the display."""
+    configuration, fault = look_up()
+    pins = configuration.get("pins") or DEFAULT_PINS
+    output = make_output(pins)
+    panel = make_panel(pins)
+    try:
+        if fault or is_pressed(pins):
+            set_up(panel, fault)
+        else:
+            serve(configuration, panel, output)
+    except Exception as error:  # the edge of the program
+        show_error(error)
+        panel.show("Fault", str(error))
+        time.sleep(SHOWN_S)
+    machine.reset()
+
+
+def look_up():
+    """Return (the configuration, why it cannot be used or an empty text)."""
+    try:
+        return read_configuration(CONFIGURATION, NEEDED), ""
+    except BadConfiguration as error:
+        return {}, str(error)
+
+
+def serve(configuration, panel, output):
+    """Join the Wi-Fi and be the machine; returns when the Wi-Fi does not come."""
+    panel.show("Wi-Fi", configuration["wifi_name"])
+    if not join_wifi(configuration["wifi_name"], configuration.get("wifi_password", "")):
+        panel.show("No Wi-Fi", configuration["wifi_name"])
+        time.sleep(SHOWN_S)
+        return
+    if not set_clock(configuration.get("time_server", TIME_SERVER)) and configuration.get("ca"):
+        panel.show("No time", "certificate?")
+    from vipo.start import make_device
+
+    gc.collect()
+    watchdog = machine.WDT(timeout=WATCHDOG_MS)
+    asyncio.run(make_device(configuration, panel, output, watchdog.feed).run())
+
+
+def join_wifi(name, password):
+    """Return whether the network was joined in time; later it is joined again by itself."""
+    station = network.WLAN(network.STA_IF)
+    station.active(True)
+    station.connect(name, password)
+    for _ in range(WIFI_TIMEOUT_S * 10):
+        if station.isconnected():
+            return True
+        time.sleep(0.1)
+    return False
+
+
+def set_clock(server):
+    """Return whether the clock is right: certificates are dated, and boots count by it when their file is lost."""
+    if not clock_is_set():
+        try:
+            import ntptime
+
+            ntptime.host, ntptime.timeout = server, 2
+            ntptime.settime()
+        except (OSError, ImportError, OverflowError) as error:
+            sys.stdout.write("no time from %s: %s\n" % (server, error))
+    return clock_is_set()
+
+
+def set_up(panel, fault):
+    """Open an access point with a password of its own and serve the set-up page until it was filled in."""
+    from vipo.dns import serve_names
+    from vipo.portal import Portal
+
+    if fault:
+        sys.stdout.write(fault + "\n")
+    point = network.WLAN(network.AP_IF)
+    point.active(True)
+    name = "VIPO-" + "".join(["%02x" % byte for byte in machine.unique_id()[-3:]])
+    password = "".join([random.choice(ALPHABET) for _ in range(8)])
+    point.config(ssid=name, password=password, authmode=network.AUTH_WPA_WPA2_PSK)
+    address = point.ifconfig()[0]
+    panel.show("Wi-Fi " + name[5:] if len(name) > len(fit("")) else name, "key " + password)
+    sys.stdout.write("Join the Wi-Fi %s with %s and open http://%s\n" % (name, password, address))
+    asyncio.run(until_saved(Portal(address), serve_names(address)))
+    time.sleep(1)
+
+
+async def until_saved(portal, names):
+    """Serve the page and the names until a configuration was saved."""
+    naming = asyncio.create_task(names)
+    try:
+        await portal.run()
+    finally:
+        naming.cancel()

@@ -1,0 +1,91 @@
+"""A device's description in Turtle, made from what its driver declares and what its configuration says of it."""
+
+PREFIXES = (
+    ("dct", "http://purl.org/dc/terms/"),
+    ("qudt", "http://qudt.org/schema/qudt/"),
+    ("schema", "https://schema.org/"),
+    ("sosa", "http://www.w3.org/ns/sosa/"),
+    ("td", "https://www.w3.org/2019/wot/td#"),
+    ("unit", "http://qudt.org/vocab/unit/"),
+    ("vipo", "urn:vipo:ns#"),
+)
+
+
+def describe(device, driver, about):
+    """Return the description in bytes of the device with that id.
+
+    `about` may hold name, about (a text), site, location [x, y, z, theta] in metres and radians, size [x, y, z] in
+    metres, and simulated.
+    """
+    facts = [
+        "a sosa:Actuator, td:Thing, vipo:Machine",
+        "dct:identifier " + quote(device),
+        "dct:title " + quote(about.get("name") or device),
+        "dct:description " + quote(about.get("about") or driver.about),
+        "vipo:deviceClass " + quote(driver.device_class),
+        "vipo:location " + row(about.get("location") or (0, 0, 0, 0)),
+        "vipo:size " + row(about.get("size") or driver.size),
+        "vipo:done true",
+    ]
+    if about.get("site", "+") != "+":
+        facts.append("vipo:site " + quote(about["site"]))
+    if about.get("simulated"):
+        facts.append("vipo:simulated true")
+    facts += ["vipo:gives " + quote(thing) for thing in driver.gives]
+    facts += ["vipo:takes " + quote(thing) for thing in driver.takes]
+    facts += ["td:hasPropertyAffordance " + describe_value(v, i + 1) for i, v in enumerate(driver.readings)]
+    facts += [describe_method(device, driver, i) for i in range(len(driver.order))]
+    lines = ["@prefix %s: <%s> ." % prefix for prefix in PREFIXES]
+    lines.append("<urn:vipo:device:%s> %s ." % (device, " ;\n ".join(facts)))
+    return "\n".join(lines).encode()
+
+
+def describe_method(device, driver, index):
+    """Return the triples of one of the driver's methods."""
+    name = driver.order[index]
+    declared = driver.methods[name]
+    facts = [
+        "td:name " + quote(name),
+        "dct:title " + quote(declared["title"]),
+        "schema:position %d" % (index + 1),
+        "vipo:topic " + quote("vipo/v1/dev/%s/down/%s" % (device, name)),
+    ]
+    if declared["message"]:
+        facts.append("vipo:messageType " + quote(declared["message"]))
+    if declared["parameters"]:
+        facts.append("vipo:parameters ( %s )" % " ".join([describe_value(p) for p in declared["parameters"]]))
+    return "td:hasActionAffordance [ %s ]" % " ; ".join(facts)
+
+
+def describe_value(value, position=0):
+    """Return the triples of a property or a parameter; a property has its place among the others."""
+    facts = ["td:name " + quote(value["name"]), "vipo:type " + quote(value["type"])]
+    if position:
+        facts.append("schema:position %d" % position)
+    if value.get("title"):
+        facts.append("dct:title " + quote(value["title"]))
+    if value.get("unit"):
+        facts.append("qudt:hasUnit unit:" + value["unit"])
+    for key, word in (("least", "schema:minValue"), ("most", "schema:maxValue")):
+        if value.get(key) is not None:
+            facts.append("%s %s" % (word, float(value[key])))
+    if value.get("options"):
+        facts.append("vipo:options ( %s )" % " ".join([quote(option) for option in value["options"]]))
+    return "[ %s ]" % " ; ".join(facts)
+
+
+def row(numbers):
+    """Return numbers as an RDF list."""
+    return "( %s )" % " ".join([str(float(number)) for number in numbers])
+
+
+def quote(text):
+    """Return a Turtle string."""
+    return '"%s"' % "".join([escape(character) for character in text])
+
+
+def escape(character):
+    """Return a character as it may stand in a Turtle string."""
+    if character in '"\\':
+        return "\\" + character
+    return character if character >= " " else "\\u%04X" % ord(character)

@@ -1,0 +1,104 @@
+"""The set-up page's form: its fields, its HTML with every value escaped, and what comes back from it."""
+
+from vipo.drivers import TABLE
+
+LONGEST_VALUE = 6144
+MOST_VALUES = 24
+# Name, kind, what the page calls it, the longest value.
+FIELDS = (
+    ("wifi_name", "text", "Wi-Fi name", 32),
+    ("wifi_password", "secret", "Wi-Fi password", 63),
+    ("host", "text", "Broker: name or address", 253),
+    ("port", "number", "Broker: port (8883 with TLS)", 5),
+    ("id", "text", "This device's id", 64),
+    ("password", "secret", "This device's credential, or the site's join key", 128),
+    ("site", "text", "Site (its short name)", 64),
+    ("driver", "driver", "This device is a", 16),
+    ("name", "text", "Name on the map", 100),
+    ("location", "place", "Place: x y z theta (metres, radians)", 80),
+)
+STYLE = (
+    "body{font:16px/1.5 system-ui,sans-serif;max-width:30rem;margin:1rem auto;padding:0 1rem;color-scheme:light dark}"
+    "label{display:block;margin:.75rem 0 0}input,select,textarea,button{font:inherit;width:100%;box-sizing:border-box;"
+    "padding:.5rem}button{margin:1rem 0}.fault{border:2px solid #c33;padding:.5rem}"
+)
+
+
+def page(known, token, fault="", saved=False):
+    """Return the page: the form with what is known, or the word that all is saved."""
+    if saved:
+        inner = "<p>Saved. The board starts again and joins the Wi-Fi; its display says the rest.</p>"
+    else:
+        inner = ('<p class="fault" role="alert">%s</p>' % escape(fault) if fault else "") + form(known, token)
+    return (
+        '<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
+        "<title>VIPO device</title><style>%s</style><h1>VIPO device</h1>%s</html>" % (STYLE, inner)
+    )
+
+
+def form(known, token):
+    """Return the form; secrets are never shown."""
+    rows = [row(name, kind, label, most, known.get(name)) for name, kind, label, most in FIELDS]
+    secure = "a certificate is kept already" if known.get("ca") else "without it the connection is not encrypted"
+    return (
+        '<form method="post" action="/"><input type="hidden" name="token" value="%s">%s'
+        '<label>Certificate of the broker\'s authority, PEM (%s)<textarea name="ca" rows="4" maxlength="4096">'
+        "</textarea></label><button>Save</button></form>" % (escape(token), "".join(rows), secure)
+    )
+
+
+def row(name, kind, label, most, value):
+    """Return one field with its label."""
+    if kind == "driver":
+        options = "".join(
+            '<option%s>%s</option>' % (" selected" if option == value else "", option) for option in sorted(TABLE)
+        )
+        return '<label>%s<select name="%s">%s</select></label>' % (label, name, options)
+    if isinstance(value, (list, tuple)):
+        value = " ".join([str(part) for part in value])
+    shown = "" if value is None or kind == "secret" else escape(str(value))
+    kept = ' placeholder="keep the one that is there"' if value and kind == "secret" else ""
+    return '<label>%s<input name="%s" type="%s" maxlength="%d" value="%s"%s autocapitalize="off"></label>' % (
+        label,
+        name,
+        "password" if kind == "secret" else "text",
+        most,
+        shown,
+        kept,
+    )
+
+
+def escape(text):
+    """Return a text as it may stand in HTML, in an attribute too."""
+    for character, entity in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ('"', "&quot;"), ("'", "&#39;")):
+        text = text.replace(character, entity)
+    return text
+
+
+def read_form(body):
+    """Return {name: value} of a form sent as application/x-www-form-urlencoded, or None when it cannot be read."""
+    pairs = body.split(b"&")
+    if len(pairs) > MOST_VALUES:
+        return None
+    values = {}
+    for pair in pairs:
+        name, _, value = pair.partition(b"=")
+        if len(value) > LONGEST_VALUE:
+            return None
+        try:
+            values[name.decode()] = unquote(value).decode()
+        except ValueError:
+            return None
+    return values
+
+
+def unquote(value):
+    """Return bytes with their %XX and + undone. Raises ValueError."""
+    parts = value.replace(b"+", b" ").split(b"%")
+    out = bytearray(parts[0])
+    for part in parts[1:]:
+        if len(part) < 2:
+            raise ValueError("a broken %")
+        out.append(int(part[:2], 16))
+        out.extend(part[2:])
+    return bytes(out)

@@ -1,0 +1,95 @@
+"""MQTT 3.1.1 on the wire: packets to bytes, and packets out of a stream."""
+
+CONNECT, CONNACK, PUBLISH, PUBACK, SUBSCRIBE, SUBACK, PINGREQ = 1, 2, 3, 4, 8, 9, 12
+REFUSALS = {1: "protocol", 2: "client id", 3: "broker not ready", 4: "user or password", 5: "not allowed"}
+MOST_BYTES = 4096
+HEAD_BYTES = 512
+SUBSCRIBE_FAILED = 0x80
+
+
+class MqttFailure(Exception):
+    """The connection is of no use any more; the text says why."""
+
+
+async def read_packet(reader):
+    """Return (first byte, body, whole); of a body over MOST_BYTES only the first HEAD_BYTES, and `whole` is False."""
+    kind = (await reader.readexactly(1))[0]
+    length = await read_length(reader)
+    if length <= MOST_BYTES:
+        return kind, await reader.readexactly(length), True
+    head = await reader.readexactly(HEAD_BYTES)
+    length -= HEAD_BYTES
+    while length:
+        length -= len(await reader.readexactly(min(length, HEAD_BYTES)))
+    return kind, head, False
+
+
+async def read_length(reader):
+    """Return a packet's length, seven bits in each byte, four bytes at most."""
+    length = 0
+    for shift in (0, 7, 14, 21):
+        byte = (await reader.readexactly(1))[0]
+        length |= (byte & 0x7F) << shift
+        if not byte & 0x80:
+            return length
+    raise MqttFailure("the broker sent nonsense")
+
+
+def split_publish(kind, body):
+    """Return (topic, payload, packet id or 0) of a PUBLISH."""
+    end = 2 + int.from_bytes(body[:2], "big")
+    topic = bytes(body[2:end]).decode()
+    if not kind & 0x06:
+        return topic, bytes(body[end:]), 0
+    number = int.from_bytes(body[end : end + 2], "big")
+    if not number:
+        raise MqttFailure("the broker sent nonsense")
+    return topic, bytes(body[end + 2 :]), number
+
+
+def connect_packet(client_id, user, password, keepalive_s, will):
+    """Return a CONNECT with a clean session; `will` is (topic, payload, retain) or None."""
+    flags = 0x02 | 0xC0
+    payload = text(client_id)
+    if will:
+        topic, message, retain = will
+        flags |= 0x04 | 0x08 | (0x20 if retain else 0)
+        payload += text(topic) + blob(message)
+    payload += text(user) + text(password)
+    return packet(CONNECT << 4, text("MQTT") + bytes((4, flags)) + keepalive_s.to_bytes(2, "big") + payload)
+
+
+def subscribe_packet(number, topics):
+    """Return a SUBSCRIBE for topic filters, each at QoS 1."""
+    return packet(SUBSCRIBE << 4 | 2, number.to_bytes(2, "big") + b"".join(text(t) + b"\x01" for t in topics))
+
+
+def publish_packet(number, topic, payload, retain, again):
+    """Return a PUBLISH at QoS 1; `again` says that the broker may have it already."""
+    head = PUBLISH << 4 | 0x02 | (0x08 if again else 0) | (1 if retain else 0)
+    return packet(head, text(topic) + number.to_bytes(2, "big") + payload)
+
+
+def puback_packet(number):
+    """Return the answer to a PUBLISH at QoS 1."""
+    return bytes((PUBACK << 4, 2, number >> 8, number & 0xFF))
+
+
+def packet(kind, body):
+    """Return a packet with its length in front."""
+    length, head = len(body), bytearray((kind,))
+    while True:
+        byte, length = length & 0x7F, length >> 7
+        head.append(byte | 0x80 if length else byte)
+        if not length:
+            return bytes(head) + body
+
+
+def blob(data):
+    """Return bytes with their length in front."""
+    return len(data).to_bytes(2, "big") + data
+
+
+def text(value):
+    """Return a string as MQTT writes it."""
+    return blob(value.encode())
