@@ -17,6 +17,8 @@ from execution.shapes import (
     ArmProgram,
     AskRoute,
     AskRoutes,
+    CallMethod,
+    CallShape,
     QuestionShape,
     RehearsalShape,
     RouteShape,
@@ -114,6 +116,29 @@ def cancel_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
     """Cancel a run."""
     _require_here(request, services.site_of_run(run_id=run), "operator", "run")
     return services.cancel_run(run_id=run, by=_who(request))
+
+
+@router.post("/sites/{slug:site}/devices/{device_id}/call", response=CallShape)
+def call_method(request: HttpRequest, site: str, device_id: str, body: CallMethod) -> dict[str, Any]:
+    """Tell a device to carry out one of its methods, outside of any run; follow what comes of it by its id."""
+    _require(request, site, "operator")
+    return services.call_method(
+        site=site, device_id=device_id, method=body.method, arguments=body.args, by=_who(request)
+    )
+
+
+@router.get("/sites/{slug:site}/calls/{uuid:call}", response=CallShape)
+def get_call(request: HttpRequest, site: str, call: UUID) -> dict[str, Any]:
+    """Return a call and what has come of it."""
+    _require(request, site, "viewer")
+    return services.get_call(site=site, call_id=call)
+
+
+@router.post("/sites/{slug:site}/calls/{uuid:call}/cancel", response=CallShape)
+def cancel_call(request: HttpRequest, site: str, call: UUID) -> dict[str, Any]:
+    """Ask the device to end a call."""
+    _require(request, site, "operator")
+    return services.cancel_call(site=site, call_id=call)
 
 
 @router.get("/sites/{slug:site}/questions", response=list[QuestionShape])

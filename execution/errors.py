@@ -6,6 +6,7 @@ ExecutionError
  ├── NotPossibleNow: the run is over, the site is stopped
  ├── AlreadyAnswered: somebody else was quicker
  ├── AnswerNotFitting: the answer is not what was asked for
+ ├── BadArguments: a method does not take these arguments
  └── NoWay: there is no route
 """
 
@@ -52,6 +53,13 @@ class AnswerNotFitting(ExecutionError):
     """The answer is not what was asked for."""
 
     code = "answer_not_fitting"
+    status = 422
+
+
+class BadArguments(ExecutionError):
+    """A method that the device does not have, or arguments that it does not take."""
+
+    code = "bad_arguments"
     status = 422
 
 

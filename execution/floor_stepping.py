@@ -100,6 +100,8 @@ def _news(before: State, devices: tuple[registry.DeviceView, ...]) -> list[m.Eve
 def _event(row: InboxEvent) -> m.Event:
     """Read an event from the inbox."""
     data = row.payload
+    if data["type"] in {"call_sent", "call_cancelled"}:
+        return _call_event(data)
     match data["type"]:
         case "mission_asked":
             order = mission_from_json(data["order"])
@@ -121,6 +123,12 @@ def _event(row: InboxEvent) -> m.Event:
         case "stop_reset":
             return m.StopReset()
     raise ValueError(f"A floor does not understand an event of type {data['type']!r}.")
+
+
+def _call_event(data: Mapping[str, Any]) -> m.Event:
+    if data["type"] == "call_cancelled":
+        return m.CallCancelled(data["command"], data["given_up"])
+    return m.CallSent(data["command"], data["device"], data["method"], data["arguments"], data["name"])
 
 
 def _write(slug: str, row: FloorState, before: State, after: State, actions: tuple[m.Action, ...]) -> None:

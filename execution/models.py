@@ -124,6 +124,8 @@ class Command(models.Model):
     piece = models.BooleanField(default=False)
     status = models.CharField(max_length=10, choices=Status.choices, default=Status.PENDING)
     why = models.CharField(max_length=500, blank=True)
+    result = models.JSONField(default=dict)
+    by = models.CharField(max_length=120, blank=True)
     fence = models.PositiveIntegerField(default=0)
     tries = models.PositiveIntegerField(default=0)
     ttl_s = models.FloatField(default=60.0)

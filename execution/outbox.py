@@ -131,10 +131,10 @@ def record_ack(
         row.status, row.why = STATUS[status], why[:500]
         row.sent_at = row.sent_at or at
         if status in FINAL:
-            row.ended_at = at
+            row.ended_at, row.result = at, dict(result)
         else:
             row.send_after = at + timedelta(seconds=LAST_RETRY_S)
-        row.save(update_fields=["status", "why", "sent_at", "ended_at", "send_after"])
+        row.save(update_fields=["status", "why", "sent_at", "ended_at", "send_after", "result"])
         if status == "DONE" and row.piece:
             _close_pieces_before(row, at)
         if status in FINAL and row.method not in CONTROLS:

@@ -3,9 +3,18 @@
 from __future__ import annotations
 
 from execution.arming import arm_program, disarm_program, list_armed, start_armed
+from execution.calls import call_method, cancel_call, get_call
 from execution.clockwork import run_ticker
 from execution.devices import record_device_change
-from execution.errors import AlreadyAnswered, AnswerNotFitting, ExecutionError, NotFound, NotPossibleNow, NotReady
+from execution.errors import (
+    AlreadyAnswered,
+    AnswerNotFitting,
+    BadArguments,
+    ExecutionError,
+    NotFound,
+    NotPossibleNow,
+    NotReady,
+)
 from execution.outbox import OutgoingCommand, claim_commands, mark_commands_sent, record_ack, resend_commands
 from execution.planning import plan_routes
 from execution.programs import Prepared
@@ -27,6 +36,7 @@ from execution.ticking import tick
 __all__ = [
     "AlreadyAnswered",
     "AnswerNotFitting",
+    "BadArguments",
     "ExecutionError",
     "NotFound",
     "NotPossibleNow",
@@ -36,9 +46,12 @@ __all__ = [
     "StopView",
     "answer_question",
     "arm_program",
+    "call_method",
+    "cancel_call",
     "cancel_run",
     "claim_commands",
     "disarm_program",
+    "get_call",
     "get_rehearsal",
     "get_run",
     "is_stopped",

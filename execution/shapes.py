@@ -167,6 +167,31 @@ class ArmedShape(Schema):
     at: str
 
 
+class CallMethod(Schema):
+    """A method of a device, and its arguments by name."""
+
+    method: str = Field(max_length=64)
+    args: dict[str, Any] = {}
+
+
+class CallShape(Schema):
+    """Something that a person told a device to do; `over` once nothing more will come of it."""
+
+    id: str
+    device: str
+    method: str
+    args: dict[str, Any]
+    by: str
+    status: Literal["pending", "sent", "accepted", "running", "done", "failed", "rejected", "cancelled", "timed_out"]
+    over: bool
+    why: str
+    result: dict[str, Scalar | None]
+    created_at: str
+    expires_at: str
+    sent_at: str | None
+    ended_at: str | None
+
+
 class RehearsalError(Schema):
     """Something that the real run would meet, too."""
 

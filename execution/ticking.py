@@ -10,6 +10,7 @@ from django.db import transaction
 
 from execution import inbox
 from execution.arming import start_armed
+from execution.calls import expire_calls
 from execution.models import FloorState, InboxEvent, Lease, Rehearsal, Run, Timer
 from execution.outbox import drop_stale_controls
 from registry import live
@@ -98,6 +99,7 @@ def sweep(now: datetime) -> None:
     for run in pending.values_list("id", flat=True):
         inbox.send_hint(inbox.ADVANCE_RUN, str(run))
     drop_stale_controls(now)
+    expire_calls(now=now)
     _sweep_rehearsals(now)
 
 

@@ -14,7 +14,7 @@ from execution.traffic.driving import cut_way, drive, drop_pieces, end_piece, ke
 from execution.traffic.evading import resolve, send_home
 from execution.traffic.floor_state import FloorState, Job, Robot, Sent, from_json, to_json
 from execution.traffic.layout import Layout
-from execution.traffic.serving import ABSENCE_S, bind_roles, serve
+from execution.traffic.serving import ABSENCE_S, CALL_LIMIT_S, bind_roles, limit_of, serve
 from execution.traffic.turn import Turn
 from execution.traffic.zones import keep_zones
 
@@ -103,6 +103,10 @@ def _take(turn: Turn, event: m.Event) -> None:
         case m.MissionCancelled(run=run, mission=mission):
             if job := turn.jobs.get((run, mission)):
                 _drop(turn, job)
+        case m.CallSent():
+            _take_call(turn, event)
+        case m.CallCancelled():
+            _end_call(turn, event)
         case m.RunPaused() | m.RunResumed() | m.RunOver() | m.StopPressed() | m.StopReset():
             _take_order(turn, event)
         case _:
@@ -156,6 +160,25 @@ def _take_mission(turn: Turn, event: m.MissionAsked) -> None:
         turn.zones[event.run] = event.zones
 
 
+def _take_call(turn: Turn, event: m.CallSent) -> None:
+    """A person uses a device by hand: runs wait until it is done, a stop holds it, it has its time limit."""
+    device = turn.layout.devices.get(event.device)
+    limit_s = limit_of(device, event.method, event.arguments) if device else CALL_LIMIT_S
+    sent = Sent(event.command, event.device, at=turn.now, limit_s=limit_s, held_up=turn.stopped)
+    turn.sent[event.command] = sent
+    if event.device not in turn.robots:
+        turn.calls[event.device] = event.command
+        turn.names[event.command] = event.name
+
+
+def _end_call(turn: Turn, event: m.CallCancelled) -> None:
+    sent = turn.sent.get(event.command)
+    if sent is not None and event.given_up:
+        _give_up(turn, sent, "timed_out", "")
+    elif sent is not None:
+        turn.tell(sent, "cancel")
+
+
 def _take_online(turn: Turn, device: str) -> None:
     turn.offline.pop(device, None)
     robot = turn.robots.get(device)
@@ -183,7 +206,9 @@ def _take_answer(turn: Turn, event: m.CommandAnswered) -> None:
 def _end_act(turn: Turn, sent: Sent, kind: str, why: str, event: m.CommandAnswered | None) -> None:
     """A device is done with a mission's command, or will not be."""
     if sent.device not in turn.robots:
-        turn.calls.pop(sent.device, None)
+        caller = turn.calls.pop(sent.device, "")
+        if not sent.run:
+            turn.names.pop(caller, None)
     rested = turn.robots.get(turn.stations.get(sent.device, sent.device))
     if rested is not None:
         turn.put(rested, idle_since=turn.now)

@@ -132,9 +132,28 @@ class RunOver:
     run: str
 
 
+@dataclass(frozen=True, slots=True)
+class CallSent:
+    """A person has told a device to do something, outside of any run; `name` is what others wait for meanwhile."""
+
+    command: str
+    device: str
+    method: str
+    arguments: Mapping[str, object]
+    name: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CallCancelled:
+    """A person's command is not wanted any more, or was not answered; `given_up`: no answer is awaited."""
+
+    command: str
+    given_up: bool = False
+
+
 Event = (
-    MissionAsked | MissionCancelled | RobotMoved | CommandAnswered | DeviceOnline | DeviceOffline
-    | Tick | StopPressed | StopReset | RunPaused | RunResumed | RunOver
+    CallSent | CallCancelled | MissionAsked | MissionCancelled | RobotMoved | CommandAnswered | DeviceOnline
+    | DeviceOffline | Tick | StopPressed | StopReset | RunPaused | RunResumed | RunOver
 )  # fmt: skip
 
 

@@ -213,17 +213,18 @@ def _call(turn: Turn, job: Job) -> None:
             _ask_to_leave(turn, holder, holder)
     else:
         turn.calls[device.id] = job.run
-        sent = Sent("", device.id, job.run, job.mission, limit_s=_limit_s(device, job))
-        command = turn.send(sent, job.order.method, dict(job.order.arguments), job.order.step)
+        method, arguments = job.order.method, dict(job.order.arguments)
+        sent = Sent("", device.id, job.run, job.mission, limit_s=limit_of(device, method, arguments))
+        command = turn.send(sent, method, arguments, job.order.step)
         turn.put_job(job, command=command, absent_since=None)
 
 
-def _limit_s(device: Description, job: Job) -> float:
-    """Return how long a call may take: half as long again as its durations say, and a minute."""
-    method = device.method(job.order.method)
+def limit_of(device: Description, name: str, arguments: Mapping[str, object]) -> float:
+    """Return how many seconds a call may take: half as long again as its durations say, and a minute."""
+    method = device.method(name)
     total = 0.0
     for parameter in method.parameters if method else ():
-        value = job.order.arguments.get(parameter.name)
+        value = arguments.get(parameter.name)
         if parameter.unit in UNIT_S and isinstance(value, int | float):
             total += value * UNIT_S[parameter.unit]
     return 1.5 * total + 60.0 if total else CALL_LIMIT_S

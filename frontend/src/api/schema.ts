@@ -500,6 +500,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/calls/{call}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Call
+         * @description Return a call and what has come of it.
+         */
+        get: operations["execution_api_get_call"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/calls/{call}/cancel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Cancel Call
+         * @description Ask the device to end a call.
+         */
+        post: operations["execution_api_cancel_call"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/devices/{device_id}/call": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Call Method
+         * @description Tell a device to carry out one of its methods, outside of any run; follow what comes of it by its id.
+         */
+        post: operations["execution_api_call_method"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/questions": {
         parameters: {
             query?: never;
@@ -936,6 +996,35 @@ export interface components {
             id: number;
             initials: string;
             name: string;
+        };
+        /** @description A method of a device, and its arguments by name. */
+        CallMethod: {
+            /** @default {} */
+            args: {
+                [key: string]: unknown;
+            };
+            method: string;
+        };
+        /** @description Something that a person told a device to do; `over` once nothing more will come of it. */
+        CallShape: {
+            args: {
+                [key: string]: unknown;
+            };
+            by: string;
+            created_at: string;
+            device: string;
+            ended_at: string | null;
+            expires_at: string;
+            id: string;
+            method: string;
+            over: boolean;
+            result: {
+                [key: string]: boolean | number | string | null;
+            };
+            sent_at: string | null;
+            /** @enum {string} */
+            status: "pending" | "sent" | "accepted" | "running" | "done" | "failed" | "rejected" | "cancelled" | "timed_out";
+            why: string;
         };
         /** @description A field of a description that changed: its JSON before and after, empty where it was or is not there. */
         ChangeShape: {
@@ -2575,6 +2664,106 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ArmedShape"][];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    execution_api_get_call: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+                call: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CallShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    execution_api_cancel_call: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+                call: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CallShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    execution_api_call_method: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CallMethod"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CallShape"];
                 };
             };
             /** @description A refusal */

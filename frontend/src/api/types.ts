@@ -122,6 +122,23 @@ export interface Device {
   description: string;
 }
 
+/** Something that a person told a device to do; `over` once nothing more will come of it. */
+export interface MethodCall {
+  id: string;
+  device: string;
+  method: string;
+  args: Record<string, unknown>;
+  by: string;
+  status: "pending" | "sent" | "accepted" | "running" | "done" | "failed" | "rejected" | "cancelled" | "timed_out";
+  over: boolean;
+  why: string;
+  result: Record<string, Scalar | null>;
+  created_at: string;
+  expires_at: string;
+  sent_at: string | null;
+  ended_at: string | null;
+}
+
 /** A field of a description that changed; its JSON, empty where it was or is not there. */
 export interface FieldChange {
   path: string;

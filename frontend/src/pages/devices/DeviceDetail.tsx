@@ -77,7 +77,7 @@ function Overview({ site, device }: { site: Site; device: Device }) {
     <div className={styles.overview}>
       {device.description ? <p>{device.description}</p> : null}
       <LiveProperties device={device} />
-      <Methods device={device} />
+      <Methods site={site} device={device} />
       <div className={styles.pair}>
         <RdfSource slug={site.slug} device={device.id} />
         <Changes slug={site.slug} device={device.id} most={6} />

@@ -1,9 +1,13 @@
+import { Button, Tooltip } from "@mantine/core";
+import { Play } from "lucide-react";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { Device, MethodParameter } from "@/api/types";
+import type { Device, DeviceMethod, MethodParameter, Site } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { Panel } from "@/design/Panel";
 import { unitSign } from "@/i18n/units";
 import pages from "../pages.module.css";
+import { TryMethod } from "./TryMethod";
 import styles from "./detail.module.css";
 
 function Parameter({ parameter }: { parameter: MethodParameter }) {
@@ -23,8 +27,43 @@ function Parameter({ parameter }: { parameter: MethodParameter }) {
   );
 }
 
+/** Why a method cannot be tried now; null when it can. */
+function hindrance(
+  site: Site,
+  device: Device,
+  method: DeviceMethod,
+): "onlyOperators" | "inPrograms" | "offline" | null {
+  if (site.role === "viewer") return "onlyOperators";
+  if (device.kind === "robot" && method.name === "move") return "inPrograms";
+  return device.status === "offline" ? "offline" : null;
+}
+
+function TryButton({ site, device, method }: { site: Site; device: Device; method: DeviceMethod }) {
+  const { t } = useTranslation();
+  const [open, setOpen] = useState(false);
+  const why = hindrance(site, device, method);
+  return (
+    <>
+      <Tooltip label={why ? t(`device.try.${why}`) : t("device.try.openOf", { method: method.name })}>
+        <Button
+          size="compact-sm"
+          variant="default"
+          aria-label={t("device.try.openOf", { method: method.name })}
+          aria-disabled={why !== null}
+          data-disabled={why !== null || undefined}
+          leftSection={<Play size={13} aria-hidden="true" />}
+          onClick={() => setOpen(why === null)}
+        >
+          {t("device.try.open")}
+        </Button>
+      </Tooltip>
+      {open ? <TryMethod site={site} device={device} method={method} onClose={() => setOpen(false)} /> : null}
+    </>
+  );
+}
+
 /** What a device can be told to do, with which values, under which topic. */
-export function Methods({ device }: { device: Device }) {
+export function Methods({ site, device }: { site: Site; device: Device }) {
   const { t } = useTranslation();
   return (
     <section aria-labelledby="methods">
@@ -40,6 +79,7 @@ export function Methods({ device }: { device: Device }) {
                   {t(`pages.devices.column.${column}`)}
                 </th>
               ))}
+              {device.lifecycle === "approved" ? <td /> : null}
             </tr>
           </thead>
           <tbody>
@@ -56,6 +96,11 @@ export function Methods({ device }: { device: Device }) {
                 <td>
                   <code className={styles.topic}>{method.topic}</code>
                 </td>
+                {device.lifecycle === "approved" ? (
+                  <td>
+                    <TryButton site={site} device={device} method={method} />
+                  </td>
+                ) : null}
               </tr>
             ))}
           </tbody>

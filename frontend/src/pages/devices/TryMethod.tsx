@@ -1,0 +1,143 @@
+/** A form that tells a device to carry out one of its methods, and shows what comes of it. */
+import { Alert, Button, Modal, NumberInput, Select, Switch, TextInput } from "@mantine/core";
+import { Play, Square } from "lucide-react";
+import { useState, type FormEvent } from "react";
+import { useTranslation } from "react-i18next";
+import { useDevices, useSiteMap } from "@/api/queries";
+import type { Device, DeviceMethod, MethodParameter, Site } from "@/api/types";
+import { problemText } from "@/app/LoadProblem";
+import { unitSign } from "@/i18n/units";
+import { emptyForm, readArguments, type Problem, type Typed } from "./arguments";
+import { CallProgress } from "./CallProgress";
+import { useCall } from "./useCall";
+import styles from "./call.module.css";
+
+interface FieldProps {
+  parameter: MethodParameter;
+  choices: { value: string; label: string }[] | null;
+  value: string | number | boolean;
+  error: string | null;
+  change: (value: string | number | boolean) => void;
+}
+
+function Field({ parameter, choices, value, error, change }: FieldProps) {
+  const { t } = useTranslation();
+  const { name, type, minimum, maximum, unit } = parameter;
+  const range = minimum !== null && maximum !== null ? t("pages.devices.range", { minimum, maximum }) : "";
+  const common = { label: name, error, withAsterisk: parameter.required };
+  if (type === "boolean")
+    return <Switch label={name} checked={value === true} onChange={(event) => change(event.currentTarget.checked)} />;
+  if (choices)
+    return (
+      <Select {...common} searchable data={choices} value={String(value) || null} onChange={(v) => change(v ?? "")} />
+    );
+  if (type === "number")
+    return (
+      <NumberInput
+        {...common}
+        value={typeof value === "boolean" ? "" : value}
+        description={[unitSign(unit), range].filter(Boolean).join(", ") || undefined}
+        onChange={change}
+      />
+    );
+  const hint = type === "location" ? t("device.try.locationHint") : undefined;
+  return (
+    <TextInput
+      {...common}
+      maxLength={256}
+      value={String(value)}
+      description={hint}
+      onChange={(event) => change(event.target.value)}
+    />
+  );
+}
+
+/** What can be chosen for a parameter: its options, the site's devices or places, or what the device deals in. */
+function useChoices(site: Site, device: Device) {
+  const devices = useDevices(site.slug).data ?? [];
+  const places = useSiteMap(site.has_map ? site.slug : undefined).data?.places ?? [];
+  const objects = [...new Set([...device.gives, ...device.takes])];
+  return ({ type, options }: MethodParameter) => {
+    if (options?.length) return options.map((each) => ({ value: String(each), label: String(each) }));
+    if (type === "object" && objects.length > 0) return objects.map((each) => ({ value: each, label: each }));
+    if (type === "place") return places.map(({ id, name }) => ({ value: id, label: name }));
+    const known = devices.filter((each) => each.lifecycle === "approved");
+    return type === "device" ? known.map(({ id, name }) => ({ value: id, label: name })) : null;
+  };
+}
+
+function Buttons({ busy, starting, cancel }: { busy: boolean; starting: boolean; cancel: (() => void) | null }) {
+  const { t } = useTranslation();
+  return (
+    <div className={styles.buttons}>
+      {cancel ? (
+        <Button variant="default" leftSection={<Square size={14} aria-hidden="true" />} onClick={cancel}>
+          {t("device.try.cancel")}
+        </Button>
+      ) : null}
+      <Button type="submit" loading={starting} disabled={busy} leftSection={<Play size={15} aria-hidden="true" />}>
+        {t("device.try.start")}
+      </Button>
+    </div>
+  );
+}
+
+interface TryMethodProps {
+  site: Site;
+  device: Device;
+  method: DeviceMethod;
+  onClose: () => void;
+}
+
+export function TryMethod({ site, device, method, onClose }: TryMethodProps) {
+  const { t } = useTranslation();
+  const choicesOf = useChoices(site, device);
+  const [typed, setTyped] = useState<Typed>(() => emptyForm(method));
+  const [problems, setProblems] = useState<Readonly<Record<string, Problem>>>({});
+  const { start, cancel, call } = useCall(site.slug, device.id);
+  const busy = start.isPending || (call !== null && !call.over);
+  const submit = (event: FormEvent) => {
+    event.preventDefault();
+    const read = readArguments(method, typed);
+    setProblems("problems" in read ? read.problems : {});
+    if ("args" in read) start.mutate({ method: method.name, args: read.args });
+  };
+  const problemOf = ({ name, minimum, maximum }: MethodParameter) => {
+    const problem = problems[name];
+    return problem ? t(`device.try.problem.${problem}`, { minimum, maximum }) : null;
+  };
+  return (
+    <Modal
+      opened
+      onClose={onClose}
+      title={t("device.try.title", { device: device.name, method: method.name })}
+      size={440}
+    >
+      <form onSubmit={submit} className={styles.form} noValidate>
+        {method.parameters.length === 0 ? <p>{t("device.try.noParameters")}</p> : null}
+        {method.parameters.map((parameter) => (
+          <Field
+            key={parameter.name}
+            parameter={parameter}
+            choices={choicesOf(parameter)}
+            value={typed[parameter.name] ?? ""}
+            error={problemOf(parameter)}
+            change={(value) => setTyped((before) => ({ ...before, [parameter.name]: value }))}
+          />
+        ))}
+        <p className={styles.warning}>{t("device.try.warning", { device: device.name })}</p>
+        {start.isError ? (
+          <Alert color="red" role="alert">
+            {problemText(start.error, t("shell.problem.screen"))}
+          </Alert>
+        ) : null}
+        {call ? <CallProgress call={call} /> : null}
+        <Buttons
+          busy={busy}
+          starting={start.isPending}
+          cancel={busy && call && !cancel.isPending && !cancel.isSuccess ? () => cancel.mutate() : null}
+        />
+      </form>
+    </Modal>
+  );
+}

@@ -1,0 +1,258 @@
+"""A person tells a device to do something, outside of any run."""
+
+import io
+import json
+from contextlib import redirect_stderr, redirect_stdout
+from datetime import UTC, datetime, timedelta
+from threading import Event, Thread
+from uuid import UUID, uuid4
+
+import pytest
+from django.test import Client
+
+from editor.language.plan import Call, Constant, End, Instruction, Move, PlaceRef, Plan, RoleBinding
+from execution import services
+from execution.calls import NO_ANSWER, expire_calls
+from execution.models import Command, InboxEvent
+from registry.models import Device, Membership, User
+from vipo_site.cli import main
+
+pytestmark = pytest.mark.django_db(transaction=True)
+SITE = "painting-factory"
+MIXER = f"/api/sites/{SITE}/devices/paintMixer01/call"
+MIX = {"method": "mixPaint", "args": {"time": 2}}
+ROLES = ("viewer", "operator", "author", "admin")
+
+
+def member(role):
+    user = User.objects.create_user(email=f"{role}@x.example", password="a-long-password", display_name=role.title())
+    if role != "stranger":
+        site = Membership._meta.get_field("site").related_model.objects.get(slug=SITE)
+        Membership.objects.create(user=user, site=site, role=role)
+    client = Client()
+    client.force_login(user)
+    return client
+
+
+def ask(client, body=MIX, path=MIXER):
+    return client.post(path, json.dumps(body), content_type="application/json")
+
+
+def call(device="paintMixer01", method="mixPaint", **arguments):
+    return services.call_method(site=SITE, device_id=device, method=method, arguments=arguments, by="Ada")
+
+
+def state(made):
+    return services.get_call(site=SITE, call_id=UUID(made["id"]))
+
+
+def test_a_call_is_carried_out_and_its_outcome_can_be_read(factory):
+    made = call(time=2)
+    assert (made["status"], made["over"], made["by"], made["args"]) == ("pending", False, "Ada", {"time": 2})
+    factory.go(lambda: state(made)["over"], dt_s=10.0)
+    over = state(made)
+    assert (over["status"], over["why"], over["result"]) == ("done", "", {})
+    assert over["expires_at"] > over["created_at"] < over["ended_at"]
+    assert Command.objects.filter(device="paintMixer01").count() == 1
+    assert call(time=1)["status"] == "pending"
+
+
+@pytest.mark.parametrize("role", [*ROLES, "stranger", "nobody"])
+def test_operators_and_above_may_call_and_every_member_may_follow(factory, role):
+    client = Client() if role == "nobody" else member(role)
+    allowed = role in ROLES[1:]
+    refused = {"viewer": 403, "stranger": 404, "nobody": 401}.get(role, 200)
+    assert ask(client).status_code == refused
+    assert Command.objects.count() == (1 if allowed else 0)
+    made = Command.objects.first() or Command.objects.get(id=call(time=2)["id"])
+    path = f"/api/sites/{SITE}/calls/{made.id}"
+    assert client.get(path).status_code == (200 if role == "viewer" else refused)
+    assert client.post(f"{path}/cancel").status_code == refused
+    assert InboxEvent.objects.filter(key=f"call-cancel:{made.id}").exists() is allowed
+
+
+@pytest.mark.parametrize(
+    ("body", "told"),
+    [
+        ({"method": "fly", "args": {}}, "Paint Mixer A has no method 'fly'. It can: mixPaint, dispense."),
+        ({"method": "pause", "args": {}}, "Paint Mixer A has no method 'pause'. It can: mixPaint, dispense."),
+        ({"method": "mixPaint", "args": {}}, "time: give a value, mixPaint needs it."),
+        ({"method": "mixPaint", "args": {"time": None}}, "time: give a value, mixPaint needs it."),
+        ({"method": "mixPaint", "args": {"time": 61}}, "time: give a number from 1 to 60 MIN, not 61."),
+        ({"method": "mixPaint", "args": {"time": "2"}}, "time: give a number."),
+        ({"method": "mixPaint", "args": {"time": True}}, "time: give a number."),
+        (
+            {"method": "mixPaint", "args": {"time": 2, "shade": "red"}},
+            "mixPaint takes no argument 'shade'. It takes: time.",
+        ),
+        (
+            {"method": "dispense", "args": {"object": 7, "value": [1]}},
+            "object: give a text of 1 to 256 characters in one line. value: give a number.",
+        ),
+    ],
+)
+def test_what_the_description_does_not_allow_is_refused_by_name(factory, body, told):
+    answer = ask(member("operator"), body)
+    assert (answer.status_code, answer.json()["code"], answer.json()["detail"]) == (422, "bad_arguments", told)
+    assert Command.objects.count() == 0
+
+
+def test_a_device_that_is_not_there_is_not_found(factory):
+    client = member("operator")
+    assert ask(client, path=f"/api/sites/{SITE}/devices/nothing/call").json()["code"] == "no_such_device"
+    assert client.get(f"/api/sites/{SITE}/calls/{uuid4()}").status_code == 404
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"online": False}, "Paint Mixer A is offline. Switch it on, or look at its connection."),
+        ({"lifecycle": "pending"}, "Paint Mixer A waits for approval. An admin of the site can approve it."),
+    ],
+)
+def test_a_device_that_cannot_act_now_is_not_asked(factory, changes, told):
+    Device.objects.filter(id="paintMixer01").update(**changes)
+    answer = ask(member("operator"))
+    assert (answer.status_code, answer.json()["code"], answer.json()["detail"]) == (409, "not_possible_now", told)
+    assert Command.objects.count() == 0
+
+
+def test_nothing_is_called_while_the_site_is_stopped_and_a_stop_holds_what_is_under_way(factory):
+    made = call(time=2)
+    factory.work()
+    factory.send()
+    services.press_stop(site=SITE, by="Ada")
+    factory.work()
+    held = Command.objects.get(method="pause")
+    assert (held.device, held.arguments) == ("paintMixer01", {"command": made["id"]})
+    answer = ask(member("operator"), path=f"/api/sites/{SITE}/devices/curingOven01/call")
+    assert answer.status_code == 422
+    body = {"method": "curePaint", "args": {"time": 2}}
+    answer = ask(member("author"), body, f"/api/sites/{SITE}/devices/curingOven01/call")
+    assert (answer.status_code, answer.json()["detail"]) == (409, "The site is stopped. Reset the stop first.")
+    services.reset_stop(site=SITE, by="Ada")
+    factory.go(lambda: state(made)["over"], dt_s=10.0)
+    assert state(made)["status"] == "done"
+
+
+def test_a_device_does_one_thing_at_a_time(factory):
+    call(time=2)
+    answer = ask(member("operator"))
+    told = "Paint Mixer A still carries out mixPaint. Wait until it is done."
+    assert (answer.status_code, answer.json()["detail"]) == (409, told)
+
+
+CURE = Plan(
+    (
+        Instruction(Move("robot", PlaceRef(device="paintMixer01")), "s1", 1),
+        Instruction(Call(PlaceRef(device="paintMixer01"), "mixPaint", {"time": Constant(2)}, "robot"), "s2", 2),
+        Instruction(End()),
+    ),
+    {"robot": RoleBinding("robot", None, ("move",))},
+)
+
+
+def test_what_a_run_holds_is_not_lent_and_the_answer_says_which_run(factory):
+    run = factory.start(CURE)
+    factory.go(lambda: Command.objects.filter(method="mixPaint").exists())
+    client = member("operator")
+    answer = ask(client)
+    told = "Paint Mixer A is held by run 1 of “Errand”. Wait until it is over, or cancel it."
+    assert (answer.status_code, answer.json()["detail"]) == (409, told)
+    robot = Command.objects.filter(method="move").first().device
+    pick = {"method": "pick", "args": {"object": "box", "value": 1}}
+    answer = ask(client, pick, f"/api/sites/{SITE}/devices/{robot}/call")
+    assert answer.json()["detail"].endswith("is held by run 1 of “Errand”. Wait until it is over, or cancel it.")
+    assert Command.objects.exclude(run=None).filter(method="pick").count() == 0
+    services.cancel_run(run_id=run, by="Ada")
+
+
+def test_a_run_waits_for_a_device_that_somebody_uses_by_hand(factory):
+    made = call(time=2)
+    run = factory.start(CURE)
+    factory.go(lambda: "Ada, by hand" in str(services.get_run(run_id=run)["steps"]))
+    assert not state(made)["over"]
+    factory.go(lambda: services.get_run(run_id=run)["status"] == "finished", dt_s=3.0)
+    assert state(made)["status"] == "done"
+
+
+def test_a_robot_drives_only_in_programs(factory):
+    path = f"/api/sites/{SITE}/devices/robot01/call"
+    answer = ask(member("operator"), {"method": "move", "args": {}}, path)
+    assert answer.status_code == 409
+    assert answer.json()["detail"].startswith("TurtleBot 1 drives only in a program, where its way is kept free")
+
+
+def test_a_call_that_nobody_answers_is_given_up_and_the_device_is_free_again(factory):
+    factory.offline = {"paintMixer01"}
+    made = call(time=2)
+    factory.work()
+    factory.send()
+    assert expire_calls(now=datetime.now(UTC) + timedelta(seconds=29)) == 0
+    assert expire_calls(now=datetime.now(UTC) + timedelta(seconds=31)) == 1
+    assert (state(made)["status"], state(made)["why"]) == ("timed_out", NO_ANSWER)
+    factory.work()
+    assert Command.objects.get(method="cancel").arguments == {"command": made["id"]}
+    assert call(time=1)["status"] == "pending"
+
+
+def test_a_call_can_be_cancelled_while_it_is_carried_out(factory):
+    made = call(time=60)
+    factory.work()
+    factory.send()
+    factory.pass_time(1)
+    assert state(made)["status"] in {"accepted", "running"}
+    services.cancel_call(site=SITE, call_id=UUID(made["id"]))
+    factory.go(lambda: state(made)["over"], dt_s=10.0)
+    assert state(made)["status"] == "cancelled"
+
+
+def vipo(*words):
+    out, err = io.StringIO(), io.StringIO()
+    with redirect_stdout(out), redirect_stderr(err):
+        code = main(["call", *words])
+    return code, out.getvalue(), err.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("nothing", "mixPaint"), "There is no device 'nothing'. See the page Devices for those that there are."),
+        (("paintMixer01", "mixPaint", "time"), "'time' is no argument. Write each once, as name=value."),
+        (("paintMixer01", "mixPaint", "time=x"), "time=x is no number. Write 5 or 2.5."),
+        (("paintMixer01", "mixPaint", "{"), "The arguments are not JSON: "),
+        (("paintMixer01", "mixPaint"), "time: give a value, mixPaint needs it."),
+        (("paintMixer01", "mixPaint", "time=5", "--site", "hall"), "There is no device 'paintMixer01' at the site"),
+    ],
+)
+def test_the_command_line_says_why_it_cannot_call(factory, words, told):
+    code, out, err = vipo(*words)
+    assert (code, out) == (2, "")
+    assert err.startswith(told)
+    assert Command.objects.count() == 0
+
+
+def finish(status):
+    """What a gateway and a device do, once there is a command."""
+    from django.db import connection
+
+    deadline, pause = datetime.now(UTC) + timedelta(seconds=60), Event()
+    while datetime.now(UTC) < deadline:
+        row = Command.objects.first()
+        if row is not None:
+            now = datetime.now(UTC)
+            services.record_ack(device=row.device, command_id=str(row.id), status=status, why="", result={"shade": 3},
+                                at=now)  # fmt: skip
+            break
+        pause.wait(0.05)
+    connection.close()
+
+
+@pytest.mark.parametrize(("status", "code"), [("DONE", 0), ("FAILED", 1)])
+def test_the_command_line_waits_for_the_outcome(factory, status, code):
+    device = Thread(target=finish, args=(status,))
+    device.start()
+    found, out, err = vipo("paintMixer01", "mixPaint", "time=2", "--json")
+    device.join(60)
+    assert (found, err) == (code, "")
+    assert (json.loads(out)["status"], json.loads(out)["result"]) == (status.lower(), {"shade": 3})
