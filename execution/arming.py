@@ -44,9 +44,10 @@ def arm_program(*, prepared: Prepared, by: str) -> dict[str, Any]:
     """
     plan = plan_from_json(prepared.plan)
     if not _starters(plan):
-        raise NotReady("Nothing starts this program by itself. Add a step “When …” that starts a run.")
+        detail = "Nothing starts this program by itself. Add a step “When …” that starts a run."
+        raise NotReady(detail, {"why": "never_starts"})
     if is_stopped(site=prepared.site):
-        raise NotPossibleNow("The site is stopped. Reset the stop before you arm a program.")
+        raise NotPossibleNow("The site is stopped. Reset the stop before you arm a program.", {"why": "stopped"})
     now = datetime.now(UTC)
     whole = {**asdict(prepared), "program": str(prepared.program)}
     truths = _look(plan, _facts(plan, prepared.site, now))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +35,7 @@ def read_site(site: Mapping[str, Any], seed: int) -> tuple[Surroundings, Scene, 
     scene = Scene(
         grid=grid, devices=devices, seed=seed, readings={f.description.id: f.readings for f in approved if f.readings}
     )
-    return Surroundings(plain.devices, plain.places, floor), scene, tuple(plain.places.values())
+    return replace(plain, floor=floor), scene, tuple(plain.places.values())
 
 
 def _read_grid(path: Path) -> Grid:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 from uuid import UUID
 
 from editor import services as editor
-from editor.language import compiled_to_json, plan_to_json
+from editor.language import Diagnostic, compiled_to_json, plan_to_json
 from execution.errors import NotReady
 from registry.capability import Scalar
 
@@ -42,12 +42,11 @@ def prepare(*, program_id: UUID, user: Any, parameters: Mapping[str, Any]) -> Pr
     version = editor.pin_version(program_id=program_id, user=user)
     compiled = editor.compile_version(version=version)
     if compiled.plan is None:
-        errors = [d.message for d in compiled.diagnostics if d.severity == "error"]
-        count = f"{len(errors)} errors" if len(errors) != 1 else "one error"
-        raise NotReady(f"The program has {count} and cannot be carried out. {errors[0] if errors else ''}".strip())
+        raise _not_ready([d for d in compiled.diagnostics if d.severity == "error"])
     unknown = sorted(set(parameters) - set(compiled.plan.parameters))
     if unknown:
-        raise NotReady(f"The program has no parameter called “{unknown[0]}”.")
+        name = unknown[0]
+        raise NotReady(f"The program has no parameter called “{name}”.", {"why": "parameter", "name": name})
     return Prepared(
         program=program_id,
         site=program.site,
@@ -58,3 +57,11 @@ def prepare(*, program_id: UUID, user: Any, parameters: Mapping[str, Any]) -> Pr
         plan=plan_to_json(compiled.plan),
         parameters=parameters,
     )
+
+
+def _not_ready(errors: Sequence[Diagnostic]) -> NotReady:
+    """Return the refusal for a program with errors; it names the first of them."""
+    count = f"{len(errors)} errors" if len(errors) != 1 else "one error"
+    first = errors[0].messages if errors else {}
+    detail = f"The program has {count} and cannot be carried out. {first.get('en', '')}".strip()
+    return NotReady(detail, {"why": "errors", "count": len(errors), "first": first})

@@ -95,8 +95,7 @@ class Recorder:
                     self.collisions.append({"t": t_s, "a": device, "b": other, **place})
             case Ack(command=command, status=status, why=why):
                 if command in self._commands and status not in {"ACCEPTED", "RUNNING"}:
-                    step, device, what = self._commands[command]
-                    self._say(t_s, step, device, f"{what}: {status.lower()}" + (f", {why}" if why else ""))
+                    self._note_answer(t_s, *self._commands[command], status, why)
 
     def _is_going_on(self, t_s: float, a: str, b: str) -> bool:
         pairs = ({a, b} == {c["a"], c["b"]} and t_s - c["t"] < 2.0 for c in reversed(self.collisions))
@@ -112,31 +111,32 @@ class Recorder:
                 self._open_steps[step] = entry
                 self.steps.append(entry)
             case r.AskPeople(step=step, text=text):
-                self._say(t_s, step, "", f"Asked: {text}")
+                self._say(t_s, step, "", f"Asked: {text}", "asked", text=text)
             case r.Tell(step=step, text=text):
-                self._say(t_s, step, "", f"Told: {text}")
+                self._say(t_s, step, "", f"Told: {text}", "told", text=text)
             case r.StepLeft(step=step):
                 self._close_step(t_s, step, "done")
             case r.StepFailed(step=step, kind=kind, why=why):
                 self._close_step(t_s, step, "failed")
                 said = any(e["message"] == why and e["t"] == round(t_s, 2) for e in self.errors)
                 if kind != "cancelled" and not said:
-                    self.error(t_s, step, kind, why)
+                    self.error(t_s, step, kind, why, f"step_{kind}", why=why)
 
     def _close_step(self, t_s: float, step: str, status: str) -> None:
         entry = self._open_steps.pop(step, None)
         if entry is not None:
             entry.update(ended_s=round(t_s, 2), status=status)
 
-    def error(self, t_s: float, step: str, kind: str, message: str) -> None:
-        """Take down something that the real run would have met too."""
-        self.errors.append({"t": round(t_s, 2), "step": step, "kind": kind, "message": message})
-        self._say(t_s, step, "", message)
+    def error(self, t_s: float, step: str, kind: str, message: str, code: str, **args: Scalar) -> None:
+        """Take down something that the real run would have met too, with what other languages say it from."""
+        said = {"code": code, "args": args}
+        self.errors.append({"t": round(t_s, 2), "step": step, "kind": kind, "message": message, **said})
+        self._say(t_s, step, "", message, code, **args)
 
     def note_answer(self, t_s: float, step: str, answer: Scalar) -> None:
         """Take down what the rehearsal has answered in people's stead."""
         shown = in_words(answer) or "nothing"
-        self._say(t_s, step, "", f"The rehearsal answers by itself: {shown}")
+        self._say(t_s, step, "", f"The rehearsal answers by itself: {shown}", "answered_itself", value=answer)
 
     def note_floor(self, t_s: float, action: m.Action) -> None:
         """Take down what traffic does."""
@@ -144,14 +144,16 @@ class Recorder:
             case m.SendCommand(id=command, device=device, step=step, piece=piece):
                 self._note_command(t_s, action)
                 if not piece and step:
-                    self._commands[command] = (step, device, f"{self._layout.name(device)}, {action.method}")
+                    self._commands[command] = (step, device, action.method)
             case m.WayPlanned(robot=robot, path=path):
                 self._routes.append({"t": round(t_s, 2), "robot": robot, "path": [list(point) for point in path]})
-                self._say(t_s, "", robot, f"{self._layout.name(robot)} sets out, {length_m(path):.1f} m.")
+                far_m = round(length_m(path), 1)
+                self._say(t_s, "", robot, f"{self._layout.name(robot)} sets out, {far_m:.1f} m.", "way", length_m=far_m)
             case m.WaitChanged():
                 self._note_wait(t_s, action)
             case m.RoleBound(role=role, robot=robot):
-                self._say(t_s, "", robot, f"{self._layout.name(robot)} takes the role “{role}”.")
+                text = f"{self._layout.name(robot)} takes the role “{role}”."
+                self._say(t_s, "", robot, text, "role_bound", role=role)
 
     def _note_command(self, t_s: float, action: m.SendCommand) -> None:
         entry = self._open_steps.get(action.step)
@@ -161,7 +163,13 @@ class Recorder:
             entry["device"] = entry["device"] or str(action.arguments.get("device", ""))
         if not action.piece:
             values = ", ".join(f"{name} {value}" for name, value in action.arguments.items())
-            self._say(t_s, action.step, action.device, f"{self._layout.name(action.device)}: {action.method} {values}")
+            text = f"{self._layout.name(action.device)}: {action.method} {values}"
+            named = ", ".join(self._layout.name(str(value)) for value in action.arguments.values())
+            self._say(t_s, action.step, action.device, text, "command", method=action.method, values=named)
+
+    def _note_answer(self, t_s: float, step: str, device: str, method: str, status: str, why: str) -> None:
+        text = f"{self._layout.name(device)}, {method}: {status.lower()}" + (f", {why}" if why else "")
+        self._say(t_s, step, device, text, "answer", method=method, status=status, why=why)
 
     def _note_wait(self, t_s: float, action: m.WaitChanged) -> None:
         open_wait = self._open_waits.pop(action.mission, None)
@@ -179,8 +187,9 @@ class Recorder:
             if wait["robot"] in self._figures:
                 self._figures[wait["robot"]]["wait_s"] += wait["duration_s"]
 
-    def _say(self, t_s: float, step: str, device: str, text: str) -> None:
-        self.log.append({"t": round(t_s, 2), "step": step, "device": device, "text": text})
+    def _say(self, t_s: float, step: str, device: str, line: str, code: str, **args: Scalar) -> None:
+        """Add a line in English, with what other languages say it from."""
+        self.log.append({"t": round(t_s, 2), "step": step, "device": device, "text": line, "code": code, "args": args})
 
     def result(self, t_s: float, *, ok: bool) -> dict[str, Any]:
         """Return the whole record."""

@@ -240,17 +240,19 @@ class _Rehearsal:
     def _finish(self, now: float, action: r.Finished) -> None:
         self.finished = action
         if action.status == "failed" and not self.recorder.errors:
-            self.recorder.error(now, "", "failed", action.reason)
+            self.recorder.error(now, "", "failed", action.reason, "step_failed", why=action.reason)
 
     def _check_limits(self, now: float) -> None:
         """Stop what would go on for ever."""
         if self.finished is None and now >= self.limit_s:
-            why = f"The program was stopped after {self.limit_s / 3600:g} h of simulated time; it may never end."
+            hours = round(self.limit_s / 3600, 3)
+            self._give_up(now, f"{hours:g} h of simulated time", "too_long", hours=hours)
         elif self.finished is None and self.actions > ACTION_LIMIT:
-            why = f"The program was stopped after {ACTION_LIMIT} actions; it may never end."
-        else:
-            return
-        self.recorder.error(now, "", "timed_out", why)
+            self._give_up(now, f"{ACTION_LIMIT} actions", "too_much", actions=ACTION_LIMIT)
+
+    def _give_up(self, now: float, limit: str, code: str, **args: Scalar) -> None:
+        why = f"The program was stopped after {limit}; it may never end."
+        self.recorder.error(now, "", "timed_out", why, code, **args)
         self.finished = r.Finished("failed", why)
 
 

@@ -29,7 +29,7 @@ def start_run(*, prepared: Prepared, by: str, entry: int = 0) -> dict[str, Any]:
         NotPossibleNow: the site is stopped.
     """
     if is_stopped(site=prepared.site):
-        raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.")
+        raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.", {"why": "stopped"})
     return _announce(prepared, _create_numbered(prepared, by, entry))
 
 

@@ -199,6 +199,8 @@ class RehearsalError(Schema):
     step: str
     kind: str
     message: str
+    code: str
+    args: dict[str, Scalar]
 
 
 class RobotFigures(Schema):
@@ -265,12 +267,14 @@ class PlannedWay(Schema):
 
 
 class LogLine(Schema):
-    """A line of what happened."""
+    """A line of what happened: in English, and `code` with `args` for other languages."""
 
     t: float
     step: str
     device: str
     text: str
+    code: str
+    args: dict[str, Scalar]
 
 
 class RehearsalResultShape(Schema):

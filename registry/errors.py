@@ -8,16 +8,22 @@ VipoError
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 
 class VipoError(Exception):
-    """A refusal: `code` for machines, `status` for HTTP, the message says what is wrong and how to mend it."""
+    """A refusal: `code` for machines, `status` for HTTP, the message says what is wrong and how to mend it.
+
+    `facts` are what a screen says it from in another language.
+    """
 
     code = "refused"
     status = 400
 
-    def __init__(self, detail: str) -> None:
+    def __init__(self, detail: str, facts: Mapping[str, Any] | None = None) -> None:
         super().__init__(detail)
-        self.detail = detail
+        self.detail, self.facts = detail, facts or {}
 
 
 class RegistryError(VipoError):

@@ -13,6 +13,7 @@ from editor.api import router as editor_router
 from execution.api import router as execution_router
 from registry.api import router as registry_router
 from registry.errors import VipoError
+from registry.history_api import router as history_router
 from vipo_site.openapi import DescribedAPI
 
 api = DescribedAPI(title="VIPO", version="1", auth=django_auth, docs_url=None, urls_namespace="api")
@@ -34,7 +35,8 @@ def problem(status: int, code: str, detail: str, **more: Any) -> JsonResponse:
 @api.exception_handler(VipoError)
 def on_refusal(request: HttpRequest, error: VipoError) -> HttpResponse:
     """Turn an app's refusal into an answer."""
-    return problem(error.status, error.code, error.detail)
+    more = {"args": dict(error.facts)} if error.facts else {}
+    return problem(error.status, error.code, error.detail, **more)
 
 
 @api.exception_handler(ValidationError)
@@ -53,5 +55,6 @@ def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
 
 
 api.add_router("", registry_router)
+api.add_router("", history_router)
 api.add_router("", editor_router)
 api.add_router("", execution_router)

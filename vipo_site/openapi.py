@@ -18,7 +18,7 @@ class FieldProblem(Schema):
 
 
 class Problem(Schema):
-    """A refusal (RFC 9457): `detail` is a sentence for people, `code` is for programs."""
+    """A refusal (RFC 9457): `detail` is a sentence for people, `code` is for programs, `args` for other languages."""
 
     type: str
     title: str
@@ -26,6 +26,7 @@ class Problem(Schema):
     detail: str
     code: str
     fields: list[FieldProblem] = []
+    args: dict[str, Any] = {}
 
 
 class DescribedAPI(NinjaAPI):

@@ -1,5 +1,6 @@
 /** Calls to the server: JSON in and out, refusals as ApiProblem. */
 import i18next from "i18next";
+import { refusalWords } from "@/i18n/refusals";
 
 export interface FieldProblem {
   field: string;
@@ -23,6 +24,7 @@ interface ProblemBody {
   code?: string;
   detail?: string;
   fields?: FieldProblem[];
+  args?: Record<string, unknown>;
 }
 
 let token = "";
@@ -53,7 +55,8 @@ async function send(method: string, path: string, body?: BodyInit, type?: string
 
 async function problemOf(response: Response): Promise<ApiProblem> {
   const body = await response.json().then(asProblem, () => ({}) as ProblemBody);
-  const detail = body.detail ?? i18next.t("shell.problem.unexpected", { status: response.status });
+  const told = refusalWords(body.code ?? "", body.args);
+  const detail = told ?? body.detail ?? i18next.t("shell.problem.unexpected", { status: response.status });
   return new ApiProblem(response.status, body.code ?? "unexpected", detail, body.fields);
 }
 

@@ -1276,8 +1276,12 @@ export interface components {
                 [key: string]: string;
             };
         };
-        /** @description A line of what happened. */
+        /** @description A line of what happened: in English, and `code` with `args` for other languages. */
         LogLine: {
+            args: {
+                [key: string]: boolean | number | string;
+            };
+            code: string;
             device: string;
             step: string;
             t: number;
@@ -1388,8 +1392,12 @@ export interface components {
             /** @default 0 */
             z: number;
         };
-        /** @description A refusal (RFC 9457): `detail` is a sentence for people, `code` is for programs. */
+        /** @description A refusal (RFC 9457): `detail` is a sentence for people, `code` is for programs, `args` for other languages. */
         Problem: {
+            /** @default {} */
+            args: {
+                [key: string]: unknown;
+            };
             code: string;
             detail: string;
             /** @default [] */
@@ -1450,6 +1458,10 @@ export interface components {
         };
         /** @description Something that the real run would meet, too. */
         RehearsalError: {
+            args: {
+                [key: string]: boolean | number | string;
+            };
+            code: string;
             kind: string;
             message: string;
             step: string;

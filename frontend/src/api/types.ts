@@ -301,10 +301,29 @@ export interface NearMiss {
   y: number;
 }
 
+/** A line of a rehearsal's log; older ones have no code. */
+export interface LogLine {
+  t: number;
+  step: string;
+  device: string;
+  text: string;
+  code?: string;
+  args?: Record<string, Scalar>;
+}
+
+export interface RehearsalError {
+  t: number;
+  step: string;
+  kind: string;
+  message: string;
+  code?: string;
+  args?: Record<string, Scalar>;
+}
+
 export interface RehearsalResult {
   ok: boolean;
   duration_s: number;
-  errors: { t: number; step: string; kind: string; message: string }[];
+  errors: RehearsalError[];
   robots: Record<string, { distance_m: number; busy_s: number; wait_s: number; battery: number }>;
   machines: Record<string, { busy_s: number }>;
   near_misses: NearMiss[];
@@ -324,7 +343,7 @@ export interface RehearsalResult {
   machine_states: Record<string, [number, boolean][]>;
   properties: Record<string, [number, string, Scalar][]>;
   routes: { t: number; robot: string; path: Point[] }[];
-  log: { t: number; step: string; device: string; text: string }[];
+  log: LogLine[];
 }
 
 export type RunStatus = "pending" | "running" | "paused" | "finished" | "failed" | "cancelled";

@@ -1,11 +1,12 @@
 import { AlertOctagon, CircleCheck } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import type { RehearsalResult } from "@/api/types";
-import { waitWords } from "@/i18n/waits";
-import styles from "./ResultPanel.module.css";
 import { clock } from "@/design/clock";
+import { Course } from "./Course";
+import { Events } from "./Events";
+import styles from "./ResultPanel.module.css";
 
-interface ResultPanelProps {
+export interface ResultPanelProps {
   result: RehearsalResult;
   nameOf: (device: string) => string;
   numberOf: (step: string) => string;
@@ -87,58 +88,6 @@ function Utilisation({ result, nameOf }: ResultPanelProps) {
   );
 }
 
-function Events({ result, nameOf, numberOf, onJump }: ResultPanelProps) {
-  const { t } = useTranslation();
-  return (
-    <div>
-      <h3 className={styles.heading}>{t(result.errors.length > 0 ? "simulation.problems" : "simulation.waits")}</h3>
-      <ul className={styles.list}>
-        {result.errors.map((error) => (
-          <li key={`${error.t}-${error.step}`}>
-            <button
-              type="button"
-              className={`${styles.event} ${styles.bad}`}
-              onClick={() => onJump(error.t, error.step)}
-            >
-              <b>
-                {clock(error.t)} · {numberOf(error.step)}
-              </b>
-              {error.message}
-            </button>
-          </li>
-        ))}
-        {[...result.collisions, ...result.near_misses].map((contact) => (
-          <li key={`${contact.t}-${contact.a}-${contact.b}`}>
-            <button type="button" className={`${styles.event} ${styles.bad}`} onClick={() => onJump(contact.t)}>
-              <b>{clock(contact.t)}</b>
-              {t("simulation.near", {
-                a: nameOf(contact.a),
-                b: nameOf(contact.b),
-                cm: Math.round(contact.distance_m * 100),
-              })}
-            </button>
-          </li>
-        ))}
-        {result.waits.map((wait, index) => (
-          <li key={`${wait.t}-${wait.robot}`}>
-            <button type="button" className={styles.event} onClick={() => onJump(wait.t)}>
-              <span className={styles.pin}>{index + 1}</span>
-              <span>
-                <b>{nameOf(wait.robot)}</b> {clock(wait.t)}, {Math.round(wait.duration_s)} s
-                <br />
-                {waitWords(wait.why, nameOf) ?? wait.reason}
-              </span>
-            </button>
-          </li>
-        ))}
-        {result.waits.length + result.errors.length + result.collisions.length + result.near_misses.length === 0 && (
-          <li className={styles.none}>{t("simulation.noWaits")}</li>
-        )}
-      </ul>
-    </div>
-  );
-}
-
 /** What the rehearsal says: does it finish, how long it takes, who is used how much, who waits for whom. */
 export function ResultPanel(props: ResultPanelProps) {
   const { t } = useTranslation();
@@ -159,6 +108,7 @@ export function ResultPanel(props: ResultPanelProps) {
         <Utilisation {...props} />
         <Events {...props} />
       </div>
+      <Course {...props} />
     </section>
   );
 }

@@ -8,6 +8,7 @@ import { api, ApiProblem } from "@/api/client";
 import { keys, useDevices, useProgram, useRehearsal, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
 import { Crumb, TopBar } from "@/app/TopBar";
+import { waitWords } from "@/i18n/waits";
 import { useSiteLive } from "@/live/site";
 import { MapPane } from "./MapPane";
 import { ResultPanel } from "./ResultPanel";
@@ -99,7 +100,10 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
         playing={player.playing}
         speed={player.speed}
         segments={segments}
-        markers={result.waits.map((wait) => ({ t_s: wait.t, label: `${nameOf(wait.robot)}: ${wait.reason}` }))}
+        markers={result.waits.map((wait) => ({
+          t_s: wait.t,
+          label: `${nameOf(wait.robot)}: ${waitWords(wait.why, nameOf) ?? wait.reason}`,
+        }))}
         titleOf={(step) => compiled.numbers[step] ?? ""}
         onSeek={player.seek}
         onPlay={player.toggle}

@@ -127,6 +127,8 @@ def test_a_program_with_errors_is_not_started_and_the_answer_says_why(factory):
     answer = client.post(f"/api/programs/{program}/runs", "{}", content_type="application/json")
     assert (answer.status_code, answer.json()["code"]) == (422, "not_ready")
     assert answer.json()["detail"].startswith("The program has one error and cannot be carried out.")
+    args = answer.json()["args"]
+    assert (args["why"], args["count"], args["first"].keys()) == ("errors", 1, {"en", "de"})
     assert Run.objects.count() == 0
 
 

@@ -144,12 +144,17 @@ def test_questions_are_answered_by_the_rehearsal_which_says_so():
         "Asked: Dry?", "The rehearsal answers by itself: yes", "Asked: How many?",
         "The rehearsal answers by itself: 3", "Told: Done",
     ]  # fmt: skip
+    assert [(line["code"], line["args"]) for line in result["log"]] == [
+        ("asked", {"text": "Dry?"}), ("answered_itself", {"value": True}), ("asked", {"text": "How many?"}),
+        ("answered_itself", {"value": 3}), ("told", {"text": "Done"}),
+    ]  # fmt: skip
 
 
 def test_a_program_that_asks_for_ever_is_stopped():
     plan = Plan((Instruction(AskPerson(Constant("Go on?"), AnswerSpec())), Instruction(Jump(0))))
     result = rehearse(plan, scene(), places=demo_floor.places(), conditions=Conditions("kinematic", limit_s=60))
     assert result["ok"] is False
+    assert [(error["code"], error["args"]) for error in result["errors"]] == [("too_long", {"hours": 0.017})]
 
 
 def test_a_rehearsal_begins_at_eight_and_knows_where_robots_are():

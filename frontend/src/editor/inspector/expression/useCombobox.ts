@@ -21,7 +21,9 @@ export function useCombobox(expression: Expression, wanted: Wanted, input: RefOb
   const names = useNames(step, focused && !disabled);
   const choices = choicesOf(wanted);
   const { text } = expression;
-  const shown = open ? [...suggestChoices(text, choices, open.all), ...suggest(text, open.caret, names)] : [];
+  const chosen = open ? suggestChoices(text, choices, open.all) : [];
+  const written = open && !(open.all && chosen.length > 0) ? suggest(text, open.caret, names) : [];
+  const shown = [...chosen, ...written];
   const marked = open && open.marked < shown.length ? open.marked : -1;
   const caretNow = () => input.current?.selectionStart ?? text.length;
 
@@ -39,9 +41,9 @@ export function useCombobox(expression: Expression, wanted: Wanted, input: RefOb
       setOpen({ ...open, marked: (Math.max(marked, by > 0 ? -1 : 0) + by + shown.length) % shown.length });
   };
   const onKeyDown = (event: KeyboardEvent) => {
-    const chosen = shown[marked];
+    const under = shown[marked];
     if (event.key === "ArrowDown" || event.key === "ArrowUp") move(event.key === "ArrowDown" ? 1 : -1);
-    else if (event.key === "Enter" && chosen) choose(chosen);
+    else if (event.key === "Enter" && under) choose(under);
     else if (event.key === "Enter") expression.settle();
     else if (event.key === "Escape" && shown.length > 0) setOpen(null);
     else return;

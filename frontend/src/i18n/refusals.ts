@@ -1,0 +1,17 @@
+/** A refusal of the server in the language of the screen, where it says what it is made of. */
+import i18next from "i18next";
+
+/** The sentence for a refusal; null where the screens do not know it, so that the server's own is shown. */
+export function refusalWords(code: string, args: Readonly<Record<string, unknown>> | undefined): string | null {
+  const key = `refusal.${code}.${String(args?.why)}`;
+  const count = typeof args?.count === "number" ? args.count : undefined;
+  if (!args || !i18next.exists(key, { count })) return null;
+  return i18next.t(key, { ...args, count, first: inLanguage(args.first) }).trim();
+}
+
+/** A sentence that the server gives in each language. */
+function inLanguage(words: unknown): string {
+  if (typeof words !== "object" || words === null) return "";
+  const byLanguage = words as Readonly<Record<string, string>>;
+  return byLanguage[i18next.language.slice(0, 2)] ?? byLanguage.en ?? "";
+}
