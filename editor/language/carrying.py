@@ -6,7 +6,7 @@ the range widens; in a loop, and after a failure, what changed is not known any 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from editor.language import nodes as n
@@ -51,12 +51,17 @@ class _Follower:
     def block(self, block: n.Block, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
         """Return what is carried after a block; None where its end is never reached."""
         after: Carried | None = carried
+        known = None if self.silent or self.depth else self.known
         for node in block:
-            follow = _FOLLOW.get(type(node))
-            if follow is not None and after is not None:
-                remembers = node.__class__ in n.COMPOSITES and not (self.silent or self.depth)
-                known = self.known if remembers else None
-                after = follow(self, node, after, values) if known is None else self._followed(node, after, known)
+            follow = _FOLLOW.get(node.__class__)
+            if follow is None:
+                continue
+            if after is None:
+                break
+            if known is None or node.__class__ not in n.COMPOSITES:
+                after = follow(self, node, after, values)
+            else:
+                after = self._followed(node, after, known)
         return after
 
     def _followed(self, node: n.Node, carried: Carried, memory: Memory) -> Carried | None:
@@ -104,8 +109,7 @@ def _pick(follower: _Follower, node: n.Pick, carried: Carried, values: Mapping[s
     if capacity and quantity > capacity:  # told already; what is really carried cannot be known
         return _forget(carried, frozenset({node.role}))
     mine = [(thing, count) for (role, thing), count in carried.items() if role == node.role and thing != _EVERYTHING]
-    least = sum(count[0] for _, count in mine)
-    most = None if any(count[1] is None for _, count in mine) else sum(count[1] or 0 for _, count in mine)
+    least, most = _total([count for _, count in mine])
     if capacity:
         if least + quantity > capacity:
             load_text = ", ".join(f"{count[0]} {thing}" for thing, count in sorted(mine) if count[0])
@@ -115,6 +119,17 @@ def _pick(follower: _Follower, node: n.Pick, carried: Carried, values: Mapping[s
     before = _count(carried, key)
     after = (min(before[0] + quantity, capacity or quantity), None if before[1] is None else before[1] + quantity)
     return {**carried, key: after}
+
+
+def _total(counts: Iterable[Range]) -> Range:
+    """Return how many there are in all."""
+    least, most = 0, 0
+    known = True
+    for count in counts:
+        least += count[0]
+        most += count[1] or 0
+        known = known and count[1] is not None
+    return least, most if known else None
 
 
 def _drop(follower: _Follower, node: n.Drop, carried: Carried, values: Mapping[str, Expression]) -> Carried:
@@ -243,8 +258,9 @@ def _end(follower: _Follower, node: n.End, carried: Carried, values: Mapping[str
 
 def _roles(follower: _Follower, block: n.Block) -> frozenset[str]:
     """Return the roles that may carry something else after the block; a call may change every one."""
-    roles = {node.role for node in walk(block) if isinstance(node, n.LOADS)}
-    if any(isinstance(node, n.Call) for node in walk(block)):
+    nodes = walk(block)
+    roles = {node.role for node in nodes if isinstance(node, n.LOADS)}
+    if any(node.__class__ is n.Call for node in nodes):
         bodies = (function.body for function in follower.functions.values())
         roles |= {node.role for body in bodies for node in walk(body) if isinstance(node, n.LOADS)}
     return frozenset(roles)

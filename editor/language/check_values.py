@@ -13,7 +13,11 @@ from editor.language.plan import Constant, Expression, Located, Operation, Readi
 from editor.language.possible_values import first_limited_reading, possible
 from editor.language.settling_units import settle_units
 from editor.language.typing_of_values import (
+    BOOLEAN,
+    NUMBER,
+    TEXT,
     TYPE_WORDS,
+    UNKNOWN_KIND,
     Kind,
     Typing,
     constant_value,
@@ -30,7 +34,9 @@ def has_missing(expression: Expression) -> bool:
     """Tell whether the expression, or a part of it, is still to be entered."""
     if isinstance(expression, Constant):
         return expression.value is None
-    return any(isinstance(part, Constant) and part.value is None for part in parts_of(expression))
+    if isinstance(expression, Operation):
+        return any(map(has_missing, expression.arguments))
+    return isinstance(expression, Reading) and has_missing(expression.device)
 
 
 def check_value(
@@ -77,7 +83,7 @@ def check_condition(context: Context, node: n.Node, condition: Expression, field
     """Check a condition: it must be there, and give yes or no."""
     if has_missing(condition):
         context.tell(node, "missing_condition", field)
-    elif check_value(context, node, condition, field, Kind("boolean"), "A condition"):
+    elif check_value(context, node, condition, field, BOOLEAN, "A condition"):
         _check_possible(context, node, condition, field)
 
 
@@ -137,7 +143,7 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
             fix = None if parameter.minimum is None else fix_value(node.step, field, parameter.minimum)
             context.tell(node, missing_code, field, {**details, "range": limits}, fix)
         return
-    wanted = Kind(parameter.type, parameter.unit) if typed else Kind()
+    wanted = Kind(parameter.type, parameter.unit) if typed else UNKNOWN_KIND
     if not check_value(context, node, value, field, wanted, parameter.name.capitalize()):
         return
     value = settled(context, value, parameter.unit)
@@ -173,7 +179,7 @@ def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
         fix = fix_value(node.step, "quantity", 1)
         context.tell(node, "missing_quantity", "quantity", {**details, "robot": robot, "range": Amounts(capacity)}, fix)
         return
-    if not check_value(context, node, node.quantity, "quantity", Kind("number"), "The quantity"):
+    if not check_value(context, node, node.quantity, "quantity", NUMBER, "The quantity"):
         return
     quantity = node.quantity.value if isinstance(node.quantity, Constant) else None
     if not is_number(quantity):
@@ -187,7 +193,7 @@ def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
 
 def _check_object(context: Context, node: n.Pick | n.Drop) -> None:
     if not has_missing(node.object):
-        check_value(context, node, node.object, "object", Kind("text"), "The object")
+        check_value(context, node, node.object, "object", TEXT, "The object")
         return
     facts = context.surroundings.devices.get(node.at.device or "")
     if facts is None:

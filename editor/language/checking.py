@@ -168,7 +168,7 @@ def _wait(context: Context, node: n.Wait) -> None:
     if has_missing(node.seconds):
         context.tell(node, "missing_seconds", "duration")
     else:
-        check_value(context, node, node.seconds, "duration", Kind("number", "SEC"), "The time to wait")
+        check_value(context, node, node.seconds, "duration", SECONDS, "The time to wait")
         _check_time(context, node, node.seconds, "duration", "The time to wait")
 
 

@@ -35,7 +35,7 @@ def _drop(builder: Builder, node: n.Drop, leaves: Leaves) -> None:
 def _serve(builder: Builder, node: n.Pick | n.Drop, method: str, *, gives: bool) -> None:
     """A machine that must act for it does so when the robot stands there, before anything is taken or left."""
     device = builder.describe(node.at)
-    if device is None or device.method(method) is None:
+    if device is None or not builder.can(device, method):
         return
     things = device.gives if gives else device.takes
     if isinstance(node.object, p.Constant) and node.object.value not in things:

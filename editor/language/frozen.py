@@ -9,7 +9,7 @@ from typing import TypeVar
 Value = TypeVar("Value")
 
 
-def dataclass(*, frozen: bool, slots: bool) -> Callable[[type[Value]], type[Value]]:
+def dataclass(*, frozen: bool = False, slots: bool) -> Callable[[type[Value]], type[Value]]:
     """Make a class what `dataclasses.dataclass` makes it, but for its objects' refusal to be changed.
 
     For that refusal each field is set by a call, which takes several times as long as setting it. Meant to be

@@ -15,6 +15,13 @@ else:
 
 MISSING = Constant(None)
 """A value that is still to be entered."""
+
+
+def is_missing(expression: Expression) -> bool:
+    """Tell whether a value is still to be entered."""
+    return isinstance(expression, Constant) and expression.value is None
+
+
 YES_OR_NO = AnswerSpec()
 NOWHERE = PlaceRef()
 """A place that is still to be chosen."""
@@ -294,22 +301,20 @@ class Tree:
 
 COMPOSITES = frozenset({If, While, Repeat, ForEach, Parallel, Try})
 """The nodes that hold others."""
+_LOOPS: Final = (While, Repeat, ForEach)
 
 
 def blocks_of(node: Node) -> tuple[Block, ...]:
     """Return the branches of a node, in reading order."""
     if node.__class__ not in COMPOSITES:
         return ()
-    match node:
-        case If(then=then, otherwise=otherwise):
-            return (then, otherwise)
-        case While(body=body) | Repeat(body=body) | ForEach(body=body):
-            return (body,)
-        case Parallel(branches=branches):
-            return branches
-        case Try(body=body, catch=catch, final=final):
-            return (body, catch, final)
-    return ()
+    if isinstance(node, If):
+        return (node.then, node.otherwise)
+    if isinstance(node, _LOOPS):
+        return (node.body,)
+    if isinstance(node, Try):
+        return (node.body, node.catch, node.final)
+    return node.branches if isinstance(node, Parallel) else ()
 
 
 def walk(block: Block) -> list[Node]:

@@ -13,22 +13,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from string import ascii_lowercase
 
-from editor.language.nodes import COMPOSITES, Block, Call, ForEach, If, Node, Parallel, Repeat, Tree, Try, While
+from editor.language.nodes import COMPOSITES, Block, Call, Node, Tree, Try, blocks_of
 
 _PARTS = re.compile(r"[0-9]+|[a-z]")
 
 
 def letters_of(node: Node) -> Iterator[tuple[str, Block]]:
     """Yield the branches of a node with their letters."""
-    match node:
-        case If(then=then, otherwise=otherwise):
-            yield from (("a", then), ("b", otherwise))
-        case While(body=body) | Repeat(body=body) | ForEach(body=body):
-            yield "a", body
-        case Try(body=body, catch=catch, final=final):
-            yield from (("a", body), ("c", catch), ("f", final))
-        case Parallel(branches=branches):
-            yield from zip(ascii_lowercase, branches, strict=False)
+    if isinstance(node, Try):
+        yield from (("a", node.body), ("c", node.catch), ("f", node.final))
+    else:
+        yield from zip(ascii_lowercase, blocks_of(node), strict=False)
 
 
 @dataclass(slots=True)

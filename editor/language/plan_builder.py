@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import zip_longest
 
 from editor.language import nodes as n
 from editor.language import plan as p
 from editor.language.settling_units import settle_units
 from editor.language.surroundings import Surroundings
 from editor.language.typing_of_values import UNKNOWN_KIND, Kind, Typing
-from editor.language.values import parts_of
 from registry.capability import Description
 
 Leaves = tuple[str, ...]
@@ -66,6 +65,8 @@ class Builder:
     """The variables of the loops around, each with its hidden name."""
     function: n.Function | None = None
     hidden: dict[str, int] = field(default_factory=dict)
+    methods: dict[str, frozenset[str]] = field(default_factory=dict)
+    """What devices can do, as far as it was asked for."""
     readings: set[tuple[str, str]] = field(default_factory=set)
     """The (device, property) pairs that the values of the plan look at."""
 
@@ -81,9 +82,12 @@ class Builder:
         leaves: Leaves = (),
     ) -> int:
         """Add an instruction and return its address."""
-        step, line = ("", 0) if node is None else (node.step, self.line_of.get(id(node), 0))
-        self.instructions.append(p.Instruction(do, step, line, enters, leaves))
-        return len(self.instructions) - 1
+        instructions = self.instructions
+        if node is None:
+            instructions.append(p.Instruction(do, "", 0, enters, leaves))
+        else:
+            instructions.append(p.Instruction(do, node.step, self.line_of.get(id(node), 0), enters, leaves))
+        return len(instructions) - 1
 
     def patch(self, address: int, do: p.Action) -> None:
         """Write an instruction again, now that its target is known."""
@@ -92,26 +96,30 @@ class Builder:
 
     def block(self, block: n.Block) -> None:
         """Compile the nodes of a block; the last node of each step tells that it is over."""
-        for index, node in enumerate(block):
-            last = index + 1 == len(block) or block[index + 1].step != node.step
-            self.compilers[type(node)](self, node, (node.step,) if last else ())
+        compilers = self.compilers
+        for node, following in zip_longest(block, block[1:]):
+            last = following is None or following.step != node.step
+            compilers[node.__class__](self, node, (node.step,) if last else ())
 
     def leave(self, node: n.Node) -> None:
         """Mark a composite step as over, where its ways out meet."""
         self.add(p.Jump(self.here() + 1), node, leaves=(node.step,))
 
-    @contextmanager
-    def inside(self, *around: Around) -> Iterator[None]:
+    def inside(self, *around: Around) -> Inside:
         """Compile what stands in a step; without a step it stands in a function, a branch or an event of its own."""
-        outside = self.around
-        self.around = [*outside, *around] if around else []
-        yield
-        self.around = outside
+        return Inside(self, [*self.around, *around] if around else [])
 
     def describe(self, place: p.PlaceRef) -> Description | None:
         """Return the description of the device that stands for a place, if it is one of the site."""
         facts = self.surroundings.devices.get(place.device or "")
         return None if facts is None else facts.description
+
+    def can(self, device: Description, method: str) -> bool:
+        """Tell whether a device has a method."""
+        known = self.methods.get(device.id)
+        if known is None:
+            known = self.methods[device.id] = frozenset(each.name for each in device.methods)
+        return method in known
 
     def hide(self, name: str) -> str:
         """Return a name for a variable that only the plan knows."""
@@ -133,10 +141,15 @@ class Builder:
             return expression
         typing = Typing(self.surroundings, self.kinds, [])
         settled = self._named(settle_units(expression, unit, typing))
-        for part in parts_of(settled):
-            if isinstance(part, p.Reading) and isinstance(part.device, p.Constant):
-                self.readings.add((str(part.device.value), part.property))
+        self._note_readings(settled)
         return settled
+
+    def _note_readings(self, expression: p.Expression) -> None:
+        if isinstance(expression, p.Operation):
+            for argument in expression.arguments:
+                self._note_readings(argument)
+        elif isinstance(expression, p.Reading) and isinstance(expression.device, p.Constant):
+            self.readings.add((str(expression.device.value), expression.property))
 
     def given(self, expression: p.Expression | None, unit: str = "") -> p.Expression | None:
         """Return an expression that may be left out as a plan has it."""
@@ -154,6 +167,22 @@ class Builder:
         if place.value is None or not self.renamed:
             return place
         return replace(place, value=self._named(place.value))
+
+
+@dataclass(slots=True)
+class Inside:
+    """A stretch of the plan that is built with other things around it."""
+
+    builder: Builder
+    around: list[Around]
+
+    def __enter__(self) -> None:
+        """Begin the stretch."""
+        self.builder.around, self.around = self.around, self.builder.around
+
+    def __exit__(self, *failure: object) -> None:
+        """End it, with the things around that were there before."""
+        self.builder.around = self.around
 
 
 def rename_variables(expression: p.Expression, renamed: Mapping[str, str]) -> p.Expression:

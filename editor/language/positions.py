@@ -26,6 +26,8 @@ from editor.language.nodes import (
     If,
     Move,
     Node,
+    Notify,
+    Operate,
     Parallel,
     Pick,
     Repeat,
@@ -34,6 +36,8 @@ from editor.language.nodes import (
     Set,
     Tree,
     Try,
+    Wait,
+    WaitUntil,
     While,
 )
 from editor.language.plan import PlaceRef, Variable
@@ -48,6 +52,8 @@ Standing = dict[str, PlaceRef]
 _Composite = If | While | Repeat | ForEach | Parallel | Try
 _COMPOSITE: Final = (If, While, Repeat, ForEach, Parallel, Try)
 _SETS: Final = (Set, Ask)
+_STAYING: Final = frozenset({Operate, Wait, WaitUntil, Notify})
+"""Steps after which all robots stand as before."""
 _LEAVES: Final = (End, Return, Break)
 
 
@@ -89,7 +95,9 @@ class _Follower:
         nodes: list[Node] = []
         ends = False
         for node in block:
-            if isinstance(node, Move):
+            if node.__class__ in _STAYING:
+                nodes.append(node)
+            elif isinstance(node, Move):
                 standing = {**standing, node.role: node.to}
                 nodes.append(node)
             elif isinstance(node, LOADS):
@@ -159,12 +167,13 @@ class _Follower:
             case If(then=then, otherwise=otherwise):
                 first, after_first = self.block(then, before)
                 second, after_second = self.block(otherwise, before)
-                return replace(node, then=first, otherwise=second), _agreed(after_first, after_second)
+                return If(node.condition, first, second, node.step), _agreed(after_first, after_second)
             case Try():
                 return self._try(node, before)
             case Parallel(branches=branches):
                 followed = [self.block(branch, self._beside(branches, branch, before)) for branch in branches]
-                return replace(node, branches=tuple(b for b, _ in followed)), self._joined(branches, followed, before)
+                inner = Parallel(tuple(block for block, _ in followed), node.step)
+                return inner, self._joined(branches, followed, before)
         return self._loop(node, before)
 
     def _loop(self, node: While | Repeat | ForEach, before: Standing) -> tuple[Node, Standing | None]:
@@ -176,7 +185,7 @@ class _Follower:
         over = _agreed(before, after)
         for way_out in ways_out:
             over = _agreed(over, way_out)
-        return replace(node, body=inner), None if over is None else _without_values(over, own)
+        return _with_body(node, inner), None if over is None else _without_values(over, own)
 
     def _try(self, node: Try, before: Standing) -> tuple[Node, Standing | None]:
         """The catch begins anywhere in the body, the final part anywhere in both; it changes every way out."""
@@ -188,11 +197,11 @@ class _Follower:
         if node.catches:
             after = _agreed(after, after_catch)
         if not node.final:
-            return replace(node, body=body, catch=handler), after
+            return Try(node.kinds, body, handler, (), node.catches, node.step), after
         for way_out, mark in zip(ways_out, marks, strict=True):
             way_out[mark:] = [self._after_some_of(node.final, standing) for standing in way_out[mark:]]
         final, after_final = self.block(node.final, self._after_some_of(node.catch, unsure))
-        whole = replace(node, body=body, catch=handler, final=final)
+        whole = Try(node.kinds, body, handler, final, node.catches, node.step)
         if after is None or after_final is None:
             return whole, None
         movers = self.movers(node.final)
@@ -250,9 +259,19 @@ class _Follower:
 
     def movers(self, block: Block) -> frozenset[str]:
         """Return the roles whose robot a block moves, also in the functions it calls."""
-        nodes = tuple(walk(block))
-        called = (self.moved.get(node.function, frozenset()) for node in nodes if isinstance(node, Call))
-        return frozenset(node.role for node in nodes if isinstance(node, DRIVES)).union(*called)
+        roles: set[str] = set()
+        for node in walk(block):
+            if isinstance(node, DRIVES):
+                roles.add(node.role)
+            elif isinstance(node, Call):
+                roles.update(self.moved.get(node.function, ()))
+        return frozenset(roles)
+
+
+def _with_body(node: While | Repeat | ForEach, body: Block) -> Node:
+    if isinstance(node, While):
+        return While(node.condition, body, node.step)
+    return Repeat(node.times, body, node.step) if isinstance(node, Repeat) else replace(node, body=body)
 
 
 def _without(standing: Standing, roles: frozenset[str]) -> Standing:

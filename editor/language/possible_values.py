@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import inf
+from typing import TYPE_CHECKING
 
 from editor.language.plan import Constant, Expression, Operation, Reading, Variable
 from editor.language.settling_units import settle_units
 from editor.language.surroundings import Surroundings
 from editor.language.typing_of_values import Kind, Typing, property_spec
 from editor.language.values import COMPARISONS, is_number, parts_of
+
+if TYPE_CHECKING:
+    from dataclasses import dataclass
+else:
+    from editor.language.frozen import dataclass
 
 _DAY_S = 86400
 
@@ -49,15 +54,16 @@ def possible(
 
 def range_of(expression: Expression, surroundings: Surroundings) -> Range:
     """Return between which numbers the value of an expression without quantities lies."""
-    match expression:
-        case Constant(value=value):
-            return Range(value, value) if is_number(value) else ANY
-        case Reading():
-            return _declared(expression, surroundings)
-        case Operation(operator=name, arguments=arguments):
-            if name in {"count", "now", "distance"}:
-                return _counted(name, arguments, surroundings)
-            return _reckoned(name, [range_of(argument, surroundings) for argument in arguments])
+    if isinstance(expression, Constant):
+        value = expression.value
+        return Range(value, value) if is_number(value) else ANY
+    if isinstance(expression, Reading):
+        return _declared(expression, surroundings)
+    if isinstance(expression, Operation):
+        name, arguments = expression.operator, expression.arguments
+        if name in {"count", "now", "distance"}:
+            return _counted(name, arguments, surroundings)
+        return _reckoned(name, [range_of(argument, surroundings) for argument in arguments])
     return ANY
 
 
@@ -109,17 +115,17 @@ def _product(left: Range, right: Range) -> Range:
 
 
 def _truth(expression: Expression, surroundings: Surroundings) -> bool | None:
-    match expression:
-        case Constant(value=bool() as value):
-            return value
-        case Operation(operator="not", arguments=(only,)):
-            inner = _truth(only, surroundings)
-            return None if inner is None else not inner
-        case Operation(operator="and" | "or" as name, arguments=arguments):
-            return _joined(name, arguments, surroundings)
-        case Operation(operator=name, arguments=(left, right)) if name in COMPARISONS:
-            return _compared(name, left, right, surroundings)
-    return None
+    if isinstance(expression, Constant) and isinstance(expression.value, bool):
+        return expression.value
+    if not isinstance(expression, Operation):
+        return None
+    name, arguments = expression.operator, expression.arguments
+    if name in COMPARISONS:
+        return _compared(name, arguments[0], arguments[1], surroundings)
+    if name == "not":
+        inner = _truth(arguments[0], surroundings)
+        return None if inner is None else not inner
+    return _joined(name, arguments, surroundings) if name in {"and", "or"} else None
 
 
 def _joined(name: str, arguments: Sequence[Expression], surroundings: Surroundings) -> bool | None:

@@ -39,6 +39,7 @@ from editor.language.nodes import (
     Wait,
     WaitUntil,
     While,
+    is_missing,
 )
 from editor.language.outline import EVENTS, PROGRAM, Outline, Params, make_outline, mapping
 from editor.language.phrases import Options
@@ -113,7 +114,7 @@ class _Reader:
     def given(self, step: str, params: Params, name: str) -> Expression | None:
         """Return the expression in a parameter that may also be left out."""
         value = self.value(step, params, name)
-        return None if value == MISSING else value
+        return None if is_missing(value) else value
 
     def place(self, step: str, params: Params, name: str) -> PlaceRef:
         """Return the place in a parameter; what does not exist reads as missing, and is told."""
@@ -145,10 +146,10 @@ class _Reader:
     def block(self, parent: str, branch: str) -> Block:
         """Return the nodes of one branch."""
         nodes: list[Node] = []
-        outline, known = self.outline, self.known
-        for step in outline.children.get((parent, branch), ()):
+        known, kinds, params = self.known, self.outline.kinds, self.outline.params
+        for step in self.outline.children.get((parent, branch), ()):
             if known is None:
-                nodes.extend(READERS[outline.kinds[step]](self, step, outline.params[step]))
+                nodes.extend(READERS[kinds[step]](self, step, params[step]))
             else:
                 nodes.extend(self._remembered(step, known))
         return tuple(nodes)
@@ -225,8 +226,12 @@ def _operate(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
 
 def _arguments(reader: _Reader, step: str, params: Params) -> tuple[tuple[str, Expression], ...]:
     given = mapping(params.get("args"))
-    read = ((name, reader.value(step, given, name, f"args.{name}")) for name in sorted(given, key=str))
-    return tuple((str(name), value) for name, value in read if value is not MISSING and value != MISSING)
+    arguments: list[tuple[str, Expression]] = []
+    for name in sorted(given, key=str):
+        value = reader.value(step, given, name, f"args.{name}")
+        if not is_missing(value):
+            arguments.append((str(name), value))
+    return tuple(arguments)
 
 
 def _wait(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
@@ -253,7 +258,7 @@ def _try(reader: _Reader, step: str, params: Params) -> tuple[Node, ...]:
     named = params.get("kinds")
     wanted = named if isinstance(named, _LISTS) else ()
     kinds = tuple(kind for kind in FAILURE_KINDS if kind in wanted)
-    body, catch, final = (reader.block(step, branch) for branch in ("body", "catch", "finally"))
+    body, catch, final = reader.block(step, "body"), reader.block(step, "catch"), reader.block(step, "finally")
     catches = params.get("catch") is not False
     return (Try(kinds if catches else (), body, catch, final, catches, step),)
 

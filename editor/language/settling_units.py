@@ -6,7 +6,7 @@ from editor.language.plan import Constant, Expression, Located, Operation, Quant
 from editor.language.surroundings import Surroundings
 from editor.language.typing_of_values import Kind, Typing, common_unit, is_written
 from editor.language.units import conversion, convert, same_dimension, tidy, unit_symbol
-from editor.language.values import ARITHMETIC, COMPARISONS, is_number, parts_of
+from editor.language.values import ARITHMETIC, COMPARISONS, is_number
 
 _WITH_UNITS = frozenset({"now", "distance", "nearest", "text"})
 _MEETING = frozenset({*COMPARISONS, "+", "-", "min", "max", "abs", "round"})
@@ -16,22 +16,20 @@ def settle_units(expression: Expression, wanted_unit: str, typing: Typing) -> Ex
     """Return an expression without quantities, in the wanted unit if one is wanted (empty: in its own)."""
     if isinstance(expression, Constant):
         return expression
-    settled = expression if _has_one_unit(expression) else _settle(expression, typing)
+    settled = expression if _units_in(expression) <= 1 else _settle(expression, typing)
     return _into(settled, _kind(expression, typing).unit, wanted_unit) if wanted_unit else settled
 
 
-def _has_one_unit(expression: Expression) -> bool:
-    """Tell that nothing in an expression is converted: at most one of its parts has a unit, and that is measured."""
-    measured = 0
-    for part in parts_of(expression):
-        if isinstance(part, Reading):
-            measured += 1
-        elif isinstance(part, Operation):
-            if part.operator in _WITH_UNITS:
-                return False
-        elif not isinstance(part, Constant):
-            return False
-    return measured <= 1
+def _units_in(expression: Expression) -> int:
+    """Return how many parts of an expression are measured; nothing is converted where it is one, or none.
+
+    What may bring a unit by itself counts as two.
+    """
+    if isinstance(expression, Constant):
+        return 0
+    if isinstance(expression, Operation) and expression.operator not in _WITH_UNITS:
+        return sum(map(_units_in, expression.arguments))
+    return 1 if isinstance(expression, Reading) and isinstance(expression.device, Constant) else 2
 
 
 def _kind(expression: Expression, typing: Typing) -> Kind:

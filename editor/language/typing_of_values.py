@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from editor.language.plan import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.surroundings import Surroundings
@@ -14,11 +13,17 @@ from editor.language.units import UNITS, same_dimension, unit_symbol
 from editor.language.values import COMPARISONS, parts_of
 from registry.capability import PropertySpec
 
+if TYPE_CHECKING:
+    from dataclasses import dataclass
+else:
+    from editor.language.frozen import dataclass
+
 TYPE_WORDS: Mapping[str, str] = {
     "number": "a number", "text": "a text", "boolean": "yes or no", "list": "a list", "object": "a kind of object",
     "device": "a device", "place": "a place", "location": "a place", "zone": "a zone", "point": "a point",
 }  # fmt: skip
 _NUMBERS = (int, float)
+_COMPARISONS = frozenset(COMPARISONS)
 _TEXT_LIKE = frozenset({"object", "device", "place", "location"})
 
 
@@ -54,7 +59,11 @@ def property_spec(reading: Reading, surroundings: Surroundings) -> PropertySpec 
     if not isinstance(reading.device, Constant):
         return None
     facts = surroundings.devices.get(str(reading.device.value))
-    return None if facts is None else facts.description.property(reading.property)
+    if facts is not None:
+        for spec in facts.description.properties:
+            if spec.name == reading.property:
+                return spec
+    return None
 
 
 @dataclass(slots=True)
@@ -109,7 +118,7 @@ class Typing:
             for kind in kinds:
                 self._need(kind, "boolean", f"“{name}”")
             return NUMBER if name == "count" else BOOLEAN
-        if name in COMPARISONS:
+        if name in _COMPARISONS:
             self._compare(name, expression, kinds[0], kinds[1])
             return BOOLEAN
         if name in {"distance", "nearest"}:
@@ -145,7 +154,7 @@ class Typing:
             )
 
     def _compare(self, name: str, expression: Operation, left: Kind, right: Kind) -> None:
-        if right == ZONE and name in {"in", "not in"}:
+        if right.type == "zone" and name in {"in", "not in"}:
             self._need_place(expression.arguments[0], left, name)
             return
         if not left.type or not right.type:
@@ -159,7 +168,7 @@ class Typing:
         if not fits:
             words = {"left": TYPE_WORDS[left.type], "right": TYPE_WORDS[right.type], "operator": f"“{name}”"}
             self.mismatches.append(Mismatch("not_comparable", {**words, "left": words["left"].capitalize()}))
-        elif left.type == "number":
+        elif left.unit and right.unit and left.type == "number":
             self._same_unit([left, right])
 
     def _same_unit(self, kinds: list[Kind]) -> None:

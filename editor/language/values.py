@@ -44,6 +44,8 @@ def plain(value: object) -> Scalar:
     """Return a scalar in its normal form: whole numbers as int, nonsense as None."""
     if isinstance(value, _WORDS):
         return value
+    if value.__class__ is int and is_number(value):
+        return value
     if not is_number(value) or math.isnan(value):
         return None
     return int(value) if isinstance(value, float) and value.is_integer() else value
@@ -126,13 +128,13 @@ def read_value(value: object, names: Names, robot_of: RobotOf = no_robot, depth:
     Raises:
         UnknownParameter: it names a parameter that does not exist here.
     """
-    if isinstance(value, _SCALARS):
+    if value.__class__ is not dict and isinstance(value, _SCALARS):
         scalar = plain(value)
         return MISSING if scalar is None else Constant(scalar)
     if isinstance(value, _LISTS):
         scalars = tuple(plain(item) for item in value)
         return MISSING if not scalars or None in scalars else Constant(scalars)
-    if not isinstance(value, Mapping) or depth > DEEPEST_EXPRESSION:
+    if not (value.__class__ is dict or isinstance(value, Mapping)) or depth > DEEPEST_EXPRESSION:
         return MISSING
     if "param" in value:
         return _variable(value["param"], names)
@@ -293,6 +295,8 @@ def parts_of(expression: Expression) -> list[Expression]:
 
 def _gather(expression: Expression, parts: list[Expression]) -> None:
     parts.append(expression)
+    if isinstance(expression, Constant):
+        return
     if isinstance(expression, Operation):
         for argument in expression.arguments:
             _gather(argument, parts)
