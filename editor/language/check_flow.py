@@ -192,6 +192,8 @@ def _set_beside(tree: n.Tree, sets: Mapping[str, frozenset[str]]) -> frozenset[s
     names = frozenset[str]()
     for event in tree.events:
         names |= set_in(event.body, sets)
+    if not tree.holds(n.Parallel):
+        return names
     for block in (tree.body, *(function.body for function in tree.functions)):
         for node in tree.walked(block):
             if isinstance(node, n.Parallel):

@@ -53,14 +53,14 @@ def _drivers(context: Context, block: n.Block) -> dict[tuple[str, str], str]:
 def check_parallel(context: Context) -> None:
     """Check the events against the program beside which they run, and branches that wait for each other."""
     tree = context.tree
-    main = _drivers(context, tree.body)
+    main = _drivers(context, tree.body) if tree.events else {}
     for event in tree.events:
         if event.starts == "branch":
             for key, role in sorted(_drivers(context, event.body).items()):
                 if key in main:
                     context.tell_step(event.step, "event_shares_robot", "", {"robot": context.driver_name(role)})
-    for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
-        for node in tree.walked(block):
+    if tree.holds(n.Parallel):
+        for node in _all_nodes(tree):
             if isinstance(node, n.Parallel):
                 _check_waiting(context, node)
 

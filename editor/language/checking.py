@@ -90,8 +90,10 @@ def _all_around(context: Context) -> object:
 
 def _check_block(context: Context, name: str, block: n.Block, kinds: Mapping[str, Kind]) -> None:
     nodes = context.tree.walked(block)
-    loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
-    context.variables = {name: kind for name, kind in kinds.items() if name not in loops} if loops else kinds
+    if context.tree.holds(n.ForEach):
+        loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
+        kinds = {name: kind for name, kind in kinds.items() if name not in loops}
+    context.variables = kinds
     if context.memories is None:
         for node in nodes:
             CHECKS[type(node)](context, node)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from editor.language.checking import check
+from editor.language.collecting import without_collector
 from editor.language.compiling import compile_tree
 from editor.language.diagnostics import Diagnostic, Fix, Problem, arguments_to_json, put_into_words
 from editor.language.ladder import climb
@@ -42,7 +43,8 @@ class Compiled:
 
 def compile_document(document: object, surroundings: Surroundings) -> Compiled:
     """Compile a document (plain JSON, of any format so far) for a site. Nothing in the document makes this raise."""
-    return look_at(document, surroundings).compiled()
+    with without_collector():
+        return look_at(document, surroundings).compiled()
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,11 +119,10 @@ def _in_words(
     """Put problems into words, in reading order; each stands at its node's line, or at its step's first."""
     if not problems:
         return ()
-    places = {step: index for index, step in enumerate(numbers)}
-    first_lines: dict[str, int] = {}
-    for line, step in enumerate(script.lines, start=1):
-        first_lines.setdefault(step, line)
-    first_lines.pop("", None)
+    told = {problem.step for problem, _ in problems}
+    places = {step: index for index, step in enumerate(numbers) if step in told}
+    lines = enumerate(script.lines, start=1)
+    first_lines = {step: line for line, step in reversed([*lines]) if step and step in told}
     unique: dict[tuple[str, str, str], tuple[tuple[int, str, int], Diagnostic]] = {}
     for index, (problem, node) in enumerate(problems):
         shown: int | None = script.line_of.get(node) or first_lines.get(problem.step)

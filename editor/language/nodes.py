@@ -285,6 +285,7 @@ class Tree:
     parameters: tuple[Parameter, ...] = ()
     events: tuple[Event, ...] = ()
     _walked: dict[int, list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _kinds: set[type[Node]] = field(default_factory=set, init=False, repr=False, compare=False)
 
     def walked(self, block: Block) -> list[Node]:
         """Return the nodes of one of the tree's own blocks as `walk` does; they are gathered once."""
@@ -295,8 +296,10 @@ class Tree:
 
     def holds(self, *kinds: type[Node]) -> bool:
         """Tell whether any step of the program is of one of these kinds."""
-        blocks = (self.body, *(f.body for f in self.functions), *(event.body for event in self.events))
-        return any(node.__class__ in kinds for block in blocks for node in self.walked(block))
+        if not self._kinds:
+            blocks = (self.body, *(f.body for f in self.functions), *(event.body for event in self.events))
+            self._kinds.update(type(node) for block in blocks for node in self.walked(block))
+        return not self._kinds.isdisjoint(kinds)
 
 
 COMPOSITES = frozenset({If, While, Repeat, ForEach, Parallel, Try})
@@ -329,4 +332,5 @@ def _gather(block: Block, nodes: list[Node]) -> None:
         nodes.append(node)
         if node.__class__ in COMPOSITES:
             for inner in blocks_of(node):
-                _gather(inner, nodes)
+                if inner:
+                    _gather(inner, nodes)

@@ -15,6 +15,8 @@ from string import ascii_lowercase
 
 from editor.language.nodes import COMPOSITES, Block, Call, Node, Tree, Try, blocks_of
 
+_MORE = COMPOSITES | {Call}
+"""The nodes by which other steps get their numbers."""
 _PARTS = re.compile(r"[0-9]+|[a-z]")
 
 
@@ -37,11 +39,15 @@ class Numbering:
 
     def block(self, block: Block, prefix: str, depth: int) -> None:
         """Number the steps of a block; a step of several nodes counts once."""
-        count = 0
+        count, numbers, depths = 0, self.numbers, self.depths
         for node in block:
-            if node.step not in self.numbers:
+            step = node.step
+            if step not in numbers:
                 count += 1
-                self.node(node, f"{prefix}{count}", depth)
+                if node.__class__ in _MORE:
+                    self.node(node, f"{prefix}{count}", depth)
+                else:
+                    numbers[step], depths[step] = f"{prefix}{count}", depth
 
     def node(self, node: Node, number: str, depth: int) -> None:
         """Number one step and what stands in it."""

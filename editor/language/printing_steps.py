@@ -109,7 +109,7 @@ class Printer:
         given = depth, self.locals
         known: _Printed | None = memory.recall(node, given)
         begin = len(self.texts)
-        if known is None or any(self._name_of(key) != name for key, name in known.names.items()):
+        if known is None or not self._names_still(known.names):
             known = self._print_anew(node, depth)
             if known is not None:
                 memory.keep(node, known, given)
@@ -118,6 +118,10 @@ class Printer:
             self.steps.extend(known.steps)
             self.used.update(known.names)
             self.places.extend([(key, begin + line) for key, line in known.places])
+
+    def _names_still(self, names: Mapping[PlaceRef | Located | str, str]) -> bool:
+        """Tell whether things have these names still; those that have none yet get theirs, in this order."""
+        return all(self._name_of(key) == name for key, name in names.items())
 
     def _print_anew(self, node: Node, depth: int) -> _Printed | None:
         """Print a step that holds others; None where its lines depend on its number, or print more elsewhere."""

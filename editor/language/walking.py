@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from editor.language.names import ROBOT_METHODS
-from editor.language.nodes import DRIVES, Block, Call, Function, Role, Tree
+from editor.language.nodes import DRIVES, Block, Call, Function, Node, Role, Tree
 from editor.language.nodes import walk as walk
 
 
@@ -35,13 +35,14 @@ def _called_in(block: Block, by_method: Mapping[str, Function]) -> list[Function
 def needed_of_roles(tree: Tree, functions: tuple[Function, ...]) -> dict[str, tuple[str, ...]]:
     """Return what each role must be able to do, roles in the order of first use; a robot that picks also drives."""
     blocks = (tree.body, *(f.body for f in functions), *(event.body for event in tree.events))
-    uses = dict.fromkeys(
-        (node.role, node.__class__) for b in blocks for node in tree.walked(b) if isinstance(node, DRIVES)
-    )
-    needed: dict[str, set[str]] = {}
-    for role, use in uses:
-        needed.setdefault(role, set()).add(use.__name__.lower())
-    return {role: _without_move(methods) for role, methods in needed.items()}
+    needed: dict[str, set[type[Node]]] = {}
+    for block in blocks:
+        for node in tree.walked(block):
+            if isinstance(node, DRIVES):
+                if node.role not in needed:
+                    needed[node.role] = set()
+                needed[node.role].add(node.__class__)
+    return {role: _without_move({use.__name__.lower() for use in uses}) for role, uses in needed.items()}
 
 
 def _without_move(methods: set[str]) -> tuple[str, ...]:
