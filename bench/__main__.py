@@ -1,4 +1,4 @@
-"""Run every measurement, or those named: `python -m bench [language] [rehearsal] [traffic] [rooms] [start]`."""
+"""Run every measurement, or those named: `python -m bench [NAME …]`, a name being that of a module of this folder."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import importlib
 import json
 import sys
 
-NAMES = ("language", "rehearsal", "traffic", "rooms", "start")
+NAMES = ("language", "rehearsal", "traffic", "rooms", "devices", "start")
 
 
 def main() -> None:

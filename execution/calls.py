@@ -16,10 +16,10 @@ from django.db.models import F
 
 from execution import inbox
 from execution.call_arguments import find_misfits
+from execution.claiming import CONTROLS
 from execution.errors import BadArguments, NotFound, NotPossibleNow
 from execution.floor_stepping import site_id
 from execution.models import Command, FloorState, Run
-from execution.outbox import CONTROLS
 from execution.stops import is_stopped
 from execution.traffic import floor
 from registry import live

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from datetime import UTC, datetime, timedelta
-from typing import Any
 from uuid import UUID
 
 from django.db import transaction
-from django.db.models import Exists, OuterRef, Q, QuerySet, Subquery
 
 from execution import inbox
+from execution.claiming import CONTROLS, LAST_RETRY_S, UNANSWERED
 from execution.models import Command
-from registry import live, wire
+from registry import live
 from registry.capability import Scalar
 
-FIRST_RETRY_S = 2.0
-LAST_RETRY_S = 15.0
 CONTROL_LIMIT_S = 60.0
-CONTROLS = ("pause", "resume", "cancel")
 STATUS = {
     "ACCEPTED": Command.Status.ACCEPTED,
     "RUNNING": Command.Status.RUNNING,
@@ -28,82 +23,7 @@ STATUS = {
     "REJECTED": Command.Status.REJECTED,
     "CANCELED": Command.Status.CANCELLED,
 }
-UNANSWERED = (Command.Status.PENDING, Command.Status.SENT)
 FINAL = frozenset({"DONE", "FAILED", "REJECTED", "CANCELED"})
-WINDOW = 12
-"""A device remembers its last 16 commands: nobody runs so far ahead of an open one that it would do that one again."""
-
-
-@dataclass(frozen=True, slots=True)
-class OutgoingCommand:
-    """A command as it goes out over MQTT."""
-
-    id: str
-    device: str
-    topic: str
-    payload: bytes
-    ttl_s: float
-
-
-def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
-    """Return commands that are due to be sent, in their order; nobody else is given them for a while.
-
-    One whose sending is not confirmed by `mark_commands_sent`, or that no device answers, is given out again. While a
-    site is stopped only pause, resume and cancel go out. A piece of way waits until the robot has accepted the piece
-    before it: with a gateway that died in between, it would otherwise cut the corner through a wall. Nothing new goes
-    out while a command that is `WINDOW` older is open: asked again, the device might have forgotten it.
-    """
-    now = datetime.now(UTC)
-    before = Command.objects.filter(
-        device=OuterRef("device"),
-        site_id=OuterRef("site_id"),
-        piece=True,
-        position__lt=OuterRef("position"),
-        status__in=UNANSWERED,
-    )
-    with transaction.atomic():
-        due = Command.objects.filter(status__in=Command.OPEN, send_after__lte=now)
-        due = due.exclude(Exists(before), piece=True).annotate(horizon=Subquery(_horizon()))
-        due = due.exclude(Exists(_far_behind()) & Q(tries=0) & ~Q(method__in=CONTROLS))
-        held_back = due.filter(site__stop_latch__active=True).exclude(method__in=CONTROLS)
-        rows = due.exclude(id__in=held_back.values("id")).order_by("site_id", "position")
-        claimed = list(rows.select_for_update(skip_locked=True, of=("self",))[:limit])
-        for row in claimed:
-            under_way = row.status in {Command.Status.ACCEPTED, Command.Status.RUNNING}
-            wait_s = LAST_RETRY_S if under_way else min(LAST_RETRY_S, FIRST_RETRY_S * 2**row.tries)
-            row.tries += 1
-            row.send_after = now + timedelta(seconds=wait_s)
-        Command.objects.bulk_update(claimed, ["tries", "send_after"])
-    return tuple(_outgoing(row) for row in claimed)
-
-
-def _horizon() -> QuerySet[Command, Any]:
-    """Return the position of the command that lies `WINDOW` commands of the same device back."""
-    older = Command.objects.filter(
-        device=OuterRef("device"), site_id=OuterRef("site_id"), position__lt=OuterRef("position")
-    )
-    return older.order_by("-position").values("position")[WINDOW - 1 : WINDOW]
-
-
-def _far_behind() -> QuerySet[Command]:
-    """Return the open commands of the same device that lie beyond the horizon."""
-    return Command.objects.filter(
-        device=OuterRef("device"),
-        site_id=OuterRef("site_id"),
-        position__lte=OuterRef("horizon"),
-        status__in=Command.OPEN,
-    )
-
-
-def _outgoing(row: Command) -> OutgoingCommand:
-    payload = wire.command_payload(str(row.id), row.arguments, row.ttl_s)
-    return OutgoingCommand(str(row.id), row.device, wire.down_topic(row.device, row.method), payload, row.ttl_s)
-
-
-def mark_commands_sent(*, ids: Iterable[str]) -> None:
-    """Say that these commands have gone out."""
-    sent = Command.objects.filter(id__in=list(ids), status=Command.Status.PENDING)
-    sent.update(status=Command.Status.SENT, sent_at=datetime.now(UTC))
 
 
 def resend_commands(*, device: str) -> int:

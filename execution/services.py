@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from execution.arming import arm_program, disarm_program, list_armed, start_armed
 from execution.calls import call_method, cancel_call, get_call
+from execution.claiming import OutgoingCommand, claim_commands, mark_commands_sent
 from execution.clockwork import run_ticker
 from execution.devices import record_device_change
 from execution.errors import (
@@ -15,7 +16,7 @@ from execution.errors import (
     NotPossibleNow,
     NotReady,
 )
-from execution.outbox import OutgoingCommand, claim_commands, mark_commands_sent, record_ack, resend_commands
+from execution.outbox import record_ack, resend_commands
 from execution.planning import plan_routes
 from execution.programs import Prepared
 from execution.questions import answer_question, list_questions, site_of_question

@@ -1,0 +1,141 @@
+"""What bench.devices does with VIPO's own functions, in a process that has its settings."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from datetime import UTC, datetime
+from queue import Queue
+from typing import Any
+from uuid import uuid4
+
+import django
+
+django.setup()
+
+from django.core.management import call_command  # noqa: E402 - Django is set up first
+from django.db import transaction  # noqa: E402
+
+from bench.flow import device_name  # noqa: E402
+from execution.models import Command  # noqa: E402
+from registry import live, services  # noqa: E402
+from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size  # noqa: E402
+from registry.describing import write_description  # noqa: E402
+from registry.models import Device  # noqa: E402
+from registry.mqtt import MqttClient  # noqa: E402
+from registry.wire import down_topic, up_topic  # noqa: E402
+
+SITE = "hall"
+NEWCOMERS = 5000
+TRIES = range(30)
+
+
+def describe(number: int, name: str = "") -> Description:
+    own = device_name(number)
+    return Description(
+        own, name or f"Robot {number}", "robot", "turtlebot", Pose(1.0, 1.0), Size(0.4, 0.4, 0.4),
+        site=SITE, radius_m=0.2, speed_m_s=0.5,
+        properties=(
+            PropertySpec("battery", "number", "PERCENT", 0, 100),
+            PropertySpec("temperature", "number", "DEG_C", -20, 120),
+        ),
+        methods=tuple(
+            MethodSpec(verb, f"vipo/v1/dev/{own}/down/{verb}", parameters=(ParameterSpec("value", "number", "NUM"),))
+            for verb in ("move", "pick", "drop")
+        ),
+    )  # fmt: skip
+
+
+def rate(count: int, work: Callable[[], object]) -> float:
+    began = time.perf_counter()
+    work()
+    return count / (time.perf_counter() - began)
+
+
+def take_in(payloads: dict[str, bytes]) -> None:
+    at = datetime.now(UTC)
+    for device, payload in payloads.items():
+        services.ingest_description(device_id=device, payload=payload, at=at)
+
+
+def payloads(count: int, name: str = "") -> dict[str, bytes]:
+    return {device_name(n): write_description(describe(n, name)).encode() for n in range(count)}
+
+
+def fill(count: int) -> Iterator[dict[str, object]]:
+    call_command("migrate", verbosity=0, interactive=False)
+    services.create_site(name="Hall", slug=SITE)
+    take_in(payloads(count))
+    Device.objects.update(lifecycle="approved")
+    yield {"filled": count}
+
+
+def measure_descriptions(count: int) -> Iterator[dict[str, object]]:
+    changed, again = payloads(count, "Renamed"), payloads(count)
+    yield {"what": "changed descriptions taken in", "rate": rate(count, lambda: take_in(changed))}
+    take_in(again)
+    yield {"what": "unchanged descriptions taken in", "rate": rate(count, lambda: take_in(again))}
+
+
+def measure_delays(port: int, password: str) -> Iterator[dict[str, object]]:
+    """Time a stranger's description until browsers are told, and a command's row until its device hears it."""
+    client = MqttClient(host="127.0.0.1", port=port, username="server", password=password, client_id="bench")
+    heard: Queue[tuple[str, float]] = Queue()
+    client.subscribe("vipo/v1/dev/+/down/#", 1, lambda topic, _p, _r: heard.put((topic, time.perf_counter())))
+    live.listen(lambda _slug, message: heard.put((_about(message), time.perf_counter())))
+    client.start()
+    client.wait_connected(10)
+    time.sleep(1)
+    newcomers = [_newcomer(client, heard, number) for number in TRIES]
+    yield {"what": "from a new device's description to the browsers", "ms": newcomers}
+    yield {"what": "from a command to its device", "ms": [_command(heard, n) for n in TRIES]}
+    client.stop()
+
+
+def _about(message: Mapping[str, Any]) -> str:
+    return str(message["device"]["id"]) if message.get("type") == "device" else ""
+
+
+def _newcomer(client: MqttClient, heard: Queue[tuple[str, float]], number: int) -> float:
+    description = describe(NEWCOMERS + number)
+    payload = write_description(description).encode()
+    began = time.perf_counter()
+    client.publish(up_topic(description.id, "desc"), payload, retain=True)
+    return _wait_for(heard, description.id, began)
+
+
+def _command(heard: Queue[tuple[str, float]], number: int) -> float:
+    device, now = device_name(number), datetime.now(UTC)
+    row = Command(
+        id=uuid4(), site_id=Device.objects.values_list("site_id", flat=True)[0], device=device, method="pick",
+        arguments={"value": 1}, ttl_s=60, position=number, send_after=now, created_at=now,
+    )  # fmt: skip
+    began = time.perf_counter()
+    with transaction.atomic():
+        row.save(force_insert=True)
+        transaction.on_commit(lambda: live.wake("gateway"))
+    return _wait_for(heard, down_topic(device, "pick"), began)
+
+
+def _wait_for(heard: Queue[tuple[str, float]], wanted: str, began: float) -> float:
+    while True:
+        what, at = heard.get(timeout=10)
+        if what == wanted:
+            time.sleep(0.2)
+            return (at - began) * 1000
+
+
+def main() -> None:
+    what, *arguments = sys.argv[1:]
+    chosen: dict[str, Callable[..., Iterator[dict[str, object]]]] = {
+        "fill": lambda count: fill(int(count)),
+        "describe": lambda count: measure_descriptions(int(count)),
+        "delays": lambda port, password: measure_delays(int(port), password),
+    }
+    for line in chosen[what](*arguments):
+        print(json.dumps(line), flush=True)
+
+
+main()
