@@ -60,6 +60,7 @@ INSTALLED_APPS = [
     "registry",
     "editor",
     "simulation",
+    "connectors",
     "execution",
     "vipo_site",
 ]

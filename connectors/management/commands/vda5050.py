@@ -1,0 +1,148 @@
+"""`manage.py vda5050 --site SLUG --broker URL`: vehicles that speak VDA 5050 become robots of a site."""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+import signal
+import threading
+import uuid
+from argparse import ArgumentParser
+from datetime import UTC, datetime
+from pathlib import Path
+from types import FrameType
+from typing import Any
+from urllib.parse import unquote, urlsplit
+
+from django.conf import settings
+from django.core.management.base import BaseCommand, CommandError
+
+from connectors.device_line import ConnectionMaker
+from connectors.vda5050.fleet import Fleet
+from connectors.vda5050.frame import Frame
+from connectors.vda5050.member import Setting
+from registry.errors import RegistryError
+from registry.mqtt import MqttClient, Will, tls_context
+from registry.wire import is_device_id
+
+log = logging.getLogger(__name__)
+STOP_LIMIT_S = 8
+
+
+class Command(BaseCommand):
+    """Runs until SIGTERM or Ctrl-C."""
+
+    help = "Bring in vehicles that speak VDA 5050 as robots of a site."
+    requires_system_checks = ()  # it serves no pages, and starts a second sooner
+
+    def add_arguments(self, parser: ArgumentParser) -> None:
+        """Say what can be chosen."""
+        parser.add_argument("--site", default=settings.VIPO_DEFAULT_SITE, help="the site's short name")
+        parser.add_argument("--interface", default="uagv", help="the first level of the vehicles' topics (uagv)")
+        parser.add_argument(
+            "--broker",
+            default=os.environ.get("VIPO_VDA5050_BROKER", ""),
+            help="the vehicles' broker: mqtt://name@host:1883 or mqtts://…; its password is VIPO_VDA5050_PASSWORD",
+        )
+        parser.add_argument("--ca", default="", help="the certificate authority of an mqtts broker (the system's)")
+        parser.add_argument("--origin", default="0,0,0", help="where the vehicles' map begins in the site's: x,y,theta")
+        parser.add_argument("--station-type", default="floor", help="the stationType of picks and drops (floor)")
+
+    def handle(self, *_args: Any, **options: Any) -> None:
+        """Run the connector."""
+        stopping = threading.Event()
+
+        def stop(_signal: int, _frame: FrameType | None) -> None:
+            stopping.set()
+            # What counts was saved before it was sent; a goodbye that hangs is not worth waiting for.
+            signal.alarm(STOP_LIMIT_S)
+
+        signal.signal(signal.SIGTERM, stop)
+        signal.signal(signal.SIGINT, stop)
+        try:
+            make_fleet(options).run(stopping)
+        except RegistryError as error:
+            raise CommandError(error.detail) from error
+
+
+def make_fleet(options: dict[str, Any]) -> Fleet:
+    """Return the connector that the command line asks for."""
+    site, interface = options["site"], options["interface"]
+    if not is_device_id(site) or not is_device_id(interface):
+        raise CommandError("--site and --interface must be words of letters, digits, '_', '.' and '-'.")
+    folder = Path(settings.VIPO_STATE_DIR)
+    setting = Setting(
+        site=site,
+        frame=read_origin(options["origin"]),
+        station_type=options["station_type"],
+        folder=folder / "vda5050" / site,
+        publish=lambda _name, _subtopic, _payload: None,
+        connect=device_connections(folder / "secrets"),
+        new_id=lambda: uuid.uuid4().hex,
+        clock=lambda: datetime.now(UTC),
+    )
+    return Fleet(vehicle_client(options["broker"], options["ca"], f"vipo-{site}"), interface, setting)
+
+
+def read_origin(text: str) -> Frame:
+    """Read x,y,theta in metres and radians."""
+    try:
+        x, y, theta = (float(part) for part in text.split(","))
+    except ValueError:
+        raise CommandError(f"--origin {text!r} is not x,y,theta: metres and radians, with commas between.") from None
+    return Frame(x, y, theta)
+
+
+def vehicle_client(address: str, authority: str, client_id: str) -> MqttClient:
+    """Return the connection to the vehicles' broker."""
+    parts = urlsplit(address)
+    if parts.scheme not in {"mqtt", "mqtts"} or not parts.hostname:
+        raise CommandError(f"--broker {address!r} is not the vehicles' broker; say mqtt://host:1883 or mqtts://host.")
+    is_safe = parts.scheme == "mqtts"
+    return MqttClient(
+        host=parts.hostname,
+        port=parts.port or (8883 if is_safe else 1883),
+        username=unquote(parts.username or ""),
+        password=os.environ.get("VIPO_VDA5050_PASSWORD", unquote(parts.password or "")),
+        client_id=client_id,
+        tls=tls_context(authority) if is_safe else None,
+    )
+
+
+def device_connections(secrets: Path) -> ConnectionMaker:
+    """Return what connects a vehicle's device to VIPO: by its own key in secrets/devices.json, or the join key."""
+    broker: dict[str, Any] = settings.VIPO_MQTT
+    tls = tls_context(broker["ca"]) if broker["tls"] else None
+
+    def connect(device: str, will: Will) -> MqttClient:
+        log.info("%s joins", device)
+        return MqttClient(
+            host=broker["host"],
+            port=int(os.environ.get("VIPO_MQTT_DEVICE_PORT", broker["port"])),
+            username=device,
+            password=read_key(secrets, device),
+            client_id=device,
+            tls=tls,
+            will=will,
+        )
+
+    return connect
+
+
+def read_key(secrets: Path, device: str) -> str:
+    """Return a device's key, the site's join key where it has none of its own; empty when there is neither."""
+    join = secrets / "join"
+    try:
+        known = json.loads((secrets / "devices.json").read_text())
+    except FileNotFoundError:
+        known = {}
+    except ValueError as error:
+        log.error("secrets/devices.json is not JSON (%s); %s tries the join key.", error, device)  # noqa: TRY400 - no trace
+        known = {}
+    key = known.get(device) or os.environ.get("VIPO_JOIN_KEY", "")
+    if not key and join.exists():
+        key = join.read_text().strip()
+    if not key:
+        log.warning("%s has no key in secrets/devices.json and there is no join key; VIPO will refuse it.", device)
+    return str(key)

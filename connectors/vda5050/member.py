@@ -1,0 +1,228 @@
+"""One vehicle of the fleet: what it says on its own broker on one side, its VIPO device on the other."""
+
+from __future__ import annotations
+
+import json
+import logging
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from connectors.commands import OPEN, Told
+from connectors.device_line import ConnectionMaker, DeviceLine, LineEvent
+from connectors.vda5050.control import Send, VehicleControl
+from connectors.vda5050.factsheet import Factsheet, describe, device_id, read_factsheet
+from connectors.vda5050.frame import Frame
+from connectors.vda5050.memory import Memory, read_memory, write_memory
+from connectors.vda5050.messages import (
+    Header,
+    Located,
+    VehicleName,
+    VehicleState,
+    read_connection,
+    read_state,
+    read_visualization,
+)
+from connectors.vda5050.orders import action, instant_actions
+from connectors.vda5050.tasks import Vehicle
+from registry.describing import write_description
+from registry.wire import AckMessage
+
+log = logging.getLogger(__name__)
+SILENT_LIMIT_S = 75.0
+"""A vehicle says its state at least every 30 s; one that misses two counts as gone, whatever its connection says."""
+ASK_S = 1.0
+ASK_AGAIN_S = 30.0
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """What all vehicles of a connector share; `publish` takes a vehicle, a subtopic and a message's body."""
+
+    site: str
+    frame: Frame
+    station_type: str
+    folder: Path
+    publish: Callable[[VehicleName, str, bytes], None]
+    connect: ConnectionMaker
+    new_id: Callable[[], str]
+    clock: Callable[[], datetime]
+
+
+class Member:
+    """A vehicle that was heard of. It becomes a device when its connection, factsheet and state are known."""
+
+    def __init__(self, name: VehicleName, setting: Setting, inbox: Callable[[LineEvent], None]) -> None:
+        self.name, self.id = name, device_id(name)
+        self.control: VehicleControl | None = None
+        self._setting, self._inbox = setting, inbox
+        self._path = setting.folder / f"{self.id}.json"
+        self._memory: Memory = read_memory(self._path, int(setting.clock().timestamp()))
+        self._line: DeviceLine | None = None
+        self._sheet: Factsheet | None = None
+        self._sheet_said = b""
+        self._description = b""
+        self._version = "2.0.0"
+        self._connected = self._held = False
+        self._newest: dict[str, Header] = {}
+        self._state: VehicleState | None = None
+        self._located: Located | None = None
+        self._heard_s = 0.0
+        self._ask_at_s: dict[str, float] = {}
+
+    def hear(self, subtopic: str, payload: bytes, now_s: float) -> None:
+        """Take in a message of the vehicle. Raises BadMessage."""
+        match subtopic:
+            case "connection":
+                self._hear_connection(payload, now_s)
+            case "factsheet" if payload != self._sheet_said:
+                self._sheet = read_factsheet(payload, self.name)
+                self._sheet_said = payload
+            case "state":
+                state = read_state(payload, self.name)
+                if self._is_news("state", state.header):
+                    self._state, self._heard_s = state, now_s
+                    self._locate(state.located)
+            case "visualization":
+                header, located = read_visualization(payload, self.name)
+                if self._is_news("visualization", header):
+                    self._locate(located)
+        self._become_device()
+        if subtopic == "state" and self.control is not None and self._state is not None:
+            self._be_present(now_s)
+            self.control.hear_state(self._state, now_s)
+        self.speak(now_s)
+
+    def command(self, told: Told, now_s: float) -> None:
+        """Take in a command of the server."""
+        if self.control is not None:
+            self.control.command(told, now_s)
+            self.speak(now_s)
+
+    def hold(self, now_s: float, *, active: bool) -> None:
+        """Take in the site's stop."""
+        if self.control is not None and active != self._held:
+            self._held = active
+            self.control.hold(now_s, active=active)
+            self.speak(now_s)
+
+    def introduce(self) -> None:
+        """Say to the server who the vehicle is."""
+        if self._line is not None and self.control is not None:
+            self._line.introduce(self._description, online=self.control.online)
+
+    def tick(self, now_s: float) -> None:
+        """Let time pass: ask the vehicle for what is missing, send again what it did not answer."""
+        self._ask(now_s)
+        if self.control is not None:
+            self._be_present(now_s)
+            self.control.settle(now_s)
+        self.speak(now_s)
+
+    def leave(self) -> None:
+        """Say goodbye to VIPO; the vehicle keeps what it was ordered."""
+        if self._line is not None:
+            self._line.close()
+
+    def speak(self, now_s: float) -> None:
+        """Keep what is to be known after a crash, then send: orders, what has begun, the state, what is over."""
+        control, line = self.control, self._line
+        if control is None or line is None:
+            return
+        out, control.out = control.out, []
+        for item in out:
+            if isinstance(item, Send):
+                self._memory.headers[item.topic] = self._memory.headers.get(item.topic, -1) + 1
+        self._save(control.to_json())
+        over = [item for item in out if isinstance(item, AckMessage) and item.status not in OPEN]
+        for item in out:
+            if isinstance(item, Send):
+                self._send(item.topic, item.body)
+            elif item not in over:
+                line.answer(item)
+        if control.online or over:
+            line.report(control.look, now_s, at_once=bool(over))
+        for ack in over:
+            line.answer(ack)
+
+    def _hear_connection(self, payload: bytes, now_s: float) -> None:
+        """Take in that the vehicle came or went; a will is older than what it ends, so its number says nothing."""
+        header, self._connected = read_connection(payload, self.name)
+        self._version = header.version
+        self._heard_s = 0.0
+        self._ask_at_s = {"stateRequest": now_s + ASK_S, "factsheetRequest": now_s + ASK_S}
+        self._be_present(now_s)
+
+    def _is_news(self, subtopic: str, header: Header) -> bool:
+        if header.is_stale(self._newest.get(subtopic)):
+            return False
+        self._newest[subtopic] = header
+        return True
+
+    def _locate(self, located: Located | None) -> None:
+        self._located = located or self._located
+        if self.control is not None:
+            self.control.located = self._located
+
+    def _become_device(self) -> None:
+        """Make the device, or describe it anew when the factsheet has changed."""
+        if self._sheet is None or self._state is None or self._located is None or not self._connected:
+            return
+        home = self._memory.home or self._setting.frame.to_site(self._located.pose)
+        description = describe(self.name, self._sheet, home, self._setting.site)
+        vehicle = Vehicle(description, self._sheet, self._setting.frame, self._version, self._setting.station_type)
+        if self.control is not None and self.control.vehicle == vehicle:
+            return
+        self._memory.home, self._description = home, write_description(description).encode()
+        if self.control is not None:
+            self.control.vehicle = vehicle
+            self.introduce()
+            return
+        self.control = VehicleControl(vehicle, self._setting.new_id)
+        self.control.located = self._located
+        self._recall(self.control)
+        self._line = DeviceLine(self.id, self._setting.site, self._memory.boot, self._inbox)
+        self._line.connect(self._setting.connect)
+
+    def _recall(self, control: VehicleControl) -> None:
+        """Take up what was open when the connector ended, and count this start."""
+        if self._memory.control:
+            try:
+                control.recall(self._memory.control)
+            except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+                log.warning("%s: what was open could not be read (%s).", self.id, error)
+        write_memory(self._path, self._memory)
+
+    def _be_present(self, now_s: float) -> None:
+        """Follow whether the vehicle is there: connected, and heard of lately."""
+        online = self._connected and self._heard_s > 0 and now_s - self._heard_s < SILENT_LIMIT_S
+        if self.control is not None and self._line is not None and online != self.control.online:
+            self.control.online = online
+            self._line.say_presence(online=online)
+
+    def _ask(self, now_s: float) -> None:
+        """Ask for a state or factsheet that does not come by itself."""
+        missing = {"stateRequest": self._heard_s == 0, "factsheetRequest": self._sheet is None}
+        for what, at_s in self._ask_at_s.items():
+            if self._connected and missing[what] and now_s >= at_s:
+                self._ask_at_s[what] = now_s + ASK_AGAIN_S
+                self._memory.headers["instantActions"] = self._memory.headers.get("instantActions", -1) + 1
+                self._send("instantActions", action(self._setting.new_id(), what, {}))
+
+    def _save(self, control: Mapping[str, Any]) -> None:
+        if control != self._memory.control:
+            self._memory.control = control
+            write_memory(self._path, self._memory)
+
+    def _send(self, subtopic: str, body: Mapping[str, Any]) -> None:
+        header = {
+            "headerId": self._memory.headers.get(subtopic, 0),
+            "timestamp": self._setting.clock().strftime("%Y-%m-%dT%H:%M:%S.%f")[:-3] + "Z",
+            "version": self._version,
+            "manufacturer": self.name.manufacturer,
+            "serialNumber": self.name.serial_number,
+        }
+        rest = body if subtopic == "order" else instant_actions([body], self._version)
+        self._setting.publish(self.name, subtopic, json.dumps({**header, **rest}, separators=(",", ":")).encode())

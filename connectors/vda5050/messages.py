@@ -1,0 +1,202 @@
+"""What vehicles say, as VIPO reads it: connection, state and visualization. Lengths in metres, angles in radians."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import Literal, NamedTuple, cast
+
+from connectors.vda5050.fields import Fields, read_fields
+from registry.capability import Pose
+from registry.wire import BadMessage
+
+Level = Literal["WARNING", "FATAL"]
+DRIVING_MODES = frozenset({"AUTOMATIC", "SEMIAUTOMATIC"})
+ENDED = frozenset({"FINISHED", "FAILED"})
+
+
+class VehicleName(NamedTuple):
+    """Who a vehicle is: the two levels of its topics."""
+
+    manufacturer: str
+    serial_number: str
+
+
+@dataclass(frozen=True, slots=True)
+class Header:
+    """What every message begins with."""
+
+    number: int
+    at: datetime | None
+    version: str
+
+    def is_stale(self, newest: Header | None) -> bool:
+        """Tell whether the message was overtaken; a vehicle that starts anew counts from 0 at a later time."""
+        if newest is None or self.number > newest.number:
+            return False
+        return self.at is None or newest.at is None or self.at <= newest.at
+
+
+@dataclass(frozen=True, slots=True)
+class Located:
+    """Where a vehicle is, on the map that it names, in the vehicle's own frame."""
+
+    pose: Pose
+    map_id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A node or an edge that is still before the vehicle; only what is released will be driven."""
+
+    sequence: int
+    released: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ActionState:
+    """How far an action is: WAITING, INITIALIZING, RUNNING, PAUSED, FINISHED or FAILED."""
+
+    id: str
+    status: str
+    result: str
+
+
+@dataclass(frozen=True, slots=True)
+class VehicleError:
+    """Something that a vehicle complains of; FATAL means that it needs a person."""
+
+    type: str
+    level: Level
+    text: str
+    references: tuple[tuple[str, str], ...]
+
+    def names(self, key: str) -> str | None:
+        """Return what it refers to under a key, None when it does not."""
+        return next((value for name, value in self.references if name == key), None)
+
+    @property
+    def sentence(self) -> str:
+        """What it says, for people."""
+        return f"{self.type}: {self.text}" if self.text else self.type
+
+
+@dataclass(frozen=True, slots=True)
+class VehicleState:
+    """A vehicle's state; `paused`, `loads` and `located` are None where it does not tell."""
+
+    header: Header
+    order: str
+    update: int
+    last_sequence: int
+    ahead: tuple[Stretch, ...]
+    actions: tuple[ActionState, ...]
+    driving: bool
+    paused: bool | None
+    located: Located | None
+    battery_percent: float
+    charging: bool
+    mode: str
+    e_stop: str
+    loads: tuple[str, ...] | None
+    errors: tuple[VehicleError, ...]
+
+    def action(self, action_id: str) -> ActionState | None:
+        """Return the state of an action, if the vehicle tells of it."""
+        return next((a for a in self.actions if a.id == action_id), None)
+
+    @property
+    def has_way_left(self) -> bool:
+        """True while nodes or edges that are released lie before the vehicle."""
+        return any(s.released for s in self.ahead)
+
+    @property
+    def fatal(self) -> VehicleError | None:
+        """The first error that needs a person."""
+        return next((e for e in self.errors if e.level == "FATAL"), None)
+
+
+def read_connection(payload: bytes, name: VehicleName) -> tuple[Header, bool]:
+    """Return the header, and whether the vehicle is connected. Raises BadMessage."""
+    fields = read_fields(payload, "connection")
+    said = fields.text("connectionState", needed=True)
+    if said not in {"ONLINE", "OFFLINE", "CONNECTIONBROKEN"}:
+        fields.refuse("connectionState", "ONLINE, OFFLINE or CONNECTIONBROKEN")
+    return read_header(fields, name), said == "ONLINE"
+
+
+def read_visualization(payload: bytes, name: VehicleName) -> tuple[Header, Located | None]:
+    """Return where the vehicle is, between its states. Raises BadMessage."""
+    fields = read_fields(payload, "visualization")
+    return read_header(fields, name), _located(fields.inner("agvPosition"))
+
+
+def read_state(payload: bytes, name: VehicleName) -> VehicleState:
+    """Read a vehicle's state. Raises BadMessage."""
+    fields = read_fields(payload, "state")
+    battery, safety = fields.inner("batteryState"), fields.inner("safetyState")
+    stretches = (*fields.each("nodeStates", needed=True), *fields.each("edgeStates", needed=True))
+    return VehicleState(
+        header=read_header(fields, name),
+        order=fields.text("orderId"),
+        update=fields.whole("orderUpdateId", default=0),
+        last_sequence=fields.whole("lastNodeSequenceId", default=0),
+        ahead=tuple(Stretch(s.whole("sequenceId"), s.truth("released") is True) for s in stretches),
+        actions=tuple(_action(a) for a in fields.each("actionStates", needed=True)),
+        driving=fields.truth("driving") is True,
+        paused=fields.truth("paused"),
+        located=_located(fields.inner("agvPosition")),
+        battery_percent=min(100.0, max(0.0, (battery.number("batteryCharge") if battery else None) or 0.0)),
+        charging=battery is not None and battery.truth("charging") is True,
+        mode=fields.text("operatingMode", needed=True),
+        e_stop=(safety.text("eStop") if safety else "") or "NONE",
+        loads=tuple(load.told("loadType") or "load" for load in fields.each("loads"))
+        if "loads" in fields.body
+        else None,
+        errors=tuple(_error(e) for e in fields.each("errors", needed=True)),
+    )
+
+
+def read_header(fields: Fields, name: VehicleName) -> Header:
+    """Return the header of a message; what it says of itself must be what its topic says."""
+    if (fields.text("manufacturer"), fields.text("serialNumber")) != name:
+        raise BadMessage(f"{fields.path} names another vehicle than its topic, which is {'/'.join(name)[:100]}.")
+    version = fields.text("version", needed=True)
+    if not version.startswith("2."):
+        fields.refuse("version", "2.0 or 2.1")
+    return Header(fields.whole("headerId"), _time(fields.text("timestamp")), version)
+
+
+def _time(text: str) -> datetime | None:
+    try:
+        at = datetime.fromisoformat(text)
+    except ValueError:
+        return None
+    return at if at.tzinfo else at.replace(tzinfo=UTC)
+
+
+def _located(fields: Fields | None) -> Located | None:
+    if fields is None or fields.truth("positionInitialized") is False:
+        return None
+    pose = Pose(fields.need_number("x"), fields.need_number("y"), 0.0, fields.need_number("theta"))
+    if max(abs(pose.x), abs(pose.y)) > 1e6 or abs(pose.theta) > 100:
+        fields.refuse("x", "within a million metres, and theta an angle in radians")
+    return Located(pose, fields.text("mapId"))
+
+
+def _action(fields: Fields) -> ActionState:
+    return ActionState(
+        fields.text("actionId", needed=True),
+        fields.text("actionStatus", needed=True),
+        fields.told("resultDescription"),
+    )
+
+
+def _error(fields: Fields) -> VehicleError:
+    level = fields.text("errorLevel", needed=True)
+    if level not in {"WARNING", "FATAL"}:
+        fields.refuse("errorLevel", "WARNING or FATAL")
+    references = tuple((r.told("referenceKey"), r.told("referenceValue")) for r in fields.each("errorReferences"))
+    return VehicleError(
+        fields.text("errorType", needed=True), cast("Level", level), fields.told("errorDescription"), references
+    )

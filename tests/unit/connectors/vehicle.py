@@ -1,0 +1,107 @@
+"""A vehicle as the tests of its control see it: its factsheet, and states as it would tell them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from itertools import count
+from typing import Any
+
+from connectors.commands import Told
+from connectors.vda5050.control import Send, VehicleControl
+from connectors.vda5050.factsheet import describe, read_factsheet
+from connectors.vda5050.frame import Frame
+from connectors.vda5050.messages import VehicleName, VehicleState, read_state
+from connectors.vda5050.tasks import Vehicle
+from registry.capability import Pose
+from registry.wire import AckMessage
+from tests.integration.connectors.factsheet import FACTSHEET
+
+NAME = VehicleName("Acme", "1")
+HEADER = {
+    "headerId": 1,
+    "timestamp": "2026-01-01T12:00:00.00Z",
+    "version": "2.0.0",
+    "manufacturer": "Acme",
+    "serialNumber": "1",
+}
+STATE: dict[str, Any] = {
+    **HEADER,
+    "orderId": "",
+    "orderUpdateId": 0,
+    "lastNodeId": "0",
+    "lastNodeSequenceId": 0,
+    "nodeStates": [],
+    "edgeStates": [],
+    "actionStates": [],
+    "agvPosition": {"x": 0.0, "y": 0.0, "theta": 0.0, "mapId": "hall", "positionInitialized": True},
+    "batteryState": {"batteryCharge": 55.4, "charging": False},
+    "driving": False,
+    "paused": False,
+    "operatingMode": "AUTOMATIC",
+    "errors": [],
+    "safetyState": {"eStop": "NONE", "fieldViolation": False},
+    "loads": [],
+}
+
+
+def payload(body: dict[str, Any], **changes: Any) -> bytes:
+    return json.dumps({**body, **changes}).encode()
+
+
+def state(**changes: Any) -> VehicleState:
+    return read_state(payload(STATE, **changes), NAME)
+
+
+def ids() -> Callable[[], str]:
+    numbers = count(1)
+    return lambda: f"n{next(numbers)}"
+
+
+def make_vehicle(without: str = "", frame: Frame | None = None) -> Vehicle:
+    features = FACTSHEET["protocolFeatures"]
+    actions = [a for a in features["agvActions"] if a["actionType"] != without]
+    sheet = read_factsheet(payload({**HEADER, **FACTSHEET}, protocolFeatures={**features, "agvActions": actions}), NAME)
+    frame = frame or Frame()
+    return Vehicle(describe(NAME, sheet, Pose(0.0, 0.0), "hall"), sheet, frame, "2.0.0")
+
+
+class Bench:
+    """A control whose vehicle does what the test says; time passes when it says so."""
+
+    def __init__(self, vehicle: Vehicle | None = None) -> None:
+        self.now_s = 100.0
+        self.control = VehicleControl(vehicle or make_vehicle(), ids())
+        self.control.online = True
+        self.hear()
+
+    def tell(self, method: str, command: str, /, **arguments: Any) -> None:
+        self.control.command(Told(command, method, arguments), self.now_s)
+
+    def hear(self, **changes: Any) -> None:
+        self.control.hear_state(state(**changes), self.now_s)
+
+    def wait(self, seconds: float) -> None:
+        self.now_s += seconds
+        self.control.settle(self.now_s)
+
+    def said(self) -> list[str]:
+        """Take the answers since the last time: `id STATUS` or `id STATUS why`; messages to the vehicle stay."""
+        acks = [item for item in self.control.out if isinstance(item, AckMessage)]
+        self.control.out = [item for item in self.control.out if isinstance(item, Send)]
+        return [f"{a.command} {a.status} {a.why}".strip() for a in acks]
+
+    def sent(self) -> list[dict[str, Any]]:
+        """Take the messages to the vehicle since the last time; answers stay."""
+        sends = [item for item in self.control.out if isinstance(item, Send)]
+        self.control.out = [item for item in self.control.out if isinstance(item, AckMessage)]
+        return [dict(item.body) for item in sends]
+
+
+def ahead(*sequences: int) -> dict[str, Any]:
+    """Return the nodes and edges that are still before a vehicle."""
+    stretches = [{"sequenceId": s, "released": True, "nodeId": f"{s}", "edgeId": f"{s}"} for s in sequences]
+    return {
+        "nodeStates": [s for s in stretches if s["sequenceId"] % 2 == 0],
+        "edgeStates": [s for s in stretches if s["sequenceId"] % 2],
+    }
