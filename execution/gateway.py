@@ -27,6 +27,9 @@ from registry.mqtt import Message, MqttClient
 log = logging.getLogger(__name__)
 
 EVERYTHING = "$share/gateway/vipo/v1/dev/+/up/#"
+KNOCKS = "$share/gateway/vipo/v1/join/+/+"
+KNOCK = "knock/"
+"""The kind of a knock; a kind of `up/` topics has no slash."""
 SERVER_STATUS = "vipo/v1/srv/status"
 WAKE_CHANNEL = "gateway"
 POLL_S = 0.1
@@ -35,6 +38,8 @@ CLAIM_LIMIT = 100
 INBOX_LIMIT = 20_000
 MESSAGES_PER_S = 50.0
 BURST = 200.0
+KNOCKS_PER_S = 1.0
+KNOCKS_AT_ONCE = 20.0
 KNOWN_DEVICES = 5_000
 COMPLAINT_EVERY_S = 60.0
 POISON_TRIES = 3
@@ -57,6 +62,12 @@ class TokenBucket:
             return False
         self.tokens -= 1
         return True
+
+
+def _new_bucket(name: str) -> TokenBucket:
+    """Return a device's bucket, or a door's (`join:…`): behind that one, everybody may be a stranger."""
+    rate, burst = (KNOCKS_PER_S, KNOCKS_AT_ONCE) if name.startswith("join:") else (MESSAGES_PER_S, BURST)
+    return TokenBucket(rate, burst, burst, time.monotonic())
 
 
 @dataclass(slots=True)
@@ -144,6 +155,7 @@ class Gateway:
     def run_forever(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set."""
         self._client.subscribe_handled(EVERYTHING, 1, self._arrived)
+        self._client.subscribe_handled(KNOCKS, 1, self._arrived)
         self._client.on_connected(self._greeting_due.set)
         self._client.start()
         sender = threading.Thread(target=self._send_until, args=(stopping,), name="gateway-sender", daemon=True)
@@ -163,19 +175,20 @@ class Gateway:
     def _arrived(self, message: Message) -> None:
         """Sort a message into the inbox; runs on the network thread and must not wait."""
         found = wire.read_up_topic(message.topic)
-        if found is None:
+        knock = wire.read_join_topic(message.topic)
+        if found is None and knock is None:
             self.complaints.counts["topic"] += 1
             message.acknowledge()
             return
-        device, kind = found
-        if not self._bucket(device).take(time.monotonic()):
+        device, kind = found or (knock[1] if knock else "", KNOCK)
+        if not self._bucket(f"join:{knock[0]}" if knock else device).take(time.monotonic()):
             self._note(device, "too many messages: some were dropped")
             message.acknowledge()
         elif not self._inbox.put(Entry(message, device, kind)):
             self.complaints.counts["inbox full"] += 1
 
     def _bucket(self, device: str) -> TokenBucket:
-        bucket = self._buckets.pop(device, None) or TokenBucket(filled_at=time.monotonic())
+        bucket = self._buckets.pop(device, None) or _new_bucket(device)
         self._buckets[device] = bucket
         if len(self._buckets) > KNOWN_DEVICES:
             self._buckets.popitem(last=False)
@@ -210,7 +223,10 @@ class Gateway:
 
     def _take_in(self, device: str, kind: str, message: Message) -> None:
         at = datetime.now(UTC)
-        if kind == "ack":
+        if kind == KNOCK:
+            site, _ = wire.read_join_topic(message.topic) or ("", "")
+            registry.admit_newcomer(site=site, device_id=device, payload=message.payload, at=at)
+        elif kind == "ack":
             ack = wire.parse_ack(message.payload)
             execution.record_ack(
                 device=device, command_id=ack.command, status=ack.status, why=ack.why, result=ack.result, at=at
@@ -285,6 +301,7 @@ class Gateway:
         self._publish_stops()
         birth = {"s": "online", "at": datetime.now(UTC).isoformat(timespec="milliseconds")}
         self._client.publish(SERVER_STATUS, json.dumps(birth).encode(), retain=True)
+        _reconcile_accounts()
 
     def _publish_stops(self) -> None:
         for stop in execution.list_stops():
@@ -293,3 +310,19 @@ class Gateway:
             if self._stops.get(stop.site) != payload:
                 self._client.publish(f"vipo/v1/site/{stop.site}/stop", payload, retain=True)
                 self._stops[stop.site] = payload
+
+
+def _reconcile_accounts() -> None:
+    """Let the broker's accounts agree with the registry, and say what only a person can mend."""
+    try:
+        removed, missing = registry.reconcile_accounts()
+    except VipoError as error:
+        log.warning("The broker's accounts were not looked through: %s", error.detail)
+        return
+    if removed:
+        log.warning("The broker had accounts that the registry does not know; removed: %s", ", ".join(sorted(removed)))
+    if missing:
+        log.warning(
+            "The broker has no account of %s. Run `manage.py broker_accounts` and start the broker again.",
+            ", ".join(sorted(missing)[:20]),
+        )

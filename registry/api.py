@@ -25,7 +25,18 @@ from registry.describing import write_description
 from registry.models import User
 from registry.rdf_text import CONTENT_TYPES, DescriptionForm
 from registry.ros_map import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap, write_pgm, write_yaml
-from registry.shapes import DeviceEdit, DeviceEventShape, DeviceShape, MapShape, Me, SignIn, SiteShape
+from registry.shapes import (
+    ApprovedDevice,
+    DeviceEdit,
+    DeviceEventShape,
+    DeviceShape,
+    Lifecycle,
+    MapShape,
+    Me,
+    NewCredential,
+    SignIn,
+    SiteShape,
+)
 from registry.views import device_to_json, site_to_json
 
 router = Router(tags=["registry"])
@@ -168,10 +179,10 @@ def _download(body: bytes, name: str, content_type: str) -> HttpResponse:
 
 
 @router.get("/sites/{slug}/devices", response=list[DeviceShape])
-def list_devices(request: HttpRequest, slug: str) -> list[dict[str, Any]]:
-    """List a site's devices, also those that wait for approval."""
+def list_devices(request: HttpRequest, slug: str, lifecycle: Lifecycle | None = None) -> list[dict[str, Any]]:
+    """List a site's devices, also those that wait for approval; retired ones only when asked for by `lifecycle`."""
     require(signed_in(request), slug, "viewer")
-    return [device_to_json(device) for device in services.list_devices(site=slug)]
+    return [device_to_json(device) for device in services.list_devices(site=slug, lifecycle=lifecycle)]
 
 
 @router.get("/sites/{slug}/devices/{device_id}", response=DeviceShape)
@@ -198,12 +209,14 @@ def show_rdf(request: HttpRequest, slug: str, device_id: str, format: Descriptio
     return HttpResponse(text, content_type=f"{CONTENT_TYPES[format]}; charset=utf-8")
 
 
-@router.post("/sites/{slug}/devices/{device_id}/approve", response=DeviceShape)
-def approve(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
-    """Let a pending device take part."""
+@router.post("/sites/{slug}/devices/{device_id}/approve", response=ApprovedDevice)
+def approve(request: HttpRequest, response: HttpResponse, slug: str, device_id: str) -> dict[str, Any]:
+    """Let a pending device take part, and tell its new key this once."""
     user = signed_in(request)
     require(user, slug, "admin")
-    return device_to_json(services.approve_device(site=slug, device_id=device_id, by=user, at=timezone.now()))
+    decided = services.approve_device(site=slug, device_id=device_id, by=user, at=timezone.now())
+    response["Cache-Control"] = "no-store"
+    return {**device_to_json(decided.device), "credential": decided.credential, "taken": decided.taken}
 
 
 @router.post("/sites/{slug}/devices/{device_id}/reject", response=DeviceShape)
@@ -212,6 +225,40 @@ def reject(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
     user = signed_in(request)
     require(user, slug, "admin")
     return device_to_json(services.reject_device(site=slug, device_id=device_id, by=user, at=timezone.now()))
+
+
+@router.post("/sites/{slug}/devices/{device_id}/retire", response=DeviceShape)
+def retire(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
+    """Take an approved device out; its history stays, and its id cannot come back until it is readmitted."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return device_to_json(services.retire_device(site=slug, device_id=device_id, by=user, at=timezone.now()))
+
+
+@router.post("/sites/{slug}/devices/{device_id}/readmit", response=DeviceShape)
+def readmit(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
+    """Let a retired or rejected device's id come back as a newcomer."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return device_to_json(services.readmit_device(site=slug, device_id=device_id, by=user, at=timezone.now()))
+
+
+@router.post("/sites/{slug}/devices/{device_id}/credential", response=NewCredential)
+def rotate(request: HttpRequest, response: HttpResponse, slug: str, device_id: str) -> dict[str, Any]:
+    """Give an approved device a new key, told this once; the old one ends."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    decided = services.rotate_credential(site=slug, device_id=device_id, by=user, at=timezone.now())
+    response["Cache-Control"] = "no-store"
+    return {"credential": decided.credential, "taken": decided.taken}
+
+
+@router.delete("/sites/{slug}/devices/{device_id}/credential", response=DeviceShape)
+def revoke(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
+    """Take an approved device's key away; its connection ends at once."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return device_to_json(services.revoke_credential(site=slug, device_id=device_id, by=user, at=timezone.now()))
 
 
 @router.patch("/sites/{slug}/devices/{device_id}", response=DeviceShape)

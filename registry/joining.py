@@ -7,6 +7,7 @@ updates, and what is older than what is known is ignored by (boot, seq).
 from __future__ import annotations
 
 import hmac
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime, timedelta
 
@@ -15,53 +16,49 @@ from django.db import transaction
 from django.utils import timezone
 
 from registry.capability import Description, DeviceState, Pose, description_from_json, description_to_json
+from registry.credentials import secret_hash
 from registry.describing import Reading, canonical_hash, read, source_hash
+from registry.device_rows import (
+    MOST_CHARACTERS,
+    RESERVED_IDS,
+    BadDevice,
+    NoSuchDevice,
+    announce,
+    check_id,
+    lock_device,
+    write_event,
+)
 from registry.differences import Change, list_changes
-from registry.errors import RegistryError
-from registry.live import publish
 from registry.models import Device, DeviceEvent, Site, User
 from registry.rdf_text import CONTENT_TYPES
-from registry.sites import find_site, secret_hash
-from registry.views import DeviceEventView, DeviceView, changed_fields, view_of
+from registry.sites import find_site
+from registry.views import DeviceEventView, DeviceView, view_of
 from registry.wire import is_device_id, parse_presence, parse_state
 
 STALE_AFTER = timedelta(seconds=45)
 """A device speaks at least every 30 s (docs/protocol.md); its last will usually tells long before this."""
-MOST_EVENTS = 200
 MOST_READINGS = 128
-MOST_CHARACTERS = 300
 MOST_LINES = 8
 PROBLEM_EVERY = timedelta(seconds=10)
-RESERVED_IDS = frozenset({"server"})
-
-
-class NoSuchDevice(RegistryError):
-    """No device of that id at that site."""
-
-    code = "no_such_device"
-    status = 404
-
-
-class NotPending(RegistryError):
-    """A decision about a device that does not wait for one."""
-
-    code = "not_pending"
-    status = 409
-
-
-class BadDevice(RegistryError):
-    """A device's id, name or place that cannot be."""
-
-    code = "bad_device"
-    status = 422
+DOOR = "join:"
+"""Before a site's name: the user name with which newcomers knock (docs/protocol.md)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Principal:
-    """Who a connection is: `is_newcomer` when it came in with the site's join key only."""
+    """Who a connection is: `is_newcomer` when it came in with the site's join key only; `key` is its key's hash."""
 
     device_id: str
     is_newcomer: bool
+    key: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Login:
+    """A connection that was let in: the hash of the own key it had (empty with a join key), and when."""
+
+    key: str
+    at: datetime
 
 
 def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> DeviceView:
@@ -77,14 +74,13 @@ def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> Devic
         before = view_of(device, device.site.slug) if device.description else None
         _describe(device, reading, payload, digest, at)
         after = view_of(device, device.site.slug)
-        _announce(before, after)
+        announce(before, after)
     return after
 
 
 def _lock_or_make(device_id: str, said_site: str, at: datetime) -> Device:
     """Return the device's locked row; a new one stands at the site it names, else at the default one."""
-    if not is_device_id(device_id) or device_id in RESERVED_IDS:
-        raise BadDevice("A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server'.")
+    check_id(device_id)
     device = Device.objects.select_for_update(of=("self",)).select_related("site").filter(pk=device_id).first()
     if device is None:
         Device.objects.get_or_create(pk=device_id, defaults={"site": _site_for(said_site), "first_seen_at": at})
@@ -114,9 +110,9 @@ def _describe(device: Device, reading: Reading, payload: bytes, digest: str, at:
     device.last_seen_at = at
     device.save()
     if text:
-        _write_event(device, at, "described", text, changes=changes)
+        write_event(device, at, "described", text, changes=changes)
         for line in reversed(_packed(reading.notes)):
-            _write_event(device, at, "mended", line)
+            write_event(device, at, "mended", line)
 
 
 def _packed(notes: tuple[str, ...]) -> list[str]:
@@ -165,11 +161,11 @@ def ingest_presence(*, device_id: str, payload: bytes, at: datetime) -> DeviceVi
         device.online, device.presence_boot, device.last_seen_at = said.online, said.boot, at
         device.save(update_fields=["site", "online", "presence_boot", "last_seen_at"])
         if came_or_went:
-            _write_event(device, at, "online" if said.online else "offline", "Came online" if said.online else "Left")
+            write_event(device, at, "online" if said.online else "offline", "Came online" if said.online else "Left")
         if before is None:
             return None
         after = view_of(device, device.site.slug)
-        _announce(before, after)
+        announce(before, after)
     return after
 
 
@@ -188,7 +184,8 @@ def ingest_state(*, device_id: str, payload: bytes, at: datetime, retained: bool
         if before is None:
             return None
         after = view_of(device, device.site.slug)
-        _announce(before, after)
+        _tell_trouble(device, before, after, at)
+        announce(before, after)
     return after
 
 
@@ -203,18 +200,26 @@ def _take_state(device: Device, said: DeviceState, at: datetime, *, alive: bool)
     device.save(update_fields=fields)
 
 
+def _tell_trouble(device: Device, before: DeviceView, after: DeviceView, at: datetime) -> None:
+    """Write into the history that a device reports an error, or no longer does."""
+    if after.status == "error" and before.status != "error":
+        write_event(device, at, "error", f"Reports an error: {after.doing}")
+    elif before.status == "error" and after.status not in ("error", "offline"):
+        write_event(device, at, "recovered", "Reports no error any more")
+
+
 def mark_stale(*, now: datetime) -> tuple[DeviceView, ...]:
     """Mark as offline the devices that have said nothing for 45 s, and return them."""
     silent = Device.objects.filter(online=True, last_seen_at__lt=now - STALE_AFTER)
     found = []
     for device in silent.select_related("site"):
         if silent.filter(pk=device.pk).update(online=False):
-            _write_event(device, now, "offline", f"Said nothing for {STALE_AFTER.seconds} s")
+            write_event(device, now, "offline", f"Said nothing for {STALE_AFTER.seconds} s")
             before = view_of(device, device.site.slug) if device.description else None
             device.online = False
             if before:
                 found.append(view_of(device, device.site.slug))
-                _announce(before, found[-1])
+                announce(before, found[-1])
     return tuple(found)
 
 
@@ -224,93 +229,59 @@ def record_problem(*, device_id: str, text: str, at: datetime | None = None) -> 
     device = Device.objects.filter(pk=device_id).first()
     if device is None or DeviceEvent.objects.filter(device=device, kind="problem", at__gt=at - PROBLEM_EVERY).exists():
         return False
-    _write_event(device, at, "problem", text)
+    write_event(device, at, "problem", text)
     return True
 
 
-def _write_event(
-    device: Device, at: datetime, kind: str, text: str, by: User | None = None, *, changes: tuple[Change, ...] = ()
-) -> None:
-    """Add a line of history and forget the ones beyond the newest 200."""
-    told = [asdict(change) for change in changes]
-    DeviceEvent.objects.create(device=device, at=at, kind=kind, text=text[:MOST_CHARACTERS], by=by, changes=told)
-    oldest = DeviceEvent.objects.filter(device=device).order_by("-pk").values_list("pk", flat=True)[MOST_EVENTS:][:1]
-    for key in list(oldest):
-        DeviceEvent.objects.filter(device=device, pk__lte=key).delete()
-
-
-def _announce(before: DeviceView | None, after: DeviceView) -> None:
-    """Tell the browsers what is new, once the transaction holds."""
-    changes = changed_fields(before, after)
-    if len(changes) > 1:
-        transaction.on_commit(lambda: publish(after.site, {"type": "device", "device": changes}))
-
-
-def expect_device(*, site: str, device_id: str, credential: str, approved: bool = True) -> None:
-    """Let a device that is not there yet come in with its own key, approved beforehand or still to be looked at."""
-    if not is_device_id(device_id) or device_id in RESERVED_IDS:
-        raise BadDevice("A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server'.")
-    if len(credential) < 20:
-        raise BadDevice("A device's key needs at least 20 characters; make it at random.")
-    lifecycle = Device.Lifecycle.APPROVED if approved else Device.Lifecycle.PENDING
-    with transaction.atomic():
-        device, made = Device.objects.select_for_update(of=("self",)).get_or_create(
-            pk=device_id, defaults={"site": find_site(site), "lifecycle": lifecycle}
-        )
-        if not made and device.site.slug != site:
-            raise BadDevice(f"The device {device_id} belongs to another site.")
-        device.credential_hash = secret_hash(credential)
-        device.save(update_fields=["credential_hash"])
-
-
 def check_device_password(*, username: str, password: str) -> Principal | None:
-    """Return who may connect with this: a device by its own key, or a newcomer by a site's join key."""
+    """Return who may connect with this: a device by its own key, or a newcomer by a site's join key.
+
+    The join key opens the site's door (`join:<site>`), where newcomers bring a key of their own; the embedded broker
+    also takes it from a device whose id has no key yet.
+    """
+    offered = secret_hash(password)
+    if username.startswith(DOOR):
+        return _check_door(username, offered)
     if not is_device_id(username) or username in RESERVED_IDS:
         return None
-    offered = secret_hash(password)
     device = Device.objects.filter(pk=username).first()
     if device and device.lifecycle == Device.Lifecycle.RETIRED:
         return None
     if device and device.credential_hash:
-        return Principal(username, False) if hmac.compare_digest(device.credential_hash, offered) else None
+        is_its_key = hmac.compare_digest(device.credential_hash, offered)
+        return Principal(username, False, offered) if is_its_key else None
     if device and device.lifecycle != Device.Lifecycle.PENDING:
         return None
     return Principal(username, True) if Site.objects.filter(join_key_hash=offered).exists() else None
 
 
-def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
-    """Let a pending device take part. Raises NoSuchDevice, NotPending."""
-    return _decide(site, device_id, Device.Lifecycle.APPROVED, "Approved", by, at)
+def _check_door(username: str, offered: str) -> Principal | None:
+    site = Site.objects.filter(slug=username.removeprefix(DOOR)).exclude(join_key_hash="").first()
+    if site is None or not hmac.compare_digest(site.join_key_hash, offered):
+        return None
+    return Principal(username, True, offered)
 
 
-def reject_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
-    """Turn a pending device away; it may not connect again. Raises NoSuchDevice, NotPending."""
-    return _decide(site, device_id, Device.Lifecycle.RETIRED, "Rejected", by, at)
+def list_broker_hashes() -> dict[str, str]:
+    """Return who has an account at the broker, with the hash that it keeps: devices by id, doors by `join:<site>`."""
+    devices = Device.objects.exclude(broker_hash="").exclude(lifecycle=Device.Lifecycle.RETIRED)
+    doors = Site.objects.exclude(join_broker_hash="").values_list("slug", "join_broker_hash")
+    return {**{DOOR + slug: hashed for slug, hashed in doors}, **dict(devices.values_list("pk", "broker_hash"))}
 
 
-def _decide(site: str, device_id: str, lifecycle: str, word: str, by: User | None, at: datetime) -> DeviceView:
-    with transaction.atomic():
-        device = _lock(site, device_id)
-        if device.lifecycle != Device.Lifecycle.PENDING:
-            raise NotPending(f"{device_id} does not wait for a decision; it is {device.lifecycle}.")
-        before = view_of(device, site)
-        device.lifecycle = lifecycle
-        device.save(update_fields=["lifecycle"])
-        _write_event(device, at, lifecycle, word, by)
-        after = view_of(device, site)
-        if lifecycle == Device.Lifecycle.RETIRED:
-            transaction.on_commit(lambda: publish(site, {"type": "device_removed", "id": device_id}))
-        else:
-            _announce(before, after)
-    return after
-
-
-def _lock(site: str, device_id: str) -> Device:
-    rows = Device.objects.select_for_update(of=("self",)).select_related("site").filter(description__isnull=False)
-    device = rows.filter(pk=device_id, site__slug=site).first() if is_device_id(device_id) else None
-    if device is None:
-        raise NoSuchDevice(f"This site has no device {device_id[:64]!r}.")
-    return device
+def find_ended(*, logins: Mapping[str, Login]) -> frozenset[str]:
+    """Return which of these connections, by user name, must end: taken out, without a key, or with another one."""
+    rows = Device.objects.filter(pk__in=list(logins)).values_list("pk", "lifecycle", "credential_hash", "ends_before")
+    doors = Site.objects.filter(slug__in=[n.removeprefix(DOOR) for n in logins if n.startswith(DOOR)])
+    keys = {DOOR + slug: key for slug, key in doors.values_list("slug", "join_key_hash")}
+    ended = {name for name, login in logins.items() if name.startswith(DOOR) and keys.get(name) != login.key}
+    for name, lifecycle, key, ends_before in rows:
+        login = logins[name]
+        is_out = lifecycle == Device.Lifecycle.RETIRED or (lifecycle == Device.Lifecycle.APPROVED and not key)
+        is_old = bool(login.key and login.key != key) or bool(ends_before and login.at < ends_before)
+        if is_out or is_old:
+            ended.add(name)
+    return frozenset(ended)
 
 
 def update_device(
@@ -322,7 +293,7 @@ def update_device(
     if pose is not None and not all(abs(v) <= 1e6 for v in (pose.x, pose.y, pose.z, pose.theta)):
         raise BadDevice("A device's place must lie within a million metres.")
     with transaction.atomic():
-        device = _lock(site, device_id)
+        device = lock_device(site, device_id)
         before = view_of(device, site)
         if name is not None:
             device.name_override = name.strip()
@@ -331,8 +302,8 @@ def update_device(
         device.save(update_fields=["name_override", "pose_override"])
         after = view_of(device, site)
         for text in _edits(before, after):
-            _write_event(device, at, "edited", text, by)
-        _announce(before, after)
+            write_event(device, at, "edited", text, by)
+        announce(before, after)
     return after
 
 

@@ -76,6 +76,7 @@ class Site(models.Model):
     slug = models.SlugField(max_length=64, unique=True)
     name = models.CharField(max_length=100)
     join_key_hash = models.CharField(max_length=64, blank=True)
+    join_broker_hash = models.CharField(max_length=160, blank=True)
     stop_active = models.BooleanField(default=False)
     stop_by = models.CharField(max_length=100, blank=True)
     stop_at = models.DateTimeField(null=True)
@@ -179,6 +180,9 @@ class Device(models.Model):
     site = models.ForeignKey(Site, on_delete=models.CASCADE, related_name="devices")
     lifecycle = models.CharField(max_length=10, choices=Lifecycle.choices, default=Lifecycle.PENDING)
     credential_hash = models.CharField(max_length=64, blank=True)
+    broker_hash = models.CharField(max_length=160, blank=True)
+    ends_before = models.DateTimeField(null=True)
+    dropped = models.BigIntegerField(default=0)
 
     description = models.JSONField(null=True)
     description_hash = models.CharField(max_length=64, blank=True)

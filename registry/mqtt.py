@@ -164,6 +164,12 @@ class MqttClient:
                 return
             self._send(topic, payload, qos, retain, expiry_s)
 
+    def change_password(self, password: str) -> None:
+        """Come in with another password from the next connection on."""
+        with self._guard:
+            self._password = password
+            self._paho.username_pw_set(self._username, password)
+
     def start(self) -> None:
         """Begin to connect, in a thread of its own; an absent broker is tried again, 0.5 to 5 s apart."""
         with self._guard:
@@ -230,11 +236,13 @@ class MqttClient:
             callback()
 
     def _refused(self, client: paho.Client, reason: str) -> None:
-        self._refusal = reason
+        is_new, self._refusal = reason != self._refusal, reason
         if not self._settled and "protocol version" in reason.lower():
             self._change_version(client)
             return
-        log.warning("The MQTT broker refused %s: %s.", self._client_id, reason)
+        log.log(
+            logging.WARNING if is_new else logging.DEBUG, "The MQTT broker refused %s: %s.", self._client_id, reason
+        )
 
     def _disconnected(self, client: paho.Client, _data: Any, _flags: Any, reason: ReasonCode, _properties: Any) -> None:
         if client is not self._paho:

@@ -1,25 +1,38 @@
 """What the other apps may ask of the registry; everything else in this app is its own affair."""
 
-from registry.joining import (
-    BadDevice,
-    NoSuchDevice,
+from registry.decisions import (
+    Decided,
+    NotApproved,
     NotPending,
-    Principal,
+    NotRetired,
     approve_device,
-    check_device_password,
     expect_device,
+    readmit_device,
+    reconcile_accounts,
+    reject_device,
+    retire_device,
+    revoke_credential,
+    rotate_credential,
+)
+from registry.device_rows import BadDevice, NoSuchDevice
+from registry.joining import (
+    Login,
+    Principal,
+    check_device_password,
     find_device,
+    find_ended,
     get_device,
     ingest_description,
     ingest_presence,
     ingest_state,
+    list_broker_hashes,
     list_device_events,
     list_devices,
     mark_stale,
     record_problem,
-    reject_device,
     update_device,
 )
+from registry.knocking import admit_newcomer
 from registry.people import check_sign_in, create_user
 from registry.sites import (
     NoMap,
@@ -38,6 +51,7 @@ from registry.sites import (
     set_member,
     set_site_stop,
 )
+from registry.sparql import QueryAnswer, run_query
 from registry.views import (
     DeviceEventView,
     DeviceView,
@@ -51,16 +65,24 @@ from registry.views import (
 
 __all__ = [
     "BadDevice",
+    "Decided",
     "DeviceEventView",
     "DeviceView",
+    "Login",
     "MapView",
     "NoMap",
     "NoSuchDevice",
+    "NotApproved",
     "NotPending",
+    "NotRetired",
     "PlaceView",
+    "PointView",
     "Principal",
+    "QueryAnswer",
+    "SeriesView",
     "SiteView",
     "StopView",
+    "admit_newcomer",
     "approve_device",
     "check_device_password",
     "check_sign_in",
@@ -70,6 +92,7 @@ __all__ = [
     "device_to_json",
     "expect_device",
     "find_device",
+    "find_ended",
     "get_device",
     "get_floor",
     "get_map",
@@ -78,14 +101,21 @@ __all__ = [
     "ingest_description",
     "ingest_presence",
     "ingest_state",
+    "list_broker_hashes",
     "list_device_events",
     "list_devices",
     "list_places",
     "list_sites",
     "mark_stale",
+    "readmit_device",
+    "reconcile_accounts",
     "record_problem",
     "reject_device",
     "remove_member",
+    "retire_device",
+    "revoke_credential",
+    "rotate_credential",
+    "run_query",
     "save_map",
     "save_places",
     "set_join_key",

@@ -179,6 +179,22 @@ class DeviceShape(Schema):
     simulated: bool
     image: str
     description: str
+    has_key: bool
+    dropped: int
+
+
+class ApprovedDevice(DeviceShape):
+    """A device that was let in; `credential` is its new key, told this once, null where it keeps the one it has."""
+
+    credential: str | None
+    taken: bool
+
+
+class NewCredential(Schema):
+    """A device's new key, told this once; `taken` says whether the device has it already."""
+
+    credential: str
+    taken: bool
 
 
 class ChangeShape(Schema):

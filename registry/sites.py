@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import zlib
 from collections.abc import Sequence
 from datetime import datetime
@@ -13,6 +12,7 @@ from django.utils.text import slugify
 
 from registry.access import ROLES, NotAMember
 from registry.capability import Description
+from registry.credentials import broker_hash, secret_hash
 from registry.errors import RegistryError
 from registry.floor import Box, FloorPlan, Grid, wall_boxes
 from registry.live import publish
@@ -219,9 +219,8 @@ def set_join_key(*, site: str, join_key: str) -> None:
     """Set the key with which devices that have none of their own may come to the site's door."""
     if len(join_key) < 20:
         raise BadName("A join key needs at least 20 characters; make it at random.")
-    Site.objects.filter(slug=site).update(join_key_hash=secret_hash(join_key))
-
-
-def secret_hash(secret: str) -> str:
-    """Hash a random key; being random and long, it needs no slow hash as passwords do."""
-    return hashlib.sha256(secret.encode()).hexdigest()
+    with transaction.atomic():
+        row = Site.objects.select_for_update().get(pk=find_site(site).pk)
+        if row.join_key_hash != secret_hash(join_key) or not row.join_broker_hash:
+            row.join_key_hash, row.join_broker_hash = secret_hash(join_key), broker_hash(join_key)
+            row.save(update_fields=["join_key_hash", "join_broker_hash"])

@@ -68,7 +68,10 @@ class SiteView:
 
 @dataclass(frozen=True, slots=True)
 class DeviceView:
-    """A device as it is now: `canonical` has the name and place that hold, `readings` its properties' values."""
+    """A device as it is now: `canonical` has the name and place that hold, `readings` its properties' values.
+
+    `has_key` tells whether it can come in with a key of its own, `dropped` how many of its messages were not taken.
+    """
 
     id: str
     site: str
@@ -83,6 +86,8 @@ class DeviceView:
     status: Status = "idle"
     doing: str = ""
     last_seen_at: datetime | None = None
+    has_key: bool = False
+    dropped: int = 0
 
     @property
     def name(self) -> str:
@@ -127,6 +132,8 @@ def view_of(device: Device, site: str) -> DeviceView:
         readings=readings,
         carrying=read_load(readings.get("load")),
         last_seen_at=device.last_seen_at,
+        has_key=bool(device.credential_hash),
+        dropped=device.dropped,
     )
     return replace(view, status=status_of(view), doing=doing_of(view))
 
@@ -224,6 +231,8 @@ def device_to_json(view: DeviceView) -> dict[str, Any]:
         "simulated": said.simulated,
         "image": said.image if said.image.startswith(("https://", "http://")) else "",
         "description": said.description,
+        "has_key": view.has_key,
+        "dropped": view.dropped,
     }
 
 

@@ -21,6 +21,7 @@ MAX_TEXT = 256
 MAX_WHOLE = 2**53
 MAX_METRES = 1e6
 _ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
+_KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([A-Za-z0-9_.-]{1,64})")
 _UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
 
 
@@ -71,6 +72,12 @@ def down_topic(device_id: str, method: str) -> str:
 def read_up_topic(topic: str) -> tuple[str, str] | None:
     """Return (device id, kind) of an `up` topic, or None for any other."""
     found = _UP.fullmatch(topic)
+    return (found.group(1), found.group(2)) if found else None
+
+
+def read_join_topic(topic: str) -> tuple[str, str] | None:
+    """Return (site, device id) of a knock's topic, or None for any other."""
+    found = _KNOCK.fullmatch(topic)
     return (found.group(1), found.group(2)) if found else None
 
 

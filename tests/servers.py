@@ -18,7 +18,8 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from vipo_site.passwords import password_file
+from registry.account_file import account_file
+from registry.credentials import broker_hash
 
 ROOT = Path(__file__).resolve().parent.parent
 START_LIMIT_S = 30
@@ -85,6 +86,14 @@ def find_program(name: str, *places: str) -> str:
     if found is None:
         raise ServerMissing(f"{name} is not installed. Run scripts/install-test-servers.sh (or `make servers`).")
     return found
+
+
+def find_plugin() -> str:
+    """Return the path of Mosquitto's dynamic security plugin, which comes with it."""
+    found = [*Path("/usr/lib").glob("*/mosquitto_dynamic_security.so"), *Path("/usr/lib").glob("mosquitto_dynamic*.so")]
+    if not found:
+        raise ServerMissing("Mosquitto's plugin is missing. Run scripts/install-test-servers.sh (or `make servers`).")
+    return str(found[0])
 
 
 def free_port() -> int:
@@ -212,10 +221,11 @@ def run_mosquitto(folder: Path, accounts: Mapping[str, str], *, tls: bool = Fals
 def write_mosquitto_files(server: Mosquitto) -> None:
     """Write the configuration with this test's paths and ports, and the files that it names."""
     folder = server.folder
-    (folder / "passwords").write_text(password_file(server.accounts))
-    shutil.copy(ROOT / "deploy" / "mosquitto" / "acl", folder / "acl")
+    hashes = {name: broker_hash(word) for name, word in server.accounts.items()}
+    (folder / "dynamic-security.json").write_text(account_file(hashes, server="server"))
     text = (ROOT / "deploy" / "mosquitto" / "mosquitto.conf").read_text()
     for old, new in {
+        "/usr/lib/mosquitto_dynamic_security.so": find_plugin(),
         "/mosquitto/config/": f"{folder}/",
         "/mosquitto/certificates/": f"{folder}/",
         "/mosquitto/data/": f"{folder}/",

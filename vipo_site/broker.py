@@ -13,9 +13,11 @@ import hmac
 import logging
 import math
 import threading
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Mapping
 from contextlib import suppress
-from typing import Any
+from datetime import UTC, datetime, timedelta
+from typing import TYPE_CHECKING, Any
 
 from amqtt.adapters import BufferReader
 from amqtt.broker import Broker
@@ -23,12 +25,25 @@ from amqtt.contexts import Action
 from amqtt.errors import AMQTTError, BrokerError, CodecError, MQTTError, NoDataError
 from amqtt.mqtt.connack import NOT_AUTHORIZED, UNACCEPTABLE_PROTOCOL_VERSION, ConnackPacket
 from amqtt.mqtt.protocol.broker_handler import BrokerProtocolHandler
+from django.db import DatabaseError
 
 from registry.errors import RegistryError
+from vipo_site.doorkeeping import (
+    LOOK_EVERY_S,
+    Doorkeeper,
+    RegistryDoorkeeper,
+    may_publish,
+    may_subscribe,
+)
+
+if TYPE_CHECKING:
+    from registry.services import Login
 
 log = logging.getLogger(__name__)
 
 CONNECT_LIMIT_BYTES = 8192
+PACKET_LIMIT_BYTES = 16384
+"""As `max_packet_size` in deploy/mosquitto/mosquitto.conf: whoever sends more is disconnected."""
 CONNECT_TIMEOUT_S = 10.0
 PROTOCOL_LEVEL = 4
 START_TIMEOUT_S = 15.0
@@ -54,40 +69,35 @@ class BrokerFailed(RegistryError):
     status = 503
 
 
-def check_registered_device(username: str, password: str) -> bool:
-    """Ask the registry whether a device may come in; blocks on the database."""
-    from django.db import close_old_connections
-
-    from registry import services
-
-    close_old_connections()
-    try:
-        return services.check_device_password(username=username, password=password) is not None
-    finally:
-        close_old_connections()
+class _PacketTooLarge(Exception):
+    """A client announced a packet that is larger than anybody may send."""
 
 
-def may_publish(username: str, topic: str) -> bool:
-    """Say whether a device may write to a topic: only under its own `up/`."""
-    return topic.startswith(f"vipo/v1/dev/{username}/up/") and not {"+", "#"} & set(topic)
+class _PasswordDoorkeeper:
+    """Lets in whoever a function accepts, for ever."""
 
+    def __init__(self, check_password: CheckPassword) -> None:
+        self._check_password = check_password
 
-def may_subscribe(username: str, topic_filter: str) -> bool:
-    """Say whether a device may ask for a filter: its own `down/`, sites' stops and the server's births."""
-    own = f"vipo/v1/dev/{username}/down/"
-    if topic_filter.startswith(own):
-        return True
-    parts = topic_filter.split("/")
-    is_stop = len(parts) == 5 and parts[:3] == ["vipo", "v1", "site"] and parts[4] == "stop" and parts[3] != "#"
-    return is_stop or topic_filter == "vipo/v1/srv/status"
+    def admit(self, username: str, password: str) -> str | None:
+        """See Doorkeeper."""
+        return "" if self._check_password(username, password) else None
+
+    def find_ended(self, _logins: Mapping[str, Login]) -> frozenset[str]:
+        """See Doorkeeper."""
+        return frozenset()
+
+    def wait(self) -> None:
+        """See Doorkeeper."""
+        time.sleep(LOOK_EVERY_S)
 
 
 class EmbeddedBroker:
     """A running broker; `port` is the one it got, `stop()` ends it."""
 
-    def __init__(self, *, host: str, port: int, server_password: str, check_password: CheckPassword) -> None:
+    def __init__(self, *, host: str, port: int, server_password: str, doorkeeper: Doorkeeper) -> None:
         self.host, self.port = host, port
-        self._rules = (server_password, check_password)
+        self._rules = (server_password, doorkeeper)
         self._ready = threading.Event()
         self._failure: Exception | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -135,7 +145,9 @@ class EmbeddedBroker:
         await broker.start()
         self.port = broker.bound_port
         self._ready.set()
+        watching = asyncio.create_task(broker.end_whoever_must_go())
         await self._stopping.wait()
+        watching.cancel()
         await broker.end()
 
     def _explain(self, error: Exception) -> Exception:
@@ -153,17 +165,19 @@ def start_broker(
     port: int,
     host: str = "127.0.0.1",
     server_password: str | None = None,
-    check_password: CheckPassword = check_registered_device,
+    check_password: CheckPassword | None = None,
 ) -> EmbeddedBroker:
     """Start the embedded broker on `port` (0: any free one) for the user `server` and for the registry's devices.
 
-    The server's password is the one in the setting VIPO_MQTT unless one is given.
+    The server's password is the one in the setting VIPO_MQTT unless one is given; `check_password(user, password)`
+    stands in for the registry where there is none.
     """
     if server_password is None:
         from django.conf import settings
 
         server_password = str(settings.VIPO_MQTT["password"])
-    broker = EmbeddedBroker(host=host, port=port, server_password=server_password, check_password=check_password)
+    doorkeeper = _PasswordDoorkeeper(check_password) if check_password else RegistryDoorkeeper()
+    broker = EmbeddedBroker(host=host, port=port, server_password=server_password, doorkeeper=doorkeeper)
     broker.start()
     return broker
 
@@ -179,7 +193,29 @@ class _Subscriptions(dict[str, list[Any]]):
         return [(topic, list(sessions)) for topic, sessions in super().items()]
 
 
+class _CappedReader:
+    """Reads for one client; a packet beyond the limit ends the connection before it is read."""
+
+    def __init__(self, reader: Any) -> None:
+        self._reader = reader
+
+    async def read(self, n: int = -1) -> bytes:
+        """Read `n` bytes."""
+        if n > PACKET_LIMIT_BYTES:
+            raise _PacketTooLarge
+        data: bytes = await self._reader.read(n)
+        return data
+
+    def feed_eof(self) -> None:
+        """Say that no more will come."""
+        self._reader.feed_eof()
+
+
 class _Handler(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no types
+    def attach(self, session: Any, reader: Any, writer: Any) -> None:
+        """Read devices' packets up to the limit only."""
+        super().attach(session, reader if session.username == "server" else _CappedReader(reader), writer)
+
     def handle_read_timeout(self) -> None:
         """End a connection that was silent for 1.5 keep-alive times, so that its will is sent."""
         if self._reader_task is not None:
@@ -189,10 +225,11 @@ class _Handler(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no typ
 class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
     """amqtt with VIPO's rules; see the module's text for what it mends."""
 
-    def __init__(self, bind: str, server_password: str, check_password: CheckPassword) -> None:
+    def __init__(self, bind: str, server_password: str, doorkeeper: Doorkeeper) -> None:
         super().__init__({"listeners": {"default": {"type": "tcp", "bind": bind}}, "plugins": {}})
         self._server_password = server_password
-        self._check_password = check_password
+        self._doorkeeper = doorkeeper
+        self._logins: dict[str, Login] = {}
         self._subscriptions = _Subscriptions()
         self._open: set[asyncio.StreamWriter] = set()
 
@@ -250,7 +287,32 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
         will_is_own = not session.will_flag or may_publish(username, session.will_topic or "")
         if not username or session.client_id != username or not will_is_own:
             return False
-        return await asyncio.to_thread(self._check_password, username, password)
+        at = datetime.now(UTC)
+        key = await asyncio.to_thread(self._doorkeeper.admit, username, password)
+        if key is None:
+            return False
+        self._logins[username] = _login(key, at)
+        return True
+
+    async def end_whoever_must_go(self) -> None:
+        """End the connections whose device was taken out or got another key, until cancelled."""
+        while True:
+            await asyncio.to_thread(self._doorkeeper.wait)
+            soon_after = datetime.now(UTC) - timedelta(seconds=CONNECT_TIMEOUT_S)
+            there = {
+                name: handler
+                for name, (session, handler) in list(self._sessions.items())
+                if name in self._logins and session.transitions.state == "connected"
+            }
+            self._logins = {n: login for n, login in self._logins.items() if n in there or login.at > soon_after}
+            try:
+                ended = await asyncio.to_thread(self._doorkeeper.find_ended, dict(self._logins))
+            except DatabaseError as error:
+                log.warning("MQTT: who must go is not known now: %s", error)
+                continue
+            for name in ended & there.keys():
+                log.info("MQTT: ended the connection of %s: its key does not hold any more.", name)
+                await there[name].handle_connection_closed()
 
     async def _take_over(self, session: Any) -> Any:
         """End an older connection of the same client first, so that its will goes out before the new one speaks."""
@@ -286,6 +348,12 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
         holders = self._subscriptions.get(subscription[0], [])
         if any(holder is session for holder, _qos in holders):
             await super()._publish_retained_messages_for_subscription(subscription, session)
+
+
+def _login(key: str, at: datetime) -> Login:
+    from registry.services import Login  # the apps' models load only after Django is set up
+
+    return Login(key, at)
 
 
 async def _cancel_the_rest() -> None:

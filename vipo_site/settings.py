@@ -128,6 +128,7 @@ VIPO_MQTT = {
     "tls": os.environ.get("VIPO_MQTT_TLS", "1" if SERVED else "0") == "1",
     "ca": os.environ.get("VIPO_MQTT_CA", ""),
 }
+VIPO_BROKER_ACCOUNTS = f"registry.broker_accounts.{'DynamicSecurity' if SERVED else 'AskedAccounts'}"
 VIPO_GATEWAY = f"gateway-{os.environ.get('VIPO_GATEWAY') or socket.gethostname()}"
 """What the broker knows a gateway by; two on one machine need names of their own."""
 VIPO_BROKER_URL = os.environ.get("VIPO_BROKER_URL", "" if SERVED else f"mqtt://127.0.0.1:{VIPO_MQTT['port']}/")

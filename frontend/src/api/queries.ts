@@ -26,6 +26,7 @@ export const keys = {
   site: (slug: string) => ["site", slug] as const,
   map: (slug: string) => ["map", slug] as const,
   devices: (slug: string) => ["devices", slug] as const,
+  retiredDevices: (slug: string) => ["devices", slug, "retired"] as const,
   deviceEvents: (slug: string, id: string) => ["device-events", slug, id] as const,
   rdf: (slug: string, id: string, format: string) => ["rdf", slug, id, format] as const,
   programs: (slug: string) => ["programs", slug] as const,
@@ -87,6 +88,11 @@ export const useDevices = (slug: Maybe) =>
   useGet<Device[]>(
     keys.devices(slug ?? ""),
     at(slug, (s) => `/sites/${s}/devices`),
+  );
+export const useRetiredDevices = (slug: Maybe) =>
+  useGet<Device[]>(
+    keys.retiredDevices(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/devices?lifecycle=retired`),
   );
 export const usePrograms = (slug: Maybe) =>
   useGet<Program[]>(

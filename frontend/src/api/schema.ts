@@ -709,7 +709,7 @@ export interface paths {
         };
         /**
          * List Devices
-         * @description List a site's devices, also those that wait for approval.
+         * @description List a site's devices, also those that wait for approval; retired ones only when asked for by `lifecycle`.
          */
         get: operations["registry_api_list_devices"];
         put?: never;
@@ -755,10 +755,34 @@ export interface paths {
         put?: never;
         /**
          * Approve
-         * @description Let a pending device take part.
+         * @description Let a pending device take part, and tell its new key this once.
          */
         post: operations["registry_api_approve"];
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices/{device_id}/credential": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Rotate
+         * @description Give an approved device a new key, told this once; the old one ends.
+         */
+        post: operations["registry_api_rotate"];
+        /**
+         * Revoke
+         * @description Take an approved device's key away; its connection ends at once.
+         */
+        delete: operations["registry_api_revoke"];
         options?: never;
         head?: never;
         patch?: never;
@@ -776,6 +800,26 @@ export interface paths {
          * @description Show what happened to a device, newest first.
          */
         get: operations["registry_api_show_history"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices/{device_id}/history": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show History
+         * @description Show what a property was since a time, at most seven days back, in so many points at most.
+         */
+        get: operations["registry_history_api_show_history"];
         put?: never;
         post?: never;
         delete?: never;
@@ -804,6 +848,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/devices/{device_id}/readmit": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Readmit
+         * @description Let a retired or rejected device's id come back as a newcomer.
+         */
+        post: operations["registry_api_readmit"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/devices/{device_id}/reject": {
         parameters: {
             query?: never;
@@ -818,6 +882,26 @@ export interface paths {
          * @description Turn a pending device away.
          */
         post: operations["registry_api_reject"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices/{device_id}/retire": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Retire
+         * @description Take an approved device out; its history stays, and its id cannot come back until it is readmitted.
+         */
+        post: operations["registry_api_retire"];
         delete?: never;
         options?: never;
         head?: never;
@@ -965,6 +1049,40 @@ export interface components {
             type: "boolean" | "number" | "text" | "choice";
             unit: string;
         };
+        /** @description A device that was let in; `credential` is its new key, told this once, null where it keeps the one it has. */
+        ApprovedDevice: {
+            capacity: number;
+            carrying: {
+                [key: string]: number;
+            };
+            credential: string | null;
+            description: string;
+            device_class: string;
+            doing: string;
+            done: boolean;
+            dropped: number;
+            gives: string[];
+            has_key: boolean;
+            icon: string;
+            id: string;
+            image: string;
+            /** @enum {string} */
+            kind: "robot" | "machine";
+            last_seen_at: string | null;
+            /** @enum {string} */
+            lifecycle: "pending" | "approved" | "retired";
+            location: components["schemas"]["PoseShape"];
+            methods: components["schemas"]["MethodShape"][];
+            name: string;
+            properties: components["schemas"]["PropertyShape"][];
+            radius_m: number;
+            simulated: boolean;
+            size: components["schemas"]["SizeShape"];
+            /** @enum {string} */
+            status: "idle" | "busy" | "done" | "waiting" | "warning" | "error" | "offline" | "pending";
+            taken: boolean;
+            takes: string[];
+        };
         /** @description Whether the program shall start by itself. */
         ArmProgram: {
             on: boolean;
@@ -1095,7 +1213,9 @@ export interface components {
             device_class: string;
             doing: string;
             done: boolean;
+            dropped: number;
             gives: string[];
+            has_key: boolean;
             icon: string;
             id: string;
             image: string;
@@ -1324,6 +1444,11 @@ export interface components {
         NamedPlace: {
             place: string;
         };
+        /** @description A device's new key, told this once; `taken` says whether the device has it already. */
+        NewCredential: {
+            credential: string;
+            taken: boolean;
+        };
         /** @description Where the grid's bottom left corner is, in metres and radians. */
         Origin: {
             x: number;
@@ -1382,6 +1507,13 @@ export interface components {
                 number,
                 number
             ];
+        };
+        /** @description A property over the seconds from `at` on in which it last changed: its least, greatest and last value. */
+        PointShape: {
+            at: string;
+            maximum: number | null;
+            minimum: number | null;
+            value: boolean | number | string | null;
         };
         /** @description Metres and radians in the map frame. */
         PoseShape: {
@@ -1662,6 +1794,14 @@ export interface components {
             /** @description The script from which the text was edited. */
             shown?: string | null;
             text: string;
+        };
+        /** @description What a property was, oldest first; the first point may lie before `since`: what held until the next. */
+        SeriesShape: {
+            bucket_s: number;
+            points: components["schemas"]["PointShape"][];
+            property: string;
+            since: string;
+            unit: string;
         };
         /** @description What somebody signs in with. */
         SignIn: {
@@ -3018,7 +3158,9 @@ export interface operations {
     };
     registry_api_list_devices: {
         parameters: {
-            query?: never;
+            query?: {
+                lifecycle?: ("pending" | "approved" | "retired") | null;
+            };
             header?: never;
             path: {
                 slug: string;
@@ -3133,6 +3275,70 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
+                    "application/json": components["schemas"]["ApprovedDevice"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_api_rotate: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["NewCredential"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_api_revoke: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
                     "application/json": components["schemas"]["DeviceShape"];
                 };
             };
@@ -3166,6 +3372,42 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DeviceEventShape"][];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_history_api_show_history: {
+        parameters: {
+            query: {
+                property: string;
+                since?: string | null;
+                points?: number;
+            };
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SeriesShape"];
                 };
             };
             /** @description A refusal */
@@ -3217,7 +3459,71 @@ export interface operations {
             };
         };
     };
+    registry_api_readmit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     registry_api_reject: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_api_retire: {
         parameters: {
             query?: never;
             header?: never;

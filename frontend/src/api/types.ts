@@ -120,6 +120,8 @@ export interface Device {
   simulated: boolean;
   image: string;
   description: string;
+  has_key: boolean;
+  dropped: number;
 }
 
 /** Something that a person told a device to do; `over` once nothing more will come of it. */

@@ -14,6 +14,8 @@ import { StatusGlyph } from "@/design/StatusGlyph";
 import { DeviceDetail } from "./devices/DeviceDetail";
 import { DeviceFilters } from "./devices/DeviceFilters";
 import { DeviceTable } from "./devices/DeviceTable";
+import { KeyShown } from "./devices/KeyShown";
+import { Retired } from "./devices/Retired";
 import styles from "./devices/devices.module.css";
 import { filterDevices, NO_FILTER } from "./devices/filter";
 import { MapStrip } from "./devices/MapStrip";
@@ -46,6 +48,8 @@ function Registry({ site, devices, chosen }: { site: Site; devices: Device[]; ch
         {found.length > 0 ? <DeviceTable devices={found} slug={site.slug} chosen={chosen} /> : null}
         {devices.length > 0 && found.length === 0 ? <NothingFound clear={() => setFilter(NO_FILTER)} /> : null}
       </Panel>
+      <Retired site={site} />
+      <KeyShown />
     </div>
   );
 }

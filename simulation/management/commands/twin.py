@@ -17,6 +17,7 @@ from django.core.management.base import BaseCommand, CommandError
 from registry.errors import RegistryError
 from registry.mqtt import MqttClient, Will, tls_context
 from simulation.face import ConnectionMaker
+from simulation.new_keys import KeyFile, take_new_keys
 from simulation.site_facts import SiteFacts, read_site_facts
 from simulation.twin import Twin, TwinPlan
 
@@ -77,7 +78,8 @@ def make_twin(options: dict[str, Any]) -> Twin:
         driver=options["driver"],
         refresh=lambda: read_site_facts(site),
     )
-    return Twin(plan, connections({name: passwords.get(name, join_key) for name in voices}))
+    keys = {name: passwords.get(name, join_key) for name in voices}
+    return Twin(plan, connections(keys, KeyFile(folder / "secrets" / "devices.json")))
 
 
 def choose_devices(facts: SiteFacts, only: str, left_out: str) -> frozenset[str]:
@@ -103,13 +105,13 @@ def read_credentials(folder: Path) -> tuple[dict[str, str], str]:
     return passwords, join.read_text().strip() if join.exists() else ""
 
 
-def connections(passwords: dict[str, str]) -> ConnectionMaker:
-    """Return what makes a device's connection to the broker of the settings."""
+def connections(passwords: dict[str, str], key_file: KeyFile) -> ConnectionMaker:
+    """Return what makes a device's connection to the broker of the settings; new keys are taken and kept."""
     broker: dict[str, Any] = settings.VIPO_MQTT
     tls = tls_context(broker["ca"]) if broker["tls"] else None
 
     def connect(device: str, will: Will) -> MqttClient:
-        return MqttClient(
+        client = MqttClient(
             host=broker["host"],
             port=broker["port"],
             username=device,
@@ -118,5 +120,7 @@ def connections(passwords: dict[str, str]) -> ConnectionMaker:
             tls=tls,
             will=will,
         )
+        take_new_keys(device, client, key_file)
+        return client
 
     return connect

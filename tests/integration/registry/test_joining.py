@@ -10,6 +10,7 @@ import pytest
 
 from registry import joining, live, services
 from registry.capability import MethodSpec, Pose
+from registry.credentials import secret_hash
 from registry.describing import read, write_description
 from registry.models import Device, DeviceEvent, User
 from registry.rdf_text import CONTENT_TYPES, FORMS, BadDescription
@@ -212,7 +213,8 @@ def test_a_silent_device_goes_offline_after_45_s(hall: str) -> None:
 
 def test_a_decision_is_taken_once(person: Callable[[str], User]) -> None:
     describe()
-    assert services.approve_device(site="hall", device_id="mixer1", by=person("admin"), at=NOW).lifecycle == "approved"
+    decided = services.approve_device(site="hall", device_id="mixer1", by=person("admin"), at=NOW)
+    assert decided.device.lifecycle == "approved"
     with pytest.raises(NotPending, match="it is approved"):
         services.reject_device(site="hall", device_id="mixer1", by=person("admin"), at=NOW)
     with pytest.raises(NoSuchDevice):
@@ -243,7 +245,7 @@ def test_a_device_comes_in_with_its_own_key_only(hall: str) -> None:
     services.set_join_key(site="hall", join_key=JOIN)
     services.expect_device(site="hall", device_id="mixer1", credential=KEY)
     check = services.check_device_password
-    assert check(username="mixer1", password=KEY) == Principal("mixer1", False)
+    assert check(username="mixer1", password=KEY) == Principal("mixer1", False, secret_hash(KEY))
     assert check(username="mixer1", password=JOIN) is None
     assert check(username="mixer2", password=KEY) is None
     assert check(username="mixer2", password="") is None

@@ -137,9 +137,9 @@ def running_served(folder: Path) -> Iterator[Served]:
         environment = settings_for(state, postgres, redis, mosquitto)
         served = Served(folder, environment, postgres, redis, mosquitto, (free_port(), free_port()))
         served.manage("prepare")
-        served.manage("mosquitto_passwords", str(folder / "passwords"), "--newcomer", "paintMixer03")
-        assert mosquitto.process is not None
-        mosquitto.process.send_signal(signal.SIGHUP)
+        mosquitto.stop()
+        served.manage("broker_accounts", str(folder / "dynamic-security.json"))
+        mosquitto.start()
         stack.callback(served.stop_all)
         for number, port in enumerate(served.web_ports, 1):
             served.start(f"web-{number}", *WEB, "-p", str(port), "vipo_site.asgi:application")

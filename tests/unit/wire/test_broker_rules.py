@@ -7,8 +7,8 @@ import hashlib
 
 import pytest
 
-from vipo_site.broker import may_publish, may_subscribe
-from vipo_site.passwords import password_line
+from registry.credentials import broker_hash
+from vipo_site.doorkeeping import may_publish, may_subscribe
 
 
 @pytest.mark.parametrize(
@@ -49,9 +49,24 @@ def test_a_device_hears_only_its_commands_the_stop_and_the_servers_births(topic_
     assert may_subscribe("robot01", topic_filter) is allowed
 
 
-def test_a_password_line_is_what_mosquitto_checks() -> None:
-    line = password_line("robot01", "word", b"twelve bytes")
-    name, scheme, rounds, salt, digest = line.replace(":$", "$").split("$")
-    assert (name, scheme, rounds) == ("robot01", "7", "101")
+def test_a_kept_key_is_what_mosquitto_checks() -> None:
+    _, scheme, rounds, salt, digest = broker_hash("word", b"twelve bytes").split("$")
+    assert (scheme, rounds) == ("7", "101")
     assert base64.b64decode(salt) == b"twelve bytes"
     assert base64.b64decode(digest) == hashlib.pbkdf2_hmac("sha512", b"word", b"twelve bytes", 101)
+
+
+@pytest.mark.parametrize(
+    ("topic", "allowed"),
+    [
+        ("vipo/v1/join/hall/new01", True),
+        ("vipo/v1/join/other/new01", False),
+        ("vipo/v1/join/hall/new01/more", False),
+        ("vipo/v1/join/hall/+", False),
+        ("vipo/v1/dev/join:hall/up/state", False),
+    ],
+)
+def test_whoever_has_the_join_key_may_knock_and_nothing_else(topic: str, allowed: bool) -> None:
+    assert may_publish("join:hall", topic) is allowed
+    assert not may_subscribe("join:hall", topic)
+    assert not may_subscribe("join:hall", "vipo/v1/srv/status")

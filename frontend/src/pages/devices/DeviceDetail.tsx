@@ -13,6 +13,7 @@ import { DeviceIcon } from "@/map/DeviceIcon";
 import { useNow } from "../useNow";
 import { Changes } from "./Changes";
 import { jobOf } from "./filter";
+import { AskKeyDecision, KeyMenuItems, KeyTrouble, type KeyDecision } from "./KeyActions";
 import { LiveProperties } from "./LiveProperties";
 import { Methods } from "./Methods";
 import { RdfSource } from "./RdfSource";
@@ -76,6 +77,7 @@ function Overview({ site, device }: { site: Site; device: Device }) {
   return (
     <div className={styles.overview}>
       {device.description ? <p>{device.description}</p> : null}
+      <KeyTrouble device={device} />
       <LiveProperties device={device} />
       <Methods site={site} device={device} />
       <div className={styles.pair}>
@@ -90,6 +92,7 @@ function Actions({ site, device }: { site: Site; device: Device }) {
   const { t } = useTranslation();
   const navigate = useNavigate();
   const [renaming, setRenaming] = useState(false);
+  const [asking, setAsking] = useState<KeyDecision | null>(null);
   return (
     <div className={styles.actions}>
       <IconButton
@@ -109,12 +112,14 @@ function Actions({ site, device }: { site: Site; device: Device }) {
             <Menu.Item leftSection={<Pencil size={15} />} onClick={() => setRenaming(true)}>
               {t("pages.devices.rename")}
             </Menu.Item>
+            <KeyMenuItems device={device} choose={setAsking} />
           </Menu.Dropdown>
         </Menu>
       ) : null}
       <Link to={`/sites/${site.slug}/devices`} aria-label={t("pages.close")} className={styles.close}>
         <X size={18} aria-hidden="true" />
       </Link>
+      {asking ? <AskKeyDecision site={site} device={device} decision={asking} onClose={() => setAsking(null)} /> : null}
       {renaming ? <RenameDevice site={site} device={device} onClose={() => setRenaming(false)} /> : null}
     </div>
   );

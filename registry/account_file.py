@@ -1,0 +1,66 @@
+"""Mosquitto's accounts as its dynamic security plugin reads them: one role with literal topics for each device.
+
+The plugin of Mosquitto 2.0 puts no user's name into a topic, so each account has a role of its own.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+Acl = dict[str, object]
+Role = dict[str, Any]
+DOOR = "join:"
+HEARD_BY_ALL = ("vipo/v1/site/+/stop", "vipo/v1/srv/status")
+DEFAULTS = {"publishClientSend": False, "publishClientReceive": False, "subscribe": False, "unsubscribe": True}
+
+
+def device_role(device_id: str) -> Role:
+    """Return what a device may do: speak for itself, hear its own commands, the sites' stops and the server."""
+    own = f"vipo/v1/dev/{device_id}"
+    heard = (f"{own}/down/#", *HEARD_BY_ALL)
+    acls = [_allow("publishClientSend", f"{own}/up/#")]
+    acls += [_allow(act, topic) for topic in heard for act in ("publishClientReceive", "subscribePattern")]
+    return {"rolename": f"device {device_id}", "acls": acls}
+
+
+def door_role(name: str) -> Role:
+    """Return what somebody with a site's join key may do: knock, and hear nothing."""
+    site = name.removeprefix(DOOR)
+    return {"rolename": f"door {site}", "acls": [_allow("publishClientSend", f"vipo/v1/join/{site}/+")]}
+
+
+def server_role() -> Role:
+    """Return what VIPO's own processes may do: everything below `vipo/`, and keep the accounts."""
+    acls = [
+        _allow(act, topic)
+        for topic in ("vipo/#", "$CONTROL/dynamic-security/#")
+        for act in ("publishClientSend", "publishClientReceive", "subscribePattern")
+    ]
+    return {"rolename": "server", "acls": [*acls, _allow("subscribePattern", "$share/#")]}
+
+
+def _allow(act: str, topic: str) -> Acl:
+    return {"acltype": act, "topic": topic, "priority": 0, "allow": True}
+
+
+def account_file(hashes: Mapping[str, str], *, server: str) -> str:
+    """Return the plugin's file for {name: `$7$rounds$salt$hash`}; `server` is the name of VIPO's own account."""
+    roles = [
+        server_role() if name == server else door_role(name) if name.startswith(DOOR) else device_role(name)
+        for name in sorted(hashes)
+    ]
+    clients = [_client(name, role, hashes[name]) for name, role in zip(sorted(hashes), roles, strict=True)]
+    return json.dumps({"defaultACLAccess": DEFAULTS, "roles": roles, "clients": clients}, indent=1)
+
+
+def _client(name: str, role: Role, hashed: str) -> dict[str, object]:
+    _, _, rounds, salt, digest = hashed.split("$")
+    return {
+        "username": name,
+        "roles": [{"rolename": role["rolename"], "priority": 0}],
+        "password": digest,
+        "salt": salt,
+        "iterations": int(rounds),
+    }

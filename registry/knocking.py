@@ -1,0 +1,80 @@
+"""How a device that nobody knows brings a key of its own: it knocks at a site's door with the site's join key.
+
+Whoever has the join key can knock, and nothing else. A knock never changes a key that is known: so nobody can take an
+id over, and a device that an admin has looked at is the one that knocked first.
+"""
+
+from __future__ import annotations
+
+import hmac
+from datetime import datetime, timedelta
+
+from django.db import transaction
+
+from registry.broker_accounts import Account, accounts
+from registry.credentials import LEAST_CHARACTERS, MOST_CHARACTERS, broker_hash, is_strong, secret_hash
+from registry.device_rows import BadDevice, check_id, write_event
+from registry.models import Device
+from registry.sites import find_site
+from registry.wire import BadMessage, parse_json
+
+MOST_NEWCOMERS = 200
+FORGOTTEN_AFTER = timedelta(days=1)
+
+
+def admit_newcomer(*, site: str, device_id: str, payload: bytes, at: datetime) -> bool:
+    """Remember the key that a newcomer brings, and let it in as pending; False when it was known with this key.
+
+    Raises BadMessage, BadDevice, NotAMember, BrokerAway.
+    """
+    check_id(device_id)
+    key = _read_key(payload)
+    with transaction.atomic():
+        row = find_site(site)
+        device = Device.objects.select_for_update(of=("self",)).filter(pk=device_id).first()
+        is_known = device is not None and hmac.compare_digest(device.credential_hash, secret_hash(key))
+        if not is_known:
+            device = device or _make_row(device_id, row.pk, at)
+            _require_keyless(device, row.pk)
+            device.credential_hash, device.broker_hash = secret_hash(key), broker_hash(key)
+            device.save(update_fields=["credential_hash", "broker_hash"])
+            write_event(device, at, "knocked", "Knocked with the join key and brought a key of its own")
+    accounts().put(Account(device_id, key))
+    return not is_known
+
+
+def _make_row(device_id: str, site_id: int, at: datetime) -> Device:
+    _make_room(site_id, at)
+    device, _ = Device.objects.select_for_update(of=("self",)).get_or_create(
+        pk=device_id, defaults={"site_id": site_id, "first_seen_at": at}
+    )
+    return device
+
+
+def _read_key(payload: bytes) -> str:
+    body = parse_json(payload)
+    key = body.get("key") if isinstance(body, dict) else None
+    if not isinstance(key, str) or not is_strong(key):
+        raise BadMessage(
+            f"A knock needs `key`: {LEAST_CHARACTERS} to {MOST_CHARACTERS} printable ASCII characters, made at random."
+        )
+    return key
+
+
+def _make_room(site_id: int, at: datetime) -> None:
+    """Forget who knocked long ago and never described itself; refuse more than 200 newcomers at a site."""
+    waiting = Device.objects.filter(site_id=site_id, lifecycle=Device.Lifecycle.PENDING)
+    gone = waiting.filter(description__isnull=True, last_seen_at__isnull=True, first_seen_at__lt=at - FORGOTTEN_AFTER)
+    for device in gone:
+        accounts().remove(device.pk)
+        device.delete()
+    if waiting.count() >= MOST_NEWCOMERS:
+        raise BadDevice(f"{MOST_NEWCOMERS} newcomers wait at this site already. Decide about some of them first.")
+
+
+def _require_keyless(device: Device, site_id: int) -> None:
+    if device.lifecycle != Device.Lifecycle.PENDING or device.credential_hash or device.site_id != site_id:
+        raise BadDevice(
+            f"Somebody knocked as {device.pk}, which is known with another key. "
+            "If it is the same device, reject or retire it first and let it come back."
+        )

@@ -1,0 +1,196 @@
+"""What admins decide about devices and their keys, with a broker that asks the registry."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from datetime import timedelta
+from typing import Any
+
+import pytest
+from django.test import Client
+
+from registry import services
+from registry.credentials import secret_hash
+from registry.joining import Login
+from registry.models import Device, User
+from registry.services import BadDevice, NotApproved, NotRetired
+from registry.wire import BadMessage
+
+from .conftest import NOW, come, describe, say
+
+KEY, OTHER, JOIN = "k" * 32, "o" * 32, "j" * 32
+WHO: dict[str, Any] = {"site": "hall", "device_id": "mixer1", "by": None, "at": NOW}
+
+
+def may_come_in(key: str, device_id: str = "mixer1") -> bool:
+    return services.check_device_password(username=device_id, password=key) is not None
+
+
+def approve() -> str:
+    describe()
+    return str(services.approve_device(**WHO).credential)
+
+
+def test_a_newcomer_with_the_join_key_gets_a_key_of_its_own_at_approval(hall: str) -> None:
+    services.set_join_key(site="hall", join_key=JOIN)
+    credential = approve()
+    assert len(credential) == 32
+    assert may_come_in(credential)
+    assert not may_come_in(JOIN)
+    row = Device.objects.get(pk="mixer1")
+    assert credential not in json.dumps([row.credential_hash, row.broker_hash])
+    assert row.broker_hash.startswith("$7$101$")
+
+
+def test_one_that_brought_its_own_key_keeps_it_when_it_cannot_take_a_new_one(hall: str) -> None:
+    services.expect_device(site="hall", device_id="mixer1", credential=KEY, approved=False)
+    describe()
+    decided = services.approve_device(**WHO)
+    assert (decided.credential, decided.taken, may_come_in(KEY)) == (None, False, True)
+
+
+def test_a_new_key_ends_the_old_one_and_old_connections(hall: str) -> None:
+    old = approve()
+    logins = {"mixer1": Login(secret_hash(old), NOW)}
+    assert services.find_ended(logins=logins) == frozenset()
+    new = services.rotate_credential(**WHO)
+    assert new.taken is False
+    assert (may_come_in(str(new.credential)), may_come_in(old)) == (True, False)
+    assert services.find_ended(logins=logins) == {"mixer1"}
+    assert services.find_ended(logins={"mixer1": Login("", NOW - timedelta(seconds=1))}) == {"mixer1"}
+    assert services.find_ended(logins={"mixer1": Login(secret_hash(str(new.credential)), NOW)}) == frozenset()
+
+
+def test_a_revoked_key_lets_nobody_in_and_is_not_brought_back_by_the_next_start(hall: str) -> None:
+    key = approve()
+    come()
+    view = services.revoke_credential(**WHO)
+    assert (view.online, view.has_key, view.lifecycle) == (False, False, "approved")
+    services.expect_device(site="hall", device_id="mixer1", credential=key)
+    assert not may_come_in(key)
+    assert services.find_ended(logins={"mixer1": Login("", NOW + timedelta(days=1))}) == {"mixer1"}
+    assert services.list_broker_hashes() == {}
+
+
+def test_a_retired_device_stays_out_until_an_admin_lets_it_come_back(hall: str) -> None:
+    services.set_join_key(site="hall", join_key=JOIN)
+    key = approve()
+    with pytest.raises(NotRetired):
+        services.readmit_device(**WHO)
+    services.retire_device(**WHO)
+    assert services.list_devices(site="hall") == ()
+    assert [d.id for d in services.list_devices(site="hall", lifecycle="retired")] == ["mixer1"]
+    assert (may_come_in(key), may_come_in(JOIN)) == (False, False)
+    with pytest.raises(BadDevice, match="reject or retire it first"):
+        knock(OTHER)
+    for decide in (services.retire_device, services.rotate_credential, services.revoke_credential):
+        with pytest.raises(NotApproved):
+            decide(**WHO)
+    assert services.readmit_device(**WHO).lifecycle == "pending"
+    assert (may_come_in(key), may_come_in(JOIN)) == (False, True)
+    assert [e.text for e in services.list_device_events(site="hall", device_id="mixer1")][:3] == [
+        "May come back",
+        "Retired",
+        "Approved",
+    ]
+
+
+def knock(key: str, device_id: str = "mixer1") -> bool:
+    body = json.dumps({"key": key}).encode()
+    return services.admit_newcomer(site="hall", device_id=device_id, payload=body, at=NOW)
+
+
+def test_a_stranger_knocks_brings_its_key_and_waits(hall: str) -> None:
+    assert knock(KEY)
+    assert not knock(KEY)
+    assert may_come_in(KEY)
+    assert describe().lifecycle == "pending"
+    with pytest.raises(BadDevice, match="known with another key"):
+        knock(OTHER)
+    assert (may_come_in(KEY), may_come_in(OTHER)) == (True, False)
+    assert sorted(services.list_broker_hashes()) == ["mixer1"]
+
+
+@pytest.mark.parametrize("payload", [b"", b"{", b'{"key": 5}', b'{"key": "short"}', b'{"key": "%s"}' % (b"k" * 129)])
+def test_a_knock_without_a_proper_key_is_refused(hall: str, payload: bytes) -> None:
+    with pytest.raises(BadMessage):
+        services.admit_newcomer(site="hall", device_id="mixer1", payload=payload, at=NOW)
+    assert Device.objects.count() == 0
+
+
+def test_knocks_do_not_fill_the_registry(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("registry.knocking.MOST_NEWCOMERS", 2)
+    assert knock(KEY, "a")
+    assert knock(KEY, "b")
+    with pytest.raises(BadDevice, match="Decide about some of them first"):
+        knock(KEY, "c")
+    Device.objects.filter(pk="a").update(first_seen_at=NOW - timedelta(days=2))
+    assert knock(KEY, "c")
+    assert sorted(Device.objects.values_list("pk", flat=True)) == ["b", "c"]
+
+
+def test_the_door_opens_with_its_sites_key_only(hall: str) -> None:
+    services.set_join_key(site="hall", join_key=JOIN)
+    services.create_site(name="Other", slug="other")
+    assert may_come_in(JOIN, "join:hall")
+    assert not may_come_in(JOIN, "join:other")
+    assert not may_come_in("", "join:other")
+    assert services.find_ended(logins={"join:hall": Login(secret_hash(JOIN), NOW)}) == frozenset()
+    services.set_join_key(site="hall", join_key=OTHER)
+    assert services.find_ended(logins={"join:hall": Login(secret_hash(JOIN), NOW)}) == {"join:hall"}
+
+
+def test_an_error_begins_and_ends_in_the_history(hall: str) -> None:
+    approve()
+    come()
+    say(seq=1, props={"error": "Nozzle blocked"})
+    say(seq=2, props={"error": "Nozzle blocked"})
+    say(seq=3, props={"error": ""})
+    events = services.list_device_events(site="hall", device_id="mixer1")
+    assert [e.text for e in events[:2]] == ["Reports no error any more", "Reports an error: Nozzle blocked"]
+
+
+@pytest.fixture
+def browser(person: Callable[[str], User]) -> Callable[[str], Client]:
+    def sign_in(name: str) -> Client:
+        client = Client()
+        if name != "nobody":
+            client.force_login(person(name))
+        return client
+
+    return sign_in
+
+
+CALLS = (("post", "/retire"), ("post", "/credential"), ("delete", "/credential"), ("post", "/readmit"))
+
+
+@pytest.mark.parametrize(("method", "path"), CALLS)
+def test_only_admins_decide_about_keys(browser: Callable[[str], Client], method: str, path: str) -> None:
+    key = approve()
+    if path == "/readmit":
+        services.retire_device(**WHO)
+    address = f"/api/sites/hall/devices/mixer1{path}"
+    answers = {n: getattr(browser(n), method)(address).status_code for n in ("stranger", "nobody", *ROLES_BELOW)}
+    assert answers == {"stranger": 404, "nobody": 401, **dict.fromkeys(ROLES_BELOW, 403)}
+    assert may_come_in(key) == (path != "/readmit")
+    assert getattr(browser("admin"), method)(address).status_code == 200
+
+
+ROLES_BELOW = ("viewer", "operator", "author")
+
+
+def test_a_key_is_told_once_and_not_kept_by_browsers(browser: Callable[[str], Client]) -> None:
+    describe()
+    admin = browser("admin")
+    answer = admin.post("/api/sites/hall/devices/mixer1/approve")
+    assert answer["Cache-Control"] == "no-store"
+    assert may_come_in(answer.json()["credential"])
+    assert "credential" not in admin.get("/api/sites/hall/devices/mixer1").json()
+    assert admin.post("/api/sites/hall/devices/mixer1/approve").status_code == 409
+    rotated = admin.post("/api/sites/hall/devices/mixer1/credential")
+    assert rotated["Cache-Control"] == "no-store"
+    assert may_come_in(rotated.json()["credential"])
+    assert not may_come_in(answer.json()["credential"])
+    assert admin.get("/api/sites/hall/devices?lifecycle=retired").json() == []
+    assert admin.get("/api/sites/hall/devices?lifecycle=nonsense").status_code == 422

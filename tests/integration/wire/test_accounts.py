@@ -1,0 +1,149 @@
+"""Keys and accounts on both brokers: what the registry decides holds there at once."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import pytest
+from django.conf import LazySettings
+
+from execution.gateway import Gateway
+from registry import broker_accounts, services
+from registry.mqtt import MqttClient
+from simulation.new_keys import KeyFile, take_new_keys
+from tests.servers import Mosquitto, run_mosquitto
+from vipo_site.broker import start_broker
+
+pytestmark = pytest.mark.servers
+SITE, SERVER_WORD, JOIN = "hall", "the server's word", "j" * 32
+KEY = "first-key-of-the-mixer-0001"
+TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_text()
+
+
+@dataclass
+class Bus:
+    """A broker that runs with the registry's accounts."""
+
+    kind: str
+    server_port: int
+    device_port: int
+    mosquitto: Mosquitto | None = None
+
+    def client(self, name: str, key: str, **more: Any) -> MqttClient:
+        return MqttClient(host="127.0.0.1", port=self.device_port, username=name, password=key, client_id=name, **more)
+
+    def lets_in(self, name: str, key: str) -> bool:
+        client = self.client(name, key)
+        client.start()
+        try:
+            wait("an answer", lambda: client.connected or client.refusal)
+            return client.connected
+        finally:
+            client.stop()
+
+
+def wait(what: str, ready: Callable[[], Any], timeout_s: float = 20) -> None:
+    deadline = time.monotonic() + timeout_s
+    while not ready():
+        assert time.monotonic() < deadline, f"{what} did not come within {timeout_s:g} s"
+        time.sleep(0.02)
+
+
+@pytest.fixture(params=["mosquitto", "amqtt"])
+def bus(request: pytest.FixtureRequest, database: Path, tmp_path: Path, settings: LazySettings) -> Iterator[Bus]:
+    services.create_site(name="Hall", slug=SITE)
+    services.set_join_key(site=SITE, join_key=JOIN)
+    settings.VIPO_DEFAULT_SITE = SITE
+    broker_accounts.accounts.cache_clear()
+    told = {"host": "127.0.0.1", "username": "server", "password": SERVER_WORD, "tls": False}
+    if request.param == "mosquitto":
+        settings.VIPO_BROKER_ACCOUNTS = "registry.broker_accounts.DynamicSecurity"
+        with run_mosquitto(tmp_path, {"server": SERVER_WORD, f"join:{SITE}": JOIN}) as mosquitto:
+            settings.VIPO_MQTT = {**told, "port": mosquitto.port}
+            yield Bus("mosquitto", mosquitto.port, mosquitto.device_port, mosquitto)
+    else:
+        broker = start_broker(port=0, server_password=SERVER_WORD)
+        settings.VIPO_MQTT = {**told, "port": broker.port}
+        yield Bus("amqtt", broker.port, broker.port)
+        broker.stop()
+    broker_accounts.accounts.cache_clear()
+
+
+@pytest.fixture
+def gateway(bus: Bus, settings: LazySettings) -> Iterator[Gateway]:
+    made, stopping = Gateway(settings), threading.Event()
+    thread = threading.Thread(target=made.run_forever, args=(stopping,))
+    thread.start()
+    yield made
+    stopping.set()
+    thread.join(20)
+
+
+def lifecycle(device: str) -> str:
+    view = services.find_device(device_id=device)
+    return view.lifecycle if view else ""
+
+
+def decide(what: Callable[..., Any], device: str) -> Any:
+    return what(site=SITE, device_id=device, by=None, at=datetime.now(UTC))
+
+
+def test_a_stranger_joins_by_its_description_and_the_join_key_alone(bus: Bus, gateway: Gateway, tmp_path: Path) -> None:
+    assert not bus.lets_in("new01", KEY)
+    door = bus.client(f"join:{SITE}", JOIN)
+    door.publish(f"vipo/v1/join/{SITE}/new01", json.dumps({"key": KEY}).encode())
+    door.publish("vipo/v1/dev/new01/up/desc", b"forbidden here")
+    door.start()
+    wait("the account", lambda: services.list_broker_hashes().get("new01") and bus.lets_in("new01", KEY))
+    door.stop()
+    assert lifecycle("new01") == ""
+
+    device = bus.client("new01", KEY)
+    take_new_keys("new01", device, KeyFile(tmp_path / "keys.json"))
+    connections: list[None] = []
+    device.on_connected(lambda: connections.append(None))
+    device.publish("vipo/v1/dev/new01/up/desc", TEXT.replace("paintMixer03", "new01").encode(), retain=True)
+    device.publish("vipo/v1/dev/new01/up/presence", b'{"s": "online", "boot": 1}', retain=True)
+    device.start()
+    wait("the newcomer", lambda: lifecycle("new01") == "pending" and services.find_device(device_id="new01").online)
+
+    decided = decide(services.approve_device, "new01")
+    assert decided.taken
+    assert json.loads((tmp_path / "keys.json").read_text()) == {"new01": decided.credential}
+    wait("the device with its new key", lambda: len(connections) > 1 and device.connected)
+    assert not bus.lets_in("new01", KEY)
+
+    decide(services.revoke_credential, "new01")
+    wait("the end of the connection", lambda: not device.connected, 10)
+    wait("the refusal", lambda: device.refusal)
+    assert not bus.lets_in("new01", decided.credential)
+    device.stop()
+
+
+def test_a_retired_device_is_thrown_out_and_others_stay(bus: Bus, gateway: Gateway) -> None:
+    clients = {}
+    for name in ("mixer01", "mixer02"):
+        door = bus.client(f"join:{SITE}", JOIN)
+        door.publish(f"vipo/v1/join/{SITE}/{name}", json.dumps({"key": KEY}).encode())
+        door.start()
+        wait("the account", lambda n=name: services.list_broker_hashes().get(n) and bus.lets_in(n, KEY))
+        door.stop()
+        clients[name] = bus.client(name, KEY)
+        description = TEXT.replace("paintMixer03", name).encode()
+        clients[name].publish(f"vipo/v1/dev/{name}/up/desc", description, retain=True)
+        clients[name].start()
+        wait("the newcomer", lambda n=name: lifecycle(n) == "pending")
+        decide(services.approve_device, name)
+    decide(services.retire_device, "mixer01")
+    wait("the end of the connection", lambda: not clients["mixer01"].connected, 10)
+    wait("the refusal", lambda: clients["mixer01"].refusal)
+    assert clients["mixer02"].connected
+    for client in clients.values():
+        client.stop()

@@ -1,0 +1,82 @@
+"""Who may come in to the embedded broker, who must go, and who may say and hear what; the registry decides.
+
+The rules are those that registry/account_file.py gives Mosquitto.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Protocol
+
+from django.db import close_old_connections
+
+if TYPE_CHECKING:
+    from registry.services import Login
+
+DOOR = "join:"
+LOOK_EVERY_S = 2.0
+_KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
+_STOP = re.compile(r"vipo/v1/site/[^/#]+/stop")
+
+
+class Doorkeeper(Protocol):
+    """What the broker asks; every method may block and is called from a thread."""
+
+    def admit(self, username: str, password: str) -> str | None:
+        """Return the hash of the own key that somebody comes in with (empty with the join key), None to refuse."""
+
+    def find_ended(self, logins: Mapping[str, Login]) -> frozenset[str]:
+        """Return which connections, by user name, must end now."""
+
+    def wait(self) -> None:
+        """Return when it is time to look for ended ones: soon after a change, every 2 s at the latest."""
+
+
+class RegistryDoorkeeper:
+    """Asks the registry's database."""
+
+    def admit(self, username: str, password: str) -> str | None:
+        """See Doorkeeper."""
+        from registry import services
+
+        close_old_connections()
+        try:
+            found = services.check_device_password(username=username, password=password)
+            return found.key if found else None
+        finally:
+            close_old_connections()
+
+    def find_ended(self, logins: Mapping[str, Login]) -> frozenset[str]:
+        """See Doorkeeper."""
+        from registry import services
+
+        close_old_connections()
+        try:
+            return services.find_ended(logins=logins)
+        finally:
+            close_old_connections()
+
+    def wait(self) -> None:
+        """See Doorkeeper."""
+        from registry.broker_accounts import BROKER_CHANNEL
+        from registry.live import wait_wake
+
+        wait_wake(BROKER_CHANNEL, LOOK_EVERY_S)
+
+
+def may_publish(username: str, topic: str) -> bool:
+    """Say whether somebody may write to a topic: a device under its own `up/`, a newcomer at its site's door."""
+    if username.startswith(DOOR):
+        knock = _KNOCK.fullmatch(topic)
+        return knock is not None and knock[1] == username.removeprefix(DOOR)
+    return topic.startswith(f"vipo/v1/dev/{username}/up/") and not {"+", "#"} & set(topic)
+
+
+def may_subscribe(username: str, topic_filter: str) -> bool:
+    """Say whether somebody may ask for a filter: a device its own `down/`, sites' stops and the server's births."""
+    if username.startswith(DOOR):
+        return False
+    if topic_filter.startswith(f"vipo/v1/dev/{username}/down/"):
+        return True
+    return _STOP.fullmatch(topic_filter) is not None or topic_filter == "vipo/v1/srv/status"

@@ -1,0 +1,37 @@
+"""Write Mosquitto's accounts from the registry: the server's own, the sites' doors, the devices with a key."""
+
+from __future__ import annotations
+
+import os
+from argparse import ArgumentParser
+from pathlib import Path
+from typing import Any
+
+from django.conf import settings
+from django.core.management.base import BaseCommand
+
+from registry import services
+from registry.account_file import account_file
+from registry.credentials import broker_hash
+
+
+class Command(BaseCommand):
+    """`manage.py broker_accounts FILE`; run it before the broker starts, which reads the file then only."""
+
+    help = __doc__ or ""
+
+    def add_arguments(self, parser: ArgumentParser) -> None:
+        """Declare the arguments."""
+        parser.add_argument("file", type=Path)
+
+    def handle(self, *_args: Any, **options: Any) -> None:
+        """Write the file whole or not at all, readable for its owner only."""
+        server = str(settings.VIPO_MQTT["username"])
+        hashes = {**services.list_broker_hashes(), server: broker_hash(str(settings.VIPO_MQTT["password"]))}
+        path: Path = options["file"]
+        part = path.with_name(path.name + ".part")
+        part.unlink(missing_ok=True)
+        with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
+            file.write(account_file(hashes, server=server))
+        part.replace(path)
+        self.stdout.write(f"{len(hashes)} accounts written to {path}.")
