@@ -1,4 +1,4 @@
-"""The pins of a board: LCD, status light, output and button, as the configuration's `pins` say."""
+"""The panel of a board: LCD and status light on the pins that the configuration names."""
 
 import sys
 
@@ -25,18 +25,3 @@ def make_light(pins):
     if all(name in pins for name in COLOUR_PINS):
         return ColourLight([Pin(pins[name], Pin.OUT) for name in COLOUR_PINS], inverted)
     return SingleLight(Pin(pins["led"], Pin.OUT), inverted) if "led" in pins else None
-
-
-def make_output(pins):
-    """Return what switches the machine's output, off to begin with; None without a pin."""
-    if "output" not in pins:
-        return None
-    inverted = bool(pins.get("output_inverted"))
-    # The level comes with the pin, so that nothing starts for a moment.
-    pin = Pin(pins["output"], Pin.OUT, value=int(inverted))
-    return lambda on: pin.value(on ^ inverted)
-
-
-def is_pressed(pins):
-    """Tell whether the set-up button is held; it pulls its pin down."""
-    return "button" in pins and not Pin(pins["button"], Pin.IN, Pin.PULL_UP).value()

@@ -1,17 +1,13 @@
 """The life of an ESP32: set-up page or Wi-Fi, the clock, then the machine that config.json describes."""
 
-import asyncio
-import gc
 import random
 import sys
 import time
 
 import machine
 import network
-from vipo.board import is_pressed, make_output, make_panel
 from vipo.configuration import BadConfiguration, read_configuration
-from vipo.panel import fit
-from vipo.portable import clock_is_set, show_error
+from vipo.portable import clock_is_set, load, show_error
 
 CONFIGURATION = "config.json"
 # Of the board in docs/devices/esp32.md; 0 is the BOOT button that most boards have.
@@ -29,15 +25,14 @@ def run():
     configuration, fault = look_up()
     pins = configuration.get("pins") or DEFAULT_PINS
     output = make_output(pins)
-    panel = make_panel(pins)
     try:
         if fault or is_pressed(pins):
-            set_up(panel, fault)
+            set_up(pins, fault)
         else:
-            serve(configuration, panel, output)
+            serve(configuration, pins, output)
     except Exception as error:  # the edge of the program
         show_error(error)
-        panel.show("Fault", str(error))
+        panel_of(pins).show("Fault", str(error))
         time.sleep(SHOWN_S)
     machine.reset()
 
@@ -50,8 +45,34 @@ def look_up():
         return {}, str(error)
 
 
-def serve(configuration, panel, output):
+def make_output(pins):
+    """Return what switches the machine's output, off to begin with; None without a pin."""
+    if "output" not in pins:
+        return None
+    inverted = bool(pins.get("output_inverted"))
+    # The level comes with the pin, so that nothing starts for a moment.
+    pin = machine.Pin(pins["output"], machine.Pin.OUT, value=int(inverted))
+    return lambda on: pin.value(on ^ inverted)
+
+
+def is_pressed(pins):
+    """Tell whether the set-up button is held; it pulls its pin down."""
+    return "button" in pins and not machine.Pin(pins["button"], machine.Pin.IN, machine.Pin.PULL_UP).value()
+
+
+def panel_of(pins):
+    """Return the panel of the board."""
+    from vipo.board import make_panel
+
+    return make_panel(pins)
+
+
+def serve(configuration, pins, output):
     """Join the Wi-Fi and be the machine; returns when the Wi-Fi does not come."""
+    load("device", "mqtt", "start", "board")
+    from vipo.start import make_device
+
+    panel = panel_of(pins)
     panel.show("Wi-Fi", configuration["wifi_name"])
     if not join_wifi(configuration["wifi_name"], configuration.get("wifi_password", "")):
         panel.show("No Wi-Fi", configuration["wifi_name"])
@@ -59,11 +80,11 @@ def serve(configuration, panel, output):
         return
     if not set_clock(configuration.get("time_server", TIME_SERVER)) and configuration.get("ca"):
         panel.show("No time", "certificate?")
-    from vipo.start import make_device
+    device = make_device(configuration, panel, output)
+    device.feed = machine.WDT(timeout=WATCHDOG_MS).feed
+    import asyncio
 
-    gc.collect()
-    watchdog = machine.WDT(timeout=WATCHDOG_MS)
-    asyncio.run(make_device(configuration, panel, output, watchdog.feed).run())
+    asyncio.run(device.run())
 
 
 def join_wifi(name, password):
@@ -91,29 +112,22 @@ def set_clock(server):
     return clock_is_set()
 
 
-def set_up(panel, fault):
+def set_up(pins, fault):
     """Open an access point with a password of its own and serve the set-up page until it was filled in."""
+    load("form", "portal", "dns", "board")
     from vipo.dns import serve_names
-    from vipo.portal import Portal
+    from vipo.portal import Portal, until_saved
 
-    if fault:
-        sys.stdout.write(fault + "\n")
+    sys.stdout.write((fault or "The button was held.") + "\n")
     point = network.WLAN(network.AP_IF)
     point.active(True)
     name = "VIPO-" + "".join(["%02x" % byte for byte in machine.unique_id()[-3:]])
     password = "".join([random.choice(ALPHABET) for _ in range(8)])
     point.config(ssid=name, password=password, authmode=network.AUTH_WPA_WPA2_PSK)
     address = point.ifconfig()[0]
-    panel.show("Wi-Fi " + name[5:] if len(name) > len(fit("")) else name, "key " + password)
+    panel_of(pins).show(name, "key " + password)
     sys.stdout.write("Join the Wi-Fi %s with %s and open http://%s\n" % (name, password, address))
+    import asyncio
+
     asyncio.run(until_saved(Portal(address), serve_names(address)))
     time.sleep(1)
-
-
-async def until_saved(portal, names):
-    """Serve the page and the names until a configuration was saved."""
-    naming = asyncio.create_task(names)
-    try:
-        await portal.run()
-    finally:
-        naming.cancel()

@@ -17,27 +17,36 @@ def describe(device, driver, about):
     `about` may hold name, about (a text), site, location [x, y, z, theta] in metres and radians, size [x, y, z] in
     metres, and simulated.
     """
-    facts = [
-        "a sosa:Actuator, td:Thing, vipo:Machine",
-        "dct:identifier " + quote(device),
-        "dct:title " + quote(about.get("name") or device),
-        "dct:description " + quote(about.get("about") or driver.about),
-        "vipo:deviceClass " + quote(driver.device_class),
-        "vipo:location " + row(about.get("location") or (0, 0, 0, 0)),
-        "vipo:size " + row(about.get("size") or driver.size),
-        "vipo:done true",
-    ]
+    pieces = [("@prefix %s: <%s> .\n" % prefix).encode() for prefix in PREFIXES]
+    pieces.append(("<urn:vipo:device:%s> a sosa:Actuator, td:Thing, vipo:Machine" % device).encode())
+    for fact in facts_of(device, driver, about):
+        pieces.append(b" ;\n ")
+        pieces.append(fact.encode())
+    pieces.append(b" .\n")
+    return b"".join(pieces)
+
+
+def facts_of(device, driver, about):
+    """Yield what is said of the device, one predicate with its object at a time."""
+    yield "dct:identifier " + quote(device)
+    yield "dct:title " + quote(about.get("name") or device)
+    yield "dct:description " + quote(about.get("about") or driver.about)
+    yield "vipo:deviceClass " + quote(driver.device_class)
+    yield "vipo:location " + row(about.get("location") or (0, 0, 0, 0))
+    yield "vipo:size " + row(about.get("size") or driver.size)
+    yield "vipo:done true"
     if about.get("site", "+") != "+":
-        facts.append("vipo:site " + quote(about["site"]))
+        yield "vipo:site " + quote(about["site"])
     if about.get("simulated"):
-        facts.append("vipo:simulated true")
-    facts += ["vipo:gives " + quote(thing) for thing in driver.gives]
-    facts += ["vipo:takes " + quote(thing) for thing in driver.takes]
-    facts += ["td:hasPropertyAffordance " + describe_value(v, i + 1) for i, v in enumerate(driver.readings)]
-    facts += [describe_method(device, driver, i) for i in range(len(driver.order))]
-    lines = ["@prefix %s: <%s> ." % prefix for prefix in PREFIXES]
-    lines.append("<urn:vipo:device:%s> %s ." % (device, " ;\n ".join(facts)))
-    return "\n".join(lines).encode()
+        yield "vipo:simulated true"
+    for thing in driver.gives:
+        yield "vipo:gives " + quote(thing)
+    for thing in driver.takes:
+        yield "vipo:takes " + quote(thing)
+    for index, value in enumerate(driver.readings):
+        yield "td:hasPropertyAffordance " + describe_value(value, index + 1)
+    for index in range(len(driver.order)):
+        yield describe_method(device, driver, index)
 
 
 def describe_method(device, driver, index):
@@ -80,12 +89,5 @@ def row(numbers):
 
 
 def quote(text):
-    """Return a Turtle string."""
-    return '"%s"' % "".join([escape(character) for character in text])
-
-
-def escape(character):
-    """Return a character as it may stand in a Turtle string."""
-    if character in '"\\':
-        return "\\" + character
-    return character if character >= " " else "\\u%04X" % ord(character)
+    """Return a Turtle string; a configuration has no control characters."""
+    return '"%s"' % text.replace("\\", "\\\\").replace('"', '\\"')

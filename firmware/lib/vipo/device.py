@@ -16,10 +16,10 @@ CHECK_EVERY_S = 0.5
 class Device:
     """One machine on the bus. `run()` never returns.
 
-    `feed` is called twice a second while all goes well; `output` switches what the machine drives.
+    `feed`, when it is set, is called twice a second while all goes well; `output` switches what the machine drives.
     """
 
-    def __init__(self, client, driver, panel, description, boot, site="+", speed=1.0, feed=None, output=None):
+    def __init__(self, client, driver, panel, description, boot, site="+", speed=1.0, output=None):
         self.client, self.driver, self.panel = client, driver, panel
         self.description = description
         self.boot, self.speed = boot, speed
@@ -27,7 +27,7 @@ class Device:
         self.sequence = 0
         self.work = None
         self.stopped = False
-        self._feed = feed
+        self.feed = None
         self._output = output or (lambda on: None)
         self._answers = Answers()
         self._told = None
@@ -47,8 +47,8 @@ class Device:
         try:
             while True:
                 await asyncio.sleep(CHECK_EVERY_S / max(1.0, min(self.speed, 5.0)))
-                if self._feed and not any(task.done() for task in tasks):
-                    self._feed()
+                if self.feed and not any(task.done() for task in tasks):
+                    self.feed()
                 if self.work is None:
                     self.driver.idle(seconds_since(last) * self.speed)
                 last = ticks_ms()

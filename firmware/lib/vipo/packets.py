@@ -56,18 +56,18 @@ def connect_packet(client_id, user, password, keepalive_s, will):
         flags |= 0x04 | 0x08 | (0x20 if retain else 0)
         payload += text(topic) + blob(message)
     payload += text(user) + text(password)
-    return packet(CONNECT << 4, text("MQTT") + bytes((4, flags)) + keepalive_s.to_bytes(2, "big") + payload)
+    return packet(CONNECT << 4, text("MQTT"), bytes((4, flags)), keepalive_s.to_bytes(2, "big"), payload)
 
 
 def subscribe_packet(number, topics):
     """Return a SUBSCRIBE for topic filters, each at QoS 1."""
-    return packet(SUBSCRIBE << 4 | 2, number.to_bytes(2, "big") + b"".join(text(t) + b"\x01" for t in topics))
+    return packet(SUBSCRIBE << 4 | 2, number.to_bytes(2, "big"), *[text(t) + b"\x01" for t in topics])
 
 
 def publish_packet(number, topic, payload, retain, again):
     """Return a PUBLISH at QoS 1; `again` says that the broker may have it already."""
     head = PUBLISH << 4 | 0x02 | (0x08 if again else 0) | (1 if retain else 0)
-    return packet(head, text(topic) + number.to_bytes(2, "big") + payload)
+    return packet(head, text(topic), number.to_bytes(2, "big"), payload)
 
 
 def puback_packet(number):
@@ -75,14 +75,14 @@ def puback_packet(number):
     return bytes((PUBACK << 4, 2, number >> 8, number & 0xFF))
 
 
-def packet(kind, body):
-    """Return a packet with its length in front."""
-    length, head = len(body), bytearray((kind,))
+def packet(kind, *parts):
+    """Return a packet of some parts with its length in front, put together once: a large block is hard to find."""
+    length, head = sum([len(part) for part in parts]), bytearray((kind,))
     while True:
         byte, length = length & 0x7F, length >> 7
         head.append(byte | 0x80 if length else byte)
         if not length:
-            return bytes(head) + body
+            return b"".join((bytes(head),) + parts)
 
 
 def blob(data):

@@ -47,6 +47,23 @@ async def close_stream(writer):
     gc.collect()
 
 
+def forget(name):
+    """Let a module of this package go that is not needed any more: its code takes room on the chip."""
+    import vipo
+
+    if sys.implementation.name == "micropython" and sys.modules.pop("vipo." + name, None):
+        delattr(vipo, name)
+        gc.collect()
+
+
+def load(*names):
+    """Import modules of this package one by one: loaded within each other they would leave the heap full of holes."""
+    for name in names:
+        gc.collect()
+        __import__("vipo." + name)
+    gc.collect()
+
+
 def show_error(error):
     """Write an unexpected error with its lines to the console."""
     if hasattr(sys, "print_exception"):

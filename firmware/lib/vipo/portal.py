@@ -9,7 +9,8 @@ import json
 import os
 import random
 
-from vipo.configuration import BadConfiguration, find_fault, read_configuration, write_file
+from vipo.checks import find_fault
+from vipo.configuration import BadConfiguration, read_configuration, write_file
 from vipo.form import FIELDS, page, read_form
 from vipo.portable import close_stream, show_error
 
@@ -138,6 +139,15 @@ class Portal:
         return self.folder + "/" + name
 
 
+async def until_saved(portal, names):
+    """Serve the page and the names until a configuration was saved."""
+    naming = asyncio.create_task(names)
+    try:
+        await portal.run()
+    finally:
+        naming.cancel()
+
+
 async def read_line(reader):
     """Return a line of a request without its end. Raises BadRequest for one that is too long or not plain text."""
     line = b""
@@ -202,7 +212,7 @@ def fault_of_authority(text):
     from vipo.start import read_certificate
 
     try:
-        read_certificate(text)
+        read_certificate(text.split("\n"))
     except ValueError:
         return "The form: the certificate is not in PEM form."
     return ""

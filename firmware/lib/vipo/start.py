@@ -2,17 +2,17 @@
 
 from binascii import a2b_base64
 
-from vipo.configuration import BadConfiguration, next_boot
-from vipo.describe import describe
+from vipo.configuration import BadConfiguration, next_boot, read_file
 from vipo.device import Device
 from vipo.drivers import make_driver
 from vipo.mqtt import Client
+from vipo.portable import forget
 
 BEGIN, END = "-----BEGIN CERTIFICATE-----", "-----END CERTIFICATE-----"
 LONGEST_FILE = 16384
 
 
-def make_device(configuration, panel, output=None, feed=None):
+def make_device(configuration, panel, output=None):
     """Return a Device made as the configuration says. Raises BadConfiguration, NoSuchDriver."""
     client = Client(
         configuration["host"],
@@ -32,7 +32,6 @@ def make_device(configuration, panel, output=None, feed=None):
         next_boot(configuration.get("boot_file", "boot.txt")),
         site=configuration.get("site", "+"),
         speed=float(configuration.get("speed", 1)),
-        feed=feed,
         output=output,
     )
 
@@ -40,13 +39,14 @@ def make_device(configuration, panel, output=None, feed=None):
 def make_description(configuration, driver):
     """Return what is published: a file as it is when the configuration names one, else what the driver declares."""
     path = configuration.get("description")
-    if not path:
-        return describe(configuration["id"], driver, configuration)
-    try:
-        with open(path, "rb") as file:
-            return file.read(LONGEST_FILE)
-    except OSError:
-        raise BadConfiguration("There is no description file %s." % path)
+    if path:
+        return read_file(path, LONGEST_FILE, "description")
+    from vipo.describe import describe
+
+    description = describe(configuration["id"], driver, configuration)
+    del describe
+    forget("describe")
+    return description
 
 
 def tls_context(authority_path):
@@ -59,7 +59,7 @@ def tls_context(authority_path):
     context.verify_mode = ssl.CERT_REQUIRED
     try:
         with open(authority_path) as file:
-            certificate = read_certificate(file.read(LONGEST_FILE))
+            certificate = read_certificate(file)
     except OSError:
         raise BadConfiguration("There is no certificate file %s." % authority_path)
     except ValueError:
@@ -71,8 +71,17 @@ def tls_context(authority_path):
     return context
 
 
-def read_certificate(text):
-    """Return the first certificate of a PEM text as DER, which every port of MicroPython takes. Raises ValueError."""
-    if BEGIN not in text or END not in text:
-        raise ValueError("no certificate")
-    return a2b_base64(text.split(BEGIN, 1)[1].split(END, 1)[0])
+def read_certificate(lines):
+    """Return the first certificate of a PEM text's lines as DER, which every port of MicroPython takes.
+
+    Raises ValueError.
+    """
+    certificate, inside = bytearray(), False
+    for line in lines:
+        line = line.strip()
+        if line == END and certificate:
+            return bytes(certificate)
+        if inside:
+            certificate.extend(a2b_base64(line))
+        inside = inside or line == BEGIN
+    raise ValueError("no certificate")

@@ -1,0 +1,25 @@
+"""The real MicroPython, fetched once; without it the tests that need it are left out, with the reason."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.firmware.rig import ROOT, interpreter_command
+from vipo_site.firmware_process import find_micropython
+
+
+@pytest.fixture(scope="session")
+def micropython() -> str:
+    path, why = find_micropython(ROOT / "var")
+    if path is None:
+        pytest.skip(why)
+    return path
+
+
+@pytest.fixture(params=["micropython", "cpython"])
+def interpreter(request: pytest.FixtureRequest) -> list[str]:
+    return find_interpreter(request, request.param)
+
+
+def find_interpreter(request: pytest.FixtureRequest, name: str) -> list[str]:
+    return interpreter_command(request.getfixturevalue("micropython") if name == "micropython" else None)

@@ -1,0 +1,191 @@
+"""What the firmware's tests share: brokers it speaks to, and the firmware as a process that is listened to."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from tests.bus import Ear, Heard
+from tests.servers import free_port, run_mosquitto
+from vipo_site.broker import EmbeddedBroker, start_broker
+
+ROOT = Path(__file__).resolve().parents[2]
+FIRMWARE = ROOT / "firmware"
+SHADOW = Path(__file__).resolve().parent / "shadow"
+DEVICE = "paintMixer02"
+SPEED = 60  # a minute of mixing takes a second
+ACCOUNTS = {"server": "secret", DEVICE: "mixer's word"}
+LIMIT_S = 30
+# A kilobyte of a computer's heap holds half of what one of the chip's holds: its words are twice as long.
+HEAP = ("-X", "heapsize=100k")
+
+
+class EmbeddedBus:
+    """amqtt, on a port that it keeps over a restart."""
+
+    def __init__(self) -> None:
+        self.device_port = self.port = free_port()
+        self.authority = ""
+        self._broker: EmbeddedBroker | None = None
+
+    def start(self) -> None:
+        self._broker = start_broker(
+            port=self.port, server_password=ACCOUNTS["server"], check_password=lambda u, p: ACCOUNTS.get(u) == p
+        )
+
+    def kill(self) -> None:
+        assert self._broker is not None
+        self._broker.stop()
+
+    stop = kill
+
+
+@contextmanager
+def running_bus(kind: str, folder: Path) -> Iterator[Any]:
+    if kind == "amqtt":
+        embedded = EmbeddedBus()
+        embedded.start()
+        yield embedded
+        embedded.stop()
+        return
+    with run_mosquitto(folder, ACCOUNTS, tls=kind == "mosquitto with TLS") as mosquitto:
+        yield mosquitto
+
+
+@contextmanager
+def listening(bus: Any) -> Iterator[Ear]:
+    from registry.mqtt import tls_context
+
+    with Ear(bus.port, ACCOUNTS["server"], tls=tls_context(bus.authority) if bus.authority else None) as ear:
+        yield ear
+
+
+@dataclass
+class Running:
+    """A running firmware and who listens to it."""
+
+    ear: Ear
+    bus: Any
+    process: subprocess.Popen[bytes]
+    log: Path
+    interpreter: list[str] = field(default_factory=list)
+    device: str = DEVICE
+
+    @property
+    def up(self) -> str:
+        return f"vipo/v1/dev/{self.device}/up/"
+
+    @property
+    def down(self) -> str:
+        return f"vipo/v1/dev/{self.device}/down/"
+
+    def tell(self, method: str, command_id: str, **values: Any) -> None:
+        self.ear.say(self.down + method, {"id": command_id, "v": values, "ttl_s": 30})
+
+    def answer(self, command: str, status: str) -> Heard:
+        return self.ear.wait(
+            lambda h: h.topic == self.up + "ack" and h.json["id"] == command and h.json["st"] == status, LIMIT_S
+        )
+
+    def answers(self, command: str) -> list[str]:
+        return [h.json["st"] for h in self.ear.all("/ack") if h.json["id"] == command]
+
+    def state(self, wanted: Callable[[Any], bool]) -> dict[str, Any]:
+        found: dict[str, Any] = self.ear.wait(lambda h: h.topic == self.up + "state" and wanted(h.json), LIMIT_S).json
+        return found
+
+    def end(self) -> None:
+        self.process.kill()
+        self.process.wait()
+
+
+def configuration(bus: Any, folder: Path, **more: Any) -> dict[str, Any]:
+    return {
+        "host": "localhost" if bus.authority else "127.0.0.1",
+        "port": bus.device_port,
+        "id": DEVICE,
+        "password": ACCOUNTS[DEVICE],
+        "speed": SPEED,
+        "site": "hall",
+        "ca": bus.authority,
+        "boot_file": str(folder / "boot"),
+        **more,
+    }
+
+
+def start_firmware(interpreter: list[str], folder: Path, bus: Any, **more: Any) -> subprocess.Popen[bytes]:
+    """Start unix_main.py; its panel's lines go to panel.log."""
+    path = folder / "configuration.json"
+    path.write_text(json.dumps(configuration(bus, folder, log=str(folder / "panel.log"), **more)))
+    return subprocess.Popen([*interpreter, str(FIRMWARE / "unix_main.py"), str(path)])
+
+
+@dataclass(frozen=True)
+class Chip:
+    """A board that runs main.py: its folder is the flash, `record` what was done to its hardware."""
+
+    folder: Path
+    process: subprocess.Popen[bytes]
+
+    @property
+    def record(self) -> list[list[Any]]:
+        path = self.folder / "record"
+        lines = path.read_text().splitlines(keepends=True) if path.exists() else []
+        return [json.loads(line) for line in lines if line.endswith("\n")]
+
+    @property
+    def console(self) -> str:
+        return (self.folder / "console").read_text()
+
+    def wait(self, wanted: Callable[[list[list[Any]]], Any]) -> Any:
+        return wait_for(lambda: wanted(self.record), f"the board: {self.console}")
+
+
+@contextmanager
+def running_chip(
+    micropython: str, folder: Path, environment: Mapping[str, str], *, main: Path = FIRMWARE / "main.py"
+) -> Iterator[Chip]:
+    """Run main.py as the chip would, on the real MicroPython, with recorded hardware."""
+    settings = {
+        "MICROPYPATH": f"{SHADOW}:{FIRMWARE / 'lib'}:.frozen",
+        "VIPO_RECORD": str(folder / "record"),
+        "VIPO_I2C": "39",
+        "VIPO_WIFI": "hall",
+        **environment,
+    }
+    with (folder / "console").open("wb") as console:
+        process = subprocess.Popen(
+            [micropython, *HEAP, str(main)],
+            cwd=folder,
+            env={**os.environ, **settings},
+            stdout=console,
+            stderr=console,
+        )
+    try:
+        yield Chip(folder, process)
+    finally:
+        process.kill()
+        process.wait()
+
+
+def wait_for(ready: Callable[[], Any], story: str, limit_s: float = LIMIT_S) -> Any:
+    """Return what `ready` gives as soon as it is something."""
+    deadline = time.monotonic() + limit_s
+    while time.monotonic() < deadline:
+        if found := ready():
+            return found
+        time.sleep(0.02)
+    raise AssertionError(f"not within {limit_s} s; {story}")
+
+
+def interpreter_command(micropython: str | None) -> list[str]:
+    """Return how to run a file: on MicroPython with the chip's heap, or on this Python."""
+    return [micropython, *HEAP] if micropython else [sys.executable]

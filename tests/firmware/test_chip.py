@@ -1,0 +1,146 @@
+"""main.py as on the board: the real MicroPython with 100 kB of heap, its hardware recorded, its display read."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.firmware.hd44780 import Hd44780, texts
+from tests.firmware.rig import Chip, Running, configuration, listening, running_bus, running_chip, wait_for
+
+LCD = 0x27
+RED, GREEN, BLUE, OUTPUT = 25, 26, 27, 23
+PINS = {"sda": 21, "scl": 22, "red": RED, "green": GREEN, "blue": BLUE, "output": OUTPUT, "button": 0}
+
+
+def line(text: str) -> str:
+    return text.ljust(16)
+
+
+def flash(folder: Path, settings: dict[str, Any]) -> None:
+    (folder / "config.json").write_text(json.dumps({"wifi_name": "hall", "wifi_password": "warm paint", **settings}))
+
+
+@pytest.fixture
+def board(micropython: str, tmp_path: Path) -> Iterator[tuple[Chip, Running]]:
+    with running_bus("mosquitto", tmp_path) as bus, listening(bus) as ear:
+        flash(tmp_path, configuration(bus, tmp_path, pins=PINS, boot_file="boot.txt"))
+        with running_chip(micropython, tmp_path, {}) as chip:
+            running = Running(ear, bus, chip.process, tmp_path / "console")
+            running.state(lambda _state: True)
+            yield chip, running
+
+
+def levels(record: list[list[Any]], pin: int) -> list[int]:
+    return [entry[3] for entry in record if entry[1:3] == ["pin", pin]]
+
+
+def test_the_display_says_what_the_paper_says_and_the_light_follows(board: tuple[Chip, Running]) -> None:
+    chip, mixer = board
+    mixer.tell("mixPaint", "c1", time=1)
+    mixer.answer("c1", "DONE")
+    complete = (line("Mixing Complete"), line("1 min"))
+    chip.wait(lambda record: texts(record)[-1:] == [complete] and levels(record, GREEN)[-1] == 1)
+    record = chip.record
+    shown = texts(record)
+    order = [shown.index((line(a), line(b))) for a, b in (("VIPO online", mixer.device), ("Mixing Started", "1 min"))]
+    assert order == sorted(order)
+    assert order[-1] < shown.index(complete)
+    assert [entry[2:] for entry in record if entry[1] == "i2c"] == [[0, 22, 21, 100000]]
+    assert {entry[2] for entry in record if entry[1] == "write"} == {LCD}
+    assert levels(record, BLUE)[-2:] == [1, 0]  # at work, then not
+    assert (levels(record, RED)[-1], levels(record, OUTPUT)) == (0, [0, 1, 0])
+
+
+def test_what_holds_the_work_switches_the_output_off(board: tuple[Chip, Running]) -> None:
+    chip, mixer = board
+    mixer.tell("mixPaint", "c1", time=30)
+    chip.wait(lambda record: levels(record, OUTPUT)[-1:] == [1])
+    mixer.tell("pause", "p1", command="c1")
+    chip.wait(lambda record: levels(record, OUTPUT)[-1] == 0)
+    assert [levels(chip.record, pin)[-1] for pin in (RED, GREEN, BLUE)] == [1, 1, 0]  # amber
+    mixer.tell("resume", "p2", command="c1")
+    chip.wait(lambda record: levels(record, OUTPUT)[-1] == 1)
+    mixer.ear.say("vipo/v1/site/hall/stop", b"\xff not JSON")
+    chip.wait(lambda record: levels(record, OUTPUT)[-1] == 0 and levels(record, RED)[-1] == 1)
+    mixer.tell("cancel", "x1", command="c1")
+    mixer.answer("c1", "CANCELED")
+    assert levels(chip.record, OUTPUT) == [0, 1, 0, 1, 0]
+
+
+def test_the_watchdog_is_fed_while_the_device_works_and_only_once_it_does(board: tuple[Chip, Running]) -> None:
+    chip, _ = board
+    chip.wait(lambda record: sum(entry[1] == "fed" for entry in record) > 3)
+    record = chip.record
+    begun = next(index for index, entry in enumerate(record) if entry[1] == "watchdog")
+    assert record[begun][2] == 60000
+    assert not any(entry[1] == "fed" for entry in record[:begun])
+    times = [record[begun][0], *(entry[0] for entry in record if entry[1] == "fed")]
+    assert max(later - earlier for earlier, later in itertools.pairwise(times)) < 60e6
+
+
+def test_an_lcd_that_is_unplugged_and_plugged_in_again(micropython: str, tmp_path: Path) -> None:
+    unplugged = tmp_path / "unplugged"
+    with running_bus("mosquitto", tmp_path) as bus, listening(bus) as ear:
+        flash(tmp_path, configuration(bus, tmp_path, pins=PINS))
+        with running_chip(micropython, tmp_path, {"VIPO_UNPLUGGED": str(unplugged)}) as chip:
+            mixer = Running(ear, bus, chip.process, tmp_path / "console")
+            mixer.state(lambda _state: True)
+            unplugged.touch()
+            mixer.tell("mixPaint", "c1", time=1)
+            mixer.answer("c1", "DONE")
+            assert "no LCD: " in chip.console
+            unplugged.unlink()
+            mixer.tell("dispense", "c2", object="can", value=1)
+            mixer.answer("c2", "DONE")
+            chip.wait(lambda record: texts(record)[-1:] == [(line("Ready"), line(""))])
+
+
+def test_without_wifi_it_says_so_and_starts_again(micropython: str, tmp_path: Path) -> None:
+    flash(tmp_path, {"host": "127.0.0.1", "port": 1, "id": "x", "password": "p", "pins": PINS})
+    (tmp_path / "fast.py").write_text(
+        "import vipo.chip as chip\nchip.WIFI_TIMEOUT_S, chip.SHOWN_S = 1, 0\nchip.run()\n"
+    )
+    with running_chip(micropython, tmp_path, {"VIPO_WIFI": "another"}, main=tmp_path / "fast.py") as chip:
+        assert chip.process.wait(30) == 7
+        assert texts(chip.record)[-1] == (line("No Wi-Fi"), line("hall"))
+        assert ["join", "hall", "warm paint"] in [entry[1:] for entry in chip.record]
+        assert chip.record[-1][1] == "reset"
+
+
+INIT = """
+import machine, sys
+from vipo.lcd import Lcd
+lcd = Lcd(machine.I2C(0, machine.Pin(22), machine.Pin(21), 100000))
+lcd.begin()
+lcd.write(0, "Mixing Started  ")
+lcd.write(1, "}{~ \\\\ \\xe4 \\x00 0-9!  ")
+"""
+
+
+def test_the_display_is_set_up_however_it_was_left(micropython: str, tmp_path: Path) -> None:
+    (tmp_path / "init.py").write_text(INIT)
+    with running_chip(micropython, tmp_path, {"VIPO_I2C": "80 39"}, main=tmp_path / "init.py") as chip:
+        assert chip.process.wait(30) == 0, chip.console
+        record = chip.record
+    for bits, half in ((8, None), (4, None), *((4, half) for half in range(16))):
+        assert texts(record, LCD, Hd44780(bits, half))[-1] == ("Mixing Started  ", "}{? ? ? ? 0-9!  ")
+    too_fast = [[entry[0] * 0.2, *entry[1:]] for entry in record]
+    with pytest.raises(AssertionError, match="came too early"):
+        texts(too_fast, LCD)
+
+
+def test_a_single_led_blinks_in_rhythms(micropython: str, tmp_path: Path) -> None:
+    with running_bus("mosquitto", tmp_path) as bus, listening(bus) as ear:
+        flash(tmp_path, configuration(bus, tmp_path, pins={"led": 2, "inverted": True}))
+        with running_chip(micropython, tmp_path, {}) as chip:
+            mixer = Running(ear, bus, chip.process, tmp_path / "console")
+            mixer.state(lambda _state: True)
+            wait_for(lambda: levels(chip.record, 2)[-1] == 0, "ready is steady, and lit is low")
+            mixer.ear.say("vipo/v1/site/hall/stop", {"active": True})
+            chip.wait(lambda record: levels(record, 2)[-4:] in ([0, 1, 0, 1], [1, 0, 1, 0]))
