@@ -12,7 +12,7 @@ from editor.language.diagnostics import Diagnostic, Fix, Problem, arguments_to_j
 from editor.language.ladder import climb
 from editor.language.nodes import COMPOSITES, Block, Tree, blocks_of
 from editor.language.nodes import Move as MoveNode
-from editor.language.numbering import number_steps
+from editor.language.numbering import number_steps, numbers_in_script
 from editor.language.phrases import LANGUAGES
 from editor.language.plan import Plan
 from editor.language.positions import add_moves
@@ -63,7 +63,7 @@ class Look:
         """Return the problems in words, in reading order."""
         if not self.found:
             return ()
-        numbers = number_steps(self.tree).numbers
+        numbers = numbers_in_script(self.tree)
         return _in_words(self.found, numbers, self._script(numbers))
 
     def compiled(self, *, with_plan: bool = True) -> Compiled:
@@ -119,10 +119,12 @@ def _in_words(
     """Put problems into words, in reading order; each stands at its node's line, or at its step's first."""
     if not problems:
         return ()
-    told = {problem.step for problem, _ in problems}
-    places = {step: index for index, step in enumerate(numbers) if step in told}
-    lines = enumerate(script.lines, start=1)
-    first_lines = {step: line for line, step in reversed([*lines]) if step and step in told}
+    places = {step: index for index, step in enumerate(numbers)}
+    elsewhere = {problem.step for problem, node in problems if node not in script.line_of} - {""}
+    first_lines: dict[str, int] = {}
+    for line, step in enumerate(script.lines, start=1) if elsewhere else ():
+        if step in elsewhere:
+            first_lines.setdefault(step, line)
     unique: dict[tuple[str, str, str], tuple[tuple[int, str, int], Diagnostic]] = {}
     for index, (problem, node) in enumerate(problems):
         shown: int | None = script.line_of.get(node) or first_lines.get(problem.step)

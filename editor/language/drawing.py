@@ -10,6 +10,7 @@ from string import ascii_lowercase
 
 from editor.language import nodes as n
 from editor.language.alignment import align
+from editor.language.chip_sizes import FRAMES, Room, room_of
 from editor.language.drawers import Drawer, Drawn
 from editor.language.grouping import Drawable, grouped
 from editor.language.keeping import (
@@ -22,7 +23,7 @@ from editor.language.keeping import (
     without_unknown_names,
 )
 from editor.language.ladder import FORMAT, climb
-from editor.language.layout import CHIP_HEIGHT_M, Layout
+from editor.language.layout import GAP_M, Layout
 from editor.language.ordering import keep_orders
 from editor.language.outline import PROGRAM, branches_of, make_outline, mapping
 from editor.language.positions import add_moves
@@ -67,13 +68,13 @@ class _Builder:
     steps: dict[str, object] = field(default_factory=dict)
     count: int = 0
 
-    def block(self, parent: str, branch: str, block: Sequence[Drawable]) -> None:
-        """Draw the steps of one branch."""
+    def block(self, parent: str, branch: str, block: Sequence[Drawable], *, framed: bool = False) -> None:
+        """Draw the steps of one branch; those in a frame stand below each other."""
         groups = [(nodes, self.drawer.draw(nodes)) for nodes in grouped(block)]
         ids = [self._id(nodes[-1].step, drawn[0]) for nodes, drawn in groups]
         orders = keep_orders([(step, self._order_before(step, parent, branch)) for step in ids])
         for step, order, (_, drawn) in zip(ids, orders, groups, strict=True):
-            self._step(step, [parent, branch, order], drawn)
+            self._step(step, [parent, branch, order], drawn, framed=framed)
 
     def _id(self, wanted: str, kind: str) -> str:
         """Return the step's id: the one it had, unless it is taken or the step became one of another kind."""
@@ -91,17 +92,18 @@ class _Builder:
         same = isinstance(place, list | tuple) and len(place) == 3 and list(place[:2]) == [parent, branch]
         return str(place[2]) if same and isinstance(place, list | tuple) else None
 
-    def _step(self, step: str, place: list[str], drawn: Drawn) -> None:
+    def _step(self, step: str, place: list[str], drawn: Drawn, *, framed: bool) -> None:
         kind, given, branches = drawn
         raw = self.before.raw.get(step)
         names = self.functions.names.get(self._method(given), {}) if kind == "call" else {}
         says = self._named(given, names)
         if raw is None:
-            self.layout.follow(self._first_known(branches))
-            body: dict[str, object] = {"kind": kind, "place": place, "pos": self.layout.put(kind, says)}
+            self.layout.follow(self._first_known(branches), Room(0.0, 0.0))
+            pos = self.layout.put_below(kind, says) if framed else self.layout.put(kind, says, self._room(drawn))
+            body: dict[str, object] = {"kind": kind, "place": place, "pos": pos}
             params = says
         else:
-            self.layout.follow(read_point(raw.get("pos")))
+            self.layout.follow(read_point(raw.get("pos")), room_of(kind, says))
             body = {**raw, "place": place}
             said = self._named(self.before.said[step][1], names)
             params = keep_values(mapping(raw.get("params")), said, says)
@@ -110,8 +112,33 @@ class _Builder:
             branches = tuple((letter, inner) for letter, (_, inner) in zip(letters, branches, strict=True))
             params = {**params, "branches": letters} if letters != _letters(params, None) else params
         self.steps[step] = {**body, "params": params}
+        head = self.layout.last
+        self._branches(step, kind, branches, framed=framed)
+        if raw is None and not framed and kind in FRAMES:
+            self.layout.keep_block(head, self._room(drawn))
+
+    def _branches(self, step: str, kind: str, branches: tuple[tuple[str, n.Block], ...], *, framed: bool) -> None:
+        head = self.layout.last
         for name, inner in branches:
-            self.block(step, name, inner)
+            in_frame = framed or (kind in FRAMES and name == "body")
+            if not in_frame:
+                self.layout.enter(head, name)
+            self.block(step, name, inner, framed=in_frame)
+
+    def _room(self, drawn: Drawn) -> Room:
+        """Return the room for a step with all that stands below it in its frame."""
+        kind, params, branches = drawn
+        own = room_of(kind, params)
+        inner = [self._column(block) for name, block in branches if kind in FRAMES and name == "body"]
+        return _stacked([own, *inner])
+
+    def _column(self, block: n.Block) -> Room:
+        """Return the room for steps and all their branches below each other."""
+        rooms: list[Room] = []
+        for nodes in grouped(block):
+            kind, params, branches = self.drawer.draw(nodes)
+            rooms += [room_of(kind, params), *(self._column(inner) for _, inner in branches)]
+        return _stacked(rooms)
 
     def _method(self, given: Mapping[str, object]) -> str:
         wanted = given.get("function")
@@ -131,8 +158,15 @@ class _Builder:
             for node in block:
                 point = read_point(self.before.raw.get(node.step, {}).get("pos"))
                 if point is not None:
-                    return point[0], point[1] + 3 * CHIP_HEIGHT_M
+                    return point[0], point[1] + 2.4
         return None
+
+
+def _stacked(rooms: Sequence[Room]) -> Room:
+    """Return the room for some that stand below each other."""
+    filled = [room for room in rooms if room.height_m > 0]
+    height_m = sum(room.height_m for room in filled) + GAP_M * max(0, len(filled) - 1)
+    return Room(max((room.width_m for room in filled), default=0.0), round(height_m, 2))
 
 
 def _letters(params: object, count: int | None) -> list[str]:
@@ -186,7 +220,7 @@ def _draw(
     before = _look_back(old, tree_before)
     layout = Layout(surroundings)
     for step in before.raw.values():
-        layout.occupy(read_point(step.get("pos")))
+        layout.occupy(read_point(step.get("pos")), room_of(str(step.get("kind")), mapping(step.get("params"))))
     names = {**before.variables(), **names}
     builder = _Builder(Drawer(role_ids, functions.ids), before, layout, functions, names)
     builder.block(PROGRAM, "body", aligned.body)

@@ -1,20 +1,49 @@
-"""Where new steps stand on the map: near the devices they speak of, off those devices and off other steps."""
+"""Where new steps stand on the map: near the devices they speak of, off devices and off other steps.
+
+What a loop or a Try holds stands below its head, in one column; a free area for all of it is looked for at once.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
+from editor.language.chip_sizes import Room, room_of
 from editor.language.nodes import Point
 from editor.language.outline import mapping
 from editor.language.surroundings import Surroundings
 from editor.language.values import read_point
 
-CHIP_WIDTH_M, CHIP_HEIGHT_M = 2.6, 0.8
-"""The room that a step's chip takes on the map."""
-_TRIES = 400
+GAP_M = 0.35
+"""Between two steps, above and beside each other."""
+PADDING_M = 0.25
 _OFF_WALLS_M = 0.1
+_CELL_M = 2.5
+_STEP_X_M, _STEP_Y_M = 0.9, 0.5
+_REACH = 14
+_MOST_MISSES = 3
+"""After so many steps without a free place the floor counts as full."""
+_BRANCH_SIDES = {"then": 0.0, "else": -1.0, "a": -1.0, "b": 1.0, "catch": 1.0, "finally": 1.5}
+_OFFSETS = sorted(
+    ((x * _STEP_X_M, y * _STEP_Y_M) for x in range(-_REACH, _REACH + 1) for y in range(-_REACH, _REACH + 1)),
+    key=lambda offset: (round(abs(offset[0]) + abs(offset[1]), 2), offset[1], offset[0]),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Area:
+    """A rectangle by its middle, in metres."""
+
+    x: float
+    y: float
+    room: Room
+
+    def covers(self, other: Area) -> bool:
+        """Tell whether the two have a part in common."""
+        reach_x = (self.room.width_m + other.room.width_m) / 2
+        reach_y = (self.room.height_m + other.room.height_m) / 2
+        return abs(self.x - other.x) < reach_x and abs(self.y - other.y) < reach_y
 
 
 @dataclass(slots=True)
@@ -22,45 +51,75 @@ class Layout:
     """The places that are taken; each new step gets the nearest free one."""
 
     surroundings: Surroundings
-    taken: list[Point] = field(default_factory=list)
-    cells: dict[tuple[int, int], list[Point]] = field(default_factory=dict)
-    """The taken places by cells of a chip's size."""
-    tried: dict[Point, int] = field(default_factory=dict)
+    cells: dict[tuple[int, int], list[Area]] = field(default_factory=dict)
+    """What is taken, by the cells that it touches."""
+    first: Point | None = None
+    last: Area = field(default_factory=lambda: Area(1.0, -1.0, Room(0.0, 0.0)))
+    tried: dict[tuple[Point, Room], int] = field(default_factory=dict)
     """How many places around a wanted one are known to be taken."""
-    last: Point = (1.0, -1.0)
+    misses: int = 0
 
-    def occupy(self, point: Point | None) -> None:
+    def __post_init__(self) -> None:
+        for facts in self.surroundings.devices.values():
+            device = facts.description
+            self._take(Area(device.pose.x, device.pose.y, Room(device.size.x, max(0.1, device.size.y - 0.2))))
+
+    def occupy(self, point: Point | None, room: Room) -> None:
         """Keep a place for a step that stands there already."""
         if point is not None:
-            self.taken.append(point)
-            self.cells.setdefault(_cell(point), []).append(point)
+            self.first = self.first or point
+            self._take(Area(point[0], point[1], room))
 
-    def follow(self, point: Point | None) -> None:
+    def follow(self, point: Point | None, room: Room) -> None:
         """Put the next step that has no place of its own below this one."""
         if point is not None:
-            self.last = point
+            self.last = Area(point[0], point[1], room)
+
+    def enter(self, head: Area, branch: str) -> None:
+        """Go into a branch of the step that stands there: its first step stands below, or below and aside."""
+        aside = _BRANCH_SIDES.get(branch, 0.0) * (head.room.width_m / 2 + 1.5)
+        self.last = Area(head.x + aside, head.y, head.room)
 
     def start(self) -> list[float]:
         """Return a place for the start."""
-        first = self.taken[0] if self.taken else self.last
-        return [round(first[0], 2), round(first[1] + 2 * CHIP_HEIGHT_M, 2)]
+        first = self.first or (self.last.x, self.last.y)
+        return [round(first[0], 2), round(first[1] + 1.6, 2)]
 
-    def put(self, kind: str, params: Mapping[str, object]) -> list[float]:
-        """Return a free place for a step."""
-        point = self._free_near(self._wanted(kind, params))
-        self.occupy(point)
-        self.last = point
+    def put(self, kind: str, params: Mapping[str, object], block: Room) -> list[float]:
+        """Return a free place for a step; the block is its room with all that stands below it in its frame."""
+        own = room_of(kind, params)
+        wanted = self._wanted(kind, params, own)
+        below = (block.height_m - own.height_m) / 2
+        x, y = self._free_near((wanted[0], round(wanted[1] - below, 2)), block)
+        return self._stand((x, round(y + below, 2)), own)
+
+    def put_below(self, kind: str, params: Mapping[str, object]) -> list[float]:
+        """Return the place right below the last step, for a step in a frame."""
+        own = room_of(kind, params)
+        return self._stand(self._below(own), own)
+
+    def _stand(self, point: Point, room: Room) -> list[float]:
+        self.occupy(point, room)
+        self.last = Area(point[0], point[1], room)
         return list(point)
 
-    def _wanted(self, kind: str, params: Mapping[str, object]) -> Point:
+    def keep_block(self, head: Area, block: Room) -> None:
+        """Keep the whole area of a frame for what stands in it."""
+        middle = head.y + head.room.height_m / 2 - block.height_m / 2
+        self._take(Area(head.x, middle, Room(block.width_m + 2 * PADDING_M, block.height_m + 2 * PADDING_M)))
+
+    def _below(self, own: Room) -> Point:
+        return self.last.x, round(self.last.y - (self.last.room.height_m + own.height_m) / 2 - GAP_M, 2)
+
+    def _wanted(self, kind: str, params: Mapping[str, object], own: Room) -> Point:
         named = [self._where(params.get(name)) for name in ("source", "target", "at", "device", "to")]
         known = [point for point in named if point is not None]
-        if kind == "operate" and known:
+        if not known:
+            return self._below(own)
+        if kind == "operate":
             height = self._height(mapping(params.get("device")).get("device"))
-            return known[0][0], known[0][1] + height / 2 + CHIP_HEIGHT_M / 2
-        if known:
-            return sum(x for x, _ in known) / len(known), sum(y for _, y in known) / len(known)
-        return self.last[0], self.last[1] - 1.5 * CHIP_HEIGHT_M
+            return known[0][0], known[0][1] + height / 2 + own.height_m / 2
+        return sum(x for x, _ in known) / len(known), sum(y for _, y in known) / len(known)
 
     def _where(self, place: object) -> Point | None:
         named = mapping(place)
@@ -74,33 +133,32 @@ class Layout:
         facts = self.surroundings.devices.get(str(device))
         return 1.0 if facts is None else facts.description.size.y
 
-    def _free_near(self, wanted: Point) -> Point:
-        """Look around the wanted place in growing rings, above and below first."""
-        for index in range(self.tried.get(wanted, 0), _TRIES):
-            ring, side = divmod(index, 4)
-            dx = (0.0, 0.0, 1.0, -1.0)[side] * ring * CHIP_WIDTH_M / 2
-            dy = (-1.0, 1.0, 0.0, 0.0)[side] * ring * CHIP_HEIGHT_M / 2
+    def _free_near(self, wanted: Point, room: Room) -> Point:
+        """Look around the wanted place, the nearest first; on a full floor it is taken as it is."""
+        key = wanted, room
+        for index in range(self.tried.get(key, 0), len(_OFFSETS) if self.misses < _MOST_MISSES else 0):
+            dx, dy = _OFFSETS[index]
             point = (round(wanted[0] + dx, 2), round(wanted[1] + dy, 2))
-            if self._is_free(point):
-                self.tried[wanted] = index
+            if self._is_free(point, room):
+                self.tried[key] = index
                 return point
-        self.tried[wanted] = _TRIES
+        self.misses += 1
         return round(wanted[0], 2), round(wanted[1], 2)
 
-    def _is_free(self, point: Point) -> bool:
+    def _is_free(self, point: Point, room: Room) -> bool:
         x, y = point
-        column, row = _cell(point)
-        near = (self.cells.get((column + i, row + j), ()) for i in (-1, 0, 1) for j in (-1, 0, 1))
-        if any(abs(x - a) < CHIP_WIDTH_M and abs(y - b) < CHIP_HEIGHT_M for points in near for a, b in points):
-            return False
-        for facts in self.surroundings.devices.values():
-            device = facts.description
-            reach_x, reach_y = device.size.x / 2 + CHIP_WIDTH_M / 2, device.size.y / 2 + CHIP_HEIGHT_M / 2 - 0.1
-            if device.kind == "machine" and abs(x - device.pose.x) < reach_x and abs(y - device.pose.y) < reach_y:
-                return False
         floor = self.surroundings.floor
-        return floor is None or (floor.is_inside(x, y) and floor.is_free(x, y, _OFF_WALLS_M))
+        if floor is not None and not (floor.is_inside(x, y) and floor.is_free(x, y, _OFF_WALLS_M)):
+            return False
+        area = Area(x, y, Room(room.width_m + GAP_M, room.height_m + GAP_M / 2))
+        return not any(area.covers(each) for cell in _cells(area) for each in self.cells.get(cell, ()))
+
+    def _take(self, area: Area) -> None:
+        for cell in _cells(area):
+            self.cells.setdefault(cell, []).append(area)
 
 
-def _cell(point: Point) -> tuple[int, int]:
-    return math.floor(point[0] / CHIP_WIDTH_M), math.floor(point[1] / CHIP_HEIGHT_M)
+def _cells(area: Area) -> Iterator[tuple[int, int]]:
+    left, right = (math.floor((area.x + side * area.room.width_m / 2) / _CELL_M) for side in (-1, 1))
+    bottom, top = (math.floor((area.y + side * area.room.height_m / 2) / _CELL_M) for side in (-1, 1))
+    return ((column, row) for column in range(left, right + 1) for row in range(bottom, top + 1))

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from string import ascii_lowercase
 
-from editor.language.nodes import COMPOSITES, Block, Call, Node, Tree, Try, blocks_of
+from editor.language.nodes import COMPOSITES, Block, Call, Node, Parallel, Tree, Try, blocks_of
 
 _MORE = COMPOSITES | {Call}
 """The nodes by which other steps get their numbers."""
@@ -81,6 +81,13 @@ def number_steps(tree: Tree) -> Numbering:
         ordered = sorted(numbering.numbers.items(), key=lambda pair: _reading_key(pair[1]))
         numbering.numbers = dict(ordered)
     return numbering
+
+
+def numbers_in_script(tree: Tree) -> dict[str, str]:
+    """Return the steps in reading order, with their numbers where the script calls anything by them."""
+    if tree.events or tree.functions or tree.holds(Parallel):
+        return number_steps(tree).numbers
+    return dict.fromkeys([node.step for node in tree.walked(tree.body)], "")
 
 
 def _reading_key(number: str) -> list[tuple[int, str]]:
