@@ -17,6 +17,7 @@ COPY registry registry
 COPY editor editor
 COPY simulation simulation
 COPY execution execution
+COPY connectors connectors
 RUN pip install --no-cache-dir --disable-pip-version-check --constraint constraints.txt --editable . \
     && useradd --system --uid 10001 --home-dir /state vipo && mkdir /state && chown vipo: /state
 COPY examples examples
