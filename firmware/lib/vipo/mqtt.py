@@ -148,11 +148,11 @@ class Client:
     async def _handshake(self, reader, writer):
         writer.write(connect_packet(self.client_id, self.user, self.password, self.keepalive_s, self.will))
         await writer.drain()
-        kind, answer, _ = await read_packet(reader)
-        if kind >> 4 != CONNACK or len(answer) < 2:
+        answer = await reader.readexactly(4)
+        if answer[:2] != bytes((CONNACK << 4, 2)):
             raise MqttFailure("the broker did not answer as one")
-        if answer[1]:
-            raise MqttFailure("refused: " + REFUSALS.get(answer[1], str(answer[1])))
+        if answer[3]:
+            raise MqttFailure("refused: " + REFUSALS.get(answer[3], str(answer[3])))
 
     async def _write_loop(self, writer):
         if self.topics:
