@@ -15,7 +15,7 @@ from django.conf import settings
 from django.db import transaction
 from django.utils import timezone
 
-from registry.capability import Description, DeviceState, Pose, description_from_json, description_to_json
+from registry.capability import Description, Pose, description_from_json, description_to_json
 from registry.credentials import secret_hash
 from registry.describing import Reading, canonical_hash, read, source_hash
 from registry.device_rows import (
@@ -29,16 +29,18 @@ from registry.device_rows import (
     write_event,
 )
 from registry.differences import Change, list_changes
+from registry.errors import RegistryError
+from registry.intake import SaidState, ingest_states
 from registry.models import Device, DeviceEvent, Site, User
 from registry.rdf_text import CONTENT_TYPES
 from registry.sites import find_site
 from registry.views import DeviceEventView, DeviceView, view_of
-from registry.wire import is_device_id, parse_presence, parse_state
+from registry.wire import is_device_id, parse_presence
 
 STALE_AFTER = timedelta(seconds=45)
 """A device speaks at least every 30 s (docs/protocol.md); its last will usually tells long before this."""
-MOST_READINGS = 128
 MOST_LINES = 8
+MOST_CHANGES_A_MINUTE = 6
 PROBLEM_EVERY = timedelta(seconds=10)
 DOOR = "join:"
 """Before a site's name: the user name with which newcomers knock (docs/protocol.md)."""
@@ -161,12 +163,21 @@ def ingest_presence(*, device_id: str, payload: bytes, at: datetime) -> DeviceVi
         device.online, device.presence_boot, device.last_seen_at = said.online, said.boot, at
         device.save(update_fields=["site", "online", "presence_boot", "last_seen_at"])
         if came_or_went:
-            write_event(device, at, "online" if said.online else "offline", "Came online" if said.online else "Left")
+            _tell_coming_and_going(device, said.online, at)
         if before is None:
             return None
         after = view_of(device, device.site.slug)
         announce(before, after)
     return after
+
+
+def _tell_coming_and_going(device: Device, online: bool, at: datetime) -> None:
+    """Write that a device came or left; one that does so all the time gets one line a minute."""
+    lately = DeviceEvent.objects.filter(device=device, at__gt=at - timedelta(minutes=1))
+    if lately.filter(kind__in=("online", "offline")).count() < MOST_CHANGES_A_MINUTE:
+        write_event(device, at, "online" if online else "offline", "Came online" if online else "Left")
+    elif not lately.filter(kind="flapping").exists():
+        write_event(device, at, "flapping", "Comes and leaves all the time; not every time is written down")
 
 
 def ingest_state(*, device_id: str, payload: bytes, at: datetime, retained: bool = False) -> DeviceView | None:
@@ -174,38 +185,10 @@ def ingest_state(*, device_id: str, payload: bytes, at: datetime, retained: bool
 
     A retained message tells how the device was, not that it is there now.
     """
-    said = parse_state(payload)
-    with transaction.atomic():
-        device = Device.objects.select_for_update(of=("self",)).select_related("site").filter(pk=device_id).first()
-        if device is None or (said.boot, said.seq) <= (device.boot, device.seq):
-            return None
-        before = view_of(device, device.site.slug) if device.description else None
-        _take_state(device, said, at, alive=not retained and said.boot >= device.presence_boot)
-        if before is None:
-            return None
-        after = view_of(device, device.site.slug)
-        _tell_trouble(device, before, after, at)
-        announce(before, after)
-    return after
-
-
-def _take_state(device: Device, said: DeviceState, at: datetime, *, alive: bool) -> None:
-    device.boot, device.seq, device.done, device.command = said.boot, said.seq, said.done, said.command
-    known = {**device.properties, **said.properties}
-    device.properties = known if len(known) <= MOST_READINGS else dict(said.properties)
-    device.pose = asdict(said.pose) if said.pose else device.pose
-    device.online = device.online or alive
-    device.last_seen_at = at
-    fields = ["boot", "seq", "done", "command", "properties", "pose", "online", "last_seen_at"]
-    device.save(update_fields=fields)
-
-
-def _tell_trouble(device: Device, before: DeviceView, after: DeviceView, at: datetime) -> None:
-    """Write into the history that a device reports an error, or no longer does."""
-    if after.status == "error" and before.status != "error":
-        write_event(device, at, "error", f"Reports an error: {after.doing}")
-    elif before.status == "error" and after.status not in ("error", "offline"):
-        write_event(device, at, "recovered", "Reports no error any more")
+    (outcome,) = ingest_states(states=[SaidState(device_id, payload, at, retained)])
+    if isinstance(outcome, RegistryError):
+        raise outcome
+    return outcome
 
 
 def mark_stale(*, now: datetime) -> tuple[DeviceView, ...]:
@@ -221,6 +204,20 @@ def mark_stale(*, now: datetime) -> tuple[DeviceView, ...]:
                 found.append(view_of(device, device.site.slug))
                 announce(before, found[-1])
     return tuple(found)
+
+
+def count_dropped(*, dropped: Mapping[str, int]) -> None:
+    """Add to what was not taken of devices' messages; unknown devices are left aside."""
+    for device_id, count in dropped.items():
+        with transaction.atomic():
+            device = Device.objects.select_for_update(of=("self",)).select_related("site").filter(pk=device_id).first()
+            if device is None:
+                continue
+            before = view_of(device, device.site.slug) if device.description else None
+            device.dropped += count
+            device.save(update_fields=["dropped"])
+            if before:
+                announce(before, replace(before, dropped=device.dropped))
 
 
 def record_problem(*, device_id: str, text: str, at: datetime | None = None) -> bool:

@@ -10,7 +10,7 @@ import asyncio
 import json
 import logging
 import threading
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager, suppress
 from functools import lru_cache
 from typing import Any, Protocol
@@ -31,6 +31,9 @@ class Live(Protocol):
 
     def publish(self, site_slug: str, message: Message) -> None:
         """Send a JSON-able message to all who watch the site."""
+
+    def publish_all(self, messages: Sequence[tuple[str, Message]]) -> None:
+        """Send several messages, each to its site, in their order."""
 
     def listen(self, callback: Listener) -> Callable[[], None]:
         """Call `callback(site_slug, message)` for each message of every site, on a foreign thread; returns the end.
@@ -61,6 +64,11 @@ class MemoryLive:
     def publish(self, site_slug: str, message: Message) -> None:
         """Send a message; it is passed through JSON so that both implementations hand out the same."""
         self.deliver(site_slug, json.dumps(message))
+
+    def publish_all(self, messages: Sequence[tuple[str, Message]]) -> None:
+        """See Live."""
+        for slug, message in messages:
+            self.publish(slug, message)
 
     def deliver(self, site_slug: str, text: str) -> None:
         """Hand a message's text to every listener; one that fails does not keep it from the others."""
@@ -120,15 +128,24 @@ class RedisLive:
 
     def publish(self, site_slug: str, message: Message) -> None:
         """Send a message; while Redis is away it is dropped, logged, and healed by a `hello` later."""
-        text = json.dumps(message)
+        self.publish_all([(site_slug, message)])
+
+    def publish_all(self, messages: Sequence[tuple[str, Message]]) -> None:
+        """Send several messages in one exchange with Redis."""
+        texts = [(slug, json.dumps(message)) for slug, message in messages]
         try:
-            for missed in list(self._missed):
-                self._redis.publish(_LIVE + missed, json.dumps({"type": "hello", "site": missed}))
-                self._missed.discard(missed)
-            self._redis.publish(_LIVE + site_slug, text)
+            with self._redis.pipeline(transaction=False) as pipe:
+                for missed in (again := list(self._missed)):
+                    pipe.publish(_LIVE + missed, json.dumps({"type": "hello", "site": missed}))
+                for slug, text in texts:
+                    pipe.publish(_LIVE + slug, text)
+                pipe.execute()
+            self._missed.difference_update(again)
         except RedisError as error:
-            self._missed.add(site_slug)
-            log.warning("A live message of site %s was dropped; Redis does not answer: %s", site_slug, error)
+            slugs = {slug for slug, _ in texts}
+            self._missed |= slugs
+            named = ", ".join(sorted(slugs))
+            log.warning("Live news of site %s was dropped; Redis does not answer: %s", named, error)
 
     def listen(self, callback: Listener) -> Callable[[], None]:
         """See Live."""
@@ -211,6 +228,12 @@ def live() -> Live:
 def publish(site_slug: str, message: Message) -> None:
     """Send a JSON-able message to all who watch the site; call it after the transaction (`on_commit`)."""
     live().publish(site_slug, message)
+
+
+def publish_all(messages: Sequence[tuple[str, Message]]) -> None:
+    """Send several JSON-able messages, each to its site; call it after the transaction."""
+    if messages:
+        live().publish_all(messages)
 
 
 def listen(callback: Listener) -> Callable[[], None]:

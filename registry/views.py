@@ -16,6 +16,8 @@ from registry.models import Device
 Status = Literal["idle", "busy", "done", "waiting", "warning", "error", "offline", "pending"]
 LOW_BATTERY_PERCENT = 15.0
 _ICONS = {"turtlebot": "turtle"}
+_MOST_KNOWN = 5000
+_known: dict[str, Description] = {}
 _LOAD = re.compile(r"([A-Za-z0-9_.-]+)\s*[:=]\s*(\d{1,6})")
 
 
@@ -143,10 +145,22 @@ def effective_description(device: Device) -> Description:
 
     A robot knows best where it is; a machine is where people put it, else where it says.
     """
-    said = description_from_json(device.description or {})
+    said = _read_description(device)
     measured, placed = device.pose, device.pose_override
     pose = (measured or placed) if said.kind == "robot" else (placed or measured)
     return replace(said, name=device.name_override or said.name, pose=Pose(**pose) if pose else said.pose)
+
+
+def _read_description(device: Device) -> Description:
+    """Return what a row says of its device; read once for each different description, since states come often."""
+    said = _known.get(device.description_hash)
+    if said is None:
+        said = description_from_json(device.description or {})
+        if len(_known) >= _MOST_KNOWN:
+            _known.clear()
+        if device.description_hash:
+            _known[device.description_hash] = said
+    return said
 
 
 def read_load(value: Scalar) -> dict[str, int]:
@@ -264,6 +278,27 @@ def changed_fields(before: DeviceView | None, after: DeviceView) -> dict[str, An
     new = device_to_json(after)
     old = device_to_json(before) if before else {}
     return {"id": after.id, **{k: v for k, v in new.items() if k not in old or old[k] != v}}
+
+
+def changed_state(before: DeviceView, after: DeviceView) -> dict[str, Any]:
+    """Return the id and what a browser does not know yet, where only the device's state can have changed."""
+    new, old = _state_to_json(after), _state_to_json(before)
+    told = {"id": after.id, **{k: v for k, v in new.items() if old[k] != v}}
+    if any(before.readings.get(p.name) != after.readings.get(p.name) for p in after.canonical.properties):
+        told["properties"] = [_property_to_json(p, after.readings.get(p.name)) for p in after.canonical.properties]
+    return told
+
+
+def _state_to_json(view: DeviceView) -> dict[str, Any]:
+    pose = view.canonical.pose
+    return {
+        "status": view.status,
+        "doing": view.doing,
+        "location": {"x": pose.x, "y": pose.y, "z": pose.z, "theta": pose.theta},
+        "carrying": dict(view.carrying),
+        "last_seen_at": view.last_seen_at.isoformat() if view.last_seen_at else None,
+        "done": view.done,
+    }
 
 
 def site_to_json(view: SiteView) -> dict[str, Any]:
