@@ -19,6 +19,8 @@ GAP_M = 0.35
 """Between two steps, above and beside each other."""
 PADDING_M = 0.25
 _OFF_WALLS_M = 0.1
+_ROBOT_M, _NAME_M = 1.1, 0.7
+"""A robot at home, and its name below it."""
 _CELL_M = 2.5
 _STEP_X_M, _STEP_Y_M = 0.9, 0.5
 _REACH = 14
@@ -61,8 +63,11 @@ class Layout:
 
     def __post_init__(self) -> None:
         for facts in self.surroundings.devices.values():
-            device = facts.description
-            self._take(Area(device.pose.x, device.pose.y, Room(device.size.x, max(0.1, device.size.y - 0.2))))
+            x, y, size = facts.description.pose.x, facts.description.pose.y, facts.description.size
+            if facts.description.kind == "robot":
+                self._take(Area(x, y - _NAME_M / 2, Room(_ROBOT_M, _ROBOT_M + _NAME_M)))
+            else:
+                self._take(Area(x, y, Room(size.x, max(0.1, size.y - 0.2))))
 
     def occupy(self, point: Point | None, room: Room) -> None:
         """Keep a place for a step that stands there already."""
@@ -147,11 +152,19 @@ class Layout:
 
     def _is_free(self, point: Point, room: Room) -> bool:
         x, y = point
-        floor = self.surroundings.floor
-        if floor is not None and not (floor.is_inside(x, y) and floor.is_free(x, y, _OFF_WALLS_M)):
+        if not self._is_on_floor(x, y, room):
             return False
         area = Area(x, y, Room(room.width_m + GAP_M, room.height_m + GAP_M / 2))
         return not any(area.covers(each) for cell in _cells(area) for each in self.cells.get(cell, ()))
+
+    def _is_on_floor(self, x: float, y: float, room: Room) -> bool:
+        """Tell whether its middle stands off walls and no end beyond the map."""
+        floor = self.surroundings.floor
+        if floor is None:
+            return True
+        half_x, half_y = room.width_m / 2, room.height_m / 2
+        ends = ((x - half_x, y), (x + half_x, y), (x, y - half_y), (x, y + half_y))
+        return floor.is_free(x, y, _OFF_WALLS_M) and all(floor.is_inside(*end) for end in ends)
 
     def _take(self, area: Area) -> None:
         for cell in _cells(area):

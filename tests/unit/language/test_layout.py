@@ -1,0 +1,72 @@
+"""New steps stand where there is room for what they say."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from editor.language import compile_document, parse_script, tree_to_document
+from editor.language.chip_sizes import Room, letters, room_of
+from editor.language.layout import GAP_M, Area, Layout
+from editor.language.surroundings import Surroundings
+from execution.program_site import read_site
+from tests.unit.language.site import ROOT, factory
+from vipo_site.program_file import read_program_file
+
+PROGRAMS = sorted(set((ROOT / "examples").glob("*.json")) - {ROOT / "examples" / "painting-factory.json"})
+
+
+def area_of(step: dict[str, Any]) -> Area:
+    return Area(step["pos"][0], step["pos"][1], room_of(step["kind"], step["params"]))
+
+
+def overlapping(document: dict[str, Any]) -> list[tuple[str, str]]:
+    areas = {name: area_of(step) for name, step in document["steps"].items()}
+    return [pair for pair in combinations(areas, 2) if areas[pair[0]].covers(areas[pair[1]])]
+
+
+def redrawn(script: str, site: Surroundings) -> Any:
+    tree = parse_script(script, site).tree
+    assert tree is not None
+    return tree_to_document(tree, site)
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def test_no_step_of_a_script_is_drawn_over_another(path: Path) -> None:
+    program = read_program_file(path, None)
+    site, _, _ = read_site(program.site, 0)
+    assert overlapping(redrawn(compile_document(program.document, site).script, site)) == []
+
+
+def test_what_a_loop_holds_stands_below_its_head_and_nothing_else_stands_there() -> None:
+    waits = "\n".join(f"            self.wait({10 + number})" for number in range(4))
+    script = (
+        "class Task(object):\n    def new_task(self):\n        for _ in range(3):\n"
+        f"{waits}\n        self.wait(1)\n\n    def run(self, ctx):\n        self.new_task()\n"
+    )
+    document = redrawn(script, factory())
+    steps = document["steps"]
+    head = next(name for name, step in steps.items() if step["kind"] == "repeat")
+    inner = [step["pos"] for step in steps.values() if step["place"][0] == head]
+    after = next(step["pos"] for step in steps.values() if step["params"] == {"duration": 1})
+    x, y = steps[head]["pos"]
+    assert inner == [[x, round(y - GAP_M - 0.7 - number * (GAP_M + 0.7), 2)] for number in range(4)]
+    assert abs(after[0] - x) > 2.6 or after[1] < inner[-1][1] - 0.7
+
+
+def test_a_full_floor_takes_steps_where_they_are_wanted() -> None:
+    layout = Layout(factory())
+    wide = {"message": "A sentence that takes much room"}
+    places = [layout.put("notify", wide, room_of("notify", wide)) for _ in range(400)]
+    assert len(places) == 400
+
+
+def test_a_chip_is_as_wide_as_what_it_says() -> None:
+    assert letters({"param": "count"}) == 5
+    assert letters(["a", 12]) == 7
+    short, long = room_of("wait", {"duration": 1}), room_of("notify", {"message": "x" * 200})
+    assert short == Room(2.6, 0.7)
+    assert long == Room(7.25, 0.7)
