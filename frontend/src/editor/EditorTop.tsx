@@ -13,6 +13,7 @@ import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
 import { undoLast } from "./gestures/undo";
 import { FollowButton } from "./gestures/FollowButton";
+import { Arm } from "./parts/Arm";
 import { useOpenProgram } from "./state/context";
 import { say, select, showTab, useUi } from "./state/ui";
 import classes from "./top.module.css";
@@ -156,6 +157,9 @@ function Actions() {
   };
   return (
     <>
+      <span className={classes.arm}>
+        <Arm />
+      </span>
       {errors.length > 0 ? (
         <button type="button" className={classes.problems} data-tone="error" onClick={toFirst}>
           <CircleAlert size={14} aria-hidden="true" />

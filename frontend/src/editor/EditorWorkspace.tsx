@@ -33,7 +33,8 @@ export function EditorWorkspace() {
   const selected = useUi((ui) => ui.selected.length > 0);
   const resting = useUi((ui) => ui.gesture.tool === "select");
   // The program itself is shown beside a resting hand only: while something is drawn the map needs the room.
-  const inspector = useUi((ui) => ui.inspector) && (selected || (resting && !small));
+  const wanted = useUi((ui) => (small && !selected ? ui.programSheet : ui.inspector));
+  const inspector = wanted && (selected || resting);
   const insets = useMemo<Insets>(
     () =>
       small
@@ -53,7 +54,7 @@ export function EditorWorkspace() {
         <EmptyProgram />
         <HelpSentence />
         <Toast />
-        <ProgramButton />
+        <ProgramButton small={small} shown={inspector} />
         {inspector ? <Inspector /> : null}
         <ZoneForm />
         <StepMenu />

@@ -1,5 +1,6 @@
 /** The program itself, while no step is selected: its parameters, its robots, its variables and zones. */
 import { ArrowRight, X } from "lucide-react";
+import { useEffect, useRef } from "react";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/map/VipoIcon";
 import { namesSet } from "../model/variables";
@@ -7,7 +8,7 @@ import { changeProgramParameter } from "../model/renaming";
 import { unitText } from "../scene/words";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
-import { select, useUi } from "../state/ui";
+import { hideProgram, select, useUi } from "../state/ui";
 import { selectZone } from "../zones/drawing";
 import { AddParameter } from "./FunctionForm";
 import classes from "./inspector.module.css";
@@ -17,14 +18,15 @@ import { Section } from "./Section";
 
 export function ProgramPanel() {
   const { t, program } = useOpenProgram();
+  const panel = useFocusedSheet();
   return (
-    <aside className={classes.panel} aria-label={t("program.label")}>
+    <aside ref={panel} className={classes.panel} aria-label={t("program.label")} tabIndex={-1}>
       <header className={classes.head}>
         <span className={classes.title}>
           <h2>{t("program.label")}</h2>
           <span>{program.name}</span>
         </span>
-        <IconButton label={t("inspector.close")} onClick={() => useUi.setState({ inspector: false })}>
+        <IconButton label={t("inspector.close")} onClick={hideProgram}>
           <X size={17} aria-hidden="true" />
         </IconButton>
       </header>
@@ -38,6 +40,27 @@ export function ProgramPanel() {
       </div>
     </aside>
   );
+}
+
+/** A panel that was asked for takes the focus; Escape puts it away, unless a list in it is open. */
+function useFocusedSheet() {
+  const panel = useRef<HTMLElement>(null);
+  const asked = useUi((ui) => ui.programSheet);
+  useEffect(() => {
+    if (asked) panel.current?.focus();
+  }, [asked]);
+  useEffect(() => {
+    const box = panel.current;
+    const press = (event: KeyboardEvent) => {
+      const list = event.target instanceof Element && event.target.getAttribute("aria-expanded") === "true";
+      if (event.key !== "Escape" || list) return;
+      event.preventDefault();
+      hideProgram();
+    };
+    box?.addEventListener("keydown", press);
+    return () => box?.removeEventListener("keydown", press);
+  }, []);
+  return panel;
 }
 
 function Parameters() {

@@ -2,12 +2,13 @@
 import { Button, Modal } from "@mantine/core";
 import { useMutation } from "@tanstack/react-query";
 import { Bot, CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
-import { useState } from "react";
+import { useState, type ReactNode } from "react";
 import { useNavigate } from "react-router-dom";
 import { api } from "@/api/client";
 import type { Run } from "@/api/types";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
+import { Arm } from "./Arm";
 import classes from "./dialogs.module.css";
 import { completed, RunParameters, type Given } from "./RunParameters";
 
@@ -23,48 +24,17 @@ export function RunDialog() {
 }
 
 function Content({ onClose }: { onClose: () => void }) {
-  const { t, program, site, diagnostics, document } = useOpenProgram();
-  const navigate = useNavigate();
+  const { t, program, site, document } = useOpenProgram();
   const [given, setGiven] = useState<Given>({});
   const parameters = completed(Object.values(document.parameters), given);
-  const errors = diagnostics.filter((each) => each.severity === "error").length;
-  const warnings = diagnostics.length - errors;
-  const run = useMutation({
-    mutationFn: () => api.post<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {} }),
-    onSuccess: (started) => {
-      onClose();
-      void navigate(`/runs/${started.id}`);
-    },
-  });
-  const lines = useRobotLines();
+  const run = useStartRun(parameters, onClose);
+  const { errors } = useProblemCounts();
   return (
     <div className={classes.content}>
       <p>{t(site.simulated ? "run_dialog.simulated" : "run_dialog.real", { program: program.name })}</p>
-      <ul className={classes.facts}>
-        {lines.map((line) => (
-          <li key={line}>
-            <Bot size={16} aria-hidden="true" />
-            {line}
-          </li>
-        ))}
-        <li data-tone={errors > 0 ? "error" : "done"}>
-          {errors > 0 ? <OctagonAlert size={16} aria-hidden="true" /> : <CircleCheck size={16} aria-hidden="true" />}
-          {errors > 0 ? t("run_dialog.errors", { count: errors }) : t("run_dialog.checked")}
-        </li>
-        {warnings > 0 ? (
-          <li data-tone="warn">
-            <TriangleAlert size={16} aria-hidden="true" />
-            {t("run_dialog.warnings", { count: warnings })}
-          </li>
-        ) : null}
-        {site.stop.active ? (
-          <li data-tone="error">
-            <OctagonAlert size={16} aria-hidden="true" />
-            {t("run_dialog.stopped", { by: site.stop.by ?? "?" })}
-          </li>
-        ) : null}
-      </ul>
+      <Facts />
       <RunParameters given={given} onGive={setGiven} />
+      <Arm />
       {run.error ? (
         <p className={classes.problem} role="alert">
           {run.error.message}
@@ -84,6 +54,57 @@ function Content({ onClose }: { onClose: () => void }) {
         </Button>
       </div>
     </div>
+  );
+}
+
+function useStartRun(parameters: Given | null, onStarted: () => void) {
+  const { program } = useOpenProgram();
+  const navigate = useNavigate();
+  return useMutation({
+    mutationFn: () => api.post<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {} }),
+    onSuccess: (started) => {
+      onStarted();
+      void navigate(`/runs/${started.id}`);
+    },
+  });
+}
+
+function useProblemCounts() {
+  const { diagnostics } = useOpenProgram();
+  const errors = diagnostics.filter((each) => each.severity === "error").length;
+  return { errors, warnings: diagnostics.length - errors };
+}
+
+/** Who will do it, and what speaks against it. */
+function Facts() {
+  const { t, site } = useOpenProgram();
+  const { errors, warnings } = useProblemCounts();
+  return (
+    <ul className={classes.facts}>
+      {useRobotLines().map((line) => (
+        <li key={line}>
+          <Bot size={16} aria-hidden="true" />
+          {line}
+        </li>
+      ))}
+      <Fact tone={errors > 0 ? "error" : "done"}>
+        {errors > 0 ? t("run_dialog.errors", { count: errors }) : t("run_dialog.checked")}
+      </Fact>
+      {warnings > 0 ? <Fact tone="warn">{t("run_dialog.warnings", { count: warnings })}</Fact> : null}
+      {site.stop.active ? <Fact tone="error">{t("run_dialog.stopped", { by: site.stop.by ?? "?" })}</Fact> : null}
+    </ul>
+  );
+}
+
+const SIGNS = { done: CircleCheck, warn: TriangleAlert, error: OctagonAlert } as const;
+
+function Fact({ tone, children }: { tone: keyof typeof SIGNS; children: ReactNode }) {
+  const Sign = SIGNS[tone];
+  return (
+    <li data-tone={tone}>
+      <Sign size={16} aria-hidden="true" />
+      {children}
+    </li>
   );
 }
 

@@ -22,6 +22,8 @@ export interface EditorUi {
   fresh: string | null;
   drawer: { readonly open: boolean; readonly tab: DrawerTab };
   inspector: boolean;
+  /** On small screens: the sheet of the program itself. */
+  programSheet: boolean;
   /** The list of all constructs is open. */
   more: boolean;
   dialog: Dialog;
@@ -40,6 +42,7 @@ const START: EditorUi = {
   fresh: null,
   drawer: { open: true, tab: "script" },
   inspector: true,
+  programSheet: false,
   more: false,
   dialog: null,
   dialogFunction: null,
@@ -66,12 +69,21 @@ export function select(ids: readonly string[]): void {
     fresh: ui.fresh !== null && ids.includes(ui.fresh) ? ui.fresh : null,
     into: null,
     inspector: ids.length > 0 || ui.inspector,
+    programSheet: ids.length === 0 && ui.programSheet,
   }));
 }
 
 export function toggleSelected(id: string): void {
   const { selected } = useUi.getState();
   select(selected.includes(id) ? selected.filter((each) => each !== id) : [...selected, id]);
+}
+
+export const PROGRAM_BUTTON = "program-button";
+
+/** Put the program's own panel away; the focus goes to the button that brings it back. */
+export function hideProgram(): void {
+  useUi.setState({ inspector: false, programSheet: false });
+  requestAnimationFrame(() => document.getElementById(PROGRAM_BUTTON)?.focus());
 }
 
 export function showTab(tab: DrawerTab): void {
