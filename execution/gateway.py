@@ -166,10 +166,12 @@ class Gateway:
                 if entry is not None:
                     self._handle(entry, stopping)
                 self._write_notes()
+                registry.flush_samples()
         finally:
             stopping.set()
             sender.join(5)
             self._client.stop()
+            registry.flush_samples(all_of_it=True)
             connection.close()
 
     def _arrived(self, message: Message) -> None:
@@ -234,6 +236,7 @@ class Gateway:
         elif message.payload:  # an empty one only takes a retained message away
             view = self._ingest(device, kind, message, at)
             if view is not None:
+                registry.note_samples(view=view, at=at)
                 if kind == "presence" and view.online:
                     execution.resend_commands(device=device)
                 execution.record_device_change(site=view.site, device_id=device)

@@ -45,9 +45,12 @@ class Ticker:
         if self._is_due("sweep", SWEEP_S, now):
             sweep(now)
             for view in registry.mark_stale(now=now):
+                registry.note_samples(view=view, at=now)
                 inbox.send_hint(inbox.ADVANCE_SITE, view.site)
+            registry.flush_samples()
         if self._is_due("prune", PRUNE_S, now):
             InboxEvent.objects.filter(taken_at__lt=now - KEPT_FOR).delete()
+            registry.prune_samples(now=now)
         return True
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:

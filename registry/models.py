@@ -230,3 +230,36 @@ class DeviceEvent(models.Model):
 
     def __str__(self) -> str:
         return self.text
+
+
+class Sample(models.Model):
+    """What a device's property was within one minute: its least and greatest number, and its last value as JSON.
+
+    `minute` counts from 1970, `seq` is higher the later it was written.
+    """
+
+    device = models.ForeignKey(Device, on_delete=models.CASCADE, related_name="samples")
+    property = models.CharField(max_length=64)
+    minute = models.IntegerField(db_index=True)
+    value = models.TextField()
+    minimum = models.FloatField(null=True)
+    maximum = models.FloatField(null=True)
+    at_ms = models.BigIntegerField()
+    seq = models.BigIntegerField(db_index=True)
+
+    class Meta:
+        """One row for each property and minute."""
+
+        constraints = [models.UniqueConstraint(fields=["device", "property", "minute"], name="one_sample_per_minute")]
+
+    def __str__(self) -> str:
+        return f"{self.property} of {self.device_id}: {self.value}"
+
+
+class SampleClock(models.Model):
+    """The one row that numbers samples."""
+
+    next = models.BigIntegerField(default=1)
+
+    def __str__(self) -> str:
+        return str(self.next)

@@ -15,6 +15,7 @@ from registry.decisions import (
     rotate_credential,
 )
 from registry.device_rows import BadDevice, NoSuchDevice
+from registry.history import PointView, SeriesView, read_history
 from registry.joining import (
     Login,
     Principal,
@@ -34,6 +35,7 @@ from registry.joining import (
 )
 from registry.knocking import admit_newcomer
 from registry.people import check_sign_in, create_user
+from registry.samples import flush_samples, note_samples, prune_samples
 from registry.sites import (
     NoMap,
     create_site,
@@ -93,6 +95,7 @@ __all__ = [
     "expect_device",
     "find_device",
     "find_ended",
+    "flush_samples",
     "get_device",
     "get_floor",
     "get_map",
@@ -107,6 +110,9 @@ __all__ = [
     "list_places",
     "list_sites",
     "mark_stale",
+    "note_samples",
+    "prune_samples",
+    "read_history",
     "readmit_device",
     "reconcile_accounts",
     "record_problem",

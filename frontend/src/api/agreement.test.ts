@@ -12,6 +12,7 @@ test("answers of the server can be read as the frontend's types", () => {
   expectTypeOf<Server["DeviceShape"]>().toExtend<ours.Device>();
   expectTypeOf<Server["DeviceEventShape"]>().toExtend<ours.DeviceEvent>();
   expectTypeOf<Server["CallShape"]>().toExtend<ours.MethodCall>();
+  expectTypeOf<Server["SeriesShape"]>().toExtend<ours.Series>();
   expectTypeOf<Server["CompiledShape"]>().toExtend<ours.Compiled>();
   expectTypeOf<Server["RunSummaryShape"]>().toExtend<ours.RunSummary>();
   expectTypeOf<Server["RunEventShape"]>().toExtend<ours.RunEvent>();

@@ -817,7 +817,7 @@ export interface paths {
         };
         /**
          * Show History
-         * @description Show what a property was since a time, at most seven days back, in so many points at most.
+         * @description Show what a property was since a time, at most seven days back, in so many points at most (1 to 500).
          */
         get: operations["registry_history_api_show_history"];
         put?: never;
@@ -1026,6 +1026,30 @@ export interface paths {
          * @description Make an empty program.
          */
         post: operations["editor_api_create_program"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/sparql": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Ask
+         * @description Answer a SPARQL query over the site's descriptions; as `format`, or else the header Accept, says.
+         */
+        get: operations["registry_sparql_api_ask"];
+        put?: never;
+        /**
+         * Post Query
+         * @description Answer a query that comes as `application/sparql-query`, or as the field `query` of a form.
+         */
+        post: operations["registry_sparql_api_post_query"];
         delete?: never;
         options?: never;
         head?: never;
@@ -3767,6 +3791,81 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ProgramShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_sparql_api_ask: {
+        parameters: {
+            query: {
+                query: string;
+                format?: ("json" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
+            };
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/ld+json": string;
+                    "application/n-triples": string;
+                    "application/sparql-results+json": string;
+                    "text/csv": string;
+                    "text/turtle": string;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_sparql_api_post_query: {
+        parameters: {
+            query?: {
+                format?: ("json" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
+            };
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/ld+json": string;
+                    "application/n-triples": string;
+                    "application/sparql-results+json": string;
+                    "text/csv": string;
+                    "text/turtle": string;
                 };
             };
             /** @description A refusal */

@@ -141,6 +141,15 @@ export interface MethodCall {
   ended_at: string | null;
 }
 
+/** What a property was; `points` oldest first, the first may lie before `since`. */
+export interface Series {
+  property: string;
+  unit: string;
+  since: string;
+  bucket_s: number;
+  points: { at: string; minimum: number | null; maximum: number | null; value: Scalar | null }[];
+}
+
 /** A field of a description that changed; its JSON, empty where it was or is not there. */
 export interface FieldChange {
   path: string;

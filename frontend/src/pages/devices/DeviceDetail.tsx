@@ -78,7 +78,7 @@ function Overview({ site, device }: { site: Site; device: Device }) {
     <div className={styles.overview}>
       {device.description ? <p>{device.description}</p> : null}
       <KeyTrouble device={device} />
-      <LiveProperties device={device} />
+      <LiveProperties site={site} device={device} />
       <Methods site={site} device={device} />
       <div className={styles.pair}>
         <RdfSource slug={site.slug} device={device.id} />

@@ -1,11 +1,14 @@
 /** A device's properties as it tells them now. */
+import { SegmentedControl } from "@mantine/core";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { Device, DeviceProperty } from "@/api/types";
+import type { Device, DeviceProperty, Site } from "@/api/types";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatNumber } from "@/i18n/format";
 import { unitSign } from "@/i18n/units";
 import { useNow } from "../useNow";
 import { Sparkline } from "./Sparkline";
+import { RANGES, type Range } from "./useHistory";
 import styles from "./detail.module.css";
 
 const COLOURS = ["var(--busy)", "var(--machine)", "var(--brand)", "var(--logic)"];
@@ -18,7 +21,15 @@ function shown({ value, type }: DeviceProperty): string {
   return value === null ? "–" : String(value);
 }
 
-function PropertyCard({ device, property, colour }: { device: string; property: DeviceProperty; colour: string }) {
+interface PropertyCardProps {
+  slug: string;
+  device: string;
+  property: DeviceProperty;
+  range: Range;
+  colour: string;
+}
+
+function PropertyCard({ slug, device, property, range, colour }: PropertyCardProps) {
   return (
     <li className={styles.property}>
       <code>{property.name}</code>
@@ -27,14 +38,28 @@ function PropertyCard({ device, property, colour }: { device: string; property: 
           {shown(property)}
           <small>{unitSign(property.unit)}</small>
         </span>
-        <Sparkline device={device} property={property.name} colour={colour} />
+        <Sparkline slug={slug} device={device} property={property.name} range={range} colour={colour} />
       </div>
     </li>
   );
 }
 
-export function LiveProperties({ device }: { device: Device }) {
+function RangeChoice({ range, choose }: { range: Range; choose: (range: Range) => void }) {
   const { t } = useTranslation();
+  return (
+    <SegmentedControl
+      size="xs"
+      aria-label={t("device.history.choose")}
+      data={RANGES.map((value) => ({ value, label: t(`device.history.${value}`) }))}
+      value={range}
+      onChange={(value) => choose(value as Range)}
+    />
+  );
+}
+
+export function LiveProperties({ site, device }: { site: Site; device: Device }) {
+  const { t } = useTranslation();
+  const [range, setRange] = useState<Range>("now");
   const now = useNow(1000);
   const live = device.status !== "offline";
   const streaming = device.last_seen_at !== null && now - Date.parse(device.last_seen_at) < STREAMING_MS;
@@ -43,6 +68,7 @@ export function LiveProperties({ device }: { device: Device }) {
     <section aria-labelledby="live-properties">
       <div className={styles.sectionHead}>
         <h3 id="live-properties">{t("pages.devices.liveProperties")}</h3>
+        {device.properties.length > 0 ? <RangeChoice range={range} choose={setRange} /> : null}
         <StatusBadge status={live ? "done" : "offline"}>{t(`pages.devices.${live ? state : "lastKnown"}`)}</StatusBadge>
       </div>
       {device.properties.length === 0 ? <p className={styles.none}>{t("pages.devices.noProperties")}</p> : null}
@@ -50,8 +76,10 @@ export function LiveProperties({ device }: { device: Device }) {
         {device.properties.map((property, index) => (
           <PropertyCard
             key={property.name}
+            slug={site.slug}
             device={device.id}
             property={property}
+            range={range}
             colour={COLOURS[index % COLOURS.length] ?? "var(--busy)"}
           />
         ))}

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { sparkPath } from "./spark";
+import { joinReadings, rangeOf, sparkPath } from "./spark";
 
 const FRAME = { now: 1000, window_ms: 1000, width: 100, height: 30 };
 
@@ -34,4 +34,26 @@ test("what was read before the window counts as its left edge", () => {
     FRAME,
   );
   expect(path?.line).toBe("M0 27L50 3L100 3");
+});
+
+test("what was kept ends where the live readings begin", () => {
+  const kept = [
+    { at: -5000, value: 1 },
+    { at: 300, value: 2 },
+  ];
+  const live = [{ at: 100, value: 7 }];
+  expect(joinReadings(kept, live)).toEqual([
+    { at: -5000, value: 1 },
+    { at: 100, value: 7 },
+  ]);
+  expect(joinReadings(kept, [])).toEqual(kept);
+});
+
+test("the range is of the window, with what held when it began", () => {
+  const readings = [
+    { at: -900, value: 50 },
+    { at: -400, value: 10 },
+    { at: 500, value: 20 },
+  ];
+  expect(rangeOf(readings, FRAME)).toEqual({ low: 10, high: 20 });
 });

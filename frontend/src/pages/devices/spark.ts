@@ -11,11 +11,28 @@ interface Frame {
   readonly height: number;
 }
 
+/** What was kept, and behind it what has come live since: the live ones are exact. */
+export function joinReadings(kept: readonly Numbered[], live: readonly Numbered[]): Numbered[] {
+  const first = live[0]?.at ?? Infinity;
+  return [...kept.filter((each) => each.at < first), ...live];
+}
+
+/** The readings of a window; what held before it counts as its left edge. */
+function seenIn(readings: readonly Numbered[], from: number): Numbered[] {
+  const before = readings.filter((each) => each.at < from).at(-1);
+  return [...(before ? [{ at: from, value: before.value }] : []), ...readings.filter((each) => each.at >= from)];
+}
+
+/** The least and the greatest reading of the window; there has to be one. */
+export function rangeOf(readings: readonly Numbered[], { now, window_ms }: Frame): { low: number; high: number } {
+  const values = seenIn(readings, now - window_ms).map((each) => each.value);
+  return { low: Math.min(...values), high: Math.max(...values) };
+}
+
 /** SVG paths of the line and of the area below it; null without readings. A steady value lies in the lower third. */
 export function sparkPath(readings: readonly Numbered[], frame: Frame) {
   const from = frame.now - frame.window_ms;
-  const before = readings.filter((each) => each.at < from).at(-1);
-  const seen = [...(before ? [{ at: from, value: before.value }] : []), ...readings.filter((each) => each.at >= from)];
+  const seen = seenIn(readings, from);
   const last = seen.at(-1);
   if (!last) return null;
   const values = seen.map((each) => each.value);

@@ -1,0 +1,194 @@
+"""SPARQL over a site: what is answered, what is refused, and that a hostile query is ended and harms nobody."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import subprocess
+import threading
+import time
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from django.test import Client
+
+from registry import sparql
+from registry.capability import PropertySpec
+from registry.models import User
+from registry.sparql_engine import Refused, check_query
+
+from .conftest import MIXER, ROBOT, ROLES, come, describe, say
+
+ADDRESS = "/api/sites/hall/sparql"
+NAMES = "SELECT ?id ?name WHERE { ?d dct:identifier ?id ; dct:title ?name } ORDER BY ?id"
+EVERYTHING = "{ ?a ?b ?c . ?d ?e ?f . ?g ?h ?i . ?j ?k ?l . FILTER(?a != ?d) }"
+
+
+@pytest.fixture
+def asked(hall: str, monkeypatch: pytest.MonkeyPatch) -> Client:
+    monkeypatch.setattr(sparql, "CPU_S", 1)
+    describe(replace(MIXER, properties=(PropertySpec("heat", "number", "DEG_C", minimum=0),)))
+    describe(ROBOT)
+    come()
+    say(props={"heat": 61.5})
+    return signed_in("viewer")
+
+
+def signed_in(name: str) -> Client:
+    client = Client()
+    if name != "nobody":
+        client.force_login(User.objects.get(email=f"{name}@vipo.example"))
+    return client
+
+
+def values(answer: Any) -> list[tuple[Any, ...]]:
+    body = answer.json()
+    return [tuple(row[name]["value"] for name in body["head"]["vars"]) for row in body["results"]["bindings"]]
+
+
+def test_a_site_can_be_asked_what_it_has_and_how_it_is(asked: Client) -> None:
+    answer = asked.get(ADDRESS, {"query": NAMES})
+    assert answer["Content-Type"] == "application/sparql-results+json; charset=utf-8"
+    assert values(answer) == [("mixer1", "Mixer One"), ("robot1", "Robot One")]
+    hot = """SELECT ?id ?value ?status WHERE {
+        ?d dct:identifier ?id ; vipo:status ?status ; td:hasPropertyAffordance ?p .
+        ?p td:name "heat" ; vipo:value ?value FILTER(?value > 60) }"""
+    assert values(asked.get(ADDRESS, {"query": hot})) == [("mixer1", "61.5", "pending")]
+
+
+def test_results_come_as_csv_and_graphs_as_turtle_too(asked: Client) -> None:
+    answer = asked.get(ADDRESS, {"query": NAMES, "format": "csv"})
+    assert answer["Content-Type"] == "text/csv; charset=utf-8"
+    rows = list(csv.reader(io.StringIO(answer.content.decode())))
+    assert rows == [["id", "name"], ["mixer1", "Mixer One"], ["robot1", "Robot One"]]
+    assert (
+        asked.post(ADDRESS, {"query": NAMES}).json()["detail"].startswith("Send the query as application/sparql-query")
+    )
+    answer = asked.post(
+        ADDRESS, "ASK { ?d a vipo:Robot }", content_type="application/sparql-query", headers={"Accept": "*/*"}
+    )
+    assert answer.json()["boolean"] is True
+    named = "CONSTRUCT { ?d dct:title ?n } WHERE { ?d dct:title ?n ; a vipo:Robot }"
+    answer = asked.post(
+        ADDRESS, f"query={named}", content_type="application/x-www-form-urlencoded", headers={"Accept": "text/turtle"}
+    )
+    assert answer["Content-Type"] == "text/turtle; charset=utf-8"
+    assert '<urn:vipo:device:robot1> dct:title "Robot One" .' in answer.content.decode()
+
+
+@pytest.mark.parametrize("role", [*ROLES, "stranger", "nobody"])
+def test_every_member_may_ask_and_strangers_learn_nothing(
+    asked: Client, role: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sparql, "_run", lambda job: (0, b"text/csv\nx\n"))
+    expected = {"stranger": 404, "nobody": 401}.get(role, 200)
+    assert signed_in(role).get(ADDRESS, {"query": NAMES}).status_code == expected
+    answer = signed_in(role).post(ADDRESS, NAMES, content_type="application/sparql-query")
+    assert answer.status_code == expected
+
+
+def test_a_post_needs_the_token(asked: Client) -> None:
+    client = Client(enforce_csrf_checks=True)
+    client.force_login(User.objects.get(email="viewer@vipo.example"))
+    assert client.post(ADDRESS, NAMES, content_type="application/sparql-query").status_code == 403
+
+
+@pytest.mark.parametrize(
+    ("query", "told"),
+    [
+        ("", "A query has 1 to 16384 characters. Give it as `query`."),
+        ("SELECT" + " " * 16_384, "A query has 1 to 16384 characters. Give it as `query`."),
+        ("SELECT ?a WHERE { SERVICE <http://127.0.0.1:1/> { ?a ?b ?c } }", "SERVICE is not allowed: "),
+        ("SELECT ?a WHERE { GRAPH ?g { ?a ?b ?c } }", "The query cannot be carried out: "),
+        ("SELECT ?a WHERE { ?a nope:b ?c }", "The query cannot be carried out: Unknown namespace prefix"),
+    ],
+)
+def test_what_reaches_out_changes_something_or_is_no_query_is_refused(asked: Client, query: str, told: str) -> None:
+    answer = asked.get(ADDRESS, {"query": query})
+    assert (answer.status_code, answer.json()["code"]) == (400, "bad_query")
+    assert answer.json()["detail"].startswith(told)
+
+
+@pytest.mark.parametrize(
+    ("query", "told"),
+    [
+        ("SELECT ?a WHERE { SERVICE <http://127.0.0.1:1/> { ?a ?b ?c } }", "SERVICE is not allowed: "),
+        ("ASK { { SELECT ?a { OPTIONAL { SERVICE SILENT ?x { ?a ?b ?c } } } } }", "SERVICE is not allowed: "),
+        ("ASK { FILTER NOT EXISTS { SERVICE <http://127.0.0.1:1/> { ?a ?b ?c } } }", "SERVICE is not allowed: "),
+        ("SELECT ?a FROM <file:///etc/passwd> WHERE { ?a ?b ?c }", "FROM is not allowed: "),
+        ("SELECT ?a FROM NAMED <http://127.0.0.1:1/> WHERE { ?a ?b ?c }", "FROM is not allowed: "),
+        ("DELETE WHERE { ?a ?b ?c }", "This is no SPARQL query (SELECT, ASK, CONSTRUCT or DESCRIBE): "),
+        ("LOAD <http://127.0.0.1:1/>", "This is no SPARQL query (SELECT, ASK, CONSTRUCT or DESCRIBE): "),
+    ],
+)
+def test_the_engine_understands_queries_of_the_site_alone(query: str, told: str) -> None:
+    with pytest.raises(Refused) as refusal:
+        check_query(query)
+    assert str(refusal.value).startswith(told)
+
+
+HOSTILE = {
+    "every combination": f"SELECT (COUNT(*) AS ?n) WHERE {EVERYTHING}",
+    "paths without an end": "SELECT (COUNT(*) AS ?n) WHERE { ?a (!rdf:x|^!rdf:x)* ?b . ?b (!rdf:x|^!rdf:x)* ?c }",
+    "a regular expression that explodes": """ASK { VALUES ?x { "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa!" }
+        FILTER regex(?x, "^(a+)+$") }""",
+    "texts put together for ever": f"SELECT (GROUP_CONCAT(CONCAT(STR(?a), STR(?c))) AS ?n) WHERE {EVERYTHING}",
+    "texts that double": "SELECT ?z WHERE { BIND(REPLACE('" + "a" * 400 + "', 'a', '" + "b" * 400 + "') AS ?a) "
+    + " ".join(f"BIND(REPLACE(?{a}, 'b', '{'b' * 400}') AS ?{b})" for a, b in zip("abc", "bcz", strict=True)) + "}",
+    "brackets in brackets": "ASK { " + "{ " * 4_000 + "} " * 4_000 + "}",
+    "a result without an end": f"SELECT * WHERE {EVERYTHING}",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_query_is_ended_and_nothing_is_left_of_it(
+    asked: Client, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[subprocess.Popen[bytes]] = []
+    real = subprocess.Popen
+
+    def remember(*arguments: Any, **options: Any) -> subprocess.Popen[bytes]:
+        begun.append(real(*arguments, **options))
+        return begun[-1]
+
+    monkeypatch.setattr(sparql.subprocess, "Popen", remember)
+    answer = asked.get(ADDRESS, {"query": HOSTILE[name]})
+    assert (answer.status_code, answer.json()["code"]) in {(422, "query_too_large"), (400, "bad_query")}
+    assert answer.json()["detail"].startswith(("The query ", "The result ", "This is no SPARQL query "))
+    assert [process.poll() is not None for process in begun] == [True]
+
+
+def test_memory_is_limited(asked: Client, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sparql, "CPU_S", 20)
+    monkeypatch.setattr(sparql, "MEMORY_BYTES", 300_000_000)
+    answer = asked.get(ADDRESS, {"query": HOSTILE["texts that double"]})
+    told = "The query needs more memory than it may have. Ask for less at once."
+    assert (answer.status_code, answer.json()["detail"]) == (422, told)
+
+
+@pytest.mark.django_db(transaction=True)
+def test_the_server_answers_others_while_a_hostile_query_runs(asked: Client) -> None:
+    told: list[int] = []
+    client = signed_in("operator")
+    hostile = {"query": HOSTILE["a regular expression that explodes"]}
+    asking = threading.Thread(target=lambda: told.append(client.get(ADDRESS, hostile).status_code))
+    asking.start()
+    answered = 0
+    while asking.is_alive():
+        begun = time.monotonic()
+        assert asked.get("/api/sites/hall/devices").status_code == 200
+        answered += time.monotonic() - begun < 1.0
+    asking.join()
+    assert told == [422]
+    assert answered > 10
+
+
+def test_only_two_are_answered_at_once(asked: Client, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sparql, "PATIENCE_S", 0.0)
+    monkeypatch.setattr(sparql, "_slots", threading.BoundedSemaphore(1))
+    with sparql._slots:
+        answer = asked.get(ADDRESS, {"query": NAMES})
+    assert (answer.status_code, answer.json()["code"]) == (429, "too_many_queries")
+    assert json.loads(asked.get(ADDRESS, {"query": NAMES}).content)["head"]["vars"] == ["id", "name"]
