@@ -8,7 +8,7 @@ MOST_ARGUMENTS = 16
 LONGEST_WORD = 64
 LONGEST_WHY = 256
 OPEN, CLOSE = b"[{", b"]}"
-QUOTE, BACKSLASH = 0x22, 0x5C
+SPACE, QUOTE, BACKSLASH = 0x20, 0x22, 0x5C
 WHITE = b"\t\n\r"
 
 
@@ -56,23 +56,30 @@ def read_object(payload):
 
 
 def check_outside(payload):
-    """See before parsing that a payload has no control characters and is not nested too deep. Raises BadCommand."""
-    depth, in_text, escaped = 0, False, False
+    """See before parsing that a payload has no control characters, and brackets that close and are not too deep.
+
+    MicroPython's JSON takes brackets that are crossed or never closed, and as many as there is memory. Raises
+    BadCommand.
+    """
+    expected, in_text, escaped = bytearray(), False, False
     for byte in payload:
-        if byte < 0x20 and (in_text or byte not in WHITE):
+        if byte < SPACE and (in_text or byte not in WHITE):
             raise BadCommand("the message holds control characters")
-        if escaped:
-            escaped = False
-        elif in_text and byte == BACKSLASH:
-            escaped = True
+        if in_text:
+            in_text = byte != QUOTE or escaped
+            escaped = byte == BACKSLASH and not escaped
         elif byte == QUOTE:
-            in_text = not in_text
-        elif not in_text and byte in OPEN:
-            depth += 1
-            if depth > MOST_DEPTH:
+            in_text = True
+        elif byte in OPEN:
+            if len(expected) == MOST_DEPTH:
                 raise BadCommand("the message is nested too deep")
-        elif not in_text and byte in CLOSE:
-            depth -= 1
+            expected.append(byte + 2)
+        elif byte in CLOSE:
+            if not expected or expected[-1] != byte:
+                raise BadCommand("the message is not JSON")
+            expected = expected[:-1]
+    if expected or in_text:
+        raise BadCommand("the message is not JSON")
 
 
 class Answers:
