@@ -21,7 +21,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "editor/language"
-COPIED = ("editor", "registry", "simulation", "execution", "vipo_site", "tests", "examples", "docs", "pyproject.toml")
+COPIED = (
+    "editor", "registry", "simulation", "execution", "connectors", "vipo_site", "tests", "examples", "docs",
+    "pyproject.toml",
+)  # fmt: skip
 TEXTS = ("texts", "texts_de", "words_de", "line_texts", "mistakes_de", "refusals_de", "meanings", "checks_page")
 """Modules of sentences, and the one that writes a page."""
 CONFIGURATION = """[cosmic-ray]
@@ -132,6 +135,13 @@ def copy_tree(folder: Path) -> None:
             shutil.copy(source, folder / name)
 
 
+def check_unchanged(folder: Path) -> None:
+    """Leave where the tests fail without any mutant: each would seem to be noticed."""
+    # the interpreter and the tests of this project
+    if subprocess.run([sys.executable, *TESTS.split()], cwd=folder, check=False).returncode:  # noqa: S603
+        sys.exit("The tests fail on the copy of the tree as it is; mend that first, or add to COPIED what they need.")
+
+
 def main() -> None:
     """Make the mutants, test a sample of them, report."""
     parser = argparse.ArgumentParser(description="Mutation testing of editor/language.")
@@ -142,6 +152,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory(prefix="vipo-mutation-") as name:
         folder = Path(name)
         copy_tree(folder)
+        check_unchanged(folder)
         (folder / "mutation.toml").write_text(CONFIGURATION.format(package=PACKAGE, tests=f"{sys.executable} {TESTS}"))
         session = folder / "mutation.sqlite"
         for command in ("init", "exec"):

@@ -98,3 +98,13 @@ def test_what_cannot_be_told_line_by_line_is_left(text: str) -> None:
 
 def test_lines_deeper_than_any_step_are_left() -> None:
     assert parse_lines("".join("    " * depth + "if a:\n" for depth in range(62)) + "    " * 62 + "b") is None
+
+
+def test_a_line_means_something_else_where_other_names_are_known() -> None:
+    methods = "    def new_task(self):\n        self.a(1)\n        self.b()\n"
+    functions = "    def a(self, x):\n        self.wait(x)\n    def b(self):\n        self.wait(x)\n"
+    text = f"class Task(object):\n{methods}{functions}    def run(self, ctx):\n        self.new_task()\n"
+    assert parse_lines(text) is not None
+    assert [(diagnostic.code, diagnostic.line) for diagnostic in parse_script(text, factory()).diagnostics] == [
+        ("not_in_language", 8)
+    ]
