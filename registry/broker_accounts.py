@@ -107,8 +107,7 @@ class DynamicSecurity:
 
     def _tell(self, *commands: tuple[str, Command, str]) -> Sequence[Mapping[str, Any]]:
         """Send (command, arguments, harmless refusal) and return the answers in their order."""
-        body = [{"command": command, **arguments} for command, arguments, _ in commands]
-        answers = _ask(json.dumps({"commands": body}).encode())
+        answers = _ask([{"command": command, **arguments} for command, arguments, _ in commands])
         for (command, _, harmless), answer in zip(commands, answers, strict=True):
             error = str(answer.get("error", ""))
             if error and not (harmless and harmless in error.lower()):
@@ -116,14 +115,20 @@ class DynamicSecurity:
         return answers
 
 
-def _ask(payload: bytes) -> Sequence[Mapping[str, Any]]:
-    """Publish commands to the plugin and wait for its answers, one for each."""
+def _ask(commands: Sequence[Command]) -> Sequence[Mapping[str, Any]]:
+    """Publish commands to the plugin and wait for its answers, one for each.
+
+    Whoever asks at the same time hears these answers, too; the marks tell whose they are.
+    """
+    marks = [secrets.token_hex(8) for _ in commands]
+    body = [{**command, "correlationData": mark} for command, mark in zip(commands, marks, strict=True)]
     heard = threading.Event()
-    answers: list[Mapping[str, Any]] = []
+    answers: dict[str, Mapping[str, Any]] = {}
 
     def hear(_topic: str, text: bytes, _retained: bool) -> None:
-        answers.extend(json.loads(text)["responses"])
-        heard.set()
+        answers.update({str(answer.get("correlationData")): answer for answer in json.loads(text)["responses"]})
+        if answers.keys() >= set(marks):
+            heard.set()
 
     client = MqttClient.from_settings(settings.VIPO_MQTT, client_id=f"accounts-{secrets.token_hex(6)}")
     client.subscribe(f"{CONTROL}/response", 1, hear)
@@ -131,13 +136,13 @@ def _ask(payload: bytes) -> Sequence[Mapping[str, Any]]:
     try:
         if not client.wait_connected(ANSWER_LIMIT_S):
             raise BrokerAway("The MQTT broker does not answer, so nothing was changed. Try again in a moment.")
-        client.publish(CONTROL, payload)
+        client.publish(CONTROL, json.dumps({"commands": body}).encode())
         if not heard.wait(ANSWER_LIMIT_S):
             raise BrokerAway(
                 "The MQTT broker does not manage accounts, so nothing was changed. "
                 "Check that it runs with deploy/mosquitto/mosquitto.conf."
             )
-        return answers
+        return [answers[mark] for mark in marks]
     finally:
         client.stop()
 

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import shutil
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from django.conf import LazySettings
 from django.core.management import call_command
 from django.db import connections
 from pytest_django import DjangoDbBlocker
+
+from execution.gateway import Gateway
+from registry import broker_accounts, services
+from tests.bus import Ear
+from tests.integration.wire.bus import JOIN, SERVER_WORD, SITE, Bus
+from tests.servers import run_mosquitto
+from vipo_site.broker import start_broker
 
 
 @contextmanager
@@ -44,3 +53,35 @@ def database(empty_database: Path, tmp_path: Path, django_db_blocker: DjangoDbBl
     shutil.copy(empty_database, file)
     with django_db_blocker.unblock(), connected_to(file):
         yield file
+
+
+@pytest.fixture(params=["mosquitto", "amqtt"])
+def bus(request: pytest.FixtureRequest, database: Path, tmp_path: Path, settings: LazySettings) -> Iterator[Bus]:
+    services.create_site(name="Hall", slug=SITE)
+    services.set_join_key(site=SITE, join_key=JOIN)
+    settings.VIPO_DEFAULT_SITE = SITE
+    broker_accounts.accounts.cache_clear()
+    told = {"host": "127.0.0.1", "username": "server", "password": SERVER_WORD, "tls": False}
+    if request.param == "mosquitto":
+        settings.VIPO_BROKER_ACCOUNTS = "registry.broker_accounts.DynamicSecurity"
+        with run_mosquitto(tmp_path, {"server": SERVER_WORD, f"join:{SITE}": JOIN}) as mosquitto:
+            settings.VIPO_MQTT = {**told, "port": mosquitto.port}
+            yield Bus("mosquitto", mosquitto.port, mosquitto.device_port, mosquitto)
+    else:
+        broker = start_broker(port=0, server_password=SERVER_WORD)
+        settings.VIPO_MQTT = {**told, "port": broker.port}
+        yield Bus("amqtt", broker.port, broker.port)
+        broker.stop()
+    broker_accounts.accounts.cache_clear()
+
+
+@pytest.fixture
+def gateway(bus: Bus, settings: LazySettings) -> Iterator[Gateway]:
+    made, stopping = Gateway(settings), threading.Event()
+    thread = threading.Thread(target=made.run_forever, args=(stopping,))
+    thread.start()
+    with Ear(bus.server_port, SERVER_WORD, "vipo/v1/srv/status") as ear:
+        ear.wait(lambda heard: True, 20)
+    yield made
+    stopping.set()
+    thread.join(20)

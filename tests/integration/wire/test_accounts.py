@@ -3,87 +3,21 @@
 from __future__ import annotations
 
 import json
-import threading
-import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 import pytest
-from django.conf import LazySettings
 
 from execution.gateway import Gateway
-from registry import broker_accounts, services
-from registry.mqtt import MqttClient
+from registry import services
 from simulation.new_keys import KeyFile, take_new_keys
-from tests.servers import Mosquitto, run_mosquitto
-from vipo_site.broker import start_broker
+from tests.integration.wire.bus import JOIN, SITE, Bus, wait
 
 pytestmark = pytest.mark.servers
-SITE, SERVER_WORD, JOIN = "hall", "the server's word", "j" * 32
 KEY = "first-key-of-the-mixer-0001"
 TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_text()
-
-
-@dataclass
-class Bus:
-    """A broker that runs with the registry's accounts."""
-
-    kind: str
-    server_port: int
-    device_port: int
-    mosquitto: Mosquitto | None = None
-
-    def client(self, name: str, key: str, **more: Any) -> MqttClient:
-        return MqttClient(host="127.0.0.1", port=self.device_port, username=name, password=key, client_id=name, **more)
-
-    def lets_in(self, name: str, key: str) -> bool:
-        client = self.client(name, key)
-        client.start()
-        try:
-            wait("an answer", lambda: client.connected or client.refusal)
-            return client.connected
-        finally:
-            client.stop()
-
-
-def wait(what: str, ready: Callable[[], Any], timeout_s: float = 20) -> None:
-    deadline = time.monotonic() + timeout_s
-    while not ready():
-        assert time.monotonic() < deadline, f"{what} did not come within {timeout_s:g} s"
-        time.sleep(0.02)
-
-
-@pytest.fixture(params=["mosquitto", "amqtt"])
-def bus(request: pytest.FixtureRequest, database: Path, tmp_path: Path, settings: LazySettings) -> Iterator[Bus]:
-    services.create_site(name="Hall", slug=SITE)
-    services.set_join_key(site=SITE, join_key=JOIN)
-    settings.VIPO_DEFAULT_SITE = SITE
-    broker_accounts.accounts.cache_clear()
-    told = {"host": "127.0.0.1", "username": "server", "password": SERVER_WORD, "tls": False}
-    if request.param == "mosquitto":
-        settings.VIPO_BROKER_ACCOUNTS = "registry.broker_accounts.DynamicSecurity"
-        with run_mosquitto(tmp_path, {"server": SERVER_WORD, f"join:{SITE}": JOIN}) as mosquitto:
-            settings.VIPO_MQTT = {**told, "port": mosquitto.port}
-            yield Bus("mosquitto", mosquitto.port, mosquitto.device_port, mosquitto)
-    else:
-        broker = start_broker(port=0, server_password=SERVER_WORD)
-        settings.VIPO_MQTT = {**told, "port": broker.port}
-        yield Bus("amqtt", broker.port, broker.port)
-        broker.stop()
-    broker_accounts.accounts.cache_clear()
-
-
-@pytest.fixture
-def gateway(bus: Bus, settings: LazySettings) -> Iterator[Gateway]:
-    made, stopping = Gateway(settings), threading.Event()
-    thread = threading.Thread(target=made.run_forever, args=(stopping,))
-    thread.start()
-    yield made
-    stopping.set()
-    thread.join(20)
 
 
 def lifecycle(device: str) -> str:

@@ -1,0 +1,42 @@
+"""A broker with the registry's accounts, and how tests come in to it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from registry.mqtt import MqttClient
+from tests.servers import Mosquitto
+
+SITE, SERVER_WORD, JOIN = "hall", "the server's word", "j" * 32
+
+
+@dataclass
+class Bus:
+    """A broker that runs with the registry's accounts."""
+
+    kind: str
+    server_port: int
+    device_port: int
+    mosquitto: Mosquitto | None = None
+
+    def client(self, name: str, key: str, **more: Any) -> MqttClient:
+        return MqttClient(host="127.0.0.1", port=self.device_port, username=name, password=key, client_id=name, **more)
+
+    def lets_in(self, name: str, key: str) -> bool:
+        client = self.client(name, key)
+        client.start()
+        try:
+            wait("an answer", lambda: client.connected or client.refusal)
+            return client.connected
+        finally:
+            client.stop()
+
+
+def wait(what: str, ready: Callable[[], Any], timeout_s: float = 20) -> None:
+    deadline = time.monotonic() + timeout_s
+    while not ready():
+        assert time.monotonic() < deadline, f"{what} did not come within {timeout_s:g} s"
+        time.sleep(0.02)
