@@ -1,6 +1,6 @@
 """The life of an ESP32: set-up page or Wi-Fi, the clock, then the machine that config.json describes."""
 
-import random
+import os
 import sys
 import time
 
@@ -16,8 +16,9 @@ NEEDED = ("host", "port", "id", "password", "wifi_name")
 WIFI_TIMEOUT_S = 30
 WATCHDOG_MS = 60000
 SHOWN_S = 5
+HTTP_PORT, DNS_PORT = 80, 53
 TIME_SERVER = "pool.ntp.org"
-ALPHABET = "23456789abcdefghjkmnpqrstuvwxyz"
+ALPHABET, KEY_LENGTH = "23456789abcdefghjkmnpqrstuvwxyz", 8
 
 
 def run():
@@ -122,12 +123,12 @@ def set_up(pins, fault):
     point = network.WLAN(network.AP_IF)
     point.active(True)
     name = "VIPO-" + "".join(["%02x" % byte for byte in machine.unique_id()[-3:]])
-    password = "".join([random.choice(ALPHABET) for _ in range(8)])
+    password = "".join([ALPHABET[byte % len(ALPHABET)] for byte in os.urandom(KEY_LENGTH)])
     point.config(ssid=name, password=password, authmode=network.AUTH_WPA_WPA2_PSK)
     address = point.ifconfig()[0]
     panel_of(pins).show(name, "key " + password)
     sys.stdout.write("Join the Wi-Fi %s with %s and open http://%s\n" % (name, password, address))
     import asyncio
 
-    asyncio.run(until_saved(Portal(address), serve_names(address)))
+    asyncio.run(until_saved(Portal(address, HTTP_PORT), serve_names(address, port=DNS_PORT)))
     time.sleep(1)

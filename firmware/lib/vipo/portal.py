@@ -7,8 +7,9 @@ connection, a few connections at once, everything bounded; whatever is asked for
 import asyncio
 import json
 import os
-import random
+from binascii import hexlify
 
+from vipo.certificate import read_certificate
 from vipo.checks import find_fault
 from vipo.configuration import BadConfiguration, read_configuration, write_file
 from vipo.form import FIELDS, page, read_form
@@ -17,6 +18,7 @@ from vipo.portable import close_stream, show_error
 REQUEST_TIMEOUT_S = 10
 MOST_CONNECTIONS = 4
 LONGEST_LINE = 1024
+LINGER_S, LINE_BYTES = 1, 256
 MOST_LINES = 40
 LONGEST_BODY = 8192
 NEEDED = ("wifi_name", "host", "port", "id", "password", "driver")
@@ -39,7 +41,7 @@ class Portal:
 
     def __init__(self, address, port=80, folder=".", host="0.0.0.0"):
         self.address, self.port, self.folder, self.host = address, port, folder, host
-        self.token = "%08x" % random.getrandbits(32)
+        self.token = hexlify(os.urandom(8)).decode()
         self._saved = asyncio.Event()
         self._open = 0
 
@@ -56,16 +58,12 @@ class Portal:
         saved = False
         self._open += 1
         try:
-            try:
-                if self._open > MOST_CONNECTIONS:
-                    raise BadRequest(503)
-                request = await asyncio.wait_for(self._read(reader), REQUEST_TIMEOUT_S)
-                answer, saved = self._answer(*request)
-            except BadRequest as error:
-                answer = response(error.code, REASONS[error.code])
+            answer, saved, all_read = await self._ask_for(reader)
             writer.write(answer)
             await asyncio.wait_for(writer.drain(), REQUEST_TIMEOUT_S)
-        except (OSError, EOFError, MemoryError, asyncio.TimeoutError):
+            if not all_read:
+                await asyncio.wait_for(read_the_rest(reader), LINGER_S)
+        except (OSError, EOFError, asyncio.TimeoutError):
             pass  # whoever asked is gone or too slow
         except Exception as error:  # the edge of a request: the next one must be served
             show_error(error)
@@ -73,6 +71,18 @@ class Portal:
         await close_stream(writer)
         if saved:
             self._saved.set()
+
+    async def _ask_for(self, reader):
+        """Return (the response to a request, whether a configuration was saved, whether the request was read)."""
+        request = None
+        try:
+            if self._open > MOST_CONNECTIONS:
+                raise BadRequest(503)
+            request = await asyncio.wait_for(self._read(reader), REQUEST_TIMEOUT_S)
+            answer, saved = self._answer(*request)
+        except BadRequest as error:
+            answer, saved = response(error.code, REASONS[error.code]), False
+        return answer, saved, request is not None
 
     async def _read(self, reader):
         """Return (method, path, host, body)."""
@@ -148,6 +158,12 @@ async def until_saved(portal, names):
         naming.cancel()
 
 
+async def read_the_rest(reader):
+    """Read and drop what still comes: a connection closed over unread bytes takes the answer with it."""
+    while await reader.read(LINE_BYTES):
+        pass
+
+
 async def read_line(reader):
     """Return a line of a request without its end. Raises BadRequest for one that is too long or not plain text."""
     line = b""
@@ -209,8 +225,6 @@ def fault_of_authority(text):
     """Return what is wrong with a pasted certificate, or an empty text."""
     if not text:
         return ""
-    from vipo.start import read_certificate
-
     try:
         read_certificate(text.split("\n"))
     except ValueError:

@@ -1,0 +1,243 @@
+"""The set-up page on the real MicroPython: from a board without a configuration to a device on the bus."""
+
+from __future__ import annotations
+
+import json
+import re
+import socket
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlencode
+
+import pytest
+
+from tests.firmware.hd44780 import texts
+from tests.firmware.rig import ACCOUNTS, DEVICE, LIMIT_S, Chip, Running, listening, running_bus, running_chip, wait_for
+from tests.servers import free_port
+
+EVIL = "\"><script>alert('1')</script>&"
+SECRET = "a secret that stays"
+
+
+class Form(HTMLParser):
+    """The page's fields with their values, and whether anything on it could run."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.values: dict[str, str] = {}
+        self.tags: set[str] = set()
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        known = dict(attributes)
+        self.tags.add(tag)
+        assert not any(name.startswith("on") for name in known)
+        if tag in ("input", "select", "textarea"):
+            self.values[known["name"] or ""] = known.get("value") or ""
+
+
+@dataclass
+class Page:
+    """A board in set-up mode."""
+
+    chip: Chip
+    port: int
+    names_port: int
+
+    def ask(self, request: bytes) -> tuple[int, dict[str, str], str]:
+        with socket.create_connection(("127.0.0.1", self.port), timeout=LIMIT_S) as connection:
+            connection.sendall(request)
+            with connection.makefile("rb") as answer:
+                status = int(answer.readline().split(b" ")[1])
+                lines = iter(lambda: answer.readline().decode().strip(), "")
+                headers = dict(line.split(": ", 1) for line in lines)
+                return status, headers, answer.read(int(headers["Content-Length"])).decode()
+
+    def get(self, path: str = "/", host: str = "") -> tuple[int, dict[str, str], str]:
+        return self.ask(f"GET {path} HTTP/1.1\r\nHost: {host or self.host}\r\n\r\n".encode())
+
+    def post(self, values: dict[str, str], host: str = "") -> tuple[int, dict[str, str], str]:
+        body = urlencode(values)
+        head = f"POST / HTTP/1.1\r\nHost: {host or self.host}\r\nContent-Length: {len(body)}\r\n\r\n"
+        return self.ask((head + body).encode())
+
+    @property
+    def host(self) -> str:
+        return f"127.0.0.1:{self.port}"
+
+    @property
+    def form(self) -> Form:
+        return Form(self.get()[2])
+
+
+@pytest.fixture
+def page(micropython: str, tmp_path: Path) -> Iterator[Page]:
+    known = {"wifi_name": "hall", "password": SECRET, "name": EVIL, "pins": {"sda": 21, "scl": 22, "button": 0}}
+    (tmp_path / "config.json").write_text(json.dumps({**known, "host": "old", "port": 1883, "id": "old"}))
+    with set_up(micropython, tmp_path, {"VIPO_PRESSED": "0"}) as found:
+        yield found
+
+
+def set_up(micropython: str, folder: Path, environment: dict[str, str]) -> Any:
+    from contextlib import contextmanager
+
+    @contextmanager
+    def running() -> Iterator[Page]:
+        port, names = free_port(), free_port()
+        program = folder / "main.py"
+        program.write_text(f"import vipo.chip as c\nc.HTTP_PORT, c.DNS_PORT = {port}, {names}\nc.run()\n")
+        with running_chip(micropython, folder, environment, main=program) as chip:
+            page = Page(chip, port, names)
+            wait_for(lambda: _answers(port), "the page: " + chip.console)
+            yield page
+
+    return running()
+
+
+def _answers(port: int) -> bool:
+    try:
+        socket.create_connection(("127.0.0.1", port), timeout=1).close()
+    except OSError:
+        return False
+    return True
+
+
+def test_from_the_box_to_the_bus(micropython: str, tmp_path: Path) -> None:
+    with running_bus("mosquitto with TLS", tmp_path) as bus, listening(bus) as ear:
+        with set_up(micropython, tmp_path, {}) as page:
+            (point,) = [entry[2] for entry in page.chip.record if entry[1] == "point"]
+            assert texts(page.chip.record)[-1] == ("VIPO-12abcd     ", f"key {point['password']}    ")
+            assert (point["ssid"], point["authmode"], len(point["password"])) == ("VIPO-12abcd", 4, 8)
+            form = page.form
+            status, _, body = page.post(
+                {
+                    **form.values,
+                    "wifi_name": "hall",
+                    "wifi_password": "warm paint",
+                    "host": "localhost",
+                    "port": str(bus.device_port),
+                    "id": DEVICE,
+                    "password": ACCOUNTS[DEVICE],
+                    "site": "hall",
+                    "driver": "oven",
+                    "name": "Curing Öfchen",
+                    "location": "3.5 -2 0 1.57",
+                    "ca": Path(bus.authority).read_text(),
+                }
+            )
+            assert (status, "Saved." in body) == (200, True)
+            assert page.chip.process.wait(LIMIT_S) == 7
+            assert page.chip.record[-1][1] == "reset"
+        with running_chip(micropython, tmp_path, {}) as chip:
+            oven = Running(ear, bus, chip.process, tmp_path / "console")
+            told = ear.wait(lambda h: h.topic == oven.up + "desc", LIMIT_S).payload.decode()
+            assert 'dct:title "Curing Öfchen"' in told
+            assert "vipo:location ( 3.5 -2.0 0.0 1.57 )" in told
+            assert "vipo/v1/dev/paintMixer02/down/curePaint" in told
+            oven.state(lambda s: s["props"]["jobStatus"] == 0)
+
+
+def test_secrets_are_never_shown_and_texts_are_escaped(page: Page) -> None:
+    status, headers, body = page.get()
+    assert status == 200
+    assert SECRET not in body
+    assert "script" not in Form(body).tags
+    assert Form(body).values["name"] == EVIL
+    assert Form(body).values["password"] == ""
+    assert headers["Content-Security-Policy"].startswith("default-src 'none'")
+    status, _, body = page.post({**Form(body).values, "host": EVIL, "password": ""})
+    assert (status, Form(body).values["host"]) == (200, EVIL)
+    assert 'role="alert"' in body
+    assert "script" not in Form(body).tags
+
+
+def test_an_empty_secret_keeps_the_one_that_is_there(page: Page) -> None:
+    page.post({**page.form.values, "driver": "mixer", "host": "new", "name": "Mixer", "wifi_password": ""})
+    page.chip.process.wait(LIMIT_S)
+    kept = json.loads((page.chip.folder / "config.json").read_text())
+    assert (kept["password"], kept["host"], kept["name"], kept["driver"]) == (SECRET, "new", "Mixer", "mixer")
+    assert kept["pins"] == {"sda": 21, "scl": 22, "button": 0}
+    assert "token" not in kept
+
+
+@pytest.mark.parametrize(
+    ("values", "sentence"),
+    [
+        ({"id": "a/b"}, "'id' must be 1 to 64 letters"),
+        ({"id": ""}, "does not say 'id'"),
+        ({"port": "many"}, "'port' must be in numbers"),
+        ({"port": "70000"}, "'port' must be a whole number from 1 to 65535"),
+        ({"wifi_password": "short"}, "'wifi_password' must be empty, or a text of 8 to 63"),
+        ({"driver": "bomb"}, "'driver' must be one of: dispenser, drop-off"),
+        ({"location": "1 2 3"}, "'location' must be a list of 4 numbers"),
+        ({"location": "1 2 nan 3"}, "'location' must be a list of 4 numbers"),
+        ({"host": "x" * 254}, "'host' must be a name or address"),
+        ({"name": "a\x00b"}, "'name' must be a text"),
+        ({"ca": "no certificate"}, "the certificate is not in PEM form"),
+    ],
+)
+def test_a_value_that_does_not_fit_is_named_and_nothing_is_kept(
+    page: Page, values: dict[str, str], sentence: str
+) -> None:
+    before = (page.chip.folder / "config.json").read_text()
+    good = {**page.form.values, "driver": "mixer", "name": "Mixer"}
+    status, _, body = page.post({**good, **values})
+    told = re.search(r'role="alert">(.*?)</p>', body)
+    assert status == 200
+    assert told is not None, body
+    assert sentence in told[1].replace("&#39;", "'")
+    assert (page.chip.folder / "config.json").read_text() == before
+    assert page.chip.process.poll() is None
+
+
+def test_requests_that_are_none_and_from_elsewhere(page: Page) -> None:
+    before = (page.chip.folder / "config.json").read_text()
+    good = {**page.form.values, "driver": "mixer", "name": "Mixer"}
+    assert page.get("/generate_204", "connectivitycheck.example")[:2][1]["Location"] == f"http://{page.host}/"
+    assert page.get("/other")[0] == 302
+    assert page.post(good, host="rebound.example")[0] == 302
+    assert page.post({**good, "token": "guessed"})[0] == 400
+    assert page.post({name: value for name, value in good.items() if name != "token"})[0] == 400
+    assert page.post({f"field{n}": "" for n in range(50)})[0] == 400
+    host = f"Host: {page.host}\r\n".encode()
+    for request, status in (
+        (b"nonsense\r\n\r\n", 400),
+        (b"GET / HTTP/1.1 more words\r\n\r\n", 400),
+        (b"\xff\xfe\r\n\r\n", 400),
+        (b"GET /" + b"a" * 1100 + b" HTTP/1.1\r\n\r\n", 400),
+        (b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 41 + b"\r\n", 400),
+        (b"DELETE / HTTP/1.1\r\n" + host + b"\r\n", 405),
+        (b"POST /other HTTP/1.1\r\n" + host + b"\r\n", 404),
+        (b"POST / HTTP/1.1\r\n" + host + b"Content-Length: 9000\r\n\r\n", 413),
+        (b"POST / HTTP/1.1\r\n" + host + b"Content-Length: -1\r\n\r\n", 400),
+        (b"POST / HTTP/1.1\r\n" + host + b"Content-Length: 7\r\n\r\ntoken=%", 400),
+    ):
+        assert page.ask(request)[0] == status, request
+    assert (page.chip.folder / "config.json").read_text() == before
+    assert page.get()[0] == 200
+
+
+def test_every_name_leads_to_the_page(page: Page) -> None:
+    question = b"\x12\x34\x01\x00\x00\x01\x00\x00\x00\x00\x00\x00\x07captive\x05apple\x03com\x00"
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asker:
+        asker.settimeout(LIMIT_S)
+        asker.connect(("127.0.0.1", page.names_port))
+        for nonsense in (
+            b"",
+            b"\x00",
+            b"\xff" * 512,
+            question,
+            question[:12] + b"\x3f" + b"a" * 20,
+            b"\x12\x34\x81" + question[3:],
+        ):
+            asker.send(nonsense)
+        asker.send(question + b"\x00\x1c\x00\x01")  # an IPv6 address: there is none
+        assert struct.unpack("!HHHHHH", asker.recv(512)[:12]) == (0x1234, 0x8500, 1, 0, 0, 0)
+        asker.send(question + b"\x00\x01\x00\x01")
+        answer = asker.recv(512)
+    assert struct.unpack("!HHHHHH", answer[:12]) == (0x1234, 0x8500, 1, 1, 0, 0)
+    assert answer.endswith(b"\xc0\x0c\x00\x01\x00\x01\x00\x00\x00\x0a\x00\x04\x7f\x00\x00\x01")
