@@ -11,14 +11,15 @@ import json
 import logging
 import threading
 import time
-from collections import Counter, OrderedDict, deque
-from dataclasses import dataclass, field
+from collections import OrderedDict, deque
 from datetime import UTC, datetime
 from typing import Any
 
-from django.db import DatabaseError, InterfaceError, OperationalError, connection
+from django.db import DatabaseError, connection
 
 from execution import services as execution
+from execution.intake import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket
+from execution.taking_in import KNOCK, Taker
 from registry import live, wire
 from registry import services as registry
 from registry.errors import VipoError
@@ -28,114 +29,13 @@ log = logging.getLogger(__name__)
 
 EVERYTHING = "$share/gateway/vipo/v1/dev/+/up/#"
 KNOCKS = "$share/gateway/vipo/v1/join/+/+"
-KNOCK = "knock/"
-"""The kind of a knock; a kind of `up/` topics has no slash."""
 SERVER_STATUS = "vipo/v1/srv/status"
 WAKE_CHANNEL = "gateway"
 POLL_S = 0.1
 STOPS_EVERY_S = 1.0
 CLAIM_LIMIT = 100
-INBOX_LIMIT = 20_000
-MESSAGES_PER_S = 50.0
-BURST = 200.0
-KNOCKS_PER_S = 1.0
-KNOCKS_AT_ONCE = 20.0
-KNOWN_DEVICES = 5_000
-COMPLAINT_EVERY_S = 60.0
-POISON_TRIES = 3
-
-
-@dataclass(slots=True)
-class TokenBucket:
-    """Allows `rate` messages a second on average and `burst` at once; time is an argument."""
-
-    rate: float = MESSAGES_PER_S
-    burst: float = BURST
-    tokens: float = BURST
-    filled_at: float = 0.0
-
-    def take(self, now: float) -> bool:
-        """Take one token if there is one; `now` in seconds of a clock that only goes forward."""
-        self.tokens = min(self.burst, self.tokens + (now - self.filled_at) * self.rate)
-        self.filled_at = now
-        if self.tokens < 1:
-            return False
-        self.tokens -= 1
-        return True
-
-
-def _new_bucket(name: str) -> TokenBucket:
-    """Return a device's bucket, or a door's (`join:…`): behind that one, everybody may be a stranger."""
-    rate, burst = (KNOCKS_PER_S, KNOCKS_AT_ONCE) if name.startswith("join:") else (MESSAGES_PER_S, BURST)
-    return TokenBucket(rate, burst, burst, time.monotonic())
-
-
-@dataclass(slots=True)
-class Entry:
-    """A message that waits to be handled."""
-
-    message: Message
-    device: str
-    kind: str
-    outdated: bool = False
-
-
-class Inbox:
-    """Messages in the order of their arrival; of a device's waiting states only the newest is kept."""
-
-    def __init__(self, limit: int = INBOX_LIMIT) -> None:
-        self._entries: deque[Entry] = deque()
-        self._states: dict[str, Entry] = {}
-        self._limit = limit
-        self._changed = threading.Condition()
-
-    def put(self, entry: Entry) -> bool:
-        """Add a message; False when the inbox is full."""
-        with self._changed:
-            if len(self._entries) >= self._limit:
-                return False
-            if entry.kind == "state":
-                older = self._states.get(entry.device)
-                if older is not None:
-                    older.outdated = True
-                self._states[entry.device] = entry
-            self._entries.append(entry)
-            self._changed.notify()
-            return True
-
-    def get(self, timeout_s: float) -> Entry | None:
-        """Return the next message, or None when none came in time."""
-        with self._changed:
-            if not self._entries and not self._changed.wait(timeout_s):
-                return None
-            if not self._entries:
-                return None
-            entry = self._entries.popleft()
-            if self._states.get(entry.device) is entry:
-                del self._states[entry.device]
-            return entry
-
-
-@dataclass(slots=True)
-class Complaints:
-    """How often each device's messages were dropped or refused, and when that was last written into its history."""
-
-    counts: Counter[str] = field(default_factory=Counter)
-    waiting: Counter[str] = field(default_factory=Counter)
-    written_at: OrderedDict[str, float] = field(default_factory=OrderedDict)
-
-    def add(self, device: str, reason: str, now: float) -> str | None:
-        """Count one more; return a line for the device's history, at most one a minute."""
-        self.counts[reason.split(":", 1)[0]] += 1
-        self.waiting[device] += 1
-        if now - self.written_at.get(device, -COMPLAINT_EVERY_S) < COMPLAINT_EVERY_S:
-            return None
-        self.written_at[device] = now
-        self.written_at.move_to_end(device)
-        if len(self.written_at) > KNOWN_DEVICES:
-            self.written_at.popitem(last=False)
-        others = self.waiting.pop(device) - 1
-        return reason if not others else f"{reason} ({others} more since the last note)"
+MOST_AT_ONCE = 200
+COUNT_EVERY_S = 2.0
 
 
 class Gateway:
@@ -147,10 +47,12 @@ class Gateway:
         self._inbox = Inbox()
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
         self.complaints = Complaints()
+        self._taker = Taker(self._note, self.complaints.counts)
         self._notes: deque[tuple[str, str]] = deque(maxlen=1000)
         self._greeting_due = threading.Event()
         self._stops: dict[str, bytes] = {}
         self._stops_at = 0.0
+        self._counted_at = 0.0
 
     def run_forever(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set."""
@@ -162,10 +64,9 @@ class Gateway:
         sender.start()
         try:
             while not stopping.is_set():
-                entry = self._inbox.get(0.2)
-                if entry is not None:
-                    self._handle(entry, stopping)
+                self._taker.take_all(self._inbox.get_all(0.2, MOST_AT_ONCE), stopping)
                 self._write_notes()
+                self._count_dropped(time.monotonic())
                 registry.flush_samples()
         finally:
             stopping.set()
@@ -190,67 +91,11 @@ class Gateway:
             self.complaints.counts["inbox full"] += 1
 
     def _bucket(self, device: str) -> TokenBucket:
-        bucket = self._buckets.pop(device, None) or _new_bucket(device)
+        bucket = self._buckets.pop(device, None) or new_bucket(device)
         self._buckets[device] = bucket
         if len(self._buckets) > KNOWN_DEVICES:
             self._buckets.popitem(last=False)
         return bucket
-
-    def _handle(self, entry: Entry, stopping: threading.Event) -> None:
-        """Take one message in; wait for a database that is away, and give up on what it will never take."""
-        tries = 0
-        while not entry.outdated and not stopping.is_set():
-            try:
-                self._take_in(entry.device, entry.kind, entry.message)
-                break
-            except VipoError as error:
-                self._note(entry.device, f"{entry.kind}: {error.detail}")
-                break
-            except (OperationalError, InterfaceError) as error:
-                log.warning("The database does not take a message of %s now: %s", entry.device, error)
-                connection.close()
-                stopping.wait(0.5)
-            except DatabaseError:
-                tries += 1
-                if tries >= POISON_TRIES:
-                    log.exception("A message of %s (%s) was given up.", entry.device, entry.kind)
-                    break
-            except Exception:  # the edge of the process: one device's message must not end all the others'
-                log.exception("A message of %s (%s) failed.", entry.device, entry.kind)
-                break
-        else:
-            if stopping.is_set() and not entry.outdated:
-                return
-        entry.message.acknowledge()
-
-    def _take_in(self, device: str, kind: str, message: Message) -> None:
-        at = datetime.now(UTC)
-        if kind == KNOCK:
-            site, _ = wire.read_join_topic(message.topic) or ("", "")
-            registry.admit_newcomer(site=site, device_id=device, payload=message.payload, at=at)
-        elif kind == "ack":
-            ack = wire.parse_ack(message.payload)
-            execution.record_ack(
-                device=device, command_id=ack.command, status=ack.status, why=ack.why, result=ack.result, at=at
-            )
-        elif message.payload:  # an empty one only takes a retained message away
-            view = self._ingest(device, kind, message, at)
-            if view is not None:
-                registry.note_samples(view=view, at=at)
-                if kind == "presence" and view.online:
-                    execution.resend_commands(device=device)
-                execution.record_device_change(site=view.site, device_id=device)
-
-    def _ingest(self, device: str, kind: str, message: Message, at: datetime) -> registry.DeviceView | None:
-        payload = message.payload
-        if kind == "desc":
-            return registry.ingest_description(device_id=device, payload=payload, at=at)
-        if kind == "presence":
-            return registry.ingest_presence(device_id=device, payload=payload, at=at)
-        if kind == "state":
-            return registry.ingest_state(device_id=device, payload=payload, at=at, retained=message.retained)
-        self.complaints.counts[f"topic up/{kind}"] += 1
-        return None
 
     def _note(self, device: str, reason: str) -> None:
         """Count a message that was not taken; the worker writes it into the device's history."""
@@ -266,6 +111,17 @@ class Gateway:
                 registry.record_problem(device_id=device, text=line, at=datetime.now(UTC))
             except DatabaseError as error:
                 log.warning("The note about %s was not kept: %s", device, error)
+
+    def _count_dropped(self, now: float) -> None:
+        """Add up every few seconds what was not taken, for the devices' pages."""
+        if now - self._counted_at < COUNT_EVERY_S:
+            return
+        self._counted_at = now
+        if dropped := self.complaints.take_dropped():
+            try:
+                registry.count_dropped(dropped=dropped)
+            except DatabaseError as error:
+                log.warning("What was dropped is not counted now: %s", error)
 
     def _send_until(self, stopping: threading.Event) -> None:
         while not stopping.is_set():

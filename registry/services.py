@@ -16,10 +16,12 @@ from registry.decisions import (
 )
 from registry.device_rows import BadDevice, NoSuchDevice
 from registry.history import PointView, SeriesView, read_history
+from registry.intake import SaidState, find_unchanged, ingest_states
 from registry.joining import (
     Login,
     Principal,
     check_device_password,
+    count_dropped,
     find_device,
     find_ended,
     get_device,
@@ -46,6 +48,7 @@ from registry.sites import (
     get_walls,
     list_places,
     list_sites,
+    list_slugs,
     remove_member,
     save_map,
     save_places,
@@ -81,6 +84,7 @@ __all__ = [
     "PointView",
     "Principal",
     "QueryAnswer",
+    "SaidState",
     "SeriesView",
     "SiteView",
     "StopView",
@@ -88,6 +92,7 @@ __all__ = [
     "approve_device",
     "check_device_password",
     "check_sign_in",
+    "count_dropped",
     "create_site",
     "create_site_from_map",
     "create_user",
@@ -95,6 +100,7 @@ __all__ = [
     "expect_device",
     "find_device",
     "find_ended",
+    "find_unchanged",
     "flush_samples",
     "get_device",
     "get_floor",
@@ -104,11 +110,13 @@ __all__ = [
     "ingest_description",
     "ingest_presence",
     "ingest_state",
+    "ingest_states",
     "list_broker_hashes",
     "list_device_events",
     "list_devices",
     "list_places",
     "list_sites",
+    "list_slugs",
     "mark_stale",
     "note_samples",
     "prune_samples",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from execution.gateway import COMPLAINT_EVERY_S, Complaints, Entry, Inbox, TokenBucket
+from execution.intake import COMPLAINT_EVERY_S, Complaints, Entry, Inbox, TokenBucket
 from registry.mqtt import Message
 
 
@@ -11,10 +11,7 @@ def entry(device: str, kind: str, payload: bytes = b"") -> Entry:
 
 
 def taken(inbox: Inbox) -> list[tuple[str, str, bytes, bool]]:
-    found = []
-    while (one := inbox.get(0)) is not None:
-        found.append((one.device, one.kind, one.message.payload, one.outdated))
-    return found
+    return [(one.device, one.kind, one.message.payload, one.outdated) for one in inbox.get_all(0, 10)]
 
 
 def test_messages_come_out_in_the_order_of_their_arrival_and_only_the_newest_state_counts() -> None:
@@ -37,10 +34,18 @@ def test_messages_come_out_in_the_order_of_their_arrival_and_only_the_newest_sta
 def test_a_state_that_was_taken_out_is_not_outdated_by_a_later_one() -> None:
     inbox = Inbox()
     inbox.put(entry("a", "state", b"1"))
-    first = inbox.get(0)
+    (first,) = inbox.get_all(0, 10)
     inbox.put(entry("a", "state", b"2"))
-    assert first is not None
     assert not first.outdated
+
+
+def test_no_more_come_out_than_were_asked_for() -> None:
+    inbox = Inbox()
+    for number in range(5):
+        inbox.put(entry("a", "ack", str(number).encode()))
+    assert [one.message.payload for one in inbox.get_all(0, 3)] == [b"0", b"1", b"2"]
+    assert [one.message.payload for one in inbox.get_all(0, 3)] == [b"3", b"4"]
+    assert inbox.get_all(0, 3) == []
 
 
 def test_a_full_inbox_takes_nothing_more() -> None:

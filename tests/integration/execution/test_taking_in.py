@@ -1,0 +1,110 @@
+"""Messages are taken in each device's own order, and each is acknowledged once."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections import Counter
+from typing import Any
+
+import pytest
+from django.db import DatabaseError
+
+from execution.intake import Entry
+from execution.taking_in import Taker
+from registry import services
+from registry.capability import Description, Pose, Size
+from registry.describing import write_description
+from registry.mqtt import Message
+
+pytestmark = pytest.mark.django_db
+
+
+class Post:
+    """Makes messages of devices, and notes which of them were acknowledged."""
+
+    def __init__(self) -> None:
+        self.acknowledged: list[int] = []
+        self.made = 0
+
+    def __call__(self, device: str, kind: str, body: Any) -> Entry:
+        number, self.made = self.made, self.made + 1
+        payload = body if isinstance(body, bytes) else json.dumps(body).encode()
+        acknowledge = lambda: self.acknowledged.append(number)  # noqa: E731
+        return Entry(Message(f"vipo/v1/dev/{device}/up/{kind}", payload, False, acknowledge), device, kind)
+
+
+def description(device: str, name: str = "") -> bytes:
+    pose, size = Pose(1, 1), Size(1, 1, 1)
+    return write_description(Description(device, name or device, "machine", "mixer", pose, size, site="hall")).encode()
+
+
+def state(seq: int, **more: Any) -> dict[str, Any]:
+    return {"boot": 1, "seq": seq, "done": True, **more}
+
+
+@pytest.fixture
+def notes() -> list[tuple[str, str]]:
+    services.create_site(name="Hall", slug="hall")
+    return []
+
+
+@pytest.fixture
+def taker(notes: list[tuple[str, str]]) -> Taker:
+    return Taker(lambda device, line: notes.append((device, line)), Counter())
+
+
+def readings(device: str) -> dict[str, Any]:
+    return dict(services.get_device(site="hall", device_id=device).readings)
+
+
+def test_a_device_that_describes_itself_and_speaks_in_one_breath_is_known_and_heard(taker: Taker) -> None:
+    post = Post()
+    entries = [post(device, "desc", description(device)) for device in ("a", "b")]
+    entries += [post(device, "state", state(1, props={"stock": 3})) for device in ("a", "b")]
+    taker.take_all(entries, threading.Event())
+    assert readings("a") == readings("b") == {"stock": 3}
+    assert sorted(post.acknowledged) == [0, 1, 2, 3]
+
+
+def test_states_of_one_device_are_taken_in_their_order(taker: Taker) -> None:
+    post = Post()
+    entries = [post("a", "desc", description("a")), post("a", "state", state(1, props={"stock": 1}))]
+    entries += [post("b", "desc", description("b")), post("a", "state", state(2, props={"stock": 2}))]
+    taker.take_all(entries, threading.Event())
+    assert readings("a") == {"stock": 2}
+    assert sorted(post.acknowledged) == [0, 1, 2, 3]
+
+
+def test_what_cannot_be_read_is_noted_and_harms_no_other(taker: Taker, notes: list[tuple[str, str]]) -> None:
+    post = Post()
+    taker.take_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
+    taker.take_all([post("a", "state", b"{"), post("b", "state", state(1, props={"stock": 5}))], threading.Event())
+    assert readings("b") == {"stock": 5}
+    assert [device for device, _ in notes] == ["a"]
+    assert notes[0][1].startswith("state: ")
+    assert sorted(post.acknowledged) == [0, 1, 2, 3]
+
+
+def test_an_unchanged_description_is_acknowledged_and_a_changed_one_taken(taker: Taker) -> None:
+    post = Post()
+    taker.take_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
+    taker.take_all([post("a", "desc", description("a")), post("b", "desc", description("b", "B2"))], threading.Event())
+    names = [services.get_device(site="hall", device_id=device).name for device in ("a", "b")]
+    assert (names, sorted(post.acknowledged)) == (["a", "B2"], [0, 1, 2, 3])
+
+
+def test_when_a_batch_cannot_be_kept_each_message_is_tried_by_itself(
+    taker: Taker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(**_: Any) -> Any:
+        raise DatabaseError("The batch is too large.")
+
+    post = Post()
+    taker.take_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
+    monkeypatch.setattr(services, "ingest_states", refuse)
+    monkeypatch.setattr(services, "find_unchanged", refuse)
+    entries = [post("a", "desc", description("a")), post("b", "state", state(1, props={"stock": 7}))]
+    taker.take_all(entries, threading.Event())
+    assert readings("b") == {"stock": 7}
+    assert sorted(post.acknowledged) == [0, 1, 2, 3]

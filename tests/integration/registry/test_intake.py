@@ -1,0 +1,125 @@
+"""What many devices say at once comes to the same as what they say one after the other."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from datetime import timedelta
+from typing import Any
+
+import pytest
+
+from registry import live, services
+from registry.describing import write_description
+from registry.models import Device, DeviceEvent
+from registry.services import SaidState
+from registry.views import changed_fields, changed_state
+from registry.wire import BadMessage
+
+from .conftest import MIXER, NOW, ROBOT, come, describe
+
+
+def state(seq: int, **more: Any) -> bytes:
+    return json.dumps({"boot": 1, "seq": seq, "done": True, **more}).encode()
+
+
+def said(device_id: str, payload: bytes, *, retained: bool = False) -> SaidState:
+    return SaidState(device_id, payload, NOW, retained)
+
+
+@pytest.fixture
+def heard(hall: str) -> Iterator[list[Any]]:
+    messages: list[Any] = []
+    stop = live.listen(lambda slug, message: messages.append((slug, message)))
+    yield messages
+    stop()
+
+
+@pytest.fixture
+def three(hall: str) -> None:
+    for description in (MIXER, ROBOT, replace(ROBOT, id="robot2", name="Robot Two")):
+        describe(description)
+        come(description.id)
+    Device.objects.update(lifecycle=Device.Lifecycle.APPROVED)
+
+
+def test_states_of_several_devices_are_kept_and_told(
+    three: None, heard: list[Any], django_capture_on_commit_callbacks: Any
+) -> None:
+    with django_capture_on_commit_callbacks(execute=True):
+        outcomes = services.ingest_states(
+            states=[
+                said("robot2", state(1, loc=[1, 2, 0, 0.5], props={"load": "box:2"})),
+                said("mixer1", state(1, done=False, props={"jobStatus": 40})),
+            ]
+        )
+    assert outcomes == tuple(services.get_device(site="hall", device_id=name) for name in ("robot2", "mixer1"))
+    told = {message["device"]["id"]: message["device"] for _, message in heard}
+    assert told["robot2"] == {
+        "id": "robot2", "doing": "Carrying 2 boxes", "carrying": {"box": 2},
+        "location": {"x": 1.0, "y": 2.0, "z": 0.0, "theta": 0.5},
+    }  # fmt: skip
+    assert (told["mixer1"]["status"], told["mixer1"]["properties"][0]["value"]) == ("busy", 40)
+    assert len(heard) == 2
+
+
+def test_each_message_has_its_own_fate(three: None) -> None:
+    services.ingest_states(states=[said("robot1", state(5, props={"battery": 50}))])
+    old, broken, unknown, fine = services.ingest_states(
+        states=[
+            said("robot1", state(5, props={"battery": 99})),
+            said("mixer1", b'{"boot": 1}'),
+            said("nobody", state(1)),
+            said("robot2", state(1, props={"battery": 80})),
+        ]
+    )
+    assert old is None
+    assert unknown is None
+    assert isinstance(broken, BadMessage)
+    assert isinstance(fine, services.DeviceView)
+    assert fine.readings == {"battery": 80}
+    assert services.get_device(site="hall", device_id="robot1").readings == {"battery": 50}
+    assert not Device.objects.filter(pk="nobody").exists()
+
+
+def test_a_retained_state_does_not_bring_a_device_online(hall: str) -> None:
+    describe()
+    services.ingest_states(states=[said("mixer1", state(1), retained=True)])
+    assert not services.get_device(site="hall", device_id="mixer1").online
+    services.ingest_states(states=[said("mixer1", state(2))])
+    assert services.get_device(site="hall", device_id="mixer1").online
+
+
+def test_a_device_without_a_description_is_kept_and_told_to_nobody(three: None, heard: list[Any]) -> None:
+    Device.objects.create(pk="silent", site=Device.objects.get(pk="robot1").site)
+    assert services.ingest_states(states=[said("silent", state(1)), said("robot1", state(1))])[0] is None
+    assert (Device.objects.get(pk="silent").seq, Device.objects.get(pk="robot1").seq) == (1, 1)
+
+
+def test_an_error_among_many_states_is_written_into_that_devices_history(three: None) -> None:
+    services.ingest_states(states=[said("robot1", state(1, props={"error": "stuck"})), said("robot2", state(1))])
+    services.ingest_states(states=[said("robot1", state(2, props={"error": ""})), said("robot2", state(2))])
+    lines = DeviceEvent.objects.filter(kind__in=("error", "recovered")).order_by("pk")
+    assert [(line.device_id, line.text) for line in lines] == [
+        ("robot1", "Reports an error: stuck"),
+        ("robot1", "Reports no error any more"),
+    ]
+
+
+def test_what_is_told_of_a_state_is_what_differs(three: None) -> None:
+    before = services.get_device(site="hall", device_id="robot1")
+    payload = state(1, done=False, loc=[3, 1, 0, 0], props={"battery": 10, "load": "can:1", "jobStatus": 7})
+    services.ingest_state(device_id="robot1", payload=payload, at=NOW + timedelta(seconds=1))
+    after = services.get_device(site="hall", device_id="robot1")
+    assert changed_state(before, after) == changed_fields(before, after)
+
+
+def test_descriptions_that_say_nothing_new_are_found(hall: str) -> None:
+    describe()
+    describe(ROBOT)
+    own = {d.id: write_description(d).encode() for d in (MIXER, replace(ROBOT, name="Other"))}
+    later = NOW + timedelta(seconds=60)
+    assert services.find_unchanged(descriptions={**own, "nobody": b"x"}, at=later) == {"mixer1"}
+    assert services.get_device(site="hall", device_id="mixer1").last_seen_at == later
+    assert services.get_device(site="hall", device_id="robot1").last_seen_at == NOW
