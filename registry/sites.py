@@ -56,6 +56,11 @@ def list_sites(*, user: User) -> tuple[SiteView, ...]:
     return tuple(_site_view(m.site, m.role) for m in members)
 
 
+def list_slugs() -> tuple[str, ...]:
+    """Return the short names of all sites."""
+    return tuple(Site.objects.order_by("slug").values_list("slug", flat=True))
+
+
 def get_site(*, site: str, role: str = "") -> SiteView:
     """Return a site; `role` is written into the view as it is."""
     return _site_view(find_site(site), role)

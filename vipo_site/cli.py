@@ -13,7 +13,7 @@ from editor.language import compile_document, compiled_to_json, plan_to_json
 from editor.language.compiled import Compiled, diagnostic_to_json
 from editor.language.phrases import LANGUAGES, Language
 from registry.rdf_text import FORMS
-from vipo_site import call_device
+from vipo_site import call_device, devices_cli
 from vipo_site.draw_file import add_arguments as add_draw_arguments
 from vipo_site.draw_file import draw_file
 from vipo_site.program_file import FaultyScript, ProgramFile, UnreadableFile, read_program_file
@@ -74,7 +74,7 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="vipo", description="Check, print, plan and rehearse programs for robots and machines.")
-    names = "|".join([*(name for name, _, _ in _COMMANDS), "describe", "call"])
+    names = "|".join([*(name for name, _, _ in _COMMANDS), "describe", "call", "devices", "approve"])
     commands = parser.add_subparsers(required=True, metavar=names, parser_class=_Parser)
     for name, command, text in _COMMANDS:
         sub = commands.add_parser(name, help=text, description=text)
@@ -92,6 +92,11 @@ def _parser() -> argparse.ArgumentParser:
             )
     _add_describe(commands.add_parser("describe", help=_DESCRIBE, description=_DESCRIBE))
     call_device.add_arguments(commands.add_parser("call", help=call_device.WHAT, description=call_device.WHAT))
+    for word, text, add in (
+        ("devices", devices_cli.DEVICES, devices_cli.add_devices_arguments),
+        ("approve", devices_cli.APPROVE, devices_cli.add_approve_arguments),
+    ):
+        add(commands.add_parser(word, help=text, description=text))
     return parser
 
 

@@ -1,0 +1,59 @@
+"""`vipo devices` and `vipo approve`."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from registry import services
+from vipo_site.cli import main
+
+from .conftest import NOW, ROBOT, come, describe
+
+
+def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    code = main(arguments)
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def test_devices_are_listed_with_their_state(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    describe()
+    describe(ROBOT)
+    come("robot1")
+    services.approve_device(site="hall", device_id="mixer1", by=None, at=NOW)
+    assert told(capsys, "devices", "--site", "hall") == (
+        0,
+        "id      name       site  kind     life      state    last seen\n"
+        "mixer1  Mixer One  hall  machine  approved  offline  2026-11-21T12:00:00+00:00\n"
+        "robot1  Robot One  hall  robot    pending   pending  2026-11-21T12:00:00+00:00\n",
+        "",
+    )
+    code, out, _ = told(capsys, "devices", "--json")
+    assert (code, [(d["id"], d["site"], d["lifecycle"]) for d in json.loads(out)]) == (
+        0,
+        [("mixer1", "hall", "approved"), ("robot1", "hall", "pending")],
+    )
+    assert told(capsys, "devices", "--site", "nowhere") == (2, "", "There is no site 'nowhere'.\n")
+
+
+def test_a_device_is_approved_and_its_key_is_printed_once(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    describe()
+    code, out, err = told(capsys, "approve", "mixer1")
+    first, second, third = out.splitlines()
+    assert (code, err) == (0, "")
+    assert first == "Mixer One (mixer1) takes part at hall from now on."
+    assert services.check_device_password(username="mixer1", password=second.removeprefix("Its key, shown this once: "))
+    assert third == "Type it into the device, as its password."
+    again = "mixer1 does not wait for a decision; it is approved.\n"
+    assert told(capsys, "approve", "mixer1") == (2, "", again)
+    unknown = "No device 'nothing' has described itself. Try: vipo devices\n"
+    assert told(capsys, "approve", "nothing") == (2, "", unknown)
+
+
+def test_one_with_a_key_of_its_own_keeps_it(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    services.expect_device(site="hall", device_id="mixer1", credential="k" * 32, approved=False)
+    describe()
+    code, out, _ = told(capsys, "approve", "mixer1", "--json")
+    assert (code, json.loads(out)) == (0, {"device": "mixer1", "credential": None, "taken": False})

@@ -1,0 +1,103 @@
+"""`vipo devices` and `vipo approve`: a site's devices on the command line, for whoever may read its database."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Sequence
+
+import django
+
+CLEAN, UNUSABLE = 0, 2
+DEVICES = "List the devices of a site, or of all sites, with their state."
+APPROVE = "Let a pending device take part, and print its new key this once."
+COLUMNS = ("id", "name", "site", "kind", "life", "state", "last seen")
+
+
+def add_devices_arguments(sub: argparse.ArgumentParser) -> None:
+    """Describe what stands behind `vipo devices`."""
+    sub.add_argument("--site", default="", help="one site only")
+    sub.add_argument("--json", action="store_true", help="write JSON for machines")
+    sub.set_defaults(run=list_devices)
+
+
+def add_approve_arguments(sub: argparse.ArgumentParser) -> None:
+    """Describe what stands behind `vipo approve`."""
+    sub.add_argument("device", help="the device's id")
+    sub.add_argument("--json", action="store_true", help="write JSON for machines")
+    sub.set_defaults(run=approve)
+
+
+def list_devices(options: argparse.Namespace) -> int:
+    """Print the devices; return 0, or 2 when there is no such site."""
+    _set_up()
+    from registry import services
+    from registry.errors import VipoError
+
+    try:
+        slugs = [options.site] if options.site else services.list_slugs()
+        found = [device for slug in slugs for device in services.list_devices(site=slug)]
+    except VipoError as error:
+        return _complain(error.detail)
+    if options.json:
+        _write(json.dumps([services.device_to_json(d) | {"site": d.site} for d in found], ensure_ascii=False, indent=1))
+        return CLEAN
+    rows = [
+        (
+            *(d.id, d.name, d.site, d.kind, d.lifecycle, d.status),
+            d.last_seen_at.isoformat(timespec="seconds") if d.last_seen_at else "never",
+        )
+        for d in found
+    ]
+    for line in _table([COLUMNS, *rows]):
+        _write(line)
+    return CLEAN
+
+
+def approve(options: argparse.Namespace) -> int:
+    """Approve a device and print its key; return 0, or 2 when that cannot be."""
+    _set_up()
+    from django.utils import timezone
+
+    from registry import services
+    from registry.errors import VipoError
+
+    try:
+        device = services.find_device(device_id=options.device)
+        if device is None:
+            return _complain(f"No device {options.device!r} has described itself. Try: vipo devices")
+        decided = services.approve_device(site=device.site, device_id=device.id, by=None, at=timezone.now())
+    except VipoError as error:
+        return _complain(error.detail)
+    if options.json:
+        _write(json.dumps({"device": device.id, "credential": decided.credential, "taken": decided.taken}))
+        return CLEAN
+    _write(f"{device.name} ({device.id}) takes part at {device.site} from now on.")
+    if decided.credential is None:
+        _write("It keeps the key that it came with.")
+        return CLEAN
+    _write(f"Its key, shown this once: {decided.credential}")
+    _write("The device has taken it by itself." if decided.taken else "Type it into the device, as its password.")
+    return CLEAN
+
+
+def _set_up() -> None:
+    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
+    django.setup()
+
+
+def _table(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Return the rows with their columns under each other."""
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+
+
+def _write(line: str) -> None:
+    print(line)  # noqa: T201 - a command line tool speaks by printing
+
+
+def _complain(line: str) -> int:
+    print(line, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing
+    return UNUSABLE
