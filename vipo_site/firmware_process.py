@@ -6,10 +6,14 @@ import json
 import subprocess
 import sys
 from collections.abc import Mapping
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
 from django.conf import settings
+
+from registry.demo.devices import DEVICES
+from registry.describing import read
 
 ROOT = Path(__file__).resolve().parent.parent
 FETCH_TIMEOUT_S = 120
@@ -19,7 +23,8 @@ NOTICE = "The firmware of {id} runs under CPython, not MicroPython. {why}"
 def firmware_command(state_dir: Path, config: Mapping[str, Any]) -> tuple[list[str], str | None]:
     """Return the command that runs the firmware, and a notice when it is not MicroPython.
 
-    `config` has host, port, id, password, and may have speed, driver, site, description (a path), log (a path).
+    `config` has host, port, id, password, and may have speed, driver, site, log (a path); what the device says of
+    itself is what its driver declares, at the place of the demo's device of that id.
     The first call on a machine fetches MicroPython, which takes some seconds.
     """
     interpreter, why = find_micropython(state_dir)
@@ -55,7 +60,7 @@ def write_configuration(state_dir: Path, config: Mapping[str, Any]) -> Path:
     complete = {
         "driver": "mixer",
         "site": settings.VIPO_DEFAULT_SITE,
-        "description": str(ROOT / "registry" / "demo" / "devices" / f"{device}.ttl"),
+        **place_of(device),
         "boot_file": str(folder / f"{device}.boot"),
         "log": str(folder / f"{device}.log"),
         **config,
@@ -64,3 +69,15 @@ def write_configuration(state_dir: Path, config: Mapping[str, Any]) -> Path:
     path.touch(mode=0o600)
     path.write_text(json.dumps(complete, indent=1))
     return path
+
+
+def place_of(device: str) -> dict[str, Any]:
+    """Return what a configuration says of one of the demo's devices: its name, place and size."""
+    payload = (DEVICES / f"{device}.ttl").read_bytes()
+    known = read(payload, device_id=device).description
+    return {
+        "name": known.name,
+        "location": list(astuple(known.pose)),
+        "size": list(astuple(known.size)),
+        "simulated": known.simulated,
+    }

@@ -12,10 +12,12 @@ from typing import Any
 
 import pytest
 
-from registry.describing import read
+from registry.demo.devices import DEVICES
+from registry.describing import canonical_hash, read
 from tests.firmware.conftest import find_interpreter
 from tests.firmware.rig import ACCOUNTS, DEVICE, ROOT, Running, listening, running_bus, start_firmware
 from tests.servers import run_mosquitto
+from vipo_site.firmware_process import firmware_command
 
 UP = f"vipo/v1/dev/{DEVICE}/up/"
 DOWN = f"vipo/v1/dev/{DEVICE}/down/"
@@ -194,3 +196,18 @@ def test_a_broker_with_a_strange_certificate_is_not_trusted(interpreter: list[st
             time.sleep(0.3)
             assert ear.heard == []
     assert "No connection" in (tmp_path / "panel.log").read_text()
+
+
+def test_the_demos_mixer_says_of_itself_what_the_site_knows_already(micropython: str, tmp_path: Path) -> None:
+    (tmp_path / "micropython").symlink_to(Path(micropython).parent)
+    command, notice = firmware_command(tmp_path, {"host": "127.0.0.1", "port": 1, "id": DEVICE, "password": "word"})
+    assert (command[1:], notice) == ([str(ROOT / "firmware" / "unix_main.py"), command[2]], None)
+    program = (
+        "from vipo.drivers import make_driver; from vipo.panel import Panel; from vipo.start import make_description\n"
+        f"import json; c = json.load(open({command[2]!r}))\n"
+        "print(make_description(c, make_driver(c['driver'], Panel(), c)).decode())"
+    )
+    env = {"MICROPYPATH": f"{ROOT / 'firmware' / 'lib'}:.frozen"}
+    told = subprocess.run([micropython, "-c", program], env=env, capture_output=True, timeout=60, check=True).stdout
+    known = (DEVICES / f"{DEVICE}.ttl").read_bytes()
+    assert canonical_hash(read(told, device_id=DEVICE).description) == canonical_hash(read(known).description)
