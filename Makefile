@@ -1,7 +1,7 @@
 # One command for each thing a person does. `make demo` and `make test` set up what they need on a bare machine.
 PYTHON ?= python3.11
 BIN := .venv/bin
-SOURCES := vipo_site registry editor simulation execution connectors tests bench scripts manage.py
+SOURCES := vipo_site registry editor simulation execution connectors firmware/robot_agent tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
 .PHONY: demo test check bench mutation checks-page openapi format frontend setup setup-dev servers clean

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Installs what the tests start for themselves: PostgreSQL, Redis, Mosquitto and Chromium, as Debian packages.
+# Installs what the tests start for themselves: PostgreSQL, Redis, Mosquitto, Chromium and ROS 1, as Debian packages.
 # Nothing is enabled or left running by the tests; each test starts its own servers on free ports.
+# ROS is not in every distribution: without it the tests of the robot agent's rospy shell are skipped, and say so.
 set -eu
 
 missing=""
@@ -8,21 +9,32 @@ missing=""
 command -v redis-server >/dev/null || missing="$missing redis-server"
 command -v mosquitto >/dev/null || [ -x /usr/sbin/mosquitto ] || missing="$missing mosquitto"
 command -v chromium >/dev/null || missing="$missing chromium"
-[ -z "$missing" ] && exit 0
+ros=""
+if ! /usr/bin/python3 -c "import rospy, rosmaster, actionlib, move_base_msgs, nav_msgs, sensor_msgs, paho" 2>/dev/null; then
+    ros="python3-rosmaster python3-rospy python3-actionlib python3-move-base-msgs python3-nav-msgs"
+    ros="$ros python3-sensor-msgs python3-paho-mqtt"
+fi
+[ -z "$missing$ros" ] && exit 0
 
 command -v apt-get >/dev/null || {
+    [ -z "$missing" ] && exit 0
     echo "The tests need:$missing. This machine has no apt-get; install them by its own means and run this again." >&2
     exit 1
 }
 as_root=""
 if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null || {
+        [ -z "$missing" ] && exit 0
         echo "The tests need:$missing. Run as root: apt-get install$missing" >&2
         exit 1
     }
     as_root=sudo
 fi
-echo "Installing for the tests, with apt-get:$missing"
+install() {
+    # shellcheck disable=SC2086
+    DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y -qq --no-install-recommends $1 >/dev/null
+}
+echo "Installing for the tests, with apt-get:$missing $ros"
 $as_root apt-get update -qq
-# shellcheck disable=SC2086
-DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null
+[ -z "$missing" ] || install "$missing"
+[ -z "$ros" ] || install "$ros" || echo "ROS 1 could not be installed; the tests that need it will be skipped." >&2

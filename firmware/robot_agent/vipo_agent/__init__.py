@@ -1,0 +1,1 @@
+"""The agent that makes a ROS robot a device of VIPO."""

@@ -1,0 +1,95 @@
+"""The robot's connection to VIPO's broker, over paho 1.5 or later."""
+
+from __future__ import annotations
+
+import ssl
+from typing import Any, Callable
+
+import paho.mqtt.client as mqtt
+
+from vipo_agent.config import Config
+from vipo_agent.messages import Told, read_command, read_stop, write
+
+KEEPALIVE_S = 15
+SERVER_STATUS = "vipo/v1/srv/status"
+
+
+class Link:
+    """One connection that comes back by itself. What comes in is passed on at once, on the network's thread."""
+
+    def __init__(self, config: Config, boot: int) -> None:
+        self.told: Callable[[Told], None] = _ignore
+        self.stopped: Callable[[bool], None] = _ignore
+        self.came_in: Callable[[], None] = lambda: None
+        self._config, self._boot = config, boot
+        self._server = b""
+        self._client = _make_client(config.id)
+        self._client.username_pw_set(config.id, config.password)
+        if config.ca:
+            self._client.tls_set_context(ssl.create_default_context(cafile=config.ca))
+        self._client.will_set(self._up("presence"), self._presence("offline"), 1, True)
+        self._client.reconnect_delay_set(1, 10)
+        self._client.on_connect = self._connected
+        self._client.on_message = self._heard
+
+    def start(self) -> None:
+        """Begin to connect; a broker that is not there is tried again."""
+        self._client.connect_async(self._config.host, self._config.port, KEEPALIVE_S)
+        self._client.loop_start()
+
+    def stop(self) -> None:
+        """Say that the robot leaves, and end the connection."""
+        said = self.say("presence", self._presence("offline"), retain=True)
+        if self._client.is_connected():
+            said.wait_for_publish(5)
+        self._client.disconnect()
+        self._client.loop_stop()
+
+    def say_online(self, description: bytes) -> None:
+        """Say who the robot is and that it is here."""
+        self.say("desc", description, retain=True)
+        self.say("presence", self._presence("online"), retain=True)
+
+    def say(self, kind: str, payload: bytes, *, retain: bool = False) -> Any:
+        """Publish on one of the robot's own topics."""
+        return self._client.publish(self._up(kind), payload, 1, retain)
+
+    @property
+    def is_connected(self) -> bool:
+        """True while the broker has accepted this connection."""
+        return bool(self._client.is_connected())
+
+    def _up(self, kind: str) -> str:
+        return f"vipo/v1/dev/{self._config.id}/up/{kind}"
+
+    def _presence(self, said: str) -> bytes:
+        return write({"s": said, "boot": self._boot})
+
+    def _connected(self, client: Any, _data: Any, _flags: Any, reason: Any, _properties: Any | None = None) -> None:
+        if getattr(reason, "is_failure", reason != 0):
+            return
+        topics = [f"vipo/v1/dev/{self._config.id}/down/#", f"vipo/v1/site/{self._config.site}/stop", SERVER_STATUS]
+        client.subscribe([(topic, 1) for topic in topics])
+        self.came_in()
+
+    def _heard(self, _client: Any, _data: Any, message: Any) -> None:
+        if message.topic.endswith("/stop"):
+            self.stopped(read_stop(message.payload))
+        elif message.topic == SERVER_STATUS:
+            if self._server and message.payload != self._server:
+                self.came_in()
+            self._server = message.payload
+        elif not message.retain:
+            told = read_command(message.topic.rsplit("/", 1)[1], message.payload)
+            if told is not None:
+                self.told(told)
+
+
+def _make_client(client_id: str) -> Any:
+    """Return a client for MQTT 3.1.1 of whichever paho there is."""
+    version = getattr(mqtt, "CallbackAPIVersion", None)
+    return mqtt.Client(version.VERSION2, client_id=client_id) if version else mqtt.Client(client_id=client_id)
+
+
+def _ignore(_said: Any) -> None:
+    return

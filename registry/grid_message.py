@@ -1,0 +1,142 @@
+"""The map that a robot sends on `up/map`: parts in JSON, put together again with suspicion (docs/protocol.md)."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import zlib
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import Any
+
+from registry.floor import Grid
+from registry.wire import MAX_METRES, BadMessage, parse_json
+
+MAX_CELLS = 16_000_000
+MAX_SIDE = 8192
+MAX_PARTS = 400
+_KNOWN = bytes([*range(101), 255])
+
+
+@dataclass(frozen=True, slots=True)
+class GridPart:
+    """One message: part `part` of `parts` of the map `number` of a boot; `origin` is x, y (m) and theta (rad)."""
+
+    boot: int
+    number: int
+    part: int
+    parts: int
+    width: int
+    height: int
+    resolution_m: float
+    origin: tuple[float, float, float]
+    packed: bytes
+
+
+@dataclass(slots=True)
+class GridAssembly:
+    """Collects the parts of one robot's newest map; memory stays bounded by the packet limit times MAX_PARTS."""
+
+    _first: GridPart | None = None
+    _packed: dict[int, bytes] = field(default_factory=dict)
+
+    def add(self, part: GridPart) -> Grid | None:
+        """Take in a part and return the map when it was the last that was missing; parts of older maps are ignored.
+
+        Raises BadMessage when the parts do not fit together.
+        """
+        name = (part.boot, part.number)
+        first = self._first
+        if first is None or name > (first.boot, first.number):
+            self._first = first = part
+            self._packed = {}
+        if name < (first.boot, first.number):
+            return None
+        if _head(first) != _head(part):
+            raise BadMessage("The parts of the map tell of different sizes, places or numbers of parts.")
+        self._packed[part.part] = part.packed
+        if len(self._packed) < part.parts:
+            return None
+        packed = b"".join(self._packed[number] for number in range(part.parts))
+        self._packed = {}
+        return _grid(part, packed)
+
+
+def read_grid_part(payload: bytes) -> GridPart:
+    """Read one message of `up/map`. Raises BadMessage."""
+    body = parse_json(payload)
+    if not isinstance(body, dict):
+        raise BadMessage("The message is not a JSON object.")
+    parts = _whole(body, "parts", 1, MAX_PARTS)
+    width, height = _size(body.get("size"))
+    return GridPart(
+        boot=_whole(body, "boot", 0, 2**53),
+        number=_whole(body, "map", 0, 2**53),
+        part=_whole(body, "part", 0, parts - 1),
+        parts=parts,
+        width=width,
+        height=height,
+        resolution_m=_resolution(body.get("resolution")),
+        origin=_origin(body.get("origin")),
+        packed=_packed(body.get("cells")),
+    )
+
+
+def _head(part: GridPart) -> tuple[Any, ...]:
+    return part.parts, part.width, part.height, part.resolution_m, part.origin
+
+
+def _grid(part: GridPart, packed: bytes) -> Grid:
+    if abs(part.origin[2]) > 1e-6:
+        raise BadMessage("The map is turned; `origin` must have theta 0.")
+    wanted = part.width * part.height
+    unpacker = zlib.decompressobj()
+    try:
+        cells = unpacker.decompress(packed, wanted + 1)
+    except zlib.error:
+        raise BadMessage("The cells are not packed with zlib.") from None
+    if len(cells) != wanted or not unpacker.eof:
+        raise BadMessage(f"The map has not the {wanted} cells that its size says.")
+    if cells.translate(None, _KNOWN):
+        raise BadMessage("A cell must be 0 to 100, or 255 for unknown.")
+    return Grid(part.width, part.height, part.resolution_m, part.origin[0], part.origin[1], cells)
+
+
+def _whole(body: dict[str, Any], name: str, least: int, most: int) -> int:
+    value = body.get(name)
+    if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+        raise BadMessage(f"`{name}` must be a whole number from {least} to {most}.")
+    return value
+
+
+def _size(value: Any) -> tuple[int, int]:
+    if not isinstance(value, list) or len(value) != 2 or not all(type(v) is int and 1 <= v <= MAX_SIDE for v in value):
+        raise BadMessage(f"`size` must be [width, height]: cells, from 1 to {MAX_SIDE}.")
+    if value[0] * value[1] > MAX_CELLS:
+        raise BadMessage(f"The map has more than {MAX_CELLS} cells.")
+    return value[0], value[1]
+
+
+def _resolution(value: Any) -> float:
+    if not _is_number(value) or not 0.001 <= value <= 10:
+        raise BadMessage("`resolution` must be from 0.001 to 10 metres.")
+    return float(value)
+
+
+def _origin(value: Any) -> tuple[float, float, float]:
+    if not isinstance(value, list) or len(value) != 3 or not all(_is_number(v) and abs(v) <= MAX_METRES for v in value):
+        raise BadMessage("`origin` must be [x, y, theta]: metres and radians.")
+    return float(value[0]), float(value[1]), float(value[2])
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+
+
+def _packed(value: Any) -> bytes:
+    if not isinstance(value, str) or not value:
+        raise BadMessage("`cells` must be text in base64.")
+    try:
+        return base64.b64decode(value, validate=True)
+    except (binascii.Error, ValueError):
+        raise BadMessage("`cells` must be text in base64.") from None

@@ -1,0 +1,14 @@
+"""The robot's agent as the tests import it: it lies beside the product, for it runs on robots."""
+
+import sys
+
+from tests.servers import ROOT
+
+sys.path.insert(0, str(ROOT / "firmware" / "robot_agent"))
+
+from vipo_agent.config import BadConfig, make_config
+from vipo_agent.core import Core, Facts, Go, Halt
+from vipo_agent.description import describe
+from vipo_agent.messages import Grid, Told, write_grid
+
+__all__ = ["BadConfig", "Core", "Facts", "Go", "Grid", "Halt", "Told", "describe", "make_config", "write_grid"]
