@@ -107,7 +107,7 @@ class Ear:
 def measure() -> Iterator[dict[str, object]]:
     with tempfile.TemporaryDirectory() as name, _servers(Path(name)) as world:
         for said in world.run("describe", str(DEVICES)):
-            yield figure(said["what"], said["rate"], "per second", devices=DEVICES)
+            yield figure(said["what"], said["rate"], "per second and core", devices=DEVICES)
         for number, pace in enumerate(PACES):
             yield _measure_states(world, pace, first=1 + number * ROUNDS)
         yield from _measure_delays(world)
