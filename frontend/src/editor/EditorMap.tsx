@@ -6,13 +6,14 @@ import type { Insets } from "@/map/projection";
 import { toPixels } from "@/map/projection";
 import type { NodeLooks } from "./canvas/buildNodes";
 import { MapControls } from "./canvas/MapControls";
-import { MapStage, type StagePress } from "./canvas/MapStage";
+import { MapStage, type MapStageProps, type StagePress } from "./canvas/MapStage";
 import type { Light } from "./canvas/MachineNode";
 import { chipLabel } from "./scene/announce";
 import { frameAt } from "./scene/frames";
 import type { SiteDevice } from "./scene/surroundings";
-import { useOpenProgram } from "./state/context";
-import { goInto, useDrawing } from "./state/drawing";
+import { useOpenProgram, type OpenProgram } from "./state/context";
+import { goInto } from "./state/creating";
+import { useDrawing, type Drawing } from "./state/drawing";
 import { moveChips } from "./state/moving";
 import { cursorShower, othersOn } from "./state/presence";
 import { askOf, stepBack, suits, type Gesture } from "./state/tool";
@@ -20,6 +21,7 @@ import { select, toggleSelected, useUi } from "./state/ui";
 import { swapBranches } from "./model/framing";
 import { FollowView } from "./gestures/FollowView";
 import { Ghosts } from "./gestures/Ghosts";
+import { KeepInView } from "./gestures/KeepInView";
 import { joinByDot } from "./gestures/joining";
 import { RouteBends } from "./gestures/RouteBends";
 import { settle } from "./gestures/settle";
@@ -31,70 +33,32 @@ import { PreviewLine } from "./parts/PreviewLine";
 import { pressZoneTool, ZONE_TOOL } from "./zones/drawing";
 import { EditorZones, ZoneHandles } from "./zones/ZoneLayer";
 
-export function EditorMap({ insets, fitInsets }: { insets: Insets; fitInsets: Insets }) {
+interface EditorMapProps {
+  insets: Insets;
+  fitInsets: Insets;
+  small: boolean;
+}
+
+export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
   const open = useOpenProgram();
-  const { plan, devices, scene, shared, t, document, canEdit } = open;
+  const { plan, devices, scene, shared, t } = open;
   const gesture = useUi((ui) => ui.gesture);
-  const into = useUi((ui) => ui.into);
-  const looks = useLooks(gesture);
   const drawing = useDrawing(open, gesture);
   const showCursor = useMemo(() => cursorShower(shared), [shared]);
-  const pressStep = useCallback((step: string, add: boolean) => (add ? toggleSelected(step) : select([step])), []);
-  const back = () => useUi.setState({ gesture: stepBack(gesture), fieldPick: null });
-  const pressDevice = (device: string) => {
-    const { fieldPick } = useUi.getState();
-    if (fieldPick) {
-      fieldPick.choose(device);
-      useUi.setState({ fieldPick: null });
-    } else if (askOf(gesture) === "nothing") select([]);
-    // The source's own press ends here too: it began on the way down, so that it can be dragged from.
-    else if (device !== gesture.source) drawing.takeDevice(device);
-  };
-  const pressResting = (press: StagePress) => {
-    const frame = frameAt(scene.frames, toPixels(press.at));
-    select(frame ? [frame.id] : []);
-    if (frame && canEdit) goInto(open, frame);
-  };
-  const pressFloor = (press: StagePress) => {
-    const ask = askOf(gesture);
-    if (gesture.tool === ZONE_TOOL) {
-      pressZoneTool(open, press.at);
-      return;
-    }
-    useGestures.setState({ zone: null });
-    if (ask === "floor" || ask === "goal") drawing.takeFloor(press.at);
-    else if (ask === "nothing") pressResting(press);
-    else back();
-  };
+  const presses = usePresses(open, gesture, drawing);
   return (
     <MapStage
       plan={plan}
       devices={devices}
       scene={scene}
-      looks={looks}
+      looks={useLooks(gesture)}
       robots={liveRobots}
       insets={fitInsets}
       label={t("map_label")}
       mode={gesture.tool === "pan" ? "pan" : gesture.tool === "select" ? "select" : "draw"}
-      lines={{
-        chosenLink: into?.link ?? null,
-        onSwap: canEdit ? (step) => settle(open, swapBranches(document, step)) : undefined,
-        swapLabel: t("gesture.swap"),
-        onSelectLink: canEdit
-          ? (link) => useUi.setState({ into: { branch: link.into, link: link.id, word: link.word ?? t("then") } })
-          : undefined,
-      }}
+      lines={useLines(open)}
       onlyFloor={gesture.tool === ZONE_TOOL}
-      onStep={pressStep}
-      onEditStep={(step) => {
-        select([step]);
-        toggleHull(document.steps[step]?.params.function);
-      }}
-      onDevice={pressDevice}
-      onDeviceDown={drawing.dragFrom}
-      onDeviceUp={drawing.dragTo}
-      onFloor={pressFloor}
-      onBack={back}
+      {...presses}
       onMove={(moved) => moveChips(open, moved)}
       onSelectMany={select}
       onJoin={(from, to, at) => joinByDot(open, from, to, at)}
@@ -104,22 +68,80 @@ export function EditorMap({ insets, fitInsets }: { insets: Insets; fitInsets: In
         drawing.pointer.set({ ...toPixels(at), zoom: 1 });
       }}
       under={<EditorZones />}
-      plane={
-        <>
-          <PreviewLine from={drawing.from} route={drawing.preview} pointer={drawing.pointer} />
-          <RouteBends />
-          <ZoneHandles pointer={drawing.pointer} />
-        </>
-      }
+      plane={<Plane drawing={drawing} />}
     >
       <FollowView />
+      {small ? <KeepInView /> : null}
       <Ghosts />
       <Cursors shared={shared} />
-      <DevicePalette onChoose={pressDevice} />
+      <DevicePalette onChoose={presses.onDevice} />
       {drawing.askAt ? <LoadAsk at={drawing.askAt} loads={drawing.loads} onChoose={drawing.takeLoad} /> : null}
       <MapControls plan={plan} scene={scene} insets={insets} mini />
     </MapStage>
   );
+}
+
+/** What lies in the map's plane over the drawing. */
+function Plane({ drawing }: { drawing: Drawing }) {
+  return (
+    <>
+      <PreviewLine from={drawing.from} route={drawing.preview} pointer={drawing.pointer} />
+      <RouteBends />
+      <ZoneHandles pointer={drawing.pointer} />
+    </>
+  );
+}
+
+/** What presses on steps, machines and the floor mean with the tool in hand. */
+function usePresses(open: OpenProgram, gesture: Gesture, drawing: Drawing) {
+  const onStep = useCallback((step: string, add: boolean) => (add ? toggleSelected(step) : select([step])), []);
+  const onBack = () => useUi.setState({ gesture: stepBack(gesture), fieldPick: null });
+  const onDevice = (device: string) => {
+    const { fieldPick } = useUi.getState();
+    if (fieldPick) {
+      fieldPick.choose(device);
+      useUi.setState({ fieldPick: null });
+    } else if (askOf(gesture) === "nothing") select([]);
+    // The source's own press ends here too: it began on the way down, so that it can be dragged from.
+    else if (device !== gesture.source) drawing.takeDevice(device);
+  };
+  const onFloor = (press: StagePress) => {
+    const ask = askOf(gesture);
+    if (gesture.tool === ZONE_TOOL) {
+      pressZoneTool(open, press.at);
+      return;
+    }
+    useGestures.setState({ zone: null });
+    if (ask === "floor" || ask === "goal") drawing.takeFloor(press.at);
+    else if (ask === "nothing") pressResting(open, press);
+    else onBack();
+  };
+  const onEditStep = (step: string) => {
+    select([step]);
+    toggleHull(open.document.steps[step]?.params.function);
+  };
+  return { onStep, onBack, onDevice, onFloor, onEditStep, onDeviceDown: drawing.dragFrom, onDeviceUp: drawing.dragTo };
+}
+
+/** A press on the floor with an empty hand chooses the frame there, or nothing. */
+function pressResting(open: OpenProgram, press: StagePress): void {
+  const frame = frameAt(open.scene.frames, toPixels(press.at));
+  select(frame ? [frame.id] : []);
+  if (frame && open.canEdit) goInto(open, frame);
+}
+
+/** What presses on arrows and their words do. */
+function useLines(open: OpenProgram): MapStageProps["lines"] {
+  const { document, canEdit, t } = open;
+  const into = useUi((ui) => ui.into);
+  return {
+    chosenLink: into?.link ?? null,
+    onSwap: canEdit ? (step) => settle(open, swapBranches(document, step)) : undefined,
+    swapLabel: t("gesture.swap"),
+    onSelectLink: canEdit
+      ? (link) => useUi.setState({ into: { branch: link.into, link: link.id, word: link.word ?? t("then") } })
+      : undefined,
+  };
 }
 
 /** A call opened or closed: its function's body shown on the map or not. */

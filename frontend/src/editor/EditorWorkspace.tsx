@@ -49,7 +49,7 @@ export function EditorWorkspace() {
     <div className={classes.screen}>
       <EditorTop />
       <main className={classes.floor} style={style} data-small={small || undefined}>
-        <EditorMap insets={insets} fitInsets={fitInsets} />
+        <EditorMap insets={insets} fitInsets={fitInsets} small={small} />
         <ToolRail />
         <EmptyProgram />
         <HelpSentence />

@@ -1,40 +1,67 @@
-/** Live robots on a canvas of their own: drawn each frame, outside React. */
+/** Live robots on canvases of their own: drawn each frame, outside React. */
 import { useEffect, useRef } from "react";
 import classes from "./map.module.css";
 import { watchPalette, type Palette } from "./palette";
-import { paintRobots } from "./robotPainter";
+import type { Box } from "./projection";
+import { paintRobots, paintWays, type Moment } from "./robotPainter";
 import { Trails, type RobotSource, type RobotView } from "./robots";
 import { paintOnce } from "./useCanvas";
 import type { ViewportSource } from "./viewport";
 
-export interface RobotLayerProps {
+interface LayerProps {
   source: RobotSource;
   viewport: ViewportSource;
-  names?: boolean;
-  trails?: boolean;
 }
 
-export function RobotLayer({ source, viewport, names = true, trails = false }: RobotLayerProps) {
+/** Where robots go, and with trails where they have been. */
+export function RobotWays({ source, viewport, trails = false }: LayerProps & { trails?: boolean }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
-    const element = canvas.current;
-    const context = element?.getContext("2d");
-    if (!element || !context) return;
-    return animate(element, context, source, viewport, { names, trails });
-  }, [source, viewport, names, trails]);
+    const past = trails && !prefersStill() ? new Trails() : null;
+    return animate(canvas.current, source, viewport, {
+      fading: past !== null,
+      paint: (each, colours, moment) => paintWays(each, colours, moment, past),
+      look: (robots, now) => robots.forEach((robot) => past?.add(robot, now)),
+    });
+  }, [source, viewport, trails]);
   return <canvas ref={canvas} className={classes.layer} aria-hidden="true" />;
+}
+
+/** The robots with their names, which keep off what is taken (drawing pixels). */
+export function RobotLayer({ source, viewport, taken }: LayerProps & { taken: readonly Box[] }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(
+    () =>
+      animate(canvas.current, source, viewport, {
+        fading: false,
+        paint: (each, colours, moment) => paintRobots(each, colours, moment, taken),
+      }),
+    [source, viewport, taken],
+  );
+  return <canvas ref={canvas} className={classes.layer} aria-hidden="true" />;
+}
+
+interface Painting {
+  /** Something of it fades with time though no robot moves. */
+  readonly fading: boolean;
+  readonly paint: (canvas: CanvasRenderingContext2D, palette: Palette, moment: Moment) => void;
+  readonly look?: (robots: readonly RobotView[], now: number) => void;
+}
+
+function prefersStill(): boolean {
+  return window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
 /** Paints only frames in which something changed; once a second where motion is not wanted. */
 function animate(
-  element: HTMLCanvasElement,
-  context: CanvasRenderingContext2D,
+  element: HTMLCanvasElement | null,
   source: RobotSource,
   viewport: ViewportSource,
-  detail: { names: boolean; trails: boolean },
-): () => void {
-  const trails = new Trails();
-  const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+  painting: Painting,
+): (() => void) | undefined {
+  const context = element?.getContext("2d");
+  if (!element || !context) return undefined;
+  const still = prefersStill();
   let palette: Palette | null = null;
   let painted = "";
   let frame = 0;
@@ -46,16 +73,12 @@ function animate(
     frame = requestAnimationFrame(step);
     const time = still ? Math.floor(now / 1000) * 1000 : now;
     const robots = source(time);
-    if (detail.trails && !still) for (const robot of robots) trails.add(robot, now);
-    const wanted = fingerprint(robots, viewport, element, time, detail.trails);
+    painting.look?.(robots, now);
+    const wanted = fingerprint(robots, viewport, element, time, painting.fading);
     if (!palette || wanted === painted) return;
     painted = wanted;
-    paintOnce(
-      element,
-      context,
-      (each, _size, colours) => paintRobots(each, colours, robots, trails, viewport.get(), now, detail),
-      palette,
-    );
+    const moment = { robots, viewport: viewport.get(), now };
+    paintOnce(element, context, (each, _size, colours) => painting.paint(each, colours, moment), palette);
   };
   frame = requestAnimationFrame(step);
   return () => {
@@ -69,7 +92,7 @@ function fingerprint(
   viewport: ViewportSource,
   element: HTMLCanvasElement,
   now: number,
-  trails: boolean,
+  fading: boolean,
 ): string {
   const view = viewport.get();
   const moving = robots.some((robot) => robot.status === "busy");
@@ -78,6 +101,6 @@ function fingerprint(
     const pose = `${robot.x.toFixed(3)},${robot.y.toFixed(3)},${robot.theta.toFixed(2)}`;
     return `${robot.id},${pose},${robot.status},${robot.note ?? ""},${robot.wait ?? ""},${robot.carrying},${way}`;
   });
-  const time = moving ? now : trails ? Math.floor(now / 500) : 0;
+  const time = moving ? now : fading ? Math.floor(now / 500) : 0;
   return `${view.x},${view.y},${view.zoom},${element.clientWidth},${element.clientHeight},${time};${parts.join(";")}`;
 }

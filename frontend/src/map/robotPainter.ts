@@ -1,6 +1,6 @@
 /** Paints live robots: reserved path, trail, body, ring, what they carry and why they wait. */
 import type { Palette } from "./palette";
-import { toPixels, type Point, type Viewport } from "./projection";
+import { toPixels, type Box, type Point, type Viewport } from "./projection";
 import type { RobotView, Trails } from "./robots";
 
 type Canvas = CanvasRenderingContext2D;
@@ -9,26 +9,30 @@ const NAME = "600 11.5px 'Inter Variable', Inter, sans-serif";
 const NOTE = "11px 'Inter Variable', Inter, sans-serif";
 const RADIUS = 19;
 
-export interface RobotDetail {
-  readonly names: boolean;
-  readonly trails: boolean;
+export interface Moment {
+  readonly robots: readonly RobotView[];
+  readonly viewport: Viewport;
+  readonly now: number;
 }
 
-export function paintRobots(
-  canvas: Canvas,
-  palette: Palette,
-  robots: readonly RobotView[],
-  trails: Trails,
-  viewport: Viewport,
-  now: number,
-  detail: RobotDetail,
-): void {
+/** Where robots go and have been; belongs under the steps of a program. */
+export function paintWays(canvas: Canvas, palette: Palette, moment: Moment, trails: Trails | null): void {
+  const { robots, viewport, now } = moment;
   canvas.save();
   canvas.translate(viewport.x, viewport.y);
   canvas.scale(viewport.zoom, viewport.zoom);
   for (const robot of robots) paintWay(canvas, palette, robot);
-  if (detail.trails) for (const robot of robots) paintTrail(canvas, palette, trails.of(robot.id, now));
-  for (const robot of robots) paintRobot(canvas, palette, robot, now, detail.names && viewport.zoom > 0.45);
+  if (trails) for (const robot of robots) paintTrail(canvas, palette, trails.of(robot.id, now));
+  canvas.restore();
+}
+
+/** The robots themselves; their names keep off what the boxes (drawing pixels) stand for. */
+export function paintRobots(canvas: Canvas, palette: Palette, moment: Moment, taken: readonly Box[]): void {
+  const { robots, viewport, now } = moment;
+  canvas.save();
+  canvas.translate(viewport.x, viewport.y);
+  canvas.scale(viewport.zoom, viewport.zoom);
+  for (const robot of robots) paintRobot(canvas, palette, robot, now, viewport.zoom > 0.45 ? taken : null);
   canvas.restore();
 }
 
@@ -80,7 +84,13 @@ function paintTrail(canvas: Canvas, palette: Palette, trail: readonly { x: numbe
   canvas.globalAlpha = 1;
 }
 
-function paintRobot(canvas: Canvas, palette: Palette, robot: RobotView, now: number, named: boolean): void {
+function paintRobot(
+  canvas: Canvas,
+  palette: Palette,
+  robot: RobotView,
+  now: number,
+  taken: readonly Box[] | null,
+): void {
   const at = toPixels([robot.x, robot.y]);
   canvas.save();
   canvas.translate(at.x, at.y);
@@ -89,7 +99,7 @@ function paintRobot(canvas: Canvas, palette: Palette, robot: RobotView, now: num
   paintBody(canvas, palette, robot.theta);
   if (robot.carrying) paintLoad(canvas, palette);
   paintBadge(canvas, palette, robot.status);
-  if (named) paintName(canvas, palette, robot);
+  if (taken) paintName(canvas, palette, robot, nameHeight(robot, taken));
   canvas.restore();
 }
 
@@ -193,20 +203,38 @@ function paintBadge(canvas: Canvas, palette: Palette, status: RobotView["status"
   }
 }
 
-function paintName(canvas: Canvas, palette: Palette, robot: RobotView): void {
+const NAME_BELOW = 38;
+const NAME_ABOVE = -42;
+
+/** Below the robot, or above it where something is in the way below and nothing above. */
+export function nameHeight(robot: RobotView, taken: readonly Box[]): number {
+  const at = toPixels([robot.x, robot.y]);
+  const half = (Math.max(robot.name.length, (robot.wait ?? robot.note ?? "").length) * 6.4) / 2;
+  const covers = (height: number) =>
+    taken.some(
+      (box) =>
+        box.left < at.x + half &&
+        box.right > at.x - half &&
+        box.top < at.y + height + 18 &&
+        box.bottom > at.y + height - 11,
+    );
+  return covers(NAME_BELOW) && !covers(NAME_ABOVE) ? NAME_ABOVE : NAME_BELOW;
+}
+
+function paintName(canvas: Canvas, palette: Palette, robot: RobotView, height: number): void {
   canvas.textAlign = "center";
   canvas.textBaseline = "alphabetic";
   canvas.lineJoin = "round";
   canvas.strokeStyle = palette.casing;
   canvas.lineWidth = 4;
   canvas.font = NAME;
-  canvas.strokeText(robot.name, 0, 38);
+  canvas.strokeText(robot.name, 0, height);
   canvas.fillStyle = palette.text;
-  canvas.fillText(robot.name, 0, 38);
+  canvas.fillText(robot.name, 0, height);
   const note = robot.wait ?? robot.note;
   if (!note) return;
   canvas.font = NOTE;
-  canvas.strokeText(note, 0, 52);
+  canvas.strokeText(note, 0, height + 14);
   canvas.fillStyle = robot.wait ? palette.warn : palette["text-3"];
-  canvas.fillText(note, 0, 52);
+  canvas.fillText(note, 0, height + 14);
 }

@@ -2,8 +2,8 @@
 import { useTranslation } from "react-i18next";
 import { clock } from "@/design/clock";
 import { logWords } from "./logWords";
-import type { ResultPanelProps } from "./ResultPanel";
 import styles from "./ResultPanel.module.css";
+import type { ResultPanelProps } from "./resultProps";
 
 export function Course({ result, nameOf, numberOf, onJump }: ResultPanelProps) {
   const { t } = useTranslation();

@@ -4,8 +4,8 @@ import type { NearMiss, RehearsalError, RehearsalResult } from "@/api/types";
 import { clock } from "@/design/clock";
 import { waitWords } from "@/i18n/waits";
 import { logWords } from "./logWords";
-import type { ResultPanelProps } from "./ResultPanel";
 import styles from "./ResultPanel.module.css";
+import type { ResultPanelProps } from "./resultProps";
 
 export function Events(props: ResultPanelProps) {
   const { t } = useTranslation();

@@ -5,13 +5,7 @@ import { clock } from "@/design/clock";
 import { Course } from "./Course";
 import { Events } from "./Events";
 import styles from "./ResultPanel.module.css";
-
-export interface ResultPanelProps {
-  result: RehearsalResult;
-  nameOf: (device: string) => string;
-  numberOf: (step: string) => string;
-  onJump: (t_s: number, step?: string) => void;
-}
+import type { ResultPanelProps } from "./resultProps";
 
 function Fact({ label, value, unit, note }: { label: string; value: string; unit: string; note?: string }) {
   return (

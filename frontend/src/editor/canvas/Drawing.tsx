@@ -1,17 +1,10 @@
 /** Everything of the drawing that is a line: hulls, routes, dotted links, frames. One SVG in the map's plane. */
 import { memo } from "react";
 import { Route } from "@/map/Route";
-import {
-  angleOf,
-  pathLength,
-  pointAlong,
-  roundedOutline,
-  roundedPath,
-  towards,
-  type PixelPoint,
-} from "@/map/routePath";
+import { angleOf, roundedOutline, roundedPath, towards, type PixelPoint } from "@/map/routePath";
 import type { Hull } from "../scene/hulls";
 import type { Link } from "../scene/links";
+import { wordPlace } from "../scene/linkWords";
 import type { RouteShape } from "../scene/routing";
 import type { Scene } from "../scene/scene";
 import { FrameShape } from "./FrameShape";
@@ -155,17 +148,10 @@ function turned(end: PixelPoint, before: PixelPoint): string {
 
 /** The word stands beside the first stretch of its arrow. */
 function LinkWord({ link, word, onSwap, label }: { link: Link; word: string; onSwap?: () => void; label?: string }) {
-  const at = pointAlong(link.points, Math.min(24, pathLength(link.points) / 2));
+  const at = wordPlace(link);
   if (!at) return null;
-  const flat = Math.abs(at.angle) < 45 || Math.abs(at.angle) > 135;
   return (
-    <text
-      className={onSwap ? classes.swap : undefined}
-      x={at.x + (flat ? 0 : 8)}
-      y={at.y + (flat ? -7 : 4)}
-      textAnchor={flat ? "middle" : "start"}
-      onClick={onSwap}
-    >
+    <text className={onSwap ? classes.swap : undefined} x={at.x} y={at.y} textAnchor={at.anchor} onClick={onSwap}>
       {word}
       {onSwap ? <title>{label}</title> : null}
     </text>

@@ -14,6 +14,7 @@ import { say, select, useUi } from "../state/ui";
 import { CallForm } from "./CallForm";
 import { ConditionForm } from "./ConditionForm";
 import { CommentForm, EventForm, ForEachForm, TryForm } from "./flowForms";
+import { IfForm } from "./IfForm";
 import { LoadForm } from "./LoadForm";
 import { OperateForm } from "./OperateForm";
 import { AskForm, NotifyForm } from "./messageForms";
@@ -103,7 +104,7 @@ const FORMS: Readonly<Record<string, () => ReactNode>> = {
   move: MoveForm,
   operate: OperateForm,
   wait: WaitForm,
-  if: ConditionOfStep,
+  if: IfForm,
   while: ConditionOfStep,
   repeat: RepeatForm,
   for_each: ForEachForm,

@@ -82,6 +82,12 @@ export class SharedProgram {
     this.undo.undoStack.at(-1)?.meta.set(EDITS, edits);
   }
 
+  /** What the program itself puts right after a gesture: no entry of its own in the undo list. */
+  adjust(edits: readonly Edit[]): void {
+    this.#setSaving({ unsaved: true });
+    applyEditsToDoc(this.doc, edits);
+  }
+
   /** What the gesture set that would be undone next. */
   lastEdits(): readonly Edit[] {
     return (this.undo.undoStack.at(-1)?.meta.get(EDITS) as readonly Edit[] | undefined) ?? [];

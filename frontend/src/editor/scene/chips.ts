@@ -9,7 +9,7 @@ import { chipText, conditionText, plainText, type Speaker, type TextPart } from 
 
 export type Measure = (text: string, font: "chip" | "badge" | "mono") => number;
 
-export type TagSide = "right" | "above" | "below" | "left";
+export type TagSide = "right" | "above" | "below" | "below-left" | "left";
 
 export interface Chip {
   readonly id: string;

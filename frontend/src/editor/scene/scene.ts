@@ -11,6 +11,7 @@ import { hullsOf, type Hull } from "./hulls";
 import { isFramed } from "./kinds";
 import { separateLanes } from "./lanes";
 import { linksOf, type Link } from "./links";
+import { wordBox } from "./linkWords";
 import { functionOf, waysOf, type RouteLookup, type RouteShape, type Way } from "./routing";
 import { deviceBox, type Surroundings } from "./surroundings";
 import type { Speaker, Translate } from "./words";
@@ -64,27 +65,35 @@ export function buildScene(input: SceneInput): Scene {
         ),
       );
   }
-  for (const chip of chips.values())
-    if (chip.shape === "diamond" && chip.condition)
-      chips.set(chip.id, { ...chip, tagSide: tagSide(chip, chips, routes) });
   const frames = framesOf(document, tree, chips);
   const start = document.start_pos ? toPixels(document.start_pos) : freeStart(surroundings);
-  const linkInput = { document, tree, chips, frames, start, surroundings, t };
+  const links = linksOf({ document, tree, chips, frames, start, surroundings, t });
+  placeTags(chips, routes, links);
   return {
     tree,
     start,
     chips,
     routes: [...routes.values()],
-    links: linksOf(linkInput),
+    links,
     frames: [...frames.values()],
     hulls: hullsOf(document, tree, chips, routes, surroundings, input.collapsed),
   };
 }
 
-/** Beside the diamond where the condition covers no chip and no route. */
-function tagSide(chip: Chip, chips: ReadonlyMap<string, Chip>, routes: ReadonlyMap<string, RouteShape>): TagSide {
+function placeTags(chips: Map<string, Chip>, routes: ReadonlyMap<string, RouteShape>, links: readonly Link[]): void {
+  const lines = [
+    ...[...routes.values()].flatMap((route) => legBoxes(route.points, 5)),
+    ...links.flatMap((link) => (link.tone === "then" ? [] : legBoxes(link.points, 3))),
+    ...links.flatMap((link) => wordBox(link) ?? []),
+  ];
+  for (const chip of chips.values())
+    if (chip.shape === "diamond" && chip.condition)
+      chips.set(chip.id, { ...chip, tagSide: tagSide(chip, chips, lines) });
+}
+
+/** Beside the diamond where the condition covers no chip, no line and no word. */
+function tagSide(chip: Chip, chips: ReadonlyMap<string, Chip>, lines: readonly Box[]): TagSide {
   const others = [...chips.values()].filter((each) => each.id !== chip.id).map((each) => grown(each.box, 3));
-  const lines = [...routes.values()].flatMap((route) => legBoxes(route.points, 5));
   const { x, y } = chip.at;
   const [beside, height] = [chip.width / 2 + 8 + chip.tagWidth / 2, 20];
   const at = (side: TagSide, dx: number, dy: number) => ({
@@ -94,6 +103,7 @@ function tagSide(chip: Chip, chips: ReadonlyMap<string, Chip>, routes: ReadonlyM
   const sides = [
     at("right", beside, 0),
     at("above", chip.tagWidth / 2 - 7, -34),
+    at("below-left", -chip.tagWidth / 2 - 8, 38),
     at("below", 0, 38),
     at("left", -beside - 6, 0),
   ] as const;

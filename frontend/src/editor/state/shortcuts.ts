@@ -6,7 +6,7 @@ import { undoLast } from "../gestures/undo";
 import { KINDS } from "../scene/kinds";
 import { duplicateSelected, nudgeSelected, removeSelected } from "./actions";
 import { useOpenProgram, type OpenProgram } from "./context";
-import { createOnFloor } from "./drawing";
+import { createOnFloor } from "./creating";
 import { freeSpot } from "./freeSpot";
 import { askOf, RESTING, stepBack, takeTool } from "./tool";
 import { say, select, showTab, useUi } from "./ui";

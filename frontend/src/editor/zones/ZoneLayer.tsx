@@ -54,7 +54,7 @@ function ZoneShape(props: { zone: Zone; selected: boolean; t: Translate; onSelec
       <path d={outline} className={classes.area} />
       <path d={outline} className={classes.edge} onClick={onSelect} />
       {box ? (
-        <foreignObject x={box.left + 6} y={box.bottom - 28} width={Math.max(60, box.right - box.left - 12)} height={24}>
+        <foreignObject className={classes.words} x={box.left + 6} y={box.bottom - 28} width={60} height={24}>
           <button type="button" className={classes.tag} onClick={onSelect} tabIndex={onSelect ? 0 : -1}>
             <VipoIcon name="zone" size={13} />
             <span>{words}</span>
