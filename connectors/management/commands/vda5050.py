@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import logging
 import os
 import signal
 import threading
@@ -19,6 +17,7 @@ from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
 from connectors.device_line import ConnectionMaker
+from connectors.keys import Doorstep, KeyRing
 from connectors.vda5050.fleet import Fleet
 from connectors.vda5050.frame import Frame
 from connectors.vda5050.member import Setting
@@ -26,7 +25,6 @@ from registry.errors import RegistryError
 from registry.mqtt import MqttClient, Will, tls_context
 from registry.wire import is_device_id
 
-log = logging.getLogger(__name__)
 STOP_LIMIT_S = 8
 
 
@@ -78,7 +76,7 @@ def make_fleet(options: dict[str, Any]) -> Fleet:
         station_type=options["station_type"],
         folder=folder / "vda5050" / site,
         publish=lambda _name, _subtopic, _payload: None,
-        connect=device_connections(folder / "secrets"),
+        connect=device_connections(site, folder / "secrets"),
         new_id=lambda: uuid.uuid4().hex,
         clock=lambda: datetime.now(UTC),
     )
@@ -110,39 +108,37 @@ def vehicle_client(address: str, authority: str, client_id: str) -> MqttClient:
     )
 
 
-def device_connections(secrets: Path) -> ConnectionMaker:
-    """Return what connects a vehicle's device to VIPO: by its own key in secrets/devices.json, or the join key."""
-    broker: dict[str, Any] = settings.VIPO_MQTT
-    tls = tls_context(broker["ca"]) if broker["tls"] else None
+def device_connections(site: str, secrets: Path) -> ConnectionMaker:
+    """Return what connects a vehicle's device to VIPO, by its own key; a newcomer knocks with the join key."""
+    ring = KeyRing(secrets / "devices.json", secrets / f"vda5050-{site}.json")
+    join_key = read_join_key(secrets)
+    doorstep = Doorstep(site, lambda: vipo_client(f"join:{site}", join_key))
 
     def connect(device: str, will: Will) -> MqttClient:
-        log.info("%s joins", device)
-        return MqttClient(
-            host=broker["host"],
-            port=int(os.environ.get("VIPO_MQTT_DEVICE_PORT", broker["port"])),
-            username=device,
-            password=read_key(secrets, device),
-            client_id=device,
-            tls=tls,
-            will=will,
-        )
+        key = ring.key(device)
+        client = vipo_client(device, key, will)
+        if join_key:
+            doorstep.wait(device, key, client)
+        return client
 
     return connect
 
 
-def read_key(secrets: Path, device: str) -> str:
-    """Return a device's key, the site's join key where it has none of its own; empty when there is neither."""
-    join = secrets / "join"
-    try:
-        known = json.loads((secrets / "devices.json").read_text())
-    except FileNotFoundError:
-        known = {}
-    except ValueError as error:
-        log.error("secrets/devices.json is not JSON (%s); %s tries the join key.", error, device)  # noqa: TRY400 - no trace
-        known = {}
-    key = known.get(device) or os.environ.get("VIPO_JOIN_KEY", "")
-    if not key and join.exists():
-        key = join.read_text().strip()
-    if not key:
-        log.warning("%s has no key in secrets/devices.json and there is no join key; VIPO will refuse it.", device)
-    return str(key)
+def read_join_key(secrets: Path) -> str:
+    """Return the site's join key, empty where there is none."""
+    path = secrets / "join"
+    return os.environ.get("VIPO_JOIN_KEY", "") or (path.read_text().strip() if path.exists() else "")
+
+
+def vipo_client(name: str, key: str, will: Will | None = None) -> MqttClient:
+    """Return a connection to the devices' listener of VIPO's broker."""
+    broker: dict[str, Any] = settings.VIPO_MQTT
+    return MqttClient(
+        host=broker["host"],
+        port=int(os.environ.get("VIPO_MQTT_DEVICE_PORT", broker["port"])),
+        username=name,
+        password=key,
+        client_id=name,
+        tls=tls_context(broker["ca"]) if broker["tls"] else None,
+        will=will,
+    )

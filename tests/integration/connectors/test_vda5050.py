@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 
@@ -19,7 +20,9 @@ from tests.integration.connectors.vehicles import (
 from tests.servers import run_mosquitto
 
 SERIALS = ("1", "2", "3", "4", "5", "6", "7")
-ACCOUNTS = {"server": "secret of the server"} | {f"Acme-{serial}": f"the word of Acme-{serial}" for serial in SERIALS}
+ACCOUNTS = {"server": "secret of the server", "join:hall": "the key of the door"} | {
+    f"Acme-{serial}": f"the word of Acme-{serial}" for serial in SERIALS
+}
 STOP = "vipo/v1/site/hall/stop"
 Join = Callable[..., tuple[VirtualVehicle, Server]]
 
@@ -68,6 +71,19 @@ def test_a_vehicle_appears_with_what_its_factsheet_says(join: Join) -> None:
     assert state["loc"] == [1.0, 2.0, 0.0, 0.0]
     assert state["props"]["battery"] == 88
     assert (state["props"]["mode"], state["props"]["problem"], state["cmd"]) == ("AUTOMATIC", "", "")
+
+
+def test_a_newcomer_makes_a_key_of_its_own_and_knocks_with_it(connector: Connector) -> None:
+    with Ear(connector.vipo.port, ACCOUNTS["server"], "vipo/v1/join/#") as ear:
+        vehicle = VirtualVehicle(connector.vehicles_port, "new")
+        try:
+            knock = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/Acme-new", 60)
+        finally:
+            vehicle.kill()
+    kept = connector.folder / "secrets" / "vda5050-hall.json"
+    assert json.loads(kept.read_text()) == {"Acme-new": knock.json["key"]}
+    assert len(knock.json["key"]) == 32
+    assert kept.stat().st_mode & 0o777 == 0o600
 
 
 def test_what_cannot_be_read_is_ignored_and_harms_nobody(connector: Connector, join: Join) -> None:

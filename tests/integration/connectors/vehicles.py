@@ -88,6 +88,7 @@ class Connector:
     def start(self) -> None:
         (self.folder / "secrets").mkdir(exist_ok=True)
         (self.folder / "secrets" / "devices.json").write_text(json.dumps(self.vipo.accounts))
+        (self.folder / "secrets" / "join").write_text(self.vipo.accounts["join:hall"])
         environment = {
             **os.environ,
             "DJANGO_SETTINGS_MODULE": "vipo_site.settings",
