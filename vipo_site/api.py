@@ -15,6 +15,7 @@ from registry.api import router as registry_router
 from registry.errors import VipoError
 from registry.history_api import router as history_router
 from registry.sparql_api import router as sparql_router
+from registry.things_api import router as things_router
 from vipo_site.openapi import DescribedAPI
 
 api = DescribedAPI(title="VIPO", version="1", auth=django_auth, docs_url=None, urls_namespace="api")
@@ -58,5 +59,6 @@ def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
 api.add_router("", registry_router)
 api.add_router("", history_router)
 api.add_router("", sparql_router)
+api.add_router("", things_router)
 api.add_router("", editor_router)
 api.add_router("", execution_router)

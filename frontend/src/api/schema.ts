@@ -1056,6 +1056,70 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/things": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Things
+         * @description List the site's approved devices as Thing Descriptions, a part at a time; the header Link names the next part.
+         */
+        get: operations["registry_things_api_list_things"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/things/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Watch Things
+         * @description Send `thing_created`, `thing_updated` and `thing_deleted` as they happen; with `diff` the whole Thing, too.
+         */
+        get: operations["registry_things_api_watch_things"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/things/{thing}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Thing
+         * @description Send a device's Thing Description; `thing` is its id, with or without `urn:vipo:device:`.
+         */
+        get: operations["registry_things_api_show_thing"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        /**
+         * Patch Thing
+         * @description Change a Thing's `title` or `vipo:location` by a JSON merge patch; the rest the device says itself.
+         */
+        patch: operations["registry_things_api_patch_thing"];
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -1478,6 +1542,28 @@ export interface components {
             x: number;
             y: number;
             yaw: number;
+        };
+        /** @description Which part of the Things, in which form and order. */
+        Page: {
+            /**
+             * @default array
+             * @enum {string}
+             */
+            format: "array" | "collection";
+            /** @default 50 */
+            limit: number;
+            /** @default 0 */
+            offset: number;
+            /**
+             * @default id
+             * @constant
+             */
+            sort_by: "id";
+            /**
+             * @default asc
+             * @enum {string}
+             */
+            sort_order: "asc" | "desc";
         };
         /** @description A parameter of a program or a function. */
         ParameterDefinition: {
@@ -3867,6 +3953,139 @@ export interface operations {
                     "text/csv": string;
                     "text/turtle": string;
                 };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_things_api_list_things: {
+        parameters: {
+            query?: {
+                offset?: number;
+                limit?: number;
+                format?: "array" | "collection";
+                sort_by?: "id";
+                sort_order?: "asc" | "desc";
+            };
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/ld+json": Record<string, never>;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_things_api_watch_things: {
+        parameters: {
+            query?: {
+                type?: ("thing_created" | "thing_updated" | "thing_deleted")[] | null;
+                diff?: boolean;
+            };
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/event-stream": Record<string, never>;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_things_api_show_thing: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                thing: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/td+json": Record<string, never>;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_things_api_patch_thing: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                thing: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description A refusal */
             default: {

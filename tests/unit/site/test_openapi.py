@@ -57,7 +57,8 @@ def test_every_answer_has_a_shape():
     }
     assert len(answers) > 80
     assert [key for key, answer in answers.items() if not has_shape(answer)] == [
-        ("delete", "/api/programs/{program}", "204")
+        ("delete", "/api/programs/{program}", "204"),
+        ("patch", "/api/sites/{slug}/things/{thing}", "204"),
     ]
 
 

@@ -9,10 +9,15 @@ import { Panel } from "@/design/Panel";
 import { formatMoment } from "@/i18n/format";
 import styles from "./detail.module.css";
 
-/** Which wording a field's change needs: it came, it went, or it is another. */
-function wording(change: FieldChange): "fieldAdded" | "fieldRemoved" | "fieldChanged" {
-  if (!change.before) return "fieldAdded";
-  return change.after ? "fieldChanged" : "fieldRemoved";
+/** How a field was and is; one that came or went has only one of the two. */
+function Field({ change }: { change: FieldChange }) {
+  return (
+    <div className={styles.difference}>
+      <code>{change.path}</code>
+      {change.before ? <del>{change.before}</del> : null}
+      {change.after ? <ins>{change.after}</ins> : null}
+    </div>
+  );
 }
 
 function Fields({ changes }: { changes: readonly FieldChange[] }) {
@@ -21,7 +26,7 @@ function Fields({ changes }: { changes: readonly FieldChange[] }) {
     <details>
       <summary>{t("pages.devices.fieldChanges", { count: changes.length })}</summary>
       {changes.map((change) => (
-        <code key={change.path}>{t(`pages.devices.${wording(change)}`, { ...change })}</code>
+        <Field key={change.path} change={change} />
       ))}
     </details>
   );

@@ -12,6 +12,7 @@ import { formatAge } from "@/i18n/format";
 import { DeviceIcon } from "@/map/DeviceIcon";
 import { useNow } from "../useNow";
 import { Changes } from "./Changes";
+import { DescriptionTable } from "./DescriptionTable";
 import { jobOf } from "./filter";
 import { AskKeyDecision, KeyMenuItems, KeyTrouble, type KeyDecision } from "./KeyActions";
 import { LiveProperties } from "./LiveProperties";
@@ -144,6 +145,7 @@ export function DeviceDetail({ site, device }: { site: Site; device: Device }) {
           <Overview site={site} device={device} />
         </Tabs.Panel>
         <Tabs.Panel value="rdf" className={styles.whole}>
+          <DescriptionTable device={device} />
           <RdfSource slug={site.slug} device={device.id} />
         </Tabs.Panel>
         <Tabs.Panel value="history" className={styles.whole}>

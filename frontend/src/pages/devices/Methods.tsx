@@ -79,7 +79,7 @@ export function Methods({ site, device }: { site: Site; device: Device }) {
                   {t(`pages.devices.column.${column}`)}
                 </th>
               ))}
-              {device.lifecycle === "approved" ? <td /> : null}
+              {device.lifecycle === "approved" ? <th scope="col">{t("device.try.open")}</th> : null}
             </tr>
           </thead>
           <tbody>

@@ -1,0 +1,193 @@
+"""A site as a WoT directory: listing, one Thing, its patch, and the stream of events."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import aclosing
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from asgiref.sync import sync_to_async
+from django.test import Client
+
+from registry import live, services, things_events
+from registry.capability import Pose, PropertySpec
+from registry.models import Device, DeviceEvent, Membership, User
+from registry.td_schema import check_thing
+
+from .conftest import MIXER, NOW, ROBOT, ROLES, come, describe, say
+
+ADDRESS = "/api/sites/hall/things"
+URN = "urn:vipo:device:"
+
+
+@pytest.fixture
+def things(hall: str) -> str:
+    for name in ("c", "a", "b"):
+        topic = f"vipo/v1/dev/{name}/down/mix"
+        describe(replace(MIXER, id=name, name=f"Mixer {name}", methods=(replace(MIXER.methods[0], topic=topic),)))
+    Device.objects.update(lifecycle="approved")
+    describe(replace(ROBOT, id="newcomer"))
+    return hall
+
+
+def client_of(name: str) -> Client:
+    client = Client()
+    if name != "nobody":
+        client.force_login(User.objects.get(email=f"{name}@vipo.example"))
+    return client
+
+
+def test_approved_devices_are_listed_as_valid_things_a_page_at_a_time(things: str) -> None:
+    answer = client_of("viewer").get(ADDRESS, {"limit": 2})
+    assert answer["Content-Type"] == "application/ld+json"
+    assert [thing["id"] for thing in answer.json()] == [f"{URN}a", f"{URN}b"]
+    for thing in answer.json():
+        check_thing(thing)
+    following = answer["Link"].removeprefix("<").removesuffix('>; rel="next"')
+    last = client_of("viewer").get(following)
+    assert [thing["title"] for thing in last.json()] == ["Mixer c"]
+    assert "Link" not in last
+
+
+def test_a_collection_names_its_total_and_the_next_page(things: str) -> None:
+    body = client_of("viewer").get(ADDRESS, {"format": "collection", "limit": 1, "sort_order": "desc"}).json()
+    assert (body["@type"], body["total"], [t["id"] for t in body["members"]]) == ("ThingCollection", 3, [f"{URN}c"])
+    assert client_of("viewer").get(body["next"]).json()["members"][0]["id"] == f"{URN}b"
+    assert client_of("viewer").get(ADDRESS, {"limit": 101}).status_code == 422
+
+
+@pytest.mark.parametrize("thing", ["a", f"{URN}a"])
+def test_a_thing_is_found_by_either_id(things: str, thing: str) -> None:
+    answer = client_of("viewer").get(f"{ADDRESS}/{thing}")
+    assert (answer.status_code, answer["Content-Type"]) == (200, "application/td+json")
+    assert answer.json()["title"] == "Mixer a"
+    check_thing(answer.json())
+
+
+@pytest.mark.parametrize("role", [*ROLES, "stranger", "nobody"])
+def test_members_look_and_admins_change(things: str, role: str) -> None:
+    client = client_of(role)
+    outside = {"stranger": 404, "nobody": 401}.get(role)
+    for path in (ADDRESS, f"{ADDRESS}/a", f"{ADDRESS}/events"):
+        answer = client.get(path)
+        assert answer.status_code == (outside or 200)
+        answer.close()
+    patched = client.patch(f"{ADDRESS}/a", {"title": "Mine"}, content_type="application/merge-patch+json")
+    assert patched.status_code == (outside or (204 if role == "admin" else 403))
+    device = services.get_device(site="hall", device_id="a")
+    assert device.name == ("Mine" if role == "admin" else "Mixer a")
+
+
+def test_a_patch_moves_and_renames_and_null_gives_back_the_own_name(things: str) -> None:
+    admin = client_of("admin")
+
+    def patch(body: Any) -> Any:
+        return admin.patch(f"{ADDRESS}/{URN}a", json.dumps(body), content_type="application/merge-patch+json")
+
+    assert patch({"title": "Left", "vipo:location": [1.5, 2.5, 0, 1]}).status_code == 204
+    body = admin.get(f"{ADDRESS}/a").json()
+    assert (body["title"], body["vipo:location"]) == ("Left", [1.5, 2.5, 0.0, 1.0])
+    assert patch({"title": None}).status_code == 204
+    device = services.get_device(site="hall", device_id="a")
+    assert (device.name, device.pose) == ("Mixer a", Pose(1.5, 2.5, 0.0, 1.0))
+    edits = DeviceEvent.objects.filter(device_id="a", kind="edited").values_list("by__display_name", flat=True)
+    assert set(edits) == {"Admin Person"}
+
+
+@pytest.mark.parametrize(
+    ("body", "told"),
+    [
+        ("{", "The patch is not JSON."),
+        ("[" * 100_000, "The patch is not JSON."),
+        ("[]", "A merge patch is a JSON object with at least one field."),
+        ("{}", "A merge patch is a JSON object with at least one field."),
+        ('{"actions": {}}', "'actions' cannot be changed here: the device says it itself."),
+        ('{"title": 3}', "`title` must be a text, or null for the device's own."),
+        ('{"vipo:location": null}', "`vipo:location` must be [x, y, z, theta]"),
+        ('{"vipo:location": [1, NaN]}', "`vipo:location` must be [x, y, z, theta]"),
+    ],
+)
+def test_what_is_not_for_people_to_change_is_refused(things: str, body: str, told: str) -> None:
+    before = DeviceEvent.objects.count()
+    answer = client_of("admin").patch(f"{ADDRESS}/a", body, content_type="application/merge-patch+json")
+    assert (answer.status_code, answer.json()["code"]) == (400, "bad_thing_patch")
+    assert answer.json()["detail"].startswith(told)
+    assert DeviceEvent.objects.count() == before
+
+
+def stream(**options: Any) -> AsyncIterator[bytes]:
+    user = User.objects.get(email="viewer@vipo.example")
+    given = {"types": things_events.EVENTS, "diff": False, **options}
+    return things_events.stream_events(site="hall", user=user, **given)
+
+
+async def heard(events: AsyncIterator[bytes]) -> tuple[str, Any]:
+    """Return the next event's name and data."""
+    text = (await asyncio.wait_for(anext(events), 30)).decode()
+    name, data = (line.partition(": ")[2] for line in text.strip().splitlines())
+    return name, json.loads(data)
+
+
+@pytest.mark.django_db(transaction=True)
+async def test_what_becomes_of_things_is_sent_and_readings_are_not(things: str) -> None:
+    async with aclosing(await sync_to_async(stream)()) as events:
+        assert (await anext(events)).startswith(b"retry: 2000\n")
+        await sync_to_async(come)("a")
+        await sync_to_async(say)("a", props={"jobStatus": 40})
+        await sync_to_async(services.update_device)(site="hall", device_id="a", name="Left", by=None, at=NOW)
+        assert await heard(events) == ("thing_updated", {"id": f"{URN}a"})
+        await sync_to_async(services.approve_device)(site="hall", device_id="newcomer", by=None, at=NOW)
+        assert await heard(events) == ("thing_created", {"id": f"{URN}newcomer"})
+        await sync_to_async(say)("newcomer", loc=[1, 2, 0, 0])
+        more = replace(ROBOT, id="newcomer", properties=(PropertySpec("heat", "number"),))
+        await sync_to_async(describe)(more)
+        assert await heard(events) == ("thing_updated", {"id": f"{URN}newcomer"})
+        await sync_to_async(services.retire_device)(site="hall", device_id="newcomer", by=None, at=NOW)
+        assert await heard(events) == ("thing_deleted", {"id": f"{URN}newcomer"})
+
+
+@pytest.mark.django_db(transaction=True)
+async def test_a_listener_may_ask_for_some_events_and_for_the_whole_thing(things: str) -> None:
+    async with aclosing(await sync_to_async(stream)(types=("thing_created",), diff=True)) as events:
+        await anext(events)
+        await sync_to_async(services.update_device)(site="hall", device_id="a", name="Left", by=None, at=NOW)
+        await sync_to_async(services.approve_device)(site="hall", device_id="newcomer", by=None, at=NOW)
+        name, thing = await heard(events)
+        assert (name, thing["title"]) == ("thing_created", "Robot One")
+        check_thing(thing)
+
+
+@pytest.mark.django_db(transaction=True)
+async def test_who_reads_too_slowly_is_dropped_and_who_is_no_member_any_more_too(things: str) -> None:
+    async with aclosing(await sync_to_async(stream)()) as events:
+        await anext(events)
+        for number in range(things_events.MOST_WAITING + 1):
+            live.publish("hall", {"type": "device", "device": {"id": "a", "name": f"n{number}"}})
+        await asyncio.sleep(0)
+        assert [text async for text in events] == []
+    async with aclosing(await sync_to_async(stream)()) as events:
+        await anext(events)
+        await sync_to_async(Membership.objects.filter(user__email="viewer@vipo.example").delete)()
+        live.publish("hall", {"type": "members"})
+        assert [text async for text in events] == []
+    assert things_events._open == 0
+
+
+@pytest.mark.django_db(transaction=True)
+async def test_a_stream_ends_when_it_has_sent_enough(things: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(things_events, "MOST_BYTES", 100)
+    async with aclosing(await sync_to_async(stream)()) as events:
+        await anext(events)
+        for number in range(10):
+            live.publish("hall", {"type": "device", "device": {"id": "a", "name": f"n{number}"}})
+        assert len([text async for text in events]) == 2
+
+
+def test_only_so_many_streams_are_open_at_once(things: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(things_events, "_open", things_events.MOST_STREAMS)
+    answer = client_of("viewer").get(f"{ADDRESS}/events")
+    assert (answer.status_code, answer.json()["code"]) == (429, "too_many_streams")
