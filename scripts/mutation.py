@@ -29,7 +29,7 @@ TEXTS = ("texts", "texts_de", "words_de", "line_texts", "mistakes_de", "refusals
 """Modules of sentences, and the one that writes a page."""
 CONFIGURATION = """[cosmic-ray]
 module-path = "{package}"
-timeout = 90.0
+timeout = 300.0
 excluded-modules = []
 test-command = "{tests}"
 
@@ -41,7 +41,12 @@ RESULTS = (
     "select test_outcome, module_path, operator_name, start_pos_row, diff"
     " from work_results join mutation_specs using (job_id) order by module_path, start_pos_row"
 )
-TESTS = "-m pytest -q -x -p no:cacheprovider tests/unit/language --ignore tests/unit/language/test_examples.py"
+TESTS = (
+    "-m pytest -q -x -c /dev/null --rootdir . --noconftest -W error"
+    " -p no:cacheprovider -p no:django -p no:asyncio -p no:anyio -p no:playwright"
+    " tests/unit/language --ignore tests/unit/language/test_examples.py"
+)
+"""The tests of the language need neither Django nor a server, which would take longer to begin than most of them."""
 Span = tuple[tuple[int, int], tuple[int, int]]
 
 

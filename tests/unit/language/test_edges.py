@@ -218,3 +218,27 @@ def test_the_most_that_a_robot_may_carry_counts_what_it_may_have_had_before() ->
         "e": {"kind": "drop", "place": ["program", "body", "4V"], "params": drop},
     }
     assert codes(document) == [("e", "may_drop_nothing")]
+
+
+def test_what_a_function_picks_is_known_behind_its_call() -> None:
+    document = program(("call", {"function": "f"}), ("drop", {**CARRY, "at": BOOTH, "quantity": 2}))
+    fetch = {"kind": "pick", "place": ["f", "body", "V"], "params": {**CARRY, "at": SHELF}}
+    steps = {**document["steps"], "fetch": fetch}
+    called = {**document, "steps": steps, "functions": {"f": {"name": "fetch", "parameters": []}}}
+    assert ("s1", "drops_nothing") in codes(called)
+    steps["fetch"] = {**fetch, "params": {**fetch["params"], "quantity": 2}}
+    assert not [code for code in codes(called) if "drop" in code[1] or "carr" in code[1]]
+
+
+def test_the_chip_of_an_order_stands_right_above_its_machine() -> None:
+    oven = factory().devices["curingOven01"].description
+    text = EMPTY.replace("pass", "self.oven.cure_paint(10)")
+    run = '    def run(self, ctx):\n        self.oven = ctx.get("curingOven01")\n        self.new_task()\n'
+    tree = parse_script(text + run, factory()).tree
+    assert tree is not None
+    steps = tree_to_document(tree, factory())["steps"]
+    assert isinstance(steps, dict)
+    x, y = next(iter(steps.values()))["pos"]
+    above = oven.pose.y + oven.size.y / 2
+    assert x == oven.pose.x
+    assert above < y < above + 1

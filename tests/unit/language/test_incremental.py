@@ -113,3 +113,22 @@ def test_a_number_that_becomes_a_yes_is_another_value() -> None:
     assert program.compile(document, SITES[0]).diagnostics == ()
     changed = _with_step(document, "s", {**document["steps"]["s"], "params": {"duration": True}})
     assert [d.code for d in program.compile(changed, SITES[0]).diagnostics] == ["wrong_type"]
+
+
+def test_what_a_called_function_does_is_followed_again_when_it_changes() -> None:
+    load = {"role": "robot", "object": "box", "quantity": 1}
+    pick = {"kind": "pick", "place": ["f", "body", "1"], "params": {**load, "at": {"device": "itemInventory01"}}}
+    drop = {"kind": "drop", "place": ["program", "body", "2"], "params": {**load, "at": {"device": "dropOff01"}}}
+    hot = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 30]}
+    calls = {
+        "if": {"kind": "if", "place": ["program", "body", "1"], "params": {"condition": hot}},
+        "a": {"kind": "call", "place": ["if", "then", "1"], "params": {"function": "f"}},
+        "b": {"kind": "call", "place": ["if", "else", "1"], "params": {"function": "f"}},
+    }
+    functions = {"f": {"name": "fetch", "parameters": []}}
+    document: Json = {"format": 2, "steps": {**calls, "pick": pick, "drop": drop}, "functions": functions}
+    program = EditedProgram()
+    assert "drops_nothing" not in [d.code for d in program.compile(document, SITES[0]).diagnostics]
+    wait = {"kind": "wait", "place": ["f", "body", "1"], "params": {"duration": 1}}
+    changed = program.compile(_with_step(document, "pick", wait), SITES[0])
+    assert "drops_nothing" in [d.code for d in changed.diagnostics]

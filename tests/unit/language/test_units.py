@@ -40,6 +40,29 @@ def test_values_are_converted_exactly(value: float, source: str, target: str, ex
     assert convert(value, source, target) == expected
 
 
+ONE_IN_THE_BASE_UNIT = {
+    "SEC": 1, "MilliSEC": 0.001, "MIN": 60, "HR": 3600, "DAY": 86400,
+    "M": 1, "MilliM": 0.001, "CentiM": 0.01, "KiloM": 1000,
+    "KiloGM": 1, "GM": 0.001, "MilliGM": 0.000001, "TONNE": 1000,
+    "PA": 1, "KiloPA": 1000, "MilliBAR": 100, "BAR": 100000,
+    "L": 1, "MilliL": 0.001, "M3": 1000,
+    "M-PER-SEC": 1, "KiloM-PER-HR": 0.277777777778, "MilliM-PER-SEC": 0.001,
+    "RAD": 1, "DEG": 0.0174532925199, "HZ": 1, "REV-PER-MIN": 0.0166666666667,
+    "V": 1, "MilliV": 0.001, "A": 1, "MilliA": 0.001, "W": 1, "KiloW": 1000, "J": 1, "KiloW-HR": 3600000,
+    "N": 1, "LUX": 1, "DEC_B": 1, "K": 1, "DEG_C": 274.15, "DEG_F": 255.927777778,
+}  # fmt: skip
+
+
+def test_every_unit_goes_over_into_the_base_unit_of_what_it_measures() -> None:
+    bases: dict[str, str] = {}
+    for unit in UNITS.values():
+        if unit.factor == 1 and not unit.offset:
+            bases.setdefault(unit.dimension, unit.code)
+    units = [unit for unit in UNITS.values() if unit.dimension != "ratio"]
+    assert {u.code: convert(1, u.code, bases[u.dimension]) for u in units} == ONE_IN_THE_BASE_UNIT
+    assert (convert(1, "PERCENT", "PPM"), UNITS["PERCENT"].factor) == (10000, 0.01)
+
+
 def test_units_that_measure_different_things_are_refused() -> None:
     with pytest.raises(DifferentDimensions, match="min does not go over into °C"):
         conversion("MIN", "DEG_C")
