@@ -48,6 +48,8 @@ CONNECT_TIMEOUT_S = 10.0
 PROTOCOL_LEVEL = 4
 START_TIMEOUT_S = 15.0
 END_TIMEOUT_S = 2.0
+COMPLAINT_EVERY_S = 60.0
+MOST_COMPLAINTS = 1000
 UNREADABLE = (
     *(AMQTTError, MQTTError, CodecError, NoDataError),
     *(TimeoutError, asyncio.IncompleteReadError, OSError, IndexError, UnicodeError),
@@ -230,6 +232,7 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
         self._server_password = server_password
         self._doorkeeper = doorkeeper
         self._logins: dict[str, Login] = {}
+        self._refused_at: dict[str, float] = {}
         self._subscriptions = _Subscriptions()
         self._open: set[asyncio.StreamWriter] = set()
 
@@ -273,12 +276,21 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
             await writer.close()
             raise MQTTError(f"No proper CONNECT from {remote_address}:{remote_port}: {error}") from error
         if not await self._admit(session):
-            log.warning("MQTT: refused %s (user %s): wrong password or name.", session.client_id, session.username)
+            self._complain(session.client_id, session.username)
             await _refuse(writer, NOT_AUTHORIZED)
             raise MQTTError("Not authorised.")
         session = await self._take_over(session)
         session.keep_alive = math.ceil(session.keep_alive * 1.5)
         return handler, session
+
+    def _complain(self, client: str, user: str | None) -> None:
+        """Say that somebody was refused; of one who comes again and again, once a minute."""
+        now = time.monotonic()
+        if now - self._refused_at.get(client, -COMPLAINT_EVERY_S) >= COMPLAINT_EVERY_S:
+            if len(self._refused_at) >= MOST_COMPLAINTS:
+                self._refused_at.clear()
+            self._refused_at[client] = now
+            log.warning("MQTT: refused %s (user %s): wrong password or name.", client, user)
 
     async def _admit(self, session: Any) -> bool:
         username, password = session.username or "", session.password or ""

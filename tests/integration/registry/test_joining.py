@@ -189,6 +189,15 @@ def test_a_retained_state_does_not_bring_a_device_back(hall: str) -> None:
     assert say(seq=2).online is True
 
 
+def test_coming_and_going_all_the_time_does_not_fill_the_history(hall: str) -> None:
+    describe()
+    for number in range(40):
+        come(boot=number, online=number % 2 == 0, at=NOW + timedelta(milliseconds=number))
+    assert services.get_device(site="hall", device_id="mixer1").online is False
+    kinds = [e.kind for e in services.list_device_events(site="hall", device_id="mixer1")]
+    assert kinds == ["flapping", *["offline", "online"] * 3, "described"]
+
+
 def test_states_of_unknown_devices_are_left_aside(hall: str) -> None:
     assert say("nobody") is None
     assert not Device.objects.exists()

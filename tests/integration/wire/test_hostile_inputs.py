@@ -14,7 +14,7 @@ import pytest
 
 from execution.gateway import Gateway
 from registry import services
-from registry.models import Device, DeviceEvent
+from registry.models import DeviceEvent
 from registry.mqtt import MqttClient
 from tests.integration.wire.bus import SITE, Bus, wait
 
@@ -150,17 +150,4 @@ def test_a_packet_that_is_too_large_ends_that_connection_only(bus: Bus, gateway:
         with suppress(ConnectionResetError):
             assert raw.recv(16) == b""
     calm.stop()
-    loud.stop()
-
-
-def test_coming_and_going_all_the_time_does_not_fill_the_history(bus: Bus, gateway: Gateway) -> None:
-    loud = join(bus, "loud01")
-    for number in range(40):
-        word = "online" if number % 2 else "offline"
-        loud.publish("vipo/v1/dev/loud01/up/presence", json.dumps({"s": word, "boot": 6 + number}).encode())
-    loud.publish("vipo/v1/dev/loud01/up/presence", b'{"s": "offline", "boot": 90}')
-    wait("the end", lambda: Device.objects.get(pk="loud01").presence_boot == 90)
-    kinds = list(DeviceEvent.objects.filter(device_id="loud01").values_list("kind", flat=True))
-    assert kinds.count("online") + kinds.count("offline") <= 6
-    assert kinds.count("flapping") == 1
     loud.stop()

@@ -50,7 +50,7 @@ export function AskKeyDecision({ site, device, decision, onClose }: AskProps) {
           {t("keys.cancel")}
         </Button>
         <Button
-          color={decision === "rotate" ? undefined : "red"}
+          color={decision === "rotate" ? undefined : "red.9"}
           loading={decide.isPending}
           onClick={() => decide.mutate({ do: decision, device }, { onSuccess: leave })}
         >
