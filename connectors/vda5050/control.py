@@ -38,7 +38,6 @@ from registry.capability import DeviceState, Pose
 from registry.wire import AckMessage, AckStatus
 
 CONTROLS = ("pause", "resume", "cancel")
-ORDER_ERRORS = frozenset({"orderError", "orderUpdateError", "validationError", "noRouteError"})
 OURS = "vipo-"
 PATIENCE_S = 3.0
 CANCEL_AGAIN_S = 5.0
@@ -242,7 +241,7 @@ class VehicleControl:
         """Look for a refusal of what was sent last, or send it again."""
         if not self._handed_over():
             self._order_refused(order, "")
-        elif error := _refusal_in(state, order, self._errors_before):
+        elif error := state.refusal(order.id, order.update, self._errors_before):
             self._order_refused(order, error.sentence)
         elif self._sent_s is None or now_s - self._sent_s > PATIENCE_S:
             if self._tries >= TRIES:
@@ -299,7 +298,7 @@ class VehicleControl:
             if all(a and a.status == "FINISHED" for a in told):
                 self._end(task, "DONE")
             elif failed and not (self._cancel and task.command in self._cancel.targets):
-                self._end(task, "FAILED", _reason(state, failed.id) or failed.result or f"{task.method} failed.")
+                self._end(task, "FAILED", state.reason(failed.id) or failed.result or f"{task.method} failed.")
                 if not all(a and a.status in ENDED for a in told):
                     self._cancel = self._cancel or Cancel(self._new_id())
 
@@ -395,19 +394,3 @@ class VehicleControl:
         ack = AckMessage(command, status, why[:256])
         self._answers.note(ack)
         self.out.append(ack)
-
-
-def _refusal_in(state: VehicleState, order: Order, before: frozenset[VehicleError]) -> VehicleError | None:
-    """Return the error with which a vehicle refused the newest update of an order, if it did."""
-    for error in state.errors:
-        named, update = error.names("orderId"), error.names("orderUpdateId")
-        if named == order.id and update in {None, str(order.update)}:
-            return error
-        about_order = error.type in ORDER_ERRORS and error.names("topic") != "instantActions"
-        if named is None and about_order and error not in before:
-            return error
-    return None
-
-
-def _reason(state: VehicleState, action_id: str) -> str:
-    return next((e.sentence for e in state.errors if e.names("actionId") == action_id), "")

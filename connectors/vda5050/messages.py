@@ -12,6 +12,7 @@ from registry.wire import BadMessage
 
 Level = Literal["WARNING", "FATAL"]
 DRIVING_MODES = frozenset({"AUTOMATIC", "SEMIAUTOMATIC"})
+ORDER_ERRORS = frozenset({"orderError", "orderUpdateError", "validationError", "noRouteError"})
 ENDED = frozenset({"FINISHED", "FAILED"})
 
 
@@ -104,6 +105,21 @@ class VehicleState:
     def action(self, action_id: str) -> ActionState | None:
         """Return the state of an action, if the vehicle tells of it."""
         return next((a for a in self.actions if a.id == action_id), None)
+
+    def refusal(self, order: str, update: int, before: frozenset[VehicleError]) -> VehicleError | None:
+        """Return the error with which the vehicle refuses an update of an order; `before` are older errors."""
+        for error in self.errors:
+            named, number = error.names("orderId"), error.names("orderUpdateId")
+            if named == order and number in {None, str(update)}:
+                return error
+            about_order = error.type in ORDER_ERRORS and error.names("topic") != "instantActions"
+            if named is None and about_order and error not in before:
+                return error
+        return None
+
+    def reason(self, action_id: str) -> str:
+        """Return what the vehicle says about an action that failed, empty when it says nothing."""
+        return next((e.sentence for e in self.errors if e.names("actionId") == action_id), "")
 
     @property
     def has_way_left(self) -> bool:

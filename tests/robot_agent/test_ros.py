@@ -192,7 +192,7 @@ def test_a_goal_that_cannot_be_reached_fails_with_the_planners_reason(server: Se
 
 def test_pause_resume_stop_and_cancel(server: Server) -> None:
     server.ear.forget()
-    server.tell("move", "long", path=[[40.0, 2.0]])
+    server.tell("move", "long", path=[[80.0, 2.0]])
     server.wait_ack("long", "RUNNING")
     stands = [
         (lambda: server.tell("pause", "p", command="long"), lambda: server.tell("resume", "r", command="long")),
