@@ -13,10 +13,13 @@ from django.db import transaction
 from django.db.models import F
 
 from execution.models import Command, SiteStop
+from registry import services as registry
 from registry import wire
 
 FIRST_RETRY_S = 2.0
 LAST_RETRY_S = 15.0
+NEVER_AGAIN_S = 7 * 86_400.0
+"""A device that knows only its done flag would carry out a command anew each time that it hears it."""
 MOST_DUE = 5000
 CONTROLS = ("pause", "resume", "cancel")
 UNANSWERED = (Command.Status.PENDING, Command.Status.SENT)
@@ -132,8 +135,9 @@ def _take(ids: list[UUID], now: datetime) -> list[Command]:
     with transaction.atomic():
         rows = Command.objects.filter(id__in=ids, status__in=Command.OPEN, send_after__lte=now)
         taken = list(rows.select_for_update(skip_locked=True, of=("self",)).order_by("site_id", "position"))
+        once = registry.list_done_flag_only(devices={row.device for row in taken})
         for row in taken:
-            later[_wait_s(row)].append(row.id)
+            later[NEVER_AGAIN_S if row.device in once else _wait_s(row)].append(row.id)
         for wait_s, those in later.items():
             again = now + timedelta(seconds=wait_s)
             Command.objects.filter(id__in=those).update(tries=F("tries") + 1, send_after=again)

@@ -7,6 +7,7 @@ from execution.calls import call_method, cancel_call, get_call
 from execution.claiming import OutgoingCommand, claim_commands, mark_commands_sent
 from execution.clockwork import run_ticker
 from execution.devices import record_device_change
+from execution.done_flag import record_done_flag
 from execution.errors import (
     AlreadyAnswered,
     AnswerNotFitting,
@@ -67,6 +68,7 @@ __all__ = [
     "press_stop",
     "record_ack",
     "record_device_change",
+    "record_done_flag",
     "resend_commands",
     "reset_stop",
     "resume_run",

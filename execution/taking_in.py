@@ -121,7 +121,7 @@ class Taker:
         elif message.payload:  # an empty one only takes a retained message away
             view = self._ingest(device, kind, message, at)
             if view is not None:
-                if kind == "presence" and view.online:
+                if kind == "presence" and view.online and not view.only_done_flag:
                     execution.resend_commands(device=device)
                 self._pass_on(view, at)
 
@@ -138,6 +138,8 @@ class Taker:
 
     def _pass_on(self, view: registry.DeviceView, at: datetime) -> None:
         registry.note_samples(view=view, at=at)
+        if view.only_done_flag:
+            execution.record_done_flag(device=view.id, done=view.done, at=at)
         execution.record_device_change(site=view.site, device_id=view.id)
 
 

@@ -7,7 +7,7 @@ updates, and what is older than what is known is ignored by (boot, seq).
 from __future__ import annotations
 
 import hmac
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime, timedelta
 
@@ -105,6 +105,8 @@ def _describe(device: Device, reading: Reading, payload: bytes, digest: str, at:
     before, after = device.description, description_to_json(description)
     text = _difference(description_from_json(before) if before else None, description)
     changes = list_changes(before, after) if before else ()
+    if reading.form == "paper" and before and before.get("done") != after.get("done"):
+        device.done = description.done
     device.description = after
     device.description_hash = canonical_hash(description)
     device.source, device.source_hash, device.source_type = payload, digest, CONTENT_TYPES[reading.form]
@@ -204,6 +206,12 @@ def mark_stale(*, now: datetime) -> tuple[DeviceView, ...]:
                 found.append(view_of(device, device.site.slug))
                 announce(before, found[-1])
     return tuple(found)
+
+
+def list_done_flag_only(*, devices: Collection[str]) -> frozenset[str]:
+    """Return which of these devices describe themselves by the paper's message, and may answer by `done` alone."""
+    rows = Device.objects.filter(pk__in=devices, source_type=CONTENT_TYPES["paper"])
+    return frozenset(rows.values_list("pk", flat=True))
 
 
 def count_dropped(*, dropped: Mapping[str, int]) -> None:

@@ -12,6 +12,7 @@ from registry.capability import Description, MethodSpec, Pose, PropertySpec, Sca
 from registry.differences import Change
 from registry.floor import Grid
 from registry.models import Device
+from registry.rdf_text import CONTENT_TYPES
 
 Status = Literal["idle", "busy", "done", "waiting", "warning", "error", "offline", "pending"]
 LOW_BATTERY_PERCENT = 15.0
@@ -72,7 +73,8 @@ class SiteView:
 class DeviceView:
     """A device as it is now: `canonical` has the name and place that hold, `readings` its properties' values.
 
-    `has_key` tells whether it can come in with a key of its own, `dropped` how many of its messages were not taken.
+    `has_key` tells whether it can come in with a key of its own, `dropped` how many of its messages were not taken,
+    `only_done_flag` that it describes itself by the paper's message and so may answer no command but by `done`.
     """
 
     id: str
@@ -90,6 +92,7 @@ class DeviceView:
     last_seen_at: datetime | None = None
     has_key: bool = False
     dropped: int = 0
+    only_done_flag: bool = False
 
     @property
     def name(self) -> str:
@@ -136,6 +139,7 @@ def view_of(device: Device, site: str) -> DeviceView:
         last_seen_at=device.last_seen_at,
         has_key=bool(device.credential_hash),
         dropped=device.dropped,
+        only_done_flag=device.source_type == CONTENT_TYPES["paper"],
     )
     return replace(view, status=status_of(view), doing=doing_of(view))
 

@@ -1,0 +1,110 @@
+"""A device that knows only the paper's done flag: what comes of a command is read from the flag's edges."""
+
+import json
+import threading
+from collections import Counter
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from uuid import uuid4
+
+import pytest
+
+from execution import services
+from execution.intake import Entry
+from execution.models import Command
+from execution.taking_in import Taker
+from registry import services as registry
+from registry.mqtt import Message
+
+FIGURE = (Path(__file__).parents[2] / "fixtures" / "figure-5.txt").read_bytes() + b"site: hall\n"
+NAME = "paintMixer02"
+
+
+@pytest.fixture
+def mixer(db):
+    registry.create_site(name="Hall", slug="hall")
+    registry.ingest_description(device_id=NAME, payload=FIGURE, at=datetime.now(UTC))
+    return Mixer()
+
+
+class Mixer:
+    def __init__(self):
+        self.seq, self.problems = 0, []
+        self.taker = Taker(lambda device, reason: self.problems.append(reason), Counter())
+
+    def say(self, kind, body):
+        topic = f"vipo/v1/dev/{NAME}/up/{kind}"
+        payload = body if isinstance(body, bytes) else json.dumps(body).encode()
+        self.taker.take_all([Entry(Message(topic, payload, False, lambda: None), NAME, kind)], threading.Event())
+        assert self.problems == []
+
+    def say_done(self, done):
+        self.seq += 1
+        self.say("state", {"boot": 1, "seq": self.seq, "done": done})
+
+
+def send(method="mixPaint", position=1):
+    now = datetime.now(UTC) - timedelta(seconds=1)
+    site = registry.find_device(device_id=NAME)
+    row = Command(id=uuid4(), position=position, device=NAME, method=method, send_after=now, created_at=now)
+    row.site_id = Command._meta.get_field("site").related_model.objects.get(slug=site.site).pk
+    row.save()
+    (going,) = services.claim_commands(limit=10)
+    services.mark_commands_sent(ids=[going.id])
+    return row
+
+
+def status(row):
+    row.refresh_from_db()
+    return row.status
+
+
+def test_a_command_is_done_when_the_flag_falls_and_rises_again(mixer):
+    mixer.say_done(True)
+    row = send()
+    mixer.say_done(True)
+    assert status(row) == "sent"
+    mixer.say_done(False)
+    assert (status(row), row.why) == ("running", "Seen at work by its done flag.")
+    mixer.say_done(False)
+    mixer.say_done(True)
+    assert (status(row), row.why) == ("done", "")
+    assert row.ended_at is not None
+
+
+def test_work_that_was_under_way_before_does_not_count(mixer):
+    mixer.say_done(False)
+    row = send()
+    mixer.say_done(True)
+    assert status(row) == "sent"
+
+
+def test_it_is_sent_once_since_the_device_would_do_it_again(mixer):
+    row = send()
+    mixer.say_done(False)
+    Command.objects.filter(id=row.id).update(created_at=datetime.now(UTC) - timedelta(hours=1))
+    mixer.say("presence", {"s": "online", "boot": 1})
+    row.refresh_from_db()
+    assert row.tries == 1
+    assert row.send_after > datetime.now(UTC) + timedelta(days=1)
+    assert services.claim_commands(limit=10) == ()
+
+
+def test_the_flag_in_the_papers_message_counts_as_well(mixer):
+    row = send()
+    assert b"done: False" in FIGURE
+    mixer.say("desc", FIGURE.replace(b"done: False", b"done: True"))
+    mixer.say("desc", FIGURE)
+    assert status(row) == "running"
+    mixer.say("desc", FIGURE.replace(b"done: False", b"done: True"))
+    assert status(row) == "done"
+
+
+def test_whoever_answers_is_judged_by_the_answers(mixer):
+    row = send()
+    mixer.say("ack", {"id": str(row.id), "st": "ACCEPTED"})
+    mixer.say_done(False)
+    mixer.say_done(True)
+    assert status(row) == "accepted"
+    mixer.say("ack", {"id": str(row.id), "st": "FAILED", "why": "Empty"})
+    assert (status(row), row.why) == ("failed", "Empty")
