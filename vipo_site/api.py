@@ -14,6 +14,7 @@ from execution.api import router as execution_router
 from registry.api import router as registry_router
 from registry.errors import VipoError
 from registry.history_api import router as history_router
+from registry.mtconnect_api import router as mtconnect_router
 from registry.sparql_api import router as sparql_router
 from registry.things_api import router as things_router
 from vipo_site.openapi import DescribedAPI
@@ -60,5 +61,6 @@ api.add_router("", registry_router)
 api.add_router("", history_router)
 api.add_router("", sparql_router)
 api.add_router("", things_router)
+api.add_router("", mtconnect_router)
 api.add_router("", editor_router)
 api.add_router("", execution_router)

@@ -1,0 +1,129 @@
+"""What of a device MTConnect shows as data items, and how values are said there; pure."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import degrees
+from typing import Literal
+
+from registry.capability import PropertySpec, Scalar
+from registry.views import DeviceView
+
+Category = Literal["SAMPLE", "EVENT", "CONDITION"]
+UNAVAILABLE = "UNAVAILABLE"
+_UNSAYABLE = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """How a reading in a QUDT unit is said in MTConnect: its type, MTConnect's unit, and what to multiply with."""
+
+    type: str
+    units: str
+    factor: float = 1.0
+
+
+MEASURES: Mapping[str, Measure] = {
+    "DEG_C": Measure("TEMPERATURE", "CELSIUS"),
+    "PERCENT": Measure("LOAD", "PERCENT"),
+    "M": Measure("DISPLACEMENT", "MILLIMETER", 1000.0),
+    "CentiM": Measure("DISPLACEMENT", "MILLIMETER", 10.0),
+    "MilliM": Measure("DISPLACEMENT", "MILLIMETER"),
+    "M-PER-SEC": Measure("VELOCITY", "MILLIMETER/SECOND", 1000.0),
+    "DEG": Measure("ANGLE", "DEGREE"),
+    "RAD": Measure("ANGLE", "DEGREE", degrees(1.0)),
+    "SEC": Measure("ACCUMULATED_TIME", "SECOND"),
+    "MIN": Measure("ACCUMULATED_TIME", "SECOND", 60.0),
+    "HR": Measure("ACCUMULATED_TIME", "SECOND", 3600.0),
+    "PA": Measure("PRESSURE", "PASCAL"),
+    "BAR": Measure("PRESSURE", "PASCAL", 100_000.0),
+    "V": Measure("VOLTAGE", "VOLT"),
+    "A": Measure("AMPERAGE", "AMPERE"),
+    "W": Measure("WATTAGE", "WATT"),
+    "HZ": Measure("FREQUENCY", "HERTZ"),
+    "REV-PER-MIN": Measure("ROTARY_VELOCITY", "REVOLUTION/MINUTE"),
+    "N-M": Measure("TORQUE", "NEWTON_METER"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class DataItem:
+    """One thing that a device tells; `measure` is None where it is no number with a unit that MTConnect knows."""
+
+    id: str
+    category: Category
+    type: str
+    name: str = ""
+    measure: Measure | None = None
+
+
+def component_id(device_id: str) -> str:
+    """Return a device's id as XML wants it; no two ids of a document are the same."""
+    return f"d_{device_id}"
+
+
+def availability_of(device_id: str) -> DataItem:
+    """Return the item that says whether the device is there."""
+    return DataItem(f"a_{device_id}", "EVENT", "AVAILABILITY")
+
+
+def execution_of(device_id: str) -> DataItem:
+    """Return the item that says whether the device is at work."""
+    return DataItem(f"e_{device_id}", "EVENT", "EXECUTION")
+
+
+def condition_of(device_id: str) -> DataItem:
+    """Return the item that says whether the device reports an error or a warning."""
+    return DataItem(f"c_{device_id}", "CONDITION", "SYSTEM")
+
+
+def item_of(device_id: str, spec: PropertySpec) -> DataItem:
+    """Return a property's item: a sample when it is a number in a unit that MTConnect knows, else a message."""
+    key = f"x{len(spec.name)}_{spec.name}_{device_id}"
+    measure = MEASURES.get(spec.unit) if spec.type == "number" else None
+    if measure is None:
+        return DataItem(key, "EVENT", "MESSAGE", spec.name)
+    return DataItem(key, "SAMPLE", measure.type, spec.name, measure)
+
+
+def items_of(view: DeviceView) -> tuple[DataItem, ...]:
+    """Return all that a device tells."""
+    own = (item_of(view.id, spec) for spec in view.canonical.properties)
+    return (availability_of(view.id), execution_of(view.id), condition_of(view.id), *own)
+
+
+def element_name(item: DataItem) -> str:
+    """Return what an item's observations are called: `PathPosition` for `PATH_POSITION`."""
+    return "".join(word.capitalize() for word in item.type.split("_"))
+
+
+def say_value(item: DataItem, value: Scalar) -> str:
+    """Return a reading's text."""
+    if value is None:
+        return UNAVAILABLE
+    if item.measure is None:
+        return str(value).lower() if isinstance(value, bool) else sayable(str(value))
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return UNAVAILABLE
+    return repr(round(float(value) * item.measure.factor, 6))
+
+
+def say_availability(*, online: bool) -> str:
+    """Return whether a device is there."""
+    return "AVAILABLE" if online else UNAVAILABLE
+
+
+def say_execution(*, online: bool, done: bool, failed: bool = False) -> str:
+    """Return whether a device is at work."""
+    if not online:
+        return UNAVAILABLE
+    if failed:
+        return "STOPPED"
+    return "READY" if done else "ACTIVE"
+
+
+def sayable(text: str) -> str:
+    """Return a text without the characters that no XML document may hold."""
+    return _UNSAYABLE.sub("\ufffd", text)
