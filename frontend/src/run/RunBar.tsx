@@ -1,6 +1,6 @@
 import { Button, Group, Modal, Text } from "@mantine/core";
 import { Pause, Play, X } from "lucide-react";
-import { useState } from "react";
+import { useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { api, ApiProblem } from "@/api/client";
 import type { Run } from "@/api/types";
@@ -24,16 +24,14 @@ interface RunActionsProps {
   onDone: () => void;
 }
 
-/** Pause, resume and cancel. */
-export function RunActions({ run, allowed, onProblem, onDone }: RunActionsProps) {
-  const { t } = useTranslation();
-  const [asking, setAsking] = useState(false);
+type Order = "pause" | "resume" | "cancel";
+
+function useOrders({ run, onProblem, onDone }: RunActionsProps) {
   const [busy, setBusy] = useState(false);
-  const over = ["finished", "failed", "cancelled"].includes(run.status);
-  const send = (what: "pause" | "resume" | "cancel") => {
+  const send = (order: Order) => {
     setBusy(true);
     api
-      .post(`/runs/${run.id}/${what}`)
+      .post(`/runs/${run.id}/${order}`)
       .then(() => onProblem(null))
       .catch((error: unknown) => {
         if (!(error instanceof ApiProblem)) throw error;
@@ -44,45 +42,63 @@ export function RunActions({ run, allowed, onProblem, onDone }: RunActionsProps)
         onDone();
       });
   };
-  if (over || !allowed) return null;
+  return { busy, send };
+}
+
+/** Pause, resume and cancel; where there is little room only those that can be pressed. */
+export function RunActions(props: RunActionsProps) {
+  const { t } = useTranslation();
+  const [asking, setAsking] = useState(false);
+  const { busy, send } = useOrders(props);
+  const { run, allowed } = props;
+  const paused = run.status === "paused";
+  const order = (what: Order, icon: ReactNode, possible: boolean) => (
+    <Button
+      variant="default"
+      className={possible ? undefined : styles.spare}
+      leftSection={icon}
+      disabled={busy || !possible}
+      onClick={() => send(what)}
+    >
+      {t(`run.${what}`)}
+    </Button>
+  );
+  if (["finished", "failed", "cancelled"].includes(run.status) || !allowed) return null;
   return (
     <>
-      <Button
-        variant="default"
-        leftSection={<Pause size={16} />}
-        disabled={busy || run.status === "paused"}
-        onClick={() => send("pause")}
-      >
-        {t("run.pause")}
-      </Button>
-      <Button
-        variant="default"
-        leftSection={<Play size={16} />}
-        disabled={busy || run.status !== "paused"}
-        onClick={() => send("resume")}
-      >
-        {t("run.resume")}
-      </Button>
+      {order("pause", <Pause size={16} aria-hidden />, !paused)}
+      {order("resume", <Play size={16} aria-hidden />, paused)}
       <Button variant="default" className={styles.cancel} leftSection={<X size={16} />} onClick={() => setAsking(true)}>
         {t("run.cancel")}
       </Button>
-      <Modal opened={asking} onClose={() => setAsking(false)} title={t("run.cancelTitle")} centered>
-        <Text size="sm">{t("run.cancelText")}</Text>
-        <Group justify="flex-end" mt="lg">
-          <Button variant="default" onClick={() => setAsking(false)}>
-            {t("run.goOn")}
-          </Button>
-          <Button
-            color="red"
-            onClick={() => {
-              setAsking(false);
-              send("cancel");
-            }}
-          >
-            {t("run.cancel")}
-          </Button>
-        </Group>
-      </Modal>
+      <CancelDialog opened={asking} onClose={() => setAsking(false)} onCancel={() => send("cancel")} />
     </>
+  );
+}
+
+interface CancelDialogProps {
+  opened: boolean;
+  onClose: () => void;
+  onCancel: () => void;
+}
+
+function CancelDialog({ opened, onClose, onCancel }: CancelDialogProps) {
+  const { t } = useTranslation();
+  const cancel = () => {
+    onClose();
+    onCancel();
+  };
+  return (
+    <Modal opened={opened} onClose={onClose} title={t("run.cancelTitle")} centered>
+      <Text size="sm">{t("run.cancelText")}</Text>
+      <Group justify="flex-end" mt="lg">
+        <Button variant="default" onClick={onClose}>
+          {t("run.goOn")}
+        </Button>
+        <Button color="red" onClick={cancel}>
+          {t("run.cancel")}
+        </Button>
+      </Group>
+    </Modal>
   );
 }

@@ -115,66 +115,39 @@ function Drawer(props: { tab: Tab; onTab: (tab: Tab) => void; children: ReactNod
   );
 }
 
-function Loaded({ run, site }: LoadedProps) {
-  const { t } = useTranslation();
-  const queries = useQueryClient();
+/** All that the parts of the screen show of a run. */
+function useRunView({ run, site }: LoadedProps) {
   const devices = useDevices(run.site).data ?? NO_DEVICES;
   const map = useSiteMap(run.site).data ?? null;
   const events = useRunEvents(run.id).data ?? NO_EVENTS;
   const over = OVER.includes(run.status);
   const now = useNow(!over);
-  const [tab, setTab] = useState<Tab>("timeline");
   const [selected, setSelected] = useState<string | null>(null);
-  const [problem, setProblem] = useState<string | null>(null);
-  const words = useStepWords(run.document, devices, map?.places);
   const lines = useMemo(() => stepLines(run.compiled, run.steps), [run.compiled, run.steps]);
-  const lit = useMemo(
-    () => new Set(lines.filter((line) => line.started_at && !line.ended_at).map((line) => line.step)),
-    [lines],
-  );
-  const robotOf = useCallback(
-    (step: string) => run.roles[String(run.document.steps[step]?.params.role ?? "robot")],
-    [run.roles, run.document],
-  );
-  const elapsed_s = elapsedSeconds(run, now);
   const numberOf = (step: string) => run.compiled.numbers[step] ?? "";
   const nameOf = (id: string) => devices.find((device) => device.id === id)?.name ?? id;
+  const allowed = site !== undefined && site.role !== "viewer";
+  return { run, site, devices, map, events, over, now, selected, setSelected, lines, numberOf, nameOf, allowed };
+}
+
+type RunView = ReturnType<typeof useRunView>;
+
+function Loaded(props: LoadedProps) {
+  const { t } = useTranslation();
+  const view = useRunView(props);
+  const [problem, setProblem] = useState<string | null>(null);
+  const { run, selected, setSelected } = view;
   return (
     <div className={styles.screen}>
-      <TopBar
-        site={run.site}
-        crumbs={
-          <>
-            <Crumb to="/">{site?.name ?? ""}</Crumb>
-            <Crumb to={`/programs/${run.program.id}`}>{run.program.name}</Crumb>
-            <Crumb>{t("run.title", { number: run.number })}</Crumb>
-          </>
-        }
-        chips={
-          <span className={styles.chips}>
-            {run.version !== null && <Chip mono>v{run.version}</Chip>}
-            {site?.simulated && <Chip>{t("run.simulated")}</Chip>}
-          </span>
-        }
-        actions={
-          <RunActions
-            run={run}
-            allowed={site !== undefined && site.role !== "viewer"}
-            onProblem={setProblem}
-            onDone={() => void queries.invalidateQueries({ queryKey: keys.run(run.id) })}
-          />
-        }
-      >
-        <RunPill run={run} elapsed_s={elapsed_s} />
-      </TopBar>
+      <RunTop view={view} onProblem={setProblem} />
       <main className={styles.body}>
         <section className={styles.map} aria-label={t("run.map")}>
           <ProgramMap
             site={run.site}
-            plan={map}
+            plan={view.map}
             trails
             controls
-            devices={devices}
+            devices={view.devices}
             document={run.document}
             compiled={run.compiled}
             statuses={run.steps}
@@ -183,40 +156,101 @@ function Loaded({ run, site }: LoadedProps) {
             onSelect={setSelected}
           />
           <Notes run={run} problem={problem} />
-          <RunQuestions run={run} allowed={site !== undefined && site.role !== "viewer"} />
+          <RunQuestions run={run} allowed={view.allowed} />
         </section>
-        <aside className={styles.side}>
-          <StepsPanel
-            lines={lines}
-            current={over ? null : currentStep(lines)}
-            now={now}
-            selected={selected}
-            titleOf={words.titleOf}
-            iconOf={words.iconOf}
-            nameOf={nameOf}
-            onSelect={setSelected}
-          />
-          <Journal events={events} numberOf={numberOf} nameOf={nameOf} label={t("run.journal")} />
-        </aside>
-        <Drawer tab={tab} onTab={setTab}>
-          {tab === "timeline" && (
-            <Timeline {...{ events, devices, elapsed_s, over, numberOf, robotOf }} onSelect={setSelected} />
-          )}
-          {tab === "logs" && (
-            <Journal events={events} numberOf={numberOf} nameOf={nameOf} label={t("run.tab.logs")} full />
-          )}
-          {tab === "script" && (
-            <ScriptLines
-              compiled={run.compiled}
-              lit={lit}
-              selected={selected}
-              label={t("run.tab.script")}
-              onSelect={setSelected}
-            />
-          )}
-        </Drawer>
+        <Side view={view} />
+        <More view={view} />
       </main>
     </div>
+  );
+}
+
+function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: string | null) => void }) {
+  const { t } = useTranslation();
+  const queries = useQueryClient();
+  const { run, site } = view;
+  return (
+    <TopBar
+      site={run.site}
+      crumbs={
+        <>
+          <Crumb to="/">{site?.name ?? ""}</Crumb>
+          <Crumb to={`/programs/${run.program.id}`}>{run.program.name}</Crumb>
+          <Crumb>{t("run.title", { number: run.number })}</Crumb>
+        </>
+      }
+      chips={
+        <span className={styles.chips}>
+          {run.version !== null && <Chip mono>v{run.version}</Chip>}
+          {site?.simulated && <Chip>{t("run.simulated")}</Chip>}
+        </span>
+      }
+      actions={
+        <RunActions
+          run={run}
+          allowed={view.allowed}
+          onProblem={onProblem}
+          onDone={() => void queries.invalidateQueries({ queryKey: keys.run(run.id) })}
+        />
+      }
+    >
+      <RunPill run={run} elapsed_s={elapsedSeconds(run, view.now)} />
+    </TopBar>
+  );
+}
+
+/** The steps and the journal. */
+function Side({ view }: { view: RunView }) {
+  const { t } = useTranslation();
+  const { run, lines, numberOf, nameOf } = view;
+  const words = useStepWords(run.document, view.devices, view.map?.places);
+  return (
+    <aside className={styles.side}>
+      <StepsPanel
+        lines={lines}
+        current={view.over ? null : currentStep(lines)}
+        now={view.now}
+        selected={view.selected}
+        titleOf={words.titleOf}
+        iconOf={words.iconOf}
+        nameOf={nameOf}
+        onSelect={view.setSelected}
+      />
+      <Journal events={view.events} numberOf={numberOf} nameOf={nameOf} label={t("run.journal")} />
+    </aside>
+  );
+}
+
+/** Timeline, whole journal or script. */
+function More({ view }: { view: RunView }) {
+  const { t } = useTranslation();
+  const [tab, setTab] = useState<Tab>("timeline");
+  const { run, lines, events, devices, over, numberOf, nameOf, setSelected } = view;
+  const elapsed_s = elapsedSeconds(run, view.now);
+  const lit = useMemo(
+    () => new Set(lines.filter((line) => line.started_at && !line.ended_at).map((line) => line.step)),
+    [lines],
+  );
+  const robotOf = useCallback(
+    (step: string) => run.roles[String(run.document.steps[step]?.params.role ?? "robot")],
+    [run.roles, run.document],
+  );
+  return (
+    <Drawer tab={tab} onTab={setTab}>
+      {tab === "timeline" && (
+        <Timeline {...{ events, devices, elapsed_s, over, numberOf, robotOf }} onSelect={setSelected} />
+      )}
+      {tab === "logs" && <Journal {...{ events, numberOf, nameOf }} label={t("run.tab.logs")} full />}
+      {tab === "script" && (
+        <ScriptLines
+          compiled={run.compiled}
+          lit={lit}
+          selected={view.selected}
+          label={t("run.tab.script")}
+          onSelect={setSelected}
+        />
+      )}
+    </Drawer>
   );
 }
 

@@ -33,6 +33,13 @@ test("lines of the journal are told by their code, others as they were written",
   expect(eventWords(event({ kind: "wait", code: "offline", device: "oven" }), nameOf)).toBe(
     "Ofen ist nicht verbunden.",
   );
+  const answer = { kind: "answer", code: "answer", device: "robot01" };
+  expect(eventWords(event({ ...answer, args: { method: "pick", status: "DONE", why: "" } }), nameOf)).toBe(
+    "Kiwi ist fertig: pick.",
+  );
+  expect(eventWords(event({ ...answer, args: { method: "pick", status: "FAILED", why: "No box." } }), nameOf)).toBe(
+    "Kiwi ist gescheitert: pick (No box.)",
+  );
   expect(eventWords(event({ kind: "notice", code: "told", text: "Boxes: 4" }), nameOf)).toBe("Boxes: 4");
   expect(eventWords(event({ kind: "step", code: "step_failed", text: "Why." }), nameOf)).toBe("Why.");
 });

@@ -9,9 +9,14 @@ export function eventWords(event: RunEvent, nameOf: (device: string) => string):
     const reason = { code: event.code, args: { ...scalars(args), robot, device } };
     return waitWords(reason, nameOf) ?? event.text;
   }
-  const key = `run.event.${event.code}`;
+  const key = `run.event.${event.code === "answer" ? answerKey(args) : event.code}`;
   if (!i18next.exists(key)) return event.text;
   return i18next.t(key, { ...args, value: answerWords(args.value), robot: nameOf(robot), device: nameOf(device) });
+}
+
+/** `answer_DONE`, and with a reason `answer_FAILED_why`. */
+function answerKey(args: RunEvent["args"]): string {
+  return `answer_${String(args.status)}${args.why ? "_why" : ""}`;
 }
 
 function answerWords(value: unknown): string {
