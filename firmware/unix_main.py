@@ -5,13 +5,10 @@ import sys
 
 sys.path.insert(0, (__file__.rsplit("/", 1)[0] if "/" in __file__ else ".") + "/lib")
 
-from vipo.portable import load  # noqa: E402 - the path comes first
-
-load("device", "mqtt")
-from vipo.configuration import BadConfiguration, read_configuration  # noqa: E402
+from vipo.configuration import BadConfiguration, read_configuration  # noqa: E402 - the path comes first
 from vipo.drivers import NoSuchDriver  # noqa: E402
 from vipo.panel import ConsolePanel  # noqa: E402
-from vipo.start import make_device  # noqa: E402
+from vipo.portable import load  # noqa: E402
 
 
 def main():
@@ -22,7 +19,7 @@ def main():
     try:
         configuration = read_configuration(sys.argv[1])
         stream = open(configuration["log"], "w") if configuration.get("log") else sys.stdout
-        device = make_device(configuration, ConsolePanel(stream))
+        device = make(configuration, ConsolePanel(stream))
     except (BadConfiguration, NoSuchDriver, OSError) as error:
         print(error)
         sys.exit(2)
@@ -30,6 +27,17 @@ def main():
         asyncio.run(device.run())
     except KeyboardInterrupt:
         pass
+
+
+def make(configuration, panel):
+    """Return the device; its parts are loaded one after the other, to fit into a small heap."""
+    from vipo.identity import make_identity
+
+    identity = make_identity(configuration, panel)
+    load("duties", "mqtt", "device", "start")
+    from vipo.start import make_device
+
+    return make_device(configuration, panel, identity)
 
 
 main()

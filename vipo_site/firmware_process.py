@@ -62,6 +62,7 @@ def write_configuration(state_dir: Path, config: Mapping[str, Any]) -> Path:
         "site": settings.VIPO_DEFAULT_SITE,
         **place_of(device),
         "boot_file": str(folder / f"{device}.boot"),
+        "key_file": str(folder / f"{device}.key"),
         "log": str(folder / f"{device}.log"),
         **config,
     }

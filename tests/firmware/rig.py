@@ -26,6 +26,8 @@ ACCOUNTS = {"server": "secret", DEVICE: "mixer's word"}
 LIMIT_S = 30
 # A kilobyte of a computer's heap holds half of what one of the chip's holds: its words are twice as long.
 HEAP = ("-X", "heapsize=100k")
+# On a board `machine` and `network` lie in the flash; the recorder that stands for them takes this heap's room.
+HEAP_WITH_RECORDER = ("-X", "heapsize=112k")
 
 
 class EmbeddedBus:
@@ -34,11 +36,12 @@ class EmbeddedBus:
     def __init__(self) -> None:
         self.device_port = self.port = free_port()
         self.authority = ""
+        self.accounts = dict(ACCOUNTS)
         self._broker: EmbeddedBroker | None = None
 
     def start(self) -> None:
         self._broker = start_broker(
-            port=self.port, server_password=ACCOUNTS["server"], check_password=lambda u, p: ACCOUNTS.get(u) == p
+            port=self.port, server_password=ACCOUNTS["server"], check_password=lambda u, p: self.accounts.get(u) == p
         )
 
     def kill(self) -> None:
@@ -117,6 +120,7 @@ def configuration(bus: Any, folder: Path, **more: Any) -> dict[str, Any]:
         "site": "hall",
         "ca": bus.authority,
         "boot_file": str(folder / "boot"),
+        "key_file": str(folder / "key"),
         **more,
     }
 
@@ -163,7 +167,7 @@ def running_chip(
     }
     with (folder / "console").open("wb") as console:
         process = subprocess.Popen(
-            [micropython, *HEAP, str(main)],
+            [micropython, *HEAP_WITH_RECORDER, str(main)],
             cwd=folder,
             env={**os.environ, **settings},
             stdout=console,

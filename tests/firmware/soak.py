@@ -31,7 +31,7 @@ async def send(client):
 
 async def main():
     """Send everything over one client."""
-    client = Client("127.0.0.1", PORT, "soak", "soak", "soaked")
+    client = Client("127.0.0.1", PORT, "soak", "soaked")
     connections, up = [], asyncio.Event()
 
     def note_up():
@@ -39,7 +39,7 @@ async def main():
         up.set()
 
     client.on_up = note_up
-    client.last_id = FIRST - 1
+    client.outbox.last_id = FIRST - 1
     task = asyncio.create_task(client.run())
     await up.wait()
     began = time.ticks_ms()
@@ -52,7 +52,7 @@ async def main():
                 "sent": COUNT,
                 "seconds": seconds,
                 "connections": len(connections),
-                "last_id": client.last_id,
+                "last_id": client.outbox.last_id,
                 "bytes_at_a_tenth": LEAST_USED["first"],
                 "bytes_at_the_end": LEAST_USED["last"],
             }

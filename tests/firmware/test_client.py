@@ -89,9 +89,9 @@ class RudeBroker:
 PROGRAM = """
 import asyncio
 from vipo.mqtt import Client
-client = Client("127.0.0.1", {port}, "soak", "soak", "word", keepalive_s={keepalive})
+client = Client("127.0.0.1", {port}, "soak", "word", keepalive_s={keepalive})
 client.first_back_off_s = 0.05
-client.last_id = {first} - 1
+client.outbox.last_id = {first} - 1
 client.on_down = lambda why: print("down:", why)
 async def main():
     task = asyncio.create_task(client.run())
@@ -170,7 +170,7 @@ def test_packet_ids_go_round_and_leave_out_those_in_flight(micropython: str, tmp
 
     # The ids go round a second time while the broker still owes an answer to 65535.
     more = (
-        f"    client.last_id = {WRAP} - 2\n"
+        f"    client.outbox.last_id = {WRAP} - 2\n"
         "    for number in range(4, 8):\n"
         '        client.publish("up", b"%d" % number)\n'
         "        await asyncio.sleep(0.02)"

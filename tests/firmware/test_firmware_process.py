@@ -24,7 +24,6 @@ DOWN = f"vipo/v1/dev/{DEVICE}/down/"
 
 PLACES = [
     ("micropython", "amqtt"),
-    ("micropython", "mosquitto"),
     ("micropython", "mosquitto with TLS"),
     ("cpython", "amqtt"),
 ]
@@ -167,7 +166,15 @@ def test_a_configuration_that_cannot_be_used_is_said_in_a_sentence(interpreter: 
     for content, sentence in (
         (None, "There is no configuration file {path}."),
         ("%", "{path} is not JSON."),
-        (json.dumps({**good, "password": ""}), "{path} does not say 'password'."),
+        (json.dumps({**good, "host": ""}), "{path} does not say 'host'."),
+        (
+            json.dumps({**good, "password": ""}),
+            "{path} needs 'password', the device's own key, or 'join_key', the site's.",
+        ),
+        (
+            json.dumps({**good, "join_key": "key", "site": "+"}),
+            "{path} has a join key, but does not say 'site', whose key it is.",
+        ),
         (json.dumps(good), f"There is no description file {tmp_path}/none.ttl."),
     ):
         path = tmp_path / "c.json"
@@ -203,9 +210,9 @@ def test_the_demos_mixer_says_of_itself_what_the_site_knows_already(micropython:
     command, notice = firmware_command(tmp_path, {"host": "127.0.0.1", "port": 1, "id": DEVICE, "password": "word"})
     assert (command[1:], notice) == ([str(ROOT / "firmware" / "unix_main.py"), command[2]], None)
     program = (
-        "from vipo.drivers import make_driver; from vipo.panel import Panel; from vipo.start import make_description\n"
+        "from vipo.identity import make_identity; from vipo.panel import Panel\n"
         f"import json; c = json.load(open({command[2]!r}))\n"
-        "print(make_description(c, make_driver(c['driver'], Panel(), c)).decode())"
+        "print(make_identity(c, Panel())[1].decode())"
     )
     env = {"MICROPYPATH": f"{ROOT / 'firmware' / 'lib'}:.frozen"}
     told = subprocess.run([micropython, "-c", program], env=env, capture_output=True, timeout=60, check=True).stdout

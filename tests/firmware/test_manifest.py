@@ -57,7 +57,7 @@ def test_mip_installs_the_firmware(micropython: str, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
     installed = tmp_path / "lib"
     assert {p.relative_to(installed).as_posix(): p.read_text() for p in installed.rglob("*.py")} == sources()
-    check = "import vipo.start, vipo.drivers; print(len(vipo.drivers.TABLE))"
+    check = "import vipo.start, vipo.drivers; print(len(vipo.drivers.NAMES))"
     env = {"MICROPYPATH": f"{installed}:.frozen", "PATH": "/usr/bin:/bin"}
     ran = subprocess.run([micropython, "-c", check], env=env, capture_output=True, text=True, timeout=60)
     assert ran.stdout == "7\n", ran.stderr

@@ -89,7 +89,8 @@ def set_up(micropython: str, folder: Path, environment: dict[str, str]) -> Any:
     def running() -> Iterator[Page]:
         port, names = free_port(), free_port()
         program = folder / "main.py"
-        program.write_text(f"import vipo.chip as c\nc.HTTP_PORT, c.DNS_PORT = {port}, {names}\nc.run()\n")
+        ports = f"import vipo.setting_up as s\ns.HTTP_PORT, s.DNS_PORT = {port}, {names}\n"
+        program.write_text(f"import vipo.chip\n{ports}vipo.chip.run()\n")
         with running_chip(micropython, folder, environment, main=program) as chip:
             page = Page(chip, port, names)
             wait_for(lambda: _answers(port), "the page: " + chip.console)

@@ -1,6 +1,6 @@
 """What a configuration may say: each field's kind and limits, and the sentence for one that is wrong."""
 
-from vipo.drivers import TABLE
+from vipo.drivers import NAMES
 
 WORD = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-"
 FARTHEST_M = 1000000
@@ -10,7 +10,8 @@ RULES = (
     ("host", "host"),
     ("port", "whole", 1, 65535),
     ("id", "word"),
-    ("password", "text", 1, 128),
+    ("password", "key", 1, 128),
+    ("join_key", "key", 1, 128),
     ("site", "site"),
     ("driver", "driver"),
     ("name", "text", 1, 100),
@@ -32,7 +33,7 @@ SENTENCES = {
     "host": "a name or address of at most 253 characters",
     "word": "1 to 64 letters, digits, '_', '.' or '-'",
     "site": "the site's short name",
-    "driver": "one of: " + ", ".join(sorted(TABLE)),
+    "driver": "one of: " + ", ".join(NAMES),
     "text": "a text of %d to %d characters",
     "key": "empty, or a text of %d to %d characters",
     "whole": "a whole number from %d to %d",
@@ -52,6 +53,15 @@ def find_fault(configuration, where, needed):
         if value is not None and not is_right(value, rule[1], rule[2:]):
             sentence = SENTENCES[rule[1]]
             return "%s: %r must be %s." % (where, rule[0], sentence % rule[2:] if "%" in sentence else sentence)
+    return fault_of_keys(configuration, where)
+
+
+def fault_of_keys(configuration, where):
+    """Return what is missing of keys, or an empty text; a configuration without an id is only a part of one."""
+    if configuration.get("join_key") and configuration.get("site", "+") == "+":
+        return "%s has a join key, but does not say 'site', whose key it is." % where
+    if configuration.get("id") and not configuration.get("join_key") and not configuration.get("password"):
+        return "%s needs 'password', the device's own key, or 'join_key', the site's." % where
     return ""
 
 
@@ -73,7 +83,7 @@ def is_right(value, kind, limits):
 def is_right_text(value, kind, limits):
     """Tell whether a text is of a kind; lengths are counted in bytes, and control characters are never right."""
     if kind == "driver":
-        return value in TABLE
+        return value in NAMES
     if kind == "host":
         return 0 < len(value) <= 253 and all(c in WORD or c == ":" for c in value)
     if kind in ("word", "site"):

@@ -1,6 +1,5 @@
-"""The life of an ESP32: set-up page or Wi-Fi, the clock, then the machine that config.json describes."""
+"""The life of an ESP32: Wi-Fi, the clock, then the machine that config.json describes; or the set-up page."""
 
-import os
 import sys
 import time
 
@@ -11,14 +10,12 @@ from vipo.portable import clock_is_set, load, show_error
 
 CONFIGURATION = "config.json"
 # Of the board in docs/devices/esp32.md; 0 is the BOOT button that most boards have.
-DEFAULT_PINS = {"sda": 21, "scl": 22, "red": 25, "green": 26, "blue": 27, "button": 0}
-NEEDED = ("host", "port", "id", "password", "wifi_name")
+DEFAULT_PINS = {"sda": 21, "scl": 22, "red": 25, "green": 26, "blue": 27, "output": 23, "button": 0}
+NEEDED = ("host", "port", "id", "wifi_name")
 WIFI_TIMEOUT_S = 30
 WATCHDOG_MS = 60000
 SHOWN_S = 5
-HTTP_PORT, DNS_PORT = 80, 53
 TIME_SERVER = "pool.ntp.org"
-ALPHABET, KEY_LENGTH = "23456789abcdefghjkmnpqrstuvwxyz", 8
 
 
 def run():
@@ -28,7 +25,9 @@ def run():
     output = make_output(pins)
     try:
         if fault or is_pressed(pins):
-            set_up(pins, fault)
+            from vipo.setting_up import set_up
+
+            set_up(panel_of(pins), fault)
         else:
             serve(configuration, pins, output)
     except Exception as error:  # the edge of the program
@@ -70,10 +69,13 @@ def panel_of(pins):
 
 def serve(configuration, pins, output):
     """Join the Wi-Fi and be the machine; returns when the Wi-Fi does not come."""
-    load("device", "mqtt", "start", "board")
-    from vipo.start import make_device
+    from vipo.identity import make_identity
 
     panel = panel_of(pins)
+    identity = make_identity(configuration, panel)
+    load("duties", "mqtt", "device", "start")
+    from vipo.start import make_device
+
     panel.show("Wi-Fi", configuration["wifi_name"])
     if not join_wifi(configuration["wifi_name"], configuration.get("wifi_password", "")):
         panel.show("No Wi-Fi", configuration["wifi_name"])
@@ -81,7 +83,7 @@ def serve(configuration, pins, output):
         return
     if not set_clock(configuration.get("time_server", TIME_SERVER)) and configuration.get("ca"):
         panel.show("No time", "certificate?")
-    device = make_device(configuration, panel, output)
+    device = make_device(configuration, panel, identity, output)
     device.feed = machine.WDT(timeout=WATCHDOG_MS).feed
     import asyncio
 
@@ -111,24 +113,3 @@ def set_clock(server):
         except (OSError, ImportError, OverflowError) as error:
             sys.stdout.write("no time from %s: %s\n" % (server, error))
     return clock_is_set()
-
-
-def set_up(pins, fault):
-    """Open an access point with a password of its own and serve the set-up page until it was filled in."""
-    load("form", "portal", "dns", "board")
-    from vipo.dns import serve_names
-    from vipo.portal import Portal, until_saved
-
-    sys.stdout.write((fault or "The button was held.") + "\n")
-    point = network.WLAN(network.AP_IF)
-    point.active(True)
-    name = "VIPO-" + "".join(["%02x" % byte for byte in machine.unique_id()[-3:]])
-    password = "".join([ALPHABET[byte % len(ALPHABET)] for byte in os.urandom(KEY_LENGTH)])
-    point.config(ssid=name, password=password, authmode=network.AUTH_WPA_WPA2_PSK)
-    address = point.ifconfig()[0]
-    panel_of(pins).show(name, "key " + password)
-    sys.stdout.write("Join the Wi-Fi %s with %s and open http://%s\n" % (name, password, address))
-    import asyncio
-
-    asyncio.run(until_saved(Portal(address, HTTP_PORT), serve_names(address, port=DNS_PORT)))
-    time.sleep(1)

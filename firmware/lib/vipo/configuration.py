@@ -5,7 +5,7 @@ import os
 
 from vipo.portable import clock_is_set, forget, unix_time
 
-NEEDED = ("host", "port", "id", "password")
+NEEDED = ("host", "port", "id")
 LONGEST_FILE = 8192
 
 

@@ -1,14 +1,13 @@
 """A device's description in Turtle, made from what its driver declares and what its configuration says of it."""
 
-PREFIXES = (
-    ("dct", "http://purl.org/dc/terms/"),
-    ("qudt", "http://qudt.org/schema/qudt/"),
-    ("schema", "https://schema.org/"),
-    ("sosa", "http://www.w3.org/ns/sosa/"),
-    ("td", "https://www.w3.org/2019/wot/td#"),
-    ("unit", "http://qudt.org/vocab/unit/"),
-    ("vipo", "urn:vipo:ns#"),
-)
+PREFIXES = b"""@prefix dct: <http://purl.org/dc/terms/> .
+@prefix qudt: <http://qudt.org/schema/qudt/> .
+@prefix schema: <https://schema.org/> .
+@prefix sosa: <http://www.w3.org/ns/sosa/> .
+@prefix td: <https://www.w3.org/2019/wot/td#> .
+@prefix unit: <http://qudt.org/vocab/unit/> .
+@prefix vipo: <urn:vipo:ns#> .
+"""
 
 
 def describe(device, driver, about):
@@ -17,8 +16,7 @@ def describe(device, driver, about):
     `about` may hold name, about (a text), site, location [x, y, z, theta] in metres and radians, size [x, y, z] in
     metres, and simulated.
     """
-    pieces = [("@prefix %s: <%s> .\n" % prefix).encode() for prefix in PREFIXES]
-    pieces.append(("<urn:vipo:device:%s> a sosa:Actuator, td:Thing, vipo:Machine" % device).encode())
+    pieces = [PREFIXES, ("<urn:vipo:device:%s> a sosa:Actuator, td:Thing, vipo:Machine" % device).encode()]
     for fact in facts_of(device, driver, about):
         pieces.append(b" ;\n ")
         pieces.append(fact.encode())

@@ -1,6 +1,6 @@
 """The set-up page's form: its fields, its HTML with every value escaped, and what comes back from it."""
 
-from vipo.drivers import TABLE
+from vipo.drivers import NAMES
 
 LONGEST_VALUE = 6144
 MOST_VALUES = 24
@@ -11,8 +11,9 @@ FIELDS = (
     ("host", "text", "Broker: name or address", 253),
     ("port", "number", "Broker: port (8883 with TLS)", 5),
     ("id", "text", "This device's id", 64),
-    ("password", "secret", "This device's credential, or the site's join key", 128),
     ("site", "text", "Site (its short name)", 64),
+    ("join_key", "secret", "The site's join key, for a newcomer", 128),
+    ("password", "secret", "This device's own key, if it has one", 128),
     ("driver", "driver", "This device is a", 16),
     ("name", "text", "Name on the map", 100),
     ("location", "place", "Place: x y z theta (metres, radians)", 80),
@@ -51,7 +52,7 @@ def row(name, kind, label, most, value):
     """Return one field with its label."""
     if kind == "driver":
         options = "".join(
-            '<option%s>%s</option>' % (" selected" if option == value else "", option) for option in sorted(TABLE)
+            '<option%s>%s</option>' % (" selected" if option == value else "", option) for option in NAMES
         )
         return '<label>%s<select name="%s">%s</select></label>' % (label, name, options)
     if isinstance(value, (list, tuple)):

@@ -11,7 +11,9 @@ COLUMNS = 16
 ROWS = (0x00, 0x40)
 RS, ENABLE, BACKLIGHT = 0x01, 0x04, 0x08
 FIRST_WAIT_S, RESET_WAIT_S, CLEAR_WAIT_S = 0.05, 0.005, 0.002
-CLEAR, ENTRY_RIGHT, DISPLAY_ON, FOUR_BITS_TWO_LINES, SET_ADDRESS = 0x01, 0x06, 0x0C, 0x28, 0x80
+SET_ADDRESS, CLEAR = 0x80, 0x01
+# Four bits and two lines, display on without a cursor, writing to the right.
+HABITS = (0x28, 0x0C, 0x06)
 ADDRESSES = tuple(range(0x20, 0x28)) + tuple(range(0x38, 0x40))
 
 
@@ -36,10 +38,10 @@ class Lcd:
             time.sleep(RESET_WAIT_S)
         self._nibble(0x20)
         time.sleep(RESET_WAIT_S)
-        for command in (FOUR_BITS_TWO_LINES, DISPLAY_ON, CLEAR):
+        for command in HABITS:
             self._send(command, 0)
+        self._send(CLEAR, 0)
         time.sleep(CLEAR_WAIT_S)
-        self._send(ENTRY_RIGHT, 0)
 
     def write(self, row, line):
         """Put a line of 16 characters on a row, 0 or 1."""

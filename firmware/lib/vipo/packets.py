@@ -1,6 +1,7 @@
 """MQTT 3.1.1 on the wire: packets to bytes, and packets out of a stream."""
 
-CONNECT, CONNACK, PUBLISH, PUBACK, SUBSCRIBE, SUBACK, PINGREQ = 1, 2, 3, 4, 8, 9, 12
+CONNECT, CONNACK, PUBLISH, PUBACK, SUBSCRIBE, SUBACK, PINGREQ, DISCONNECT = 1, 2, 3, 4, 8, 9, 12, 14
+WRONG_KEY = (4, 5)
 REFUSALS = {1: "protocol", 2: "client id", 3: "broker not ready", 4: "user or password", 5: "not allowed"}
 MOST_BYTES = 4096
 HEAD_BYTES = 512
@@ -9,6 +10,10 @@ SUBSCRIBE_FAILED = 0x80
 
 class MqttFailure(Exception):
     """The connection is of no use any more; the text says why."""
+
+
+class Refused(MqttFailure):
+    """The broker does not let this user in with this password."""
 
 
 async def read_packet(reader):

@@ -8,7 +8,6 @@ from vipo.portable import ticks_ms
 WIDTH = 16
 OFF = ""
 BEAT_S = 0.05
-COLOURS = (OFF, GREEN, AMBER, RED, BLUE)
 
 
 class Panel:

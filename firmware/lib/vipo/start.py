@@ -1,47 +1,32 @@
 """From a configuration to a running device; shared by the chip and by a computer."""
 
 from vipo.certificate import tls_context
-from vipo.configuration import BadConfiguration, next_boot, read_file
+from vipo.configuration import next_boot
 from vipo.device import Device
-from vipo.drivers import make_driver
+from vipo.duties import Duties
+from vipo.entrance import Entrance
 from vipo.mqtt import Client
-from vipo.portable import forget
-
-LONGEST_FILE = 16384
 
 
-def make_device(configuration, panel, output=None):
-    """Return a Device made as the configuration says. Raises BadConfiguration, NoSuchDriver."""
+def make_device(configuration, panel, identity, output=None):
+    """Return a Device made as the configuration says, with its (driver, description). Raises BadConfiguration."""
+    driver, description = identity
     client = Client(
         configuration["host"],
         configuration["port"],
         configuration["id"],
-        configuration["id"],
-        configuration["password"],
+        "",
         keepalive_s=int(configuration.get("keepalive_s", 15)),
         tls=tls_context(configuration["ca"]) if configuration.get("ca") else None,
     )
-    driver = make_driver(configuration.get("driver", "mixer"), panel, configuration)
-    return Device(
-        client,
-        driver,
-        panel,
-        make_description(configuration, driver),
-        next_boot(configuration.get("boot_file", "boot.txt")),
-        site=configuration.get("site", "+"),
-        speed=float(configuration.get("speed", 1)),
-        output=output,
-    )
+    speed = float(configuration.get("speed", 1))
+    duties = Duties(driver, panel, speed, output, make_entrance(configuration, client))
+    boot = next_boot(configuration.get("boot_file", "boot.txt"))
+    return Device(client, duties, description, boot, configuration.get("site", "+"))
 
 
-def make_description(configuration, driver):
-    """Return what is published: a file as it is when the configuration names one, else what the driver declares."""
-    path = configuration.get("description")
-    if path:
-        return read_file(path, LONGEST_FILE, "description")
-    from vipo.describe import describe
-
-    description = describe(configuration["id"], driver, configuration)
-    del describe
-    forget("describe")
-    return description
+def make_entrance(configuration, client):
+    """Return the client's keys: the kept ones, the configuration's, and the site's door for a newcomer."""
+    join_key = configuration.get("join_key")
+    door = (configuration["site"], join_key) if join_key else None
+    return Entrance(client, configuration.get("key_file", "key.txt"), configuration.get("password"), door)

@@ -11,7 +11,6 @@ import time
 
 RECORD = open(os.getenv("VIPO_RECORD"), "a")
 START = time.ticks_us()
-BITS_A_BYTE = 9
 LEVELS = {}
 
 
@@ -61,7 +60,7 @@ class I2C:
         if address not in self.scan() or _exists(os.getenv("VIPO_UNPLUGGED")):
             raise OSError(19, "ENODEV")
         note("write", address, self.freq, list(data))
-        time.sleep_us((len(data) + 1) * BITS_A_BYTE * 1000000 // self.freq)
+        time.sleep_us((len(data) + 1) * 9000000 // self.freq)
         return len(data)
 
 

@@ -2,18 +2,10 @@
 
 A driver is a `vipo.drivers.machine.Machine` with `device_class`, `about` and `size` (metres), `gives` and `takes`,
 `readings` (declared values), `methods` {name: declared method} with their `order`, which a dict of MicroPython does not
-keep, `properties` {name: value now}, and a coroutine for each method, called with the Work and the checked arguments.
+keep, `properties` {name: value now}, and a coroutine for each method, called with the Work and the checked arguments. Each module has one, called Driver.
 """
 
-TABLE = {
-    "mixer": ("mixer", "Mixer"),
-    "oven": ("oven", "Oven"),
-    "painter": ("painter", "Painter"),
-    "dispenser": ("dispenser", "Dispenser"),
-    "inventory": ("inventory", "Inventory"),
-    "drop-off": ("drop_off", "DropOff"),
-    "relay": ("relay", "Relay"),
-}
+NAMES = ("dispenser", "drop-off", "inventory", "mixer", "oven", "painter", "relay")
 
 
 class NoSuchDriver(Exception):
@@ -25,7 +17,7 @@ def make_driver(name, panel, options):
 
     `options` is the configuration; a driver takes what it knows from it: `object`, `slots`, `count_file`.
     """
-    if name not in TABLE:
-        raise NoSuchDriver("There is no driver %r; choose one of: %s." % (name, ", ".join(sorted(TABLE))))
-    module, cls = TABLE[name]
-    return getattr(__import__("vipo.drivers." + module, None, None, [cls]), cls)(panel, options)
+    if name not in NAMES:
+        raise NoSuchDriver("There is no driver %r; choose one of: %s." % (name, ", ".join(NAMES)))
+    path = "vipo.drivers." + name.replace("-", "_")
+    return __import__(path, None, None, ["Driver"]).Driver(panel, options)

@@ -6,7 +6,7 @@ from vipo.drivers.machine import Machine
 PUSH_S = 1.5
 
 
-class Dispenser(Machine):
+class Driver(Machine):
     """Method dispense; `object` in the configuration says of what, a box unless told."""
 
     device_class = "cans"

@@ -9,7 +9,7 @@ HAND_S = 2.0
 SLOTS = 9
 
 
-class DropOff(Machine):
+class Driver(Machine):
     """Methods accept and empty; `object` and `slots` in the configuration say what and how much fits."""
 
     device_class = "rollers"

@@ -9,7 +9,7 @@ HAND_S = 2.0
 SLOTS = 24
 
 
-class Inventory(Machine):
+class Driver(Machine):
     """Methods dispense and refill; `object` and `slots` in the configuration say of what and how much at most."""
 
     device_class = "shelf"

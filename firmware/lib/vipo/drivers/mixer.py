@@ -6,7 +6,7 @@ from vipo.drivers.timed import JOB, TimedMachine
 DISPENSE_S = 2.0
 
 
-class Mixer(TimedMachine):
+class Driver(TimedMachine):
     """The paper's paintMixer: methods mixPaint and dispense."""
 
     device_class = "mixer"

@@ -4,7 +4,7 @@ from vipo.declare import number, timed
 from vipo.drivers.timed import JOB, TimedMachine
 
 
-class Oven(TimedMachine):
+class Driver(TimedMachine):
     """Method curePaint; the LCD shows the paper's words."""
 
     device_class = "oven"

@@ -6,7 +6,7 @@ from vipo.drivers.timed import JOB, TimedMachine
 AT_WORK_BAR = 2.5
 
 
-class Painter(TimedMachine):
+class Driver(TimedMachine):
     """Method paint; the air pressure stands only while it works."""
 
     device_class = "booth"

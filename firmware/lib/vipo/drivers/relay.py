@@ -4,7 +4,7 @@ from vipo.declare import boolean, timed
 from vipo.drivers.timed import JOB, TimedMachine
 
 
-class Relay(TimedMachine):
+class Driver(TimedMachine):
     """Method run: the output is on for `time` minutes, and off when they are over, held or cancelled."""
 
     device_class = "relay"

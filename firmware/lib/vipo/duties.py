@@ -1,0 +1,134 @@
+"""What a device is told to do: commands and stops, carried out once each and answered for."""
+
+import asyncio
+
+from vipo import panel as lights
+from vipo.commands import Answers, BadCommand, make_answer, read_command, read_object
+from vipo.declare import check_arguments
+from vipo.entrance import is_key
+from vipo.portable import show_error
+from vipo.work import Cancelled, Failure, Work
+
+
+class Duties:
+    """The commands of one machine; `say(answer)` sends an answer, `changed()` tells a new state."""
+
+    def __init__(self, driver, panel, speed, output, entrance):
+        self.driver, self.panel, self.speed = driver, panel, speed
+        self.entrance = entrance
+        self.say = self.changed = None
+        self.work = None
+        self.stopped = False
+        self._output = output or (lambda on: None)
+        self._answers = Answers()
+        self._running = None
+
+    def stop(self, payload):
+        """Hold or release everything; a stop that cannot be read holds, one that was taken away does not."""
+        try:
+            self.stopped = payload != b"" and read_object(payload).get("active") is not False
+        except BadCommand:
+            self.stopped = True
+        self.shine()
+
+    def told(self, method, payload):
+        """Take in a command; a payload of None was too long to be read."""
+        try:
+            command, values, ttl_s = read_command(payload)
+        except BadCommand as error:
+            if error.command:
+                self._answer(error.command, "REJECTED", error.why)
+            elif self.work is None:
+                self.panel.show("Bad message", error.why)
+            return
+        known = self._answers.find(command)
+        if known:
+            self.say(known)
+        elif method in ("pause", "resume", "cancel"):
+            self._steer(command, method, values.get("command"))
+        elif method == "credential":
+            self._take_key(command, values.get("credential"))
+        else:
+            why = self._objection(method, values, ttl_s)
+            if why:
+                self._answer(command, "REJECTED", why)
+            else:
+                self._begin(command, method, values)
+
+    def _take_key(self, command, key):
+        """Keep the key that the server gave; it ends this connection, and the next one begins with it."""
+        try:
+            why = "" if is_key(key) else "credential must be 20 to 128 printable characters"
+            if not why:
+                self.entrance.take(key)
+        except OSError as error:
+            why = "it could not be kept: %s" % error
+        self._answer(command, "REJECTED" if why else "DONE", why)
+
+    def _objection(self, method, values, ttl_s):
+        if method not in self.driver.methods:
+            return "there is no method %s" % method
+        if ttl_s <= 0:
+            return "it came too late"
+        if self.stopped:
+            return "the site is stopped"
+        if self.work is not None:
+            return "busy with %s" % self.work.command
+        return check_arguments(self.driver.methods[method], values)
+
+    def _begin(self, command, method, values):
+        self.work = Work(command, self.speed, lambda: self.stopped, self._switch)
+        self._answer(command, "ACCEPTED")
+        self._running = asyncio.create_task(self._carry_out(command, method, values))
+
+    def _switch(self, on):
+        self._output(on)
+        self.driver.switched(on)
+
+    async def _carry_out(self, command, method, values):
+        self.shine()
+        self._answer(command, "RUNNING")
+        self.changed()
+        status, why, result = "DONE", "", None
+        try:
+            result = await getattr(self.driver, method)(self.work, **values)
+        except Cancelled:
+            status, why = "CANCELED", "cancelled by the server"
+            self.panel.show("Cancelled", method)
+        except (Failure, OSError) as error:
+            status, why = "FAILED", str(error)
+        except Exception as error:  # the edge of a driver: the device must answer and work on
+            show_error(error)
+            status, why = "FAILED", "the driver has a fault: %r" % error
+        if status == "FAILED":
+            self.panel.show("Failed", why)
+        self.work = None
+        self.shine(failed=status == "FAILED")
+        self.changed()
+        self._answer(command, status, why, result)
+
+    def _steer(self, command, method, target):
+        work = self.work
+        if work is None or work.command != target:
+            self._answer(command, "REJECTED", "that command is not running")
+            return
+        if method == "cancel":
+            work.cancelled = True
+        else:
+            work.paused = method == "pause"
+        self.shine()
+        self._answer(command, "DONE")
+
+    def _answer(self, command, status, why="", result=None):
+        message = make_answer(command, status, why, result)
+        self._answers.remember(command, message, self.work.command if self.work else "")
+        self.say(message)
+
+    def shine(self, failed=False):
+        """Show on the status light how the machine is."""
+        if self.stopped or failed:
+            self.panel.light(lights.RED)
+        elif self.work is None:
+            self.panel.light(lights.GREEN)
+        else:
+            self.panel.light(lights.AMBER if self.work.paused else lights.BLUE)

@@ -1,0 +1,82 @@
+"""How a device comes in: with the key that it keeps, with the one it was given, or by knocking as a newcomer.
+
+The newest two keys are kept: a new one is believed only once the broker has let the device in with it.
+"""
+
+import asyncio
+import os
+import random
+from binascii import hexlify
+
+from vipo.configuration import write_file
+from vipo.portable import forget
+
+KEY_BYTES, KEPT = 24, 2
+ATTEMPTS_AFTER_KNOCK = 3
+PAUSE_S = (5, 30)
+
+
+class Entrance:
+    """The keys of a client; `given` is the configuration's key, `door` (site, join key) or None."""
+
+    def __init__(self, client, path, given="", door=None):
+        self.client, self.path, self.door = client, path, door
+        self.known = self._read()
+        if given and given not in self.known:
+            self.known.append(given)
+        self._left = len(self.known)
+        self._knocks = 0
+        client.prepare, client.on_refused = self.prepare, self.refused
+
+    async def prepare(self):
+        """Before each connection: knock where it is time to, and hold the likeliest key ready."""
+        if self._left <= 0 and self.door:
+            if not self.known:
+                self.take(hexlify(os.urandom(KEY_BYTES)).decode())
+            if self._knocks:
+                await asyncio.sleep(PAUSE_S[0] + (PAUSE_S[1] - PAUSE_S[0]) * random.random())
+            self._knocks += 1
+            await self._knock()
+            self._left = ATTEMPTS_AFTER_KNOCK
+        self.client.password = self.known[0]
+
+    def refused(self):
+        """Learn that the broker did not let the device in with its key; the next one is tried."""
+        self.known = self.known[1:] + self.known[:1]
+        self._left -= 1
+
+    def came_in(self):
+        """Learn that the broker let the device in: the other keys are of no use any more."""
+        if len(self.known) > 1:
+            self.known = self.known[:1]
+            self._keep()
+        self._left, self._knocks = 1, 0
+
+    def take(self, key):
+        """Keep a new key, and for a while the one before. Raises OSError."""
+        self.known = [key] + [known for known in self.known if known != key][: KEPT - 1]
+        self._left = len(self.known)
+        self._keep()
+
+    async def _knock(self):
+        from vipo.knock import knock
+
+        try:
+            await knock(self.client, self.door[0], self.door[1], self.known[0])
+        finally:
+            forget("knock")
+
+    def _read(self):
+        try:
+            with open(self.path) as file:
+                return [key for key in file.read().split("\n") if is_key(key)][:KEPT]
+        except OSError:
+            return []
+
+    def _keep(self):
+        write_file(self.path, "\n".join(self.known))
+
+
+def is_key(key):
+    """Tell whether a value can be a key: 20 to 128 printable characters of ASCII."""
+    return isinstance(key, str) and 20 <= len(key) <= 128 and all("!" <= c <= "~" for c in key)

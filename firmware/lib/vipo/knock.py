@@ -1,0 +1,29 @@
+"""A newcomer's knock: its key, said at the site's door to the server alone."""
+
+import asyncio
+import json
+
+from vipo.connection import open_stream, shake_hands
+from vipo.packets import DISCONNECT, PUBACK, MqttFailure, connect_packet, publish_packet, read_packet
+from vipo.portable import close_stream
+
+ANSWER_TIMEOUT_S, KEEPALIVE_S = 10, 15
+
+
+async def knock(client, site, join_key, key):
+    """Say a client's key at the door of its site. Raises MqttFailure, OSError and the like."""
+    door = "join:" + site
+    reader, writer = await asyncio.wait_for(open_stream(client), ANSWER_TIMEOUT_S)
+    try:
+        hello = connect_packet(door, door, join_key, KEEPALIVE_S, None)
+        await asyncio.wait_for(shake_hands(reader, writer, hello), ANSWER_TIMEOUT_S)
+        topic = "vipo/v1/join/%s/%s" % (site, client.client_id)
+        writer.write(publish_packet(1, topic, json.dumps({"key": key}).encode(), False, False))
+        await writer.drain()
+        kind, _, _ = await asyncio.wait_for(read_packet(reader), ANSWER_TIMEOUT_S)
+        if kind >> 4 != PUBACK:
+            raise MqttFailure("the door did not answer")
+        writer.write(bytes((DISCONNECT << 4, 0)))
+        await writer.drain()
+    finally:
+        await close_stream(writer)

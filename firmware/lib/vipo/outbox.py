@@ -1,0 +1,85 @@
+"""What a client has to write: messages at QoS 1 until they are acknowledged, answers to the broker's, pings."""
+
+from vipo.packets import PINGREQ, puback_packet, publish_packet
+from vipo.portable import seconds_since, ticks_ms
+
+MOST_FLYING = 8
+MOST_QUEUED = 64
+LAST_ID = 65535
+
+
+class Message:
+    """One message on its way; `number` is 0 until it was sent, `sent_at` are ticks, None before this connection's."""
+
+    def __init__(self, topic, payload, retain):
+        self.topic, self.payload, self.retain = topic, payload, retain
+        self.number = 0
+        self.sent_at = None
+
+
+class Outbox:
+    """The messages in their order; those that wait for the broker's answer stand first, a few at most."""
+
+    def __init__(self):
+        self.last_id = 0
+        self.ping_due = False
+        self.to_answer = []
+        self.queue = []
+
+    def begin(self):
+        """Forget the connection before; what it left unacknowledged is sent again, in order."""
+        self.ping_due, self.to_answer = False, []
+        for message in self.queue:
+            message.sent_at = None
+
+    def put(self, topic, payload, retain, replace):
+        """Queue a message; with `replace`, older ones of its topic that do not fly are left out.
+
+        A full queue loses its oldest message that does not fly.
+        """
+        if replace:
+            self.queue = [m for m in self.queue if m.topic != topic or m.sent_at is not None]
+        if len(self.queue) >= MOST_QUEUED:
+            self.queue.pop(self._flying())
+        self.queue.append(Message(topic, payload, retain))
+
+    def next_packet(self):
+        """Return what is to be written next, or None; answers go first."""
+        if self.to_answer:
+            return puback_packet(self.to_answer.pop(0))
+        if self.ping_due:
+            self.ping_due = False
+            return bytes((PINGREQ << 4, 0))
+        flying = self._flying()
+        if flying == len(self.queue) or flying >= MOST_FLYING:
+            return None
+        message = self.queue[flying]
+        again = bool(message.number)
+        message.number = message.number or self.next_id()
+        message.sent_at = ticks_ms()
+        return publish_packet(message.number, message.topic, message.payload, message.retain, again)
+
+    def acknowledge(self, number):
+        """Drop the message that the broker has; tell whether there was one."""
+        for index in range(self._flying()):
+            if self.queue[index].number == number:
+                self.queue.pop(index)
+                return True
+        return False
+
+    def longest_wait_s(self):
+        """Return for how many seconds the broker has owed an answer."""
+        return seconds_since(self.queue[0].sent_at) if self._flying() else 0
+
+    def next_id(self):
+        """Return the next packet id: 1 to 65535, then from 1 again, leaving out those in use."""
+        while True:
+            self.last_id = self.last_id % LAST_ID + 1
+            if not any(message.number == self.last_id for message in self.queue):
+                return self.last_id
+
+    def _flying(self):
+        count = 0
+        while count < len(self.queue) and self.queue[count].sent_at is not None:
+            count += 1
+        return count
