@@ -8,6 +8,7 @@ import pytest
 
 from editor.language import Surroundings, compile_document, parse_script, tree_to_document
 from editor.language.nodes import MISSING
+from editor.language.parsing import LONGEST_SCRIPT
 from editor.language.plan import Constant, Operation, Reading
 from editor.language.possible_values import ANY, Range, range_of
 from editor.language.units import conversion, convert
@@ -242,3 +243,39 @@ def test_the_chip_of_an_order_stands_right_above_its_machine() -> None:
     above = oven.pose.y + oven.size.y / 2
     assert x == oven.pose.x
     assert above < y < above + 1
+
+
+@pytest.mark.parametrize("given", ["self", "self, c", "self, d", "self, ctx, more", "ctx, self"])
+def test_run_takes_the_task_and_its_context(given: str) -> None:
+    assert "Write def run(self, ctx):." in refused(f"{EMPTY}    def run({given}):\n        self.new_task()\n")
+
+
+def test_a_script_may_be_long_but_not_endless() -> None:
+    assert "The script is too long." in refused("#" * (LONGEST_SCRIPT + 1))
+    assert "The script is too long." not in refused("#" * LONGEST_SCRIPT)
+
+
+def test_only_the_variable_of_the_loop_belongs_to_the_loop() -> None:
+    document = program(("for_each", {"variable": "minutes", "items": [1, 2]}))
+    place = ["s0", "body", "V"]
+    document["steps"]["a"] = {"kind": "set", "place": place, "params": {"variable": "count", "value": 1}}
+    document["steps"]["b"] = {"kind": "set", "place": place, "params": {"variable": "minutes", "value": 3}}
+    lines = compile_document(document, factory()).script.splitlines()
+    assert lines[3:5] == ["            self.count = 1", "            minutes = 3"]
+
+
+def test_nothing_is_known_of_loads_behind_calls_as_deep_as_can_be() -> None:
+    hot = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 30]}
+    drop = {**CARRY, "at": BOOTH, "quantity": 2}
+    document = program(("pick", {**CARRY, "at": SHELF}), ("call", {"function": "f"}), ("drop", drop))
+    document["functions"] = {"f": {"name": "again", "parameters": []}}
+    document["steps"]["i"] = {"kind": "if", "place": ["f", "body", "V"], "params": {"condition": hot}}
+    document["steps"]["c"] = {"kind": "call", "place": ["i", "then", "V"], "params": {"function": "f"}}
+    document["steps"]["d"] = {"kind": "wait", "place": ["i", "else", "V"], "params": {"duration": 1}}
+    assert [code for step, code in codes(document) if step == "s2" and "drop" in code] == []
+
+
+def test_a_step_without_a_role_drives_the_robot_whose_place_can_be_asked_for() -> None:
+    far = {"op": ">", "args": [{"op": "distance", "args": [{"at": {"role": "robot"}}, {"at": BOOTH}]}, 2]}
+    document = program(("move", {"role": "", "to": SHELF}), ("wait", {"until": far}))
+    assert "distance(self.robot, self." in compile_document(document, factory()).script
