@@ -239,7 +239,7 @@ class VehicleControl:
 
     def _press_for(self, order: Order, state: VehicleState, now_s: float) -> None:
         """Look for a refusal of what was sent last, or send it again."""
-        if not self._handed_over():
+        if not self._handed_over() and not order.takes_horizon_away:
             self._order_refused(order, "")
         elif error := state.refusal(order.id, order.update, self._errors_before):
             self._order_refused(order, error.sentence)
@@ -254,6 +254,8 @@ class VehicleControl:
         refused = [t for t in self._handed_over() if t.last > kept or t.actions]
         for task in refused:
             self._end(task, "FAILED" if self._answers.find(task.command) else "REJECTED", why)
+        if order.takes_horizon_away and self._tasks:
+            self._end(self._tasks[0], "FAILED" if self._answers.find(self._tasks[0].command) else "REJECTED", why)
         self._drop_drives_behind(bool(refused))
         self._order, self._tries = (order.without_newest() if order.taken_end else None), 0
 
@@ -318,13 +320,13 @@ class VehicleControl:
 
     def _is_orphan(self, state: VehicleState) -> bool:
         known = self._order is not None and self._order.id == state.order
-        return state.order.startswith(OURS) and not known and state.has_way_left
+        return state.order.startswith(OURS) and not known and bool(state.ahead)
 
     def _stands_idle(self, state: VehicleState) -> bool:
         """Tell whether the vehicle has nothing left to do of the order."""
         ours = [action_id for task in self._handed_over() for action_id in task.actions]
         told = [state.action(action_id) for action_id in ours]
-        return not state.has_way_left and all(a is None or a.status in ENDED for a in told)
+        return not state.ahead and all(a is None or a.status in ENDED for a in told)
 
     def _cancelled(self, cancel: Cancel, state: VehicleState) -> None:
         """Answer what ended with the order; what was not meant goes on from here, in an order of its own."""
@@ -353,11 +355,13 @@ class VehicleControl:
         if not waiting or self._cancel or (order is not None and not order.is_taken) or self.located is None:
             return
         drives = drives_in_front(waiting)
-        if under_way and not (drives and order is not None and order.kind == "drive"):
+        is_joined = order is not None and order.kind == "drive" and (bool(under_way) or state.has_horizon)
+        if (under_way and not (drives and is_joined)) or (state.has_way_left and not under_way):
             return
-        if not under_way and state.has_way_left:
-            return
-        order = self._order_for(drives, waiting[0], order if under_way else None, self.located)
+        if order is not None and is_joined and not drives:
+            order = extend_drive(order, (), ())
+        else:
+            order = self._order_for(drives, waiting[0], order if is_joined else None, self.located)
         self._order, self._tries, self._errors_before = order, 0, frozenset(state.errors)
         self._send_order(order, now_s)
 
@@ -372,7 +376,8 @@ class VehicleControl:
         for task in drives:
             task.last = end = end + 2 * len(task.way)
         way = [waypoint for task in drives for waypoint in task.way]
-        return extend_drive(order, way) if order else begin_drive(name, located.map_id, here, way)
+        ahead = drives[-1].ahead
+        return extend_drive(order, way, ahead) if order else begin_drive(name, located.map_id, here, way, ahead)
 
     def _send_order(self, order: Order, now_s: float) -> None:
         self._sent_s = now_s

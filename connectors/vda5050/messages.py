@@ -127,6 +127,11 @@ class VehicleState:
         return any(s.released for s in self.ahead)
 
     @property
+    def has_horizon(self) -> bool:
+        """True while the vehicle waits for more of its way to be released."""
+        return any(not s.released for s in self.ahead)
+
+    @property
     def fatal(self) -> VehicleError | None:
         """The first error that needs a person."""
         return next((e for e in self.errors if e.level == "FATAL"), None)

@@ -44,6 +44,11 @@ class Order:
         return self.taken == self.update
 
     @property
+    def takes_horizon_away(self) -> bool:
+        """True when its newest update is about nothing else."""
+        return self.kind == "drive" and len(self.body["nodes"]) == 1
+
+    @property
     def end_sequence(self) -> int:
         """The sequence id of the last node."""
         return int(self.end["sequenceId"])
@@ -64,23 +69,26 @@ class Order:
         return replace(self, taken=self.update, end=self.taken_end)
 
 
-def begin_drive(order_id: str, map_id: str, here: Point, way: Sequence[Waypoint]) -> Order:
-    """Return a new order: from where the vehicle stands along a way."""
-    return _drive(Order(order_id, "drive", map_id, {}, 0, _node(map_id, 0, Waypoint(here))), way)
+def begin_drive(order_id: str, map_id: str, here: Point, way: Sequence[Waypoint], ahead: Sequence[Point]) -> Order:
+    """Return a new order: from where the vehicle stands along a way, with the horizon `ahead` of it."""
+    return _drive(Order(order_id, "drive", map_id, {}, 0, _node(map_id, 0, Waypoint(here))), way, ahead)
 
 
-def extend_drive(order: Order, way: Sequence[Waypoint]) -> Order:
-    """Return the order with more base: the update begins with the last node of the base so far, unchanged."""
-    return _drive(replace(order, update=order.update + 1), way)
+def extend_drive(order: Order, way: Sequence[Waypoint], ahead: Sequence[Point]) -> Order:
+    """Return the order with more base and another horizon; the update begins with the last node of the base so far.
+
+    With neither it takes the horizon away: only then does a vehicle take an order of another kind.
+    """
+    return _drive(replace(order, update=order.update + 1), way, ahead)
 
 
-def _drive(order: Order, way: Sequence[Waypoint]) -> Order:
+def _drive(order: Order, way: Sequence[Waypoint], ahead: Sequence[Point]) -> Order:
     nodes, edges = [dict(order.end)], []
-    for count, waypoint in enumerate(way, 1):
-        sequence = order.end_sequence + 2 * count
-        nodes.append(_node(order.map_id, sequence, waypoint))
-        edges.append(_edge(sequence - 1, nodes[-2], nodes[-1], waypoint))
-    return replace(order, body=_body(order, nodes, edges), end=nodes[-1])
+    for count, waypoint in enumerate([*way, *map(Waypoint, ahead)], 1):
+        sequence, released = order.end_sequence + 2 * count, count <= len(way)
+        nodes.append({**_node(order.map_id, sequence, waypoint), "released": released})
+        edges.append({**_edge(sequence - 1, nodes[-2], nodes[-1], waypoint), "released": released})
+    return replace(order, body=_body(order, nodes, edges), end=nodes[len(way)])
 
 
 def begin_actions(order_id: str, map_id: str, here: Point, actions: Sequence[Body]) -> Order:

@@ -26,6 +26,7 @@ class Task:
     method: str
     arguments: Mapping[str, Any]
     way: tuple[Waypoint, ...] = ()
+    ahead: tuple[Point, ...] = ()
     last: int = -1
     actions: tuple[str, ...] = ()
 
@@ -93,7 +94,14 @@ def _read_move(vehicle: Vehicle, told: Told, way_begins: Point | None) -> Task |
     points = [vehicle.frame.to_vehicle((p[0], p[1])) for p in path]
     heading = vehicle.frame.heading_to_vehicle(float(str(theta))) if theta is not None else None
     way = [Waypoint(p, speed_m_s=limit) for p in points[:-1]] + [Waypoint(points[-1], heading, limit)]
-    return Task(told.command, "move", {}, tuple(way))
+    return Task(told.command, "move", {}, tuple(way), tuple(_ahead(vehicle, told.arguments.get("ahead"))))
+
+
+def _ahead(vehicle: Vehicle, value: object) -> list[Point]:
+    """Return where the way will probably go on; what cannot be read is left out, for nothing hangs on it."""
+    if not isinstance(value, list) or not all(_is_point(p) for p in value):
+        return []
+    return [vehicle.frame.to_vehicle((p[0], p[1])) for p in value[:MOST_POINTS]]
 
 
 def _strays(vehicle: Vehicle, begin: object, here: Point | None) -> str:
@@ -150,7 +158,8 @@ def task_to_json(task: Task) -> dict[str, Any]:
 def task_from_json(body: Mapping[str, Any]) -> Task:
     """Return a task that was kept."""
     way = tuple(Waypoint((w["point"][0], w["point"][1]), w["theta"], w["speed_m_s"]) for w in body["way"])
-    return Task(**{**body, "way": way, "actions": tuple(body["actions"])})
+    ahead = tuple((p[0], p[1]) for p in body["ahead"])
+    return Task(**{**body, "way": way, "ahead": ahead, "actions": tuple(body["actions"])})
 
 
 def drives_in_front(tasks: Sequence[Task]) -> list[Task]:

@@ -22,6 +22,8 @@ LAST_NODES = 5
 CLEAR_OF_M = 0.44
 """A cell is given back when the robot's middle is this far from the cell's: two radii and a margin."""
 LOST_M = 0.4
+FORESEEN = 12
+"""Nodes behind what is released of which a robot is told, so that it may prepare for them."""
 
 
 def place(turn: Turn, robot: Robot, *, keep_way: bool = False) -> Robot:
@@ -176,6 +178,9 @@ def _send_piece(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> None:
         "path": [[round(x, 4), round(y, 4)] for x, y in points],
         "from": [round(begin[0], 4), round(begin[1], 4)],
     }
+    rest = robot.way[robot.released + 1 : robot.released + 1 + FORESEEN]
+    if rest:
+        arguments["ahead"] = [[round(x, 4), round(y, 4)] for x, y in map(turn.layout.point, rest)]
     last = nodes[-1]
     theta = turn.layout.spot(last).theta if isinstance(last, str) and robot.released == len(robot.way) - 1 else None
     if theta is not None:

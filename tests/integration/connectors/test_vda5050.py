@@ -101,7 +101,7 @@ def test_what_cannot_be_read_is_ignored_and_harms_nobody(connector: Connector, j
 
 def test_pieces_of_way_are_driven_in_one_order_and_each_has_its_end(join: Join) -> None:
     _, server = join("2")
-    server.tell("move", "a", path=[[2.5, 2.0], [4.0, 2.0]], **{"from": [1.0, 2.0]})
+    server.tell("move", "a", path=[[2.5, 2.0], [4.0, 2.0]], ahead=[[4.0, 3.0], [9.0, 3.0]], **{"from": [1.0, 2.0]})
     server.wait_ack("a", "ACCEPTED")
     server.tell("move", "b", path=[[4.0, 3.5]], theta=1.57, speed=0.4, **{"from": [4.0, 2.0]})
     assert server.wait_ack("b", "ACCEPTED", "RUNNING")["st"] == "ACCEPTED"
@@ -125,6 +125,8 @@ def test_pieces_of_way_are_driven_in_one_order_and_each_has_its_end(join: Join) 
 
 def test_loads_are_picked_and_dropped_and_a_refusal_has_its_reason(join: Join) -> None:
     _, server = join("3", timeLapse=10)
+    server.tell("move", "near", path=[[1.5, 2.0]], ahead=[[9.0, 2.0]])
+    assert server.wait_ack("near")["st"] == "DONE"
     server.tell("pick", "take", object="EPAL", value=1, device="shelf01")
     assert server.wait_ack("take")["st"] == "DONE"
     assert server.wait_state(load="EPAL:1")

@@ -67,6 +67,47 @@ def test_a_further_piece_grows_the_base_from_its_last_node_unchanged() -> None:
     assert (new["orderId"], new["orderUpdateId"]) == ("vipo-n3", 0)
 
 
+def test_the_way_ahead_is_the_horizon_and_each_piece_brings_another() -> None:
+    bench = Bench()
+    bench.tell("move", "a", path=[[1, 0]], ahead=[[2, 0], [3, 0]])
+    (first,) = bench.sent()
+    assert [n["released"] for n in first["nodes"]] == [True, True, False, False]
+    assert [(e["sequenceId"], e["released"]) for e in first["edges"]] == [(1, True), (3, False), (5, False)]
+    bench.hear(orderId=ORDER, **ahead(1, 2, horizon=(3, 4, 5, 6)))
+    bench.hear(orderId=ORDER, lastNodeSequenceId=2, **ahead(horizon=(3, 4, 5, 6)))
+    assert bench.said() == ["a ACCEPTED", "a RUNNING", "a DONE"]
+    bench.tell("move", "b", path=[[1, 1]], ahead="nonsense")
+    (update,) = bench.sent()
+    assert (update["orderId"], update["orderUpdateId"]) == (ORDER, 1)
+    assert [(n["sequenceId"], n["released"]) for n in update["nodes"]] == [(2, True), (4, True)]
+
+
+def test_a_horizon_is_taken_away_before_the_vehicle_is_to_act() -> None:
+    bench = Bench()
+    bench.tell("move", "a", path=[[1, 0]], ahead=[[2, 0]])
+    bench.hear(orderId=ORDER, lastNodeSequenceId=2, **ahead(horizon=(3, 4)))
+    (first,) = bench.sent()
+    bench.tell("pick", "p", object="EPAL")
+    (away,) = bench.sent()
+    assert (away["orderUpdateId"], away["nodes"], away["edges"]) == (1, [first["nodes"][1]], [])
+    bench.hear(orderId=ORDER, orderUpdateId=1, lastNodeSequenceId=2)
+    (act,) = bench.sent()
+    assert act["nodes"][0]["actions"][0]["actionType"] == "pick"
+    assert bench.said() == ["a ACCEPTED", "a DONE"]
+
+
+def test_a_vehicle_that_keeps_its_horizon_does_not_act() -> None:
+    bench = Bench()
+    bench.tell("move", "a", path=[[1, 0]], ahead=[[2, 0]])
+    bench.hear(orderId=ORDER, lastNodeSequenceId=2, **ahead(horizon=(3, 4)))
+    bench.tell("pick", "p", object="EPAL")
+    bench.sent()
+    refused = error("orderUpdateError", text="no", orderId=ORDER, orderUpdateId="1")
+    bench.hear(orderId=ORDER, lastNodeSequenceId=2, errors=[refused], **ahead(horizon=(3, 4)))
+    assert bench.said() == ["a ACCEPTED", "a DONE", "p REJECTED orderUpdateError: no"]
+    assert bench.sent() == []
+
+
 def test_pieces_that_come_while_an_update_is_on_its_way_go_together_in_the_next() -> None:
     bench = Bench()
     bench.tell("move", "a", path=[[1, 0]])

@@ -98,9 +98,11 @@ class Bench:
         return [dict(item.body) for item in sends]
 
 
-def ahead(*sequences: int) -> dict[str, Any]:
+def ahead(*released: int, horizon: tuple[int, ...] = ()) -> dict[str, Any]:
     """Return the nodes and edges that are still before a vehicle."""
-    stretches = [{"sequenceId": s, "released": True, "nodeId": f"{s}", "edgeId": f"{s}"} for s in sequences]
+    stretches = [
+        {"sequenceId": s, "released": s in released, "nodeId": f"{s}", "edgeId": f"{s}"} for s in (*released, *horizon)
+    ]
     return {
         "nodeStates": [s for s in stretches if s["sequenceId"] % 2 == 0],
         "edgeStates": [s for s in stretches if s["sequenceId"] % 2],
