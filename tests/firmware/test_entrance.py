@@ -1,0 +1,90 @@
+"""Keys on the real MicroPython: a newcomer knocks, a new key is kept and believed only once the broker takes it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.bus import Ear
+from tests.firmware.rig import (
+    ACCOUNTS,
+    DEVICE,
+    LIMIT_S,
+    EmbeddedBus,
+    Running,
+    interpreter_command,
+    start_firmware,
+    wait_for,
+)
+from tests.servers import run_mosquitto, write_mosquitto_files
+
+JOIN_KEY, NEXT_KEY, STRAY_KEY = "j" * 32, "n" * 40, "s" * 40
+DOOR = {"server": ACCOUNTS["server"], "join:hall": JOIN_KEY}
+
+
+@contextmanager
+def door(kind: str, folder: Path) -> Iterator[Any]:
+    """A broker that knows nobody but the server and the site's door."""
+    if kind == "amqtt":
+        embedded = EmbeddedBus()
+        embedded.accounts = dict(DOOR)
+        embedded.start()
+        yield embedded
+        embedded.stop()
+    else:
+        with run_mosquitto(folder, DOOR) as mosquitto:
+            yield mosquitto
+
+
+def restart_with(bus: Any, key: str) -> None:
+    """Let the device in with a key, and nobody with another; every connection ends."""
+    bus.kill()
+    bus.accounts[DEVICE] = key
+    if not isinstance(bus, EmbeddedBus):
+        write_mosquitto_files(bus)
+    bus.start()
+
+
+@pytest.fixture(params=["amqtt", "mosquitto"])
+def newcomer(request: pytest.FixtureRequest, micropython: str, tmp_path: Path) -> Iterator[Running]:
+    with door(request.param, tmp_path) as bus, Ear(bus.port, ACCOUNTS["server"], "vipo/v1/#") as ear:
+        command = interpreter_command(micropython)
+        process = start_firmware(command, tmp_path, bus, password="", join_key=JOIN_KEY)
+        running = Running(ear, bus, process, tmp_path / "panel.log")
+        try:
+            yield running
+        finally:
+            running.end()
+
+
+def test_a_newcomer_knocks_with_a_key_of_its_own_and_takes_new_ones(newcomer: Running, tmp_path: Path) -> None:
+    kept = tmp_path / "key"
+    knock = newcomer.ear.wait(lambda h: h.topic == f"vipo/v1/join/hall/{DEVICE}", LIMIT_S)
+    own = knock.json["key"]
+    assert (list(knock.json), len(own), kept.read_text()) == (["key"], 48, own)
+    assert JOIN_KEY not in own
+    restart_with(newcomer.bus, own)
+    newcomer.state(lambda _state: True)
+
+    newcomer.tell("credential", "k1", credential="short")
+    assert "20 to 128" in newcomer.answer("k1", "REJECTED").json["why"]
+    newcomer.tell("credential", "k2", credential=NEXT_KEY)
+    newcomer.answer("k2", "DONE")
+    assert kept.read_text() == f"{NEXT_KEY}\n{own}"
+    come_back(newcomer, NEXT_KEY)
+    wait_for(lambda: kept.read_text() == NEXT_KEY, "the old key is still kept")
+
+    newcomer.tell("credential", "k3", credential=STRAY_KEY)
+    newcomer.answer("k3", "DONE")
+    come_back(newcomer, NEXT_KEY)
+    wait_for(lambda: kept.read_text() == NEXT_KEY, "a key that the broker refuses is still kept")
+
+
+def come_back(newcomer: Running, key: str) -> None:
+    newcomer.ear.forget()
+    restart_with(newcomer.bus, key)
+    newcomer.ear.wait(lambda h: h.topic == newcomer.up + "desc" and not h.retained, LIMIT_S)
