@@ -71,35 +71,48 @@ export function JumpPalette({ slug, onClose }: { slug: string | undefined; onClo
             onKeyDown={onKeyDown}
           />
         </label>
-        <div
-          id="jump-list"
-          role={found.length > 0 ? "listbox" : undefined}
-          aria-label={found.length > 0 ? t("shell.jump.results") : undefined}
-          className={styles.list}
-        >
-          {found.map((target, index) => (
-            <div
-              key={target.to}
-              id={`jump-${index}`}
-              role="option"
-              tabIndex={-1}
-              aria-selected={index === chosen}
-              className={styles.item}
-              onClick={() => go(target)}
-              onKeyDown={onKeyDown}
-              onPointerMove={() => setChosen(index)}
-            >
-              <span className={styles.name}>{target.name}</span>
-              <small>{t(`shell.jump.${target.kind}`)}</small>
-            </div>
-          ))}
-          {found.length === 0 ? (
-            <p role="status" className={styles.none}>
-              {t("shell.jump.none")}
-            </p>
-          ) : null}
-        </div>
+        <Found {...{ found, chosen, go, setChosen, onKeyDown }} />
       </Modal.Content>
     </Modal.Root>
+  );
+}
+
+interface FoundProps {
+  found: readonly JumpTarget[];
+  chosen: number;
+  go: (target: JumpTarget) => void;
+  setChosen: (index: number) => void;
+  onKeyDown: (event: KeyboardEvent) => void;
+}
+
+function Found({ found, chosen, go, setChosen, onKeyDown }: FoundProps) {
+  const { t } = useTranslation();
+  if (found.length === 0)
+    return (
+      <div id="jump-list" className={styles.list}>
+        <p role="status" className={styles.none}>
+          {t("shell.jump.none")}
+        </p>
+      </div>
+    );
+  return (
+    <div id="jump-list" role="listbox" aria-label={t("shell.jump.results")} className={styles.list}>
+      {found.map((target, index) => (
+        <div
+          key={target.to}
+          id={`jump-${index}`}
+          role="option"
+          tabIndex={-1}
+          aria-selected={index === chosen}
+          className={styles.item}
+          onClick={() => go(target)}
+          onKeyDown={onKeyDown}
+          onPointerMove={() => setChosen(index)}
+        >
+          <span className={styles.name}>{target.name}</span>
+          <small>{t(`shell.jump.${target.kind}`)}</small>
+        </div>
+      ))}
+    </div>
   );
 }

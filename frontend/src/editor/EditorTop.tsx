@@ -141,15 +141,32 @@ function People() {
 }
 
 function Actions() {
-  const { diagnostics, t, program, canRun } = useOpenProgram();
-  const navigate = useNavigate();
+  const { diagnostics, t, canRun } = useOpenProgram();
+  const errors = diagnostics.filter((each) => each.severity === "error").length;
+  return (
+    <>
+      <span className={classes.arm}>
+        <Arm />
+      </span>
+      <Problems />
+      <SimulateButton />
+      <Button
+        leftSection={<Play size={16} aria-hidden="true" />}
+        disabled={!canRun || errors > 0}
+        title={errors > 0 ? t("run_blocked") : undefined}
+        onClick={() => useUi.setState({ dialog: "run" })}
+      >
+        {t("run")}
+      </Button>
+    </>
+  );
+}
+
+/** How much is wrong; a press goes to the first of it. */
+function Problems() {
+  const { diagnostics, t } = useOpenProgram();
   const errors = diagnostics.filter((each) => each.severity === "error");
   const warnings = diagnostics.length - errors.length;
-  const rehearse = useMutation({
-    mutationFn: () => api.post<Rehearsal>(`/programs/${program.id}/rehearsals`, {}),
-    onSuccess: (rehearsal) => void navigate(`/programs/${program.id}/simulate/${rehearsal.id}`),
-    onError: (error) => say(error.message),
-  });
   const toFirst = () => {
     showTab("problems");
     const first = errors[0] ?? diagnostics[0];
@@ -157,9 +174,6 @@ function Actions() {
   };
   return (
     <>
-      <span className={classes.arm}>
-        <Arm />
-      </span>
       {errors.length > 0 ? (
         <button type="button" className={classes.problems} data-tone="error" onClick={toFirst}>
           <CircleAlert size={14} aria-hidden="true" />
@@ -172,23 +186,27 @@ function Actions() {
           {t("warnings", { count: warnings })}
         </button>
       ) : null}
-      <Button
-        variant="default"
-        leftSection={<Box size={16} aria-hidden="true" />}
-        loading={rehearse.isPending}
-        disabled={!canRun}
-        onClick={() => rehearse.mutate()}
-      >
-        {t("simulate")}
-      </Button>
-      <Button
-        leftSection={<Play size={16} aria-hidden="true" />}
-        disabled={!canRun || errors.length > 0}
-        title={errors.length > 0 ? t("run_blocked") : undefined}
-        onClick={() => useUi.setState({ dialog: "run" })}
-      >
-        {t("run")}
-      </Button>
     </>
+  );
+}
+
+function SimulateButton() {
+  const { t, program, canRun } = useOpenProgram();
+  const navigate = useNavigate();
+  const rehearse = useMutation({
+    mutationFn: () => api.post<Rehearsal>(`/programs/${program.id}/rehearsals`, {}),
+    onSuccess: (rehearsal) => void navigate(`/programs/${program.id}/simulate/${rehearsal.id}`),
+    onError: (error) => say(error.message),
+  });
+  return (
+    <Button
+      variant="default"
+      leftSection={<Box size={16} aria-hidden="true" />}
+      loading={rehearse.isPending}
+      disabled={!canRun}
+      onClick={() => rehearse.mutate()}
+    >
+      {t("simulate")}
+    </Button>
   );
 }

@@ -48,20 +48,8 @@ function BarButton({ bar, span_s, props }: { bar: Bar; span_s: number; props: Ti
 /** Who worked when: a row a device, robots first. */
 export function Timeline(props: TimelineProps) {
   const { t } = useTranslation();
-  const { events, devices, elapsed_s, over, robotOf } = props;
-  const order = useMemo(
-    () => [...devices].sort((a, b) => a.kind.localeCompare(b.kind) * -1 || a.name.localeCompare(b.name)),
-    [devices],
-  );
-  const rows = useMemo(
-    () =>
-      ganttOf(
-        events,
-        order.map((device) => device.id),
-        robotOf,
-      ),
-    [events, order, robotOf],
-  );
+  const { devices, elapsed_s, over } = props;
+  const rows = useRows(props);
   const span_s = Math.max(10, elapsed_s * (over ? 1.02 : 1.15));
   const every = tickEvery(span_s);
   const ticks = Array.from({ length: Math.floor(span_s / every) + 1 }, (_, index) => index * every);
@@ -95,6 +83,23 @@ export function Timeline(props: TimelineProps) {
         );
       })}
     </div>
+  );
+}
+
+/** A row a device that worked, robots first. */
+function useRows({ events, devices, robotOf }: TimelineProps) {
+  const order = useMemo(
+    () => [...devices].sort((a, b) => a.kind.localeCompare(b.kind) * -1 || a.name.localeCompare(b.name)),
+    [devices],
+  );
+  return useMemo(
+    () =>
+      ganttOf(
+        events,
+        order.map((device) => device.id),
+        robotOf,
+      ),
+    [events, order, robotOf],
   );
 }
 

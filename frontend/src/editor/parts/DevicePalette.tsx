@@ -54,24 +54,37 @@ function Palette({ ask, gesture, onChoose }: { ask: string; gesture: Gesture; on
           event.stopPropagation();
         }}
       />
-      <ul id="device-palette" role="listbox" aria-label={t("palette.list")}>
-        {found.map((device, index) => (
-          <li
-            key={device.id}
-            id={`palette-${device.id}`}
-            role="option"
-            aria-selected={index === at}
-            onPointerDown={(event) => {
-              event.preventDefault();
-              choose(device.id);
-            }}
-          >
-            <DeviceIcon deviceClass={device.device_class} size={16} />
-            {device.name}
-          </li>
-        ))}
-        {found.length === 0 ? <li className={classes.none}>{t("palette.none")}</li> : null}
-      </ul>
+      <Found found={found} at={at} choose={choose} />
     </div>
+  );
+}
+
+interface FoundProps {
+  found: readonly { id: string; name: string; device_class: string }[];
+  at: number;
+  choose: (id: string) => void;
+}
+
+function Found({ found, at, choose }: FoundProps) {
+  const { t } = useOpenProgram();
+  return (
+    <ul id="device-palette" role="listbox" aria-label={t("palette.list")}>
+      {found.map((device, index) => (
+        <li
+          key={device.id}
+          id={`palette-${device.id}`}
+          role="option"
+          aria-selected={index === at}
+          onPointerDown={(event) => {
+            event.preventDefault();
+            choose(device.id);
+          }}
+        >
+          <DeviceIcon deviceClass={device.device_class} size={16} />
+          {device.name}
+        </li>
+      ))}
+      {found.length === 0 ? <li className={classes.none}>{t("palette.none")}</li> : null}
+    </ul>
   );
 }

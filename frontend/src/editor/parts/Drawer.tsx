@@ -10,11 +10,8 @@ import { ScriptPanel } from "./ScriptPanel";
 import { StepsPanel } from "./StepsPanel";
 
 export function Drawer({ small }: { small: boolean }) {
-  const { t, compiled, diagnostics } = useOpenProgram();
+  const { t, diagnostics } = useOpenProgram();
   const drawer = useUi((ui) => ui.drawer);
-  const toggle = () => useUi.setState({ drawer: { ...drawer, open: !drawer.open } });
-  const copy = () => void navigator.clipboard.writeText(compiled?.script ?? "").then(() => say(t("script.copied")));
-  const both = !small && drawer.tab === "script";
   return (
     <section className={classes.drawer} data-open={drawer.open || undefined} aria-label={t("drawer.label")}>
       <div className={classes.bar}>
@@ -28,38 +25,45 @@ export function Drawer({ small }: { small: boolean }) {
           />
           <Tab tab="steps" icon={<ListTree size={15} aria-hidden="true" />} label={t("drawer.steps")} />
         </div>
-        <div className={classes.actions}>
-          {drawer.open && drawer.tab === "script" ? (
-            <IconButton label={t("script.copy")} onClick={copy}>
-              <Copy size={15} aria-hidden="true" />
-            </IconButton>
-          ) : null}
-          <IconButton
-            label={t(drawer.open ? "drawer.hide" : "drawer.show")}
-            aria-expanded={drawer.open}
-            onClick={toggle}
-          >
-            {drawer.open ? (
-              <PanelBottomClose size={16} aria-hidden="true" />
-            ) : (
-              <PanelBottomOpen size={16} aria-hidden="true" />
-            )}
-          </IconButton>
-        </div>
+        <Actions />
       </div>
-      {drawer.open ? (
-        <div className={classes.body} role="tabpanel" id="drawer-panel" aria-labelledby={`drawer-tab-${drawer.tab}`}>
-          {drawer.tab === "script" ? <ScriptPanel /> : null}
-          {drawer.tab === "problems" ? <ProblemsPanel /> : null}
-          {drawer.tab === "steps" ? <StepsPanel /> : null}
-          {both ? (
-            <div className={classes.beside}>
-              <ProblemsPanel titled />
-            </div>
-          ) : null}
+      {drawer.open ? <Body tab={drawer.tab} beside={!small && drawer.tab === "script"} /> : null}
+    </section>
+  );
+}
+
+function Actions() {
+  const { t, compiled } = useOpenProgram();
+  const drawer = useUi((ui) => ui.drawer);
+  const toggle = () => useUi.setState({ drawer: { ...drawer, open: !drawer.open } });
+  const copy = () => void navigator.clipboard.writeText(compiled?.script ?? "").then(() => say(t("script.copied")));
+  const Sign = drawer.open ? PanelBottomClose : PanelBottomOpen;
+  return (
+    <div className={classes.actions}>
+      {drawer.open && drawer.tab === "script" ? (
+        <IconButton label={t("script.copy")} onClick={copy}>
+          <Copy size={15} aria-hidden="true" />
+        </IconButton>
+      ) : null}
+      <IconButton label={t(drawer.open ? "drawer.hide" : "drawer.show")} aria-expanded={drawer.open} onClick={toggle}>
+        <Sign size={16} aria-hidden="true" />
+      </IconButton>
+    </div>
+  );
+}
+
+function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
+  return (
+    <div className={classes.body} role="tabpanel" id="drawer-panel" aria-labelledby={`drawer-tab-${tab}`}>
+      {tab === "script" ? <ScriptPanel /> : null}
+      {tab === "problems" ? <ProblemsPanel /> : null}
+      {tab === "steps" ? <StepsPanel /> : null}
+      {beside ? (
+        <div className={classes.beside}>
+          <ProblemsPanel titled />
         </div>
       ) : null}
-    </section>
+    </div>
   );
 }
 

@@ -21,26 +21,12 @@ export function SaveFunctionDialog() {
 }
 
 function Form({ functionId, onDone }: { functionId: string; onDone: () => void }) {
-  const { t, program, site, document } = useOpenProgram();
-  const queries = useQueryClient();
+  const { t, document } = useOpenProgram();
   const known = document.functions[functionId]?.name ?? "";
   const [name, setName] = useState(known);
   const [description, setDescription] = useState("");
   useEffect(() => setName(known), [known]);
-  const save = useMutation({
-    mutationFn: () =>
-      api.post<LibraryFunction>(`/sites/${site.slug}/library`, {
-        program: program.id,
-        function: functionId,
-        name: name.trim(),
-        description: description.trim(),
-      }),
-    onSuccess: (saved) => {
-      void queries.invalidateQueries({ queryKey: ["library"] });
-      say(t("save.done", { name: saved.name, version: saved.version }));
-      onDone();
-    },
-  });
+  const save = useSave(functionId, { name, description }, onDone);
   return (
     <form
       className={classes.content}
@@ -76,4 +62,23 @@ function Form({ functionId, onDone }: { functionId: string; onDone: () => void }
       </div>
     </form>
   );
+}
+
+function useSave(functionId: string, said: { name: string; description: string }, onDone: () => void) {
+  const { t, program, site } = useOpenProgram();
+  const queries = useQueryClient();
+  return useMutation({
+    mutationFn: () =>
+      api.post<LibraryFunction>(`/sites/${site.slug}/library`, {
+        program: program.id,
+        function: functionId,
+        name: said.name.trim(),
+        description: said.description.trim(),
+      }),
+    onSuccess: (saved) => {
+      void queries.invalidateQueries({ queryKey: ["library"] });
+      say(t("save.done", { name: saved.name, version: saved.version }));
+      onDone();
+    },
+  });
 }

@@ -46,29 +46,8 @@ function Panel({ id, zone }: { id: string; zone: Zone }) {
       </header>
       <div className={inspector.body} data-form>
         <NameField id={id} zone={zone} />
-        <Radio.Group
-          label={t("gesture.zone.rule")}
-          value={zone.rule}
-          onChange={(rule) => changeZone(open, id, { rule: rule as Zone["rule"] })}
-        >
-          <div className={inspector.field} style={{ marginTop: 8 }}>
-            {ZONE_RULES.map((rule) => (
-              <Radio key={rule} value={rule} label={t(`gesture.zone.${rule}`)} disabled={!canEdit} />
-            ))}
-          </div>
-        </Radio.Group>
-        {zone.rule === "slow" ? (
-          <NumberInput
-            label={t("gesture.zone.speed")}
-            value={zone.speed_m_s ?? ""}
-            min={0.05}
-            max={2}
-            step={0.05}
-            decimalScale={2}
-            disabled={!canEdit}
-            onChange={(speed) => changeZone(open, id, { speed_m_s: typeof speed === "number" ? speed : null })}
-          />
-        ) : null}
+        <RuleField id={id} zone={zone} />
+        {zone.rule === "slow" ? <SpeedField id={id} zone={zone} /> : null}
         <p className={inspector.now}>{t("gesture.zone.corners", { count: zone.points.length, area })}</p>
       </div>
     </aside>
@@ -93,6 +72,39 @@ function NameField({ id, zone }: { id: string; zone: Zone }) {
       onChange={(event) => setName(event.currentTarget.value)}
       onBlur={keep}
       onKeyDown={(event) => event.key === "Enter" && keep()}
+    />
+  );
+}
+
+function RuleField({ id, zone }: { id: string; zone: Zone }) {
+  const open = useOpenProgram();
+  return (
+    <Radio.Group
+      label={open.t("gesture.zone.rule")}
+      value={zone.rule}
+      onChange={(rule) => changeZone(open, id, { rule: rule as Zone["rule"] })}
+    >
+      <div className={inspector.field} style={{ marginTop: 8 }}>
+        {ZONE_RULES.map((rule) => (
+          <Radio key={rule} value={rule} label={open.t(`gesture.zone.${rule}`)} disabled={!open.canEdit} />
+        ))}
+      </div>
+    </Radio.Group>
+  );
+}
+
+function SpeedField({ id, zone }: { id: string; zone: Zone }) {
+  const open = useOpenProgram();
+  return (
+    <NumberInput
+      label={open.t("gesture.zone.speed")}
+      value={zone.speed_m_s ?? ""}
+      min={0.05}
+      max={2}
+      step={0.05}
+      decimalScale={2}
+      disabled={!open.canEdit}
+      onChange={(speed) => changeZone(open, id, { speed_m_s: typeof speed === "number" ? speed : null })}
     />
   );
 }

@@ -21,6 +21,8 @@ interface ExpressionInputProps {
   placeholder?: string;
 }
 
+/** What is written here is no prose. */
+const AS_CODE = { spellCheck: false, autoComplete: "off", autoCapitalize: "off" } as const;
 const BARE_NUMBER = /^-?[\d.,]*$/;
 
 export function ExpressionInput(props: ExpressionInputProps) {
@@ -40,9 +42,7 @@ export function ExpressionInput(props: ExpressionInputProps) {
         role="combobox"
         aria-autocomplete="list"
         aria-haspopup="listbox"
-        aria-expanded={listed}
-        aria-controls={listed ? `${id}-list` : undefined}
-        aria-activedescendant={box.marked >= 0 ? `${id}-${box.marked}` : undefined}
+        {...listLinks(id, listed, box.marked)}
         aria-describedby={props.note}
         aria-invalid={props.bad}
         error={props.bad}
@@ -52,9 +52,7 @@ export function ExpressionInput(props: ExpressionInputProps) {
         rightSectionPointerEvents="none"
         disabled={disabled}
         placeholder={props.placeholder ?? t("expression.placeholder")}
-        spellCheck={false}
-        autoComplete="off"
-        autoCapitalize="off"
+        {...AS_CODE}
         value={expression.text}
         onScroll={(event) => setScrolled(event.currentTarget.scrollLeft)}
         {...box.handlers}
@@ -73,4 +71,13 @@ export function ExpressionInput(props: ExpressionInputProps) {
       ) : null}
     </div>
   );
+}
+
+/** How the text box names its list and what is marked in it. */
+function listLinks(id: string, listed: boolean, marked: number) {
+  return {
+    "aria-expanded": listed,
+    "aria-controls": listed ? `${id}-list` : undefined,
+    "aria-activedescendant": marked >= 0 ? `${id}-${marked}` : undefined,
+  };
 }
