@@ -219,7 +219,7 @@ def test_a_broker_that_talks_nonsense_or_refuses_is_asked_again(micropython: str
 
     with client_at(micropython, tmp_path, misbehave) as (broker, process):
         told = ended(process).splitlines()
-    assert told[0] == "down: refused: not allowed"
+    assert told[0] == "down: refused: the key"
     assert told[1] == "down: the broker did not answer as one"
     assert told[-1] == "all acknowledged"
     assert broker.connections == len(answers) + 1

@@ -2,7 +2,7 @@
 
 CONNECT, CONNACK, PUBLISH, PUBACK, SUBSCRIBE, SUBACK, PINGREQ, DISCONNECT = 1, 2, 3, 4, 8, 9, 12, 14
 WRONG_KEY = (4, 5)
-REFUSALS = {1: "protocol", 2: "client id", 3: "broker not ready", 4: "user or password", 5: "not allowed"}
+REFUSALS = {1: "protocol", 2: "client id", 3: "not ready", 4: "the key", 5: "the key"}
 MOST_BYTES = 4096
 HEAD_BYTES = 512
 SUBSCRIBE_FAILED = 0x80

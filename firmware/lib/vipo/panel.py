@@ -104,5 +104,5 @@ class BoardPanel(ConsolePanel):
 
 
 def fit(line):
-    """Return a line of exactly the LCD's width."""
-    return (line + " " * WIDTH)[:WIDTH]
+    """Return a line of exactly the LCD's width, without line breaks."""
+    return (line.strip().replace("\n", " ") + " " * WIDTH)[:WIDTH]

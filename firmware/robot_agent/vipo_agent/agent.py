@@ -14,13 +14,15 @@ from typing import Any, Callable
 from vipo_agent.config import Config
 from vipo_agent.core import OPEN, Ack, Core, Facts, Go, Halt, Pose
 from vipo_agent.description import describe
+from vipo_agent.door import Door, make_key
 from vipo_agent.link import Link
-from vipo_agent.messages import Grid, write, write_grid
+from vipo_agent.messages import Grid, is_number, write, write_grid
 
 log = logging.getLogger("vipo_agent")
 TICK_S = 0.1
 SILENT_S = 25.0
 CHANGED_S = 0.2
+PART_EVERY_S = 0.1
 MAP_EVERY_S = 10.0
 """A map that grows is sent at most that often: each is sent whole."""
 
@@ -61,12 +63,17 @@ class Agent:
         )
         self.core = Core(facts, kept)
         self._kept: dict[str, Any] = {}
+        self._own_key = str(kept.get("key", ""))
+        if not config.password:
+            self._own_key = config.password = self._own_key or make_key()
+        self._door = Door(config)
         self._link = Link(config, self._boot)
         self._seq = self._map_number = 0
         self._last: dict[str, Any] = {}
-        self._said_s = self._map_s = 0.0
+        self._said_s = self._map_s = self._part_s = 0.0
         self._grid: Grid | None = None
         self._map_due = False
+        self._parts: list[bytes] = []
 
     def run(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set; then halt the robot and say goodbye."""
@@ -74,6 +81,7 @@ class Agent:
         self._link.stopped = lambda active: self._put(lambda: self.core.hold(active, time.monotonic()))
         self._link.came_in = lambda: self._put(self._introduce)
         self._navigation.start(self)
+        self._navigation.halt()  # whatever an agent that was killed has left
         self._save()
         self._link.start()
         try:
@@ -81,6 +89,8 @@ class Agent:
                 self._take()
                 self.core.settle(time.monotonic())
                 self._speak()
+                if self._link.is_refused and self._config.join_key:
+                    self._door.knock_again()
         finally:
             self._navigation.halt()
             self._link.stop()
@@ -88,7 +98,8 @@ class Agent:
 
     def moved(self, pose: Pose) -> None:
         """Take in where the robot is; from any thread, as the four below."""
-        self._put(lambda: self.core.moved(pose, time.monotonic()))
+        if all(map(is_number, pose)):
+            self._put(lambda: self.core.moved(pose, time.monotonic()))
 
     def reached(self, number: int) -> None:
         """Take in that a goal was reached."""
@@ -100,7 +111,8 @@ class Agent:
 
     def charged(self, percent: float) -> None:
         """Take in the battery's charge."""
-        self._put(lambda: setattr(self.core, "battery", min(100.0, max(0.0, percent))))
+        if is_number(percent):
+            self._put(lambda: setattr(self.core, "battery", min(100.0, max(0.0, percent))))
 
     def mapped(self, grid: Grid) -> None:
         """Take in the robot's map."""
@@ -162,21 +174,24 @@ class Agent:
             self._link.say("state", write({"boot": self._boot, "seq": self._seq, **state}), retain=True)
 
     def _send_map(self) -> None:
+        """Send the next part of the map; slowly, for the server drops what a device says too fast."""
         now = time.monotonic()
-        if not self._map_due or self._grid is None or not self._link.is_connected:
+        if self._grid is None or not self._link.is_connected or now - self._part_s < PART_EVERY_S:
             return
-        if self._map_s and now - self._map_s < MAP_EVERY_S:
-            return
-        self._map_due, self._map_s = False, now
-        self._map_number += 1
-        for payload in write_grid(self._grid, self._boot, self._map_number):
-            self._link.say("map", payload)
+        if self._map_due and not self._parts and (not self._map_s or now - self._map_s >= MAP_EVERY_S):
+            self._map_due, self._map_s = False, now
+            self._map_number += 1
+            self._parts = list(write_grid(self._grid, self._boot, self._map_number))
+        if self._parts:
+            self._part_s = now
+            self._link.say("map", self._parts.pop(0))
 
     def _save(self) -> None:
-        kept = {"boot": self._boot, **self.core.keep()}
+        kept = {"boot": self._boot, "key": self._own_key, **self.core.keep()}
         if kept != self._kept:
             self._kept = json.loads(json.dumps(kept))
             draft = self._path.with_suffix(".new")
+            draft.touch(mode=0o600)
             draft.write_text(json.dumps(kept), encoding="utf-8")
             os.replace(str(draft), str(self._path))  # noqa: PTH105 - the atomic rename is what matters here
 

@@ -23,10 +23,11 @@ class Config:
 
     id: str
     site: str
-    password: str
     radius_m: float
     speed_m_s: float
     ros: int
+    password: str = ""
+    join_key: str = ""
     host: str = "127.0.0.1"
     port: int = 1883
     ca: str = ""
@@ -67,11 +68,12 @@ def make_config(body: dict[str, Any]) -> Config:
     unknown = sorted(set(body) - known)
     if unknown:
         raise BadConfig(f"{unknown[0]!r} means nothing here; known are {', '.join(sorted(known))}.")
-    missing = [name for name in ("id", "site", "password", "radius_m", "speed_m_s", "ros") if name not in body]
+    missing = [name for name in ("id", "site", "radius_m", "speed_m_s", "ros") if name not in body]
     if missing:
         raise BadConfig(f"{missing[0]} is missing.")
     config = Config(**body)
     _check(config)
+    _check_keys(config)
     config.name = config.name or config.id
     config.action = config.action or ("move_base" if config.ros == 1 else "/navigate_to_pose")
     return config
@@ -92,3 +94,10 @@ def _check(config: Config) -> None:
         raise BadConfig("capacity must be a whole number from 0 to 1000.")
     if not isinstance(config.name, str) or not config.name.isprintable() or len(config.name) > 100:
         raise BadConfig("name must be printable text of at most 100 characters.")
+
+
+def _check_keys(config: Config) -> None:
+    if not all(isinstance(key, str) for key in (config.password, config.join_key)):
+        raise BadConfig("password and join_key must be text.")
+    if not (config.password or config.join_key):
+        raise BadConfig("password is missing; a newcomer needs join_key, the site's, instead.")

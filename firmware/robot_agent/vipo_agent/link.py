@@ -23,10 +23,8 @@ class Link:
         self.came_in: Callable[[], None] = lambda: None
         self._config, self._boot = config, boot
         self._server = b""
-        self._client = _make_client(config.id)
-        self._client.username_pw_set(config.id, config.password)
-        if config.ca:
-            self._client.tls_set_context(ssl.create_default_context(cafile=config.ca))
+        self.is_refused = False
+        self._client = make_client(config, config.id, config.password)
         self._client.will_set(self._up("presence"), self._presence("offline"), 1, True)
         self._client.reconnect_delay_set(1, 10)
         self._client.on_connect = self._connected
@@ -66,7 +64,8 @@ class Link:
         return write({"s": said, "boot": self._boot})
 
     def _connected(self, client: Any, _data: Any, _flags: Any, reason: Any, _properties: Any | None = None) -> None:
-        if getattr(reason, "is_failure", reason != 0):
+        self.is_refused = bool(getattr(reason, "is_failure", reason != 0))
+        if self.is_refused:
             return
         topics = [f"vipo/v1/dev/{self._config.id}/down/#", f"vipo/v1/site/{self._config.site}/stop", SERVER_STATUS]
         client.subscribe([(topic, 1) for topic in topics])
@@ -85,10 +84,14 @@ class Link:
                 self.told(told)
 
 
-def _make_client(client_id: str) -> Any:
+def make_client(config: Config, name: str, key: str) -> Any:
     """Return a client for MQTT 3.1.1 of whichever paho there is."""
     version = getattr(mqtt, "CallbackAPIVersion", None)
-    return mqtt.Client(version.VERSION2, client_id=client_id) if version else mqtt.Client(client_id=client_id)
+    client = mqtt.Client(version.VERSION2, client_id=name) if version else mqtt.Client(client_id=name)
+    client.username_pw_set(name, key)
+    if config.ca:
+        client.tls_set_context(ssl.create_default_context(cafile=config.ca))
+    return client
 
 
 def _ignore(_said: Any) -> None:

@@ -33,6 +33,7 @@ class MoveBase(Navigation):
     def start(self, agent: Agent) -> None:
         """Listen to the robot's pose, battery and map."""
         self._agent = agent
+        self._client.wait_for_server(rospy.Duration(CONNECT_S))
         rospy.Subscriber(self._config.pose_topic, PoseWithCovarianceStamped, self._hear_pose, queue_size=1)
         rospy.Subscriber(self._config.battery_topic, BatteryState, self._hear_battery, queue_size=1)
         rospy.Subscriber(self._config.map_topic, OccupancyGrid, self._hear_map, queue_size=1)

@@ -1,0 +1,54 @@
+"""How a robot that nobody gave a key brings its own: it knocks with the site's join key (docs/protocol.md, Keys)."""
+
+from __future__ import annotations
+
+import random
+import secrets
+import threading
+import time
+
+from vipo_agent.config import Config
+from vipo_agent.link import make_client
+from vipo_agent.messages import write
+
+KEY_BYTES = 24
+KNOCK_S = 10
+LEAST_PAUSE_S, MOST_PAUSE_S = 5.0, 30.0
+
+
+def make_key() -> str:
+    """Return a key that nobody can guess."""
+    return secrets.token_urlsafe(KEY_BYTES)
+
+
+class Door:
+    """Knocks again and again, at times that differ from other robots', for as long as it is asked to."""
+
+    def __init__(self, config: Config) -> None:
+        self._config = config
+        self._next_s = 0.0
+        self._thread: threading.Thread | None = None
+
+    def knock_again(self) -> None:
+        """Knock, if it is time to; returns at once."""
+        if time.monotonic() < self._next_s or (self._thread is not None and self._thread.is_alive()):
+            return
+        # As all newcomers of a site are one client there, they must not knock in step.
+        self._next_s = time.monotonic() + random.uniform(LEAST_PAUSE_S, MOST_PAUSE_S)  # noqa: S311 - not a secret
+        self._thread = threading.Thread(target=self._knock, name="door", daemon=True)
+        self._thread.start()
+
+    def _knock(self) -> None:
+        name = f"join:{self._config.site}"
+        client = make_client(self._config, name, self._config.join_key)
+        client.connect_async(self._config.host, self._config.port, KNOCK_S)
+        client.loop_start()
+        said = client.publish(
+            f"vipo/v1/join/{self._config.site}/{self._config.id}", write({"key": self._config.password}), 1
+        )
+        waited_s = 0.0
+        while not said.is_published() and waited_s < KNOCK_S:
+            time.sleep(0.05)
+            waited_s += 0.05
+        client.disconnect()
+        client.loop_stop()
