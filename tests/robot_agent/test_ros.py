@@ -28,8 +28,14 @@ from tests.servers import ROOT, Mosquitto, answers, free_port, run_mosquitto, wa
 AGENT = ROOT / "firmware" / "robot_agent"
 HERE = Path(__file__).parent
 DEBIAN_PYTHON = "/usr/bin/python3"
-ACCOUNTS = {"server": "secret of the server", "tb1": "the word of tb1", "tb2": "the word of tb2"}
+ACCOUNTS = {
+    "server": "secret of the server",
+    "tb1": "the word of tb1",
+    "tb2": "the word of tb2",
+    "join:hall": "the key of the door",
+}
 STOP = "vipo/v1/site/hall/stop"
+JOIN = {"join_key": ACCOUNTS["join:hall"]}
 PACKAGES = "rospy, rosmaster, actionlib, move_base_msgs.msg, nav_msgs.msg, sensor_msgs.msg, paho.mqtt.client"
 
 
@@ -41,7 +47,7 @@ def broker(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Mosquitto]:
 
 @pytest.fixture(scope="module")
 def ear(broker: Mosquitto) -> Iterator[Ear]:
-    with Ear(broker.port, ACCOUNTS["server"]) as ear:
+    with Ear(broker.port, ACCOUNTS["server"], "vipo/v1/#") as ear:
         yield ear
 
 
@@ -146,6 +152,20 @@ def joined(ear: Ear, name: str, command: list[str], environment: dict[str, str],
     assert "Traceback" not in log.read_text()
 
 
+def test_a_newcomer_makes_a_key_of_its_own_and_knocks_with_it(
+    broker: Mosquitto, ear: Ear, bridge: BridgeStandIn, tmp_path: Path
+) -> None:
+    config = write_config(tmp_path, broker, "tb2", id="new", ros=2, bridge_port=bridge.port, password="", **JOIN)
+    environment = {**os.environ, "PYTHONPATH": str(AGENT)}
+    command = [sys.executable, "-m", "vipo_agent", config]
+    with running(command, environment, tmp_path / "agent.log"):
+        knock = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/new", 60)
+        assert len(knock.json["key"]) == 32
+        kept = tmp_path / "state.json"
+        assert json.loads(kept.read_text())["key"] == knock.json["key"]
+        assert kept.stat().st_mode & 0o777 == 0o600
+
+
 def go(server: Server, *commands: tuple[str, list[list[float]]], **more: Any) -> None:
     for command, path in commands:
         server.tell("move", command, path=path, **more)
@@ -182,7 +202,7 @@ def test_pieces_of_way_are_driven_and_each_has_its_end(server: Server) -> None:
 
 
 def test_a_goal_that_cannot_be_reached_fails_with_the_planners_reason(server: Server) -> None:
-    go(server, ("far", [[95.0, 2.0]]), ("farther", [[96.0, 2.0]]))
+    go(server, ("far", [[3.0, 2.0], [95.0, 2.0]]), ("farther", [[96.0, 2.0]]))
     failed = server.wait_ack("far")
     assert failed["st"] == "FAILED"
     reasons = {"tb1": "move_base: Failed to find a valid plan.", "tb2": "/navigate_to_pose: no valid path"}
