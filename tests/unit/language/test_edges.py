@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -13,7 +14,8 @@ from editor.language.plan import Constant, Operation, Reading
 from editor.language.possible_values import ANY, Range, range_of
 from editor.language.units import conversion, convert
 from editor.language.values import LARGEST, is_number, read_value
-from tests.unit.language.site import factory
+from registry.capability import ParameterSpec
+from tests.unit.language.site import factory, with_device
 
 EMPTY = "class Task(object):\n    def new_task(self):\n        pass\n"
 CARRY = {"role": "robot", "object": "box", "quantity": 1}
@@ -279,3 +281,36 @@ def test_a_step_without_a_role_drives_the_robot_whose_place_can_be_asked_for() -
     far = {"op": ">", "args": [{"op": "distance", "args": [{"at": {"role": "robot"}}, {"at": BOOTH}]}, 2]}
     document = program(("move", {"role": "", "to": SHELF}), ("wait", {"until": far}))
     assert "distance(self.robot, self." in compile_document(document, factory()).script
+
+
+def test_a_loop_hides_what_is_known_of_a_name() -> None:
+    parameters = {"p": {"name": "minutes", "type": "text"}}
+    wait = {"duration": {"param": "minutes"}}
+    document = program(("for_each", {"variable": "minutes", "items": [1, 2]}))
+    document["steps"]["w"] = {"kind": "wait", "place": ["s0", "body", "V"], "params": wait}
+    assert codes({**document, "parameters": parameters}) == []
+    assert codes({**program(("wait", wait)), "parameters": parameters}) == [("s0", "wrong_type")]
+
+
+def test_what_need_not_be_given_is_left_out_only_at_the_end() -> None:
+    description = factory().devices["curingOven01"].description
+    method = replace(
+        description.methods[0],
+        parameters=tuple(ParameterSpec(name, "number", required=name == "a") for name in ("a", "b", "c")),
+    )
+    site = with_device("curingOven01", description=replace(description, methods=(method,)))
+    params = {"device": {"device": "curingOven01"}, "method": method.name}
+    given = [{"a": 1}, {"a": 1, "b": 2}, {"a": 1, "c": 3}]
+    document = program(*(("operate", {**params, "args": args}) for args in given))
+    lines = compile_document(document, site).script.splitlines()[2:5]
+    assert [line[line.index("(") :] for line in lines] == ["(1)", "(1, 2)", "(1, None, 3)"]
+
+
+def test_branches_are_handed_names_as_they_are() -> None:
+    head = f"{EMPTY.replace('pass', 'for x in [1]:')}            "
+    branches = "".join(f"    def branch_1a_1{letter}(self, x):\n        self.wait(x)\n" for letter in "ab")
+    run = "    def run(self, ctx):\n        self.new_task()\n"
+    call = "self.parallel(self.branch_1a_1a, self.branch_1a_1b, x={})\n"
+    assert parse_script(f"{head}{call.format('x')}{branches}{run}", factory()).diagnostics == ()
+    for other in ("self", "1"):
+        assert "a method for each branch." in refused(f"{head}{call.format(other)}{branches}{run}")

@@ -77,7 +77,19 @@ def test_an_edit_and_its_undoing_are_what_the_whole_says(edit: dict[str, Json | 
         assert last.look(document) == make_outline(document)
 
 
-@pytest.mark.parametrize("name", ["a value", "behind", "into another", "new", "new ones in each other", "gone"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "a value",
+        "behind",
+        "into another",
+        "new",
+        "new ones in each other",
+        "gone",
+        "another kind with the same branch",
+        "with others in it, further on",
+    ],
+)
 def test_what_stands_elsewhere_is_not_read_again(name: str) -> None:
     last = LastOutline()
     before, document = last.look({"steps": STEPS}), after(STEPS, EDITS[name])
