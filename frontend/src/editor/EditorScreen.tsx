@@ -63,6 +63,13 @@ function socketAddress(): string {
   return `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws/program`;
 }
 
+function useShowUser(shared: SharedProgram, user: User | null): void {
+  useShowSelection(
+    shared,
+    useMemo(() => (user ? { ...user } : undefined), [user]),
+  );
+}
+
 interface LoadedProps {
   program: Program;
   site: Site;
@@ -90,10 +97,7 @@ function Loaded({ program, site, devices: live, shared, canEdit, user }: LoadedP
   });
   const people = usePeople(shared);
   const { language } = useTranslation().i18n;
-  useShowSelection(
-    shared,
-    useMemo(() => (user ? { ...user } : undefined), [user]),
-  );
+  useShowUser(shared, user);
   const open = useMemo<OpenProgram>(() => {
     const { scene, surroundings, t } = parts;
     return {

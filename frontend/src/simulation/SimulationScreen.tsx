@@ -15,7 +15,7 @@ import { ResultPanel } from "./ResultPanel";
 import { ScenePane } from "./ScenePane";
 import styles from "./SimulationScreen.module.css";
 import { neighbour, segmentsOf, stepStarts } from "./timeline";
-import { Transport } from "./Transport";
+import { Transport, type Marker } from "./Transport";
 import { useMoment } from "./useMoment";
 
 const POLL_MS = 1000;
@@ -100,10 +100,7 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
         playing={player.playing}
         speed={player.speed}
         segments={segments}
-        markers={result.waits.map((wait) => ({
-          t_s: wait.t,
-          label: `${nameOf(wait.robot)}: ${waitWords(wait.why, nameOf) ?? wait.reason}`,
-        }))}
+        markers={markersOf(result, nameOf)}
         titleOf={(step) => compiled.numbers[step] ?? ""}
         onSeek={player.seek}
         onPlay={player.toggle}
@@ -112,6 +109,13 @@ function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devic
       />
     </>
   );
+}
+
+function markersOf(result: RehearsalResult, nameOf: (device: string) => string): Marker[] {
+  return result.waits.map((wait) => ({
+    t_s: wait.t,
+    label: `${nameOf(wait.robot)}: ${waitWords(wait.why, nameOf) ?? wait.reason}`,
+  }));
 }
 
 function useStartRehearsal(program: string) {

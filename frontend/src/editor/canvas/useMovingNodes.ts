@@ -1,6 +1,6 @@
 /** Chips under the pointer move at once; the document hears of it when they are let go. */
 import { applyNodeChanges, type Node, type NodeChange, type NodePositionChange } from "@xyflow/react";
-import { useCallback, useEffect, useRef, useState } from "react";
+import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
 import { toMetres, type Point } from "@/map/projection";
 import type { Guide, Snapped } from "../gestures/snapping";
 import type { StageNode } from "./nodes";
@@ -71,11 +71,18 @@ export function useMovingNodes(
     onNodesChange,
     onDragStop: useCallback((_event, node, all) => drop(all.length > 0 ? all : [node]), [drop]),
     onSelectionDragStop: useCallback((_event, all) => drop(all), [drop]),
-    onSelectionEnd: useCallback(() => {
-      if (boxed.current.size > 0) onSelectMany?.([...boxed.current]);
-      boxed.current.clear();
-    }, [onSelectMany]),
+    onSelectionEnd: useBoxEnd(boxed, onSelectMany),
   };
+}
+
+function useBoxEnd(
+  boxed: RefObject<Set<string>>,
+  onSelectMany: ((steps: readonly string[]) => void) | undefined,
+): () => void {
+  return useCallback(() => {
+    if (boxed.current.size > 0) onSelectMany?.([...boxed.current]);
+    boxed.current.clear();
+  }, [boxed, onSelectMany]);
 }
 
 function noteSelection(changes: readonly NodeChange<StageNode>[], boxed: Set<string>): void {

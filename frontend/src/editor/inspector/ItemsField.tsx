@@ -134,21 +134,7 @@ function AddItem({
   onAdd: (value: Value) => void;
 }) {
   const { t } = useOpenProgram();
-  const { known, groups } = useAddable();
-  const [text, setText] = useState("");
-  const [round, setRound] = useState(0);
-  const input = useRef<HTMLInputElement>(null);
-  const chosen = useRef<string | null>(null);
-  useEffect(() => {
-    if (round > 0) input.current?.focus();
-  }, [round]);
-  const add = (written: string) => {
-    const value = written.trim();
-    if (!value) return;
-    onAdd(known.get(value) ?? itemFrom(value));
-    setText("");
-    setRound(round + 1);
-  };
+  const { groups, text, setText, round, input, chosen, add } = useAdding(onAdd);
   return (
     <Autocomplete
       key={round}
@@ -173,6 +159,26 @@ function AddItem({
       }}
     />
   );
+}
+
+/** The text as it is written; each thing that was added makes the field anew, with the focus. */
+function useAdding(onAdd: (value: Value) => void) {
+  const { known, groups } = useAddable();
+  const [text, setText] = useState("");
+  const [round, setRound] = useState(0);
+  const input = useRef<HTMLInputElement>(null);
+  const chosen = useRef<string | null>(null);
+  useEffect(() => {
+    if (round > 0) input.current?.focus();
+  }, [round]);
+  const add = (written: string) => {
+    const value = written.trim();
+    if (!value) return;
+    onAdd(known.get(value) ?? itemFrom(value));
+    setText("");
+    setRound(round + 1);
+  };
+  return { groups, text, setText, round, input, chosen, add };
 }
 
 /** What is no device and no place is a number or a text. */
