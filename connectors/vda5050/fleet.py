@@ -10,11 +10,11 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from queue import Empty, SimpleQueue
-from threading import Event
+from threading import Event, Lock
 
 from connectors.device_line import CameIn, Commanded, LineEvent, Stopped
 from connectors.vda5050.member import Member, Setting
-from connectors.vda5050.messages import VehicleName
+from connectors.vda5050.messages import VehicleName, read_connection
 from registry.mqtt import MqttClient
 from registry.wire import BadMessage
 
@@ -24,6 +24,8 @@ MAJOR = "v2"
 TICK_S = 0.25
 MOST_VEHICLES = 200
 MOST_WAITING = 10_000
+MOST_WAITING_EACH = 200
+STRANGERS = "strangers"
 COMPLAIN_EVERY_S = 60.0
 _LEVEL = re.compile(r"[^/+#$\x00-\x1f]{1,64}")
 
@@ -35,6 +37,29 @@ class Said:
     name: VehicleName
     subtopic: str
     payload: bytes
+
+
+class Waiting:
+    """How many messages of each vehicle wait, so that one that says too much is not heard at the others' expense."""
+
+    def __init__(self) -> None:
+        self._counts: Counter[VehicleName] = Counter()
+        self._guard = Lock()
+
+    def enter(self, name: VehicleName) -> bool:
+        """Count one more; False when too many of this vehicle wait already."""
+        with self._guard:
+            if self._counts[name] >= MOST_WAITING_EACH:
+                return False
+            self._counts[name] += 1
+            return True
+
+    def leave(self, name: VehicleName) -> None:
+        """Count one less."""
+        with self._guard:
+            self._counts[name] -= 1
+            if not self._counts[name]:
+                del self._counts[name]
 
 
 class Fleet:
@@ -49,6 +74,8 @@ class Fleet:
         self._setting = replace(setting, publish=self._publish)
         self._inbox: SimpleQueue[Said | LineEvent] = SimpleQueue()
         self._members: dict[str, Member] = {}
+        self._by_name: dict[VehicleName, Member] = {}
+        self._waiting = Waiting()
         self._complained_s: dict[str, float] = {}
 
     def run(self, stopping: Event) -> None:
@@ -89,33 +116,40 @@ class Fleet:
 
     def _hear_vehicle(self, said: Said, now_s: float) -> None:
         """Let a member hear; what cannot be read is counted, told once a minute, and harms nobody else."""
-        member = self._member(said.name)
-        if member is None:
-            return
+        self._waiting.leave(said.name)
+        member = self._by_name.get(said.name)
         try:
-            member.hear(said.subtopic, said.payload, now_s)
+            if member is None:
+                member = self._admit(said)
+            if member is not None:
+                member.hear(said.subtopic, said.payload, now_s)
         except BadMessage as error:
-            self.refused[member.id] += 1
-            if now_s - self._complained_s.get(member.id, -COMPLAIN_EVERY_S) >= COMPLAIN_EVERY_S:
-                self._complained_s[member.id] = now_s
-                log.warning("%s: %s (%d refused so far)", member.id, error.detail, self.refused[member.id])
+            who = member.id if member else STRANGERS
+            self.refused[who] += 1
+            if now_s - self._complained_s.get(who, -COMPLAIN_EVERY_S) >= COMPLAIN_EVERY_S:
+                self._complained_s[who] = now_s
+                log.warning("%s: %s (%d refused so far)", who, error.detail, self.refused[who])
 
-    def _member(self, name: VehicleName) -> Member | None:
-        found = next((m for m in self._members.values() if m.name == name), None)
-        if found is not None:
-            return found
-        if len(self._members) >= MOST_VEHICLES:
-            self.refused["further vehicles"] += 1
+    def _admit(self, said: Said) -> Member | None:
+        """Make a member of a vehicle that says that it is connected; nothing else of a stranger is listened to.
+
+        Raises BadMessage.
+        """
+        if said.subtopic != "connection":
             return None
-        member = Member(name, self._setting, self._inbox.put)
-        self._members[member.id] = member
+        read_connection(said.payload, said.name)
+        if len(self._members) >= MOST_VEHICLES:
+            raise BadMessage(f"{'/'.join(said.name)} is one vehicle too many: a connector serves {MOST_VEHICLES}.")
+        member = Member(said.name, self._setting, self._inbox.put)
+        self._members[member.id] = self._by_name[said.name] = member
         return member
 
     def _hear(self, topic: str, payload: bytes, _retained: bool) -> None:
         _, _, manufacturer, serial, subtopic = topic.rsplit("/", 4)
-        fits = _LEVEL.fullmatch(manufacturer) and _LEVEL.fullmatch(serial)
-        if fits and payload and self._inbox.qsize() < MOST_WAITING:
-            self._inbox.put(Said(VehicleName(manufacturer, serial), subtopic, payload))
+        name = VehicleName(manufacturer, serial)
+        fits = payload and all(_LEVEL.fullmatch(level) for level in name)
+        if fits and self._inbox.qsize() < MOST_WAITING and self._waiting.enter(name):
+            self._inbox.put(Said(name, subtopic, payload))
 
     def _publish(self, name: VehicleName, subtopic: str, payload: bytes) -> None:
         self._client.publish(f"{self._interface}/{MAJOR}/{'/'.join(name)}/{subtopic}", payload, qos=0)

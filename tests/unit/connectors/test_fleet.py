@@ -1,0 +1,91 @@
+"""What the connector takes in, and how it is started."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import pytest
+from django.core.management.base import CommandError
+
+from connectors.keys import KeyRing
+from connectors.management.commands.vda5050 import make_fleet, read_origin, vehicle_client
+from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS, Fleet, Said
+from connectors.vda5050.frame import Frame
+from connectors.vda5050.member import Setting
+from connectors.vda5050.messages import VehicleName
+from registry.mqtt import MqttClient
+from tests.unit.connectors.vehicle import HEADER, NAME, payload
+
+
+@pytest.fixture
+def fleet(tmp_path: Path) -> Fleet:
+    """Return a connector that is not connected to anything."""
+    never: Callable[..., Any] = lambda *_: None  # noqa: E731 - it stands for four
+    at = datetime(2026, 1, 1, tzinfo=UTC)
+    setting = Setting("hall", Frame(), "floor", tmp_path, never, never, lambda: "id", lambda: at)
+    client = MqttClient(host="127.0.0.1", port=1, username="", password="", client_id="fleet")
+    return Fleet(client, "uagv", setting)
+
+
+def connection(name: VehicleName) -> Said:
+    header = {**HEADER, "manufacturer": name.manufacturer, "serialNumber": name.serial_number}
+    return Said(name, "connection", payload(header, connectionState="ONLINE"))
+
+
+def test_strangers_are_heard_only_when_they_say_that_they_are_connected(fleet: Fleet) -> None:
+    fleet._take(Said(NAME, "state", b"{}"), 0.0)
+    fleet._take(Said(NAME, "connection", b"{}"), 0.0)
+    assert (dict(fleet.refused), fleet._members) == ({STRANGERS: 1}, {})
+    fleet._take(connection(NAME), 0.0)
+    fleet._take(Said(NAME, "state", b"{}"), 0.0)
+    assert (dict(fleet.refused), list(fleet._members)) == ({STRANGERS: 1, "Acme-1": 1}, ["Acme-1"])
+
+
+def test_a_connector_serves_two_hundred_vehicles(fleet: Fleet) -> None:
+    for number in range(MOST_VEHICLES + 5):
+        fleet._take(connection(VehicleName("Acme", f"{number}")), 0.0)
+    assert len(fleet._members) == MOST_VEHICLES
+    assert dict(fleet.refused) == {STRANGERS: 5}
+
+
+def test_a_vehicle_that_says_too_much_is_not_heard_at_the_others_expense(fleet: Fleet) -> None:
+    for _ in range(MOST_WAITING_EACH + 300):
+        fleet._hear("uagv/v2/Acme/1/state", b"{}", False)
+    fleet._hear("uagv/v2/Acme/2/state", b"{}", False)
+    assert fleet._inbox.qsize() == MOST_WAITING_EACH + 1
+    for _ in range(MOST_WAITING_EACH):
+        fleet._take(fleet._inbox.get(), 0.0)
+    fleet._hear("uagv/v2/Acme/1/state", b"{}", False)
+    assert fleet._inbox.qsize() == 2
+
+
+def test_names_that_cannot_be_names_are_not_heard(fleet: Fleet) -> None:
+    for name in ("", "a" * 65, "$SYS", "a\x00b"):
+        fleet._hear(f"uagv/v2/Acme/{name}/state", b"{}", False)
+    assert fleet._inbox.qsize() == 0
+
+
+def test_the_command_says_what_cannot_be() -> None:
+    assert read_origin("1,-2.5,0.1") == Frame(1.0, -2.5, 0.1)
+    with pytest.raises(CommandError, match=r"^--origin '1,2' is not x,y,theta"):
+        read_origin("1,2")
+    with pytest.raises(CommandError, match=r"^--broker '' is not the vehicles' broker; say mqtt://host:1883"):
+        vehicle_client("", "", "id")
+    with pytest.raises(CommandError, match=r"^--site and --interface must be words"):
+        make_fleet({"site": "a/b", "interface": "uagv"})
+
+
+def test_a_key_is_made_once_and_one_that_people_wrote_goes_first(tmp_path: Path) -> None:
+    by_hand, own = tmp_path / "devices.json", tmp_path / "secrets" / "own.json"
+    ring = KeyRing(by_hand, own)
+    made = ring.key("Acme-1")
+    assert (len(made), ring.key("Acme-1")) == (32, made)
+    assert own.stat().st_mode & 0o777 == 0o600
+    by_hand.write_text(json.dumps({"Acme-1": "by hand"}))
+    assert ring.key("Acme-1") == "by hand"
+    own.write_text("not JSON")
+    assert ring.key("Acme-2") != made
