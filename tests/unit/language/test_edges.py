@@ -314,3 +314,11 @@ def test_branches_are_handed_names_as_they_are() -> None:
     assert parse_script(f"{head}{call.format('x')}{branches}{run}", factory()).diagnostics == ()
     for other in ("self", "1"):
         assert "a method for each branch." in refused(f"{head}{call.format(other)}{branches}{run}")
+
+
+def test_a_plan_says_what_its_values_look_at() -> None:
+    hot = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 30]}
+    both = {"op": "and", "args": [hot, {"op": "not", "args": [{"op": "<", "args": hot["args"]}]}]}
+    plan = compile_document(program(("wait", {"until": both})), factory()).plan
+    assert plan is not None
+    assert plan.reads == (("curingOven01", "temperature"),)
