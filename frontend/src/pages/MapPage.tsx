@@ -1,6 +1,7 @@
 /** The site's map, large, with what there is to know about it and its ROS files. */
 import { Button, Skeleton } from "@mantine/core";
-import { Download, MapPinned } from "lucide-react";
+import { Check, Download, MapPinned, Move } from "lucide-react";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { LoadProblem } from "@/app/LoadProblem";
@@ -12,6 +13,7 @@ import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { StaticMap } from "@/map/StaticMap";
+import { MovableMachine } from "./devices/MovableMachine";
 import { freeArea, knownShare } from "./mapFacts";
 import styles from "./MapPage.module.css";
 
@@ -77,24 +79,44 @@ function Downloads({ slug }: { slug: string }) {
   );
 }
 
-function MapView({ site, map }: { site: Site; map: SiteMap }) {
+function MoveMachines({ moving, change }: { moving: boolean; change: (moving: boolean) => void }) {
+  const { t } = useTranslation();
+  const Icon = moving ? Check : Move;
+  return (
+    <Button
+      variant={moving ? "filled" : "default"}
+      leftSection={<Icon size={16} aria-hidden="true" />}
+      onClick={() => change(!moving)}
+    >
+      {t(moving ? "placing.finish" : "placing.move")}
+    </Button>
+  );
+}
+
+function MapView({ site, map, moving }: { site: Site; map: SiteMap; moving: boolean }) {
   const { t } = useTranslation();
   const navigate = useNavigate();
   const [query] = useSearchParams();
   const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
+  const movable = moving ? devices.filter((device) => device.kind === "machine") : [];
   return (
     <div className={styles.page}>
       <Panel className={styles.map}>
         <StaticMap
           plan={map}
-          devices={devices}
+          devices={devices.filter((device) => !movable.includes(device))}
           named
           selected={query.get("device")}
           onSelect={(id) => void navigate(`/sites/${site.slug}/devices/${id}`)}
           label={t("pages.map.of", { site: site.name })}
-        />
+        >
+          {movable.map((device) => (
+            <MovableMachine key={device.id} site={site} map={map} device={device} />
+          ))}
+        </StaticMap>
       </Panel>
       <Panel className={styles.about}>
+        {moving ? <p id="placing-help">{t("placing.help")}</p> : null}
         <h2>{t("pages.map.about")}</h2>
         <Facts map={map} />
         <Places map={map} />
@@ -108,16 +130,24 @@ export function MapPage() {
   const { slug = "" } = useParams();
   const site = useSite(slug);
   const map = useSiteMap(site.data?.has_map ? slug : undefined);
+  const [moving, setMoving] = useState(false);
   const problem = site.error ?? map.error;
   return (
     <PageShell
       title={t("shell.nav.map")}
       chips={map.data ? <Chip>{t("pages.map.version", { version: map.data.version })}</Chip> : null}
-      actions={map.data ? <Downloads slug={slug} /> : null}
+      actions={
+        map.data ? (
+          <>
+            {site.data?.role === "admin" ? <MoveMachines moving={moving} change={setMoving} /> : null}
+            <Downloads slug={slug} />
+          </>
+        ) : null
+      }
     >
       {problem ? <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), map.refetch()])} /> : null}
       {!problem && !map.data && site.data?.has_map !== false ? <Skeleton height="100%" radius="lg" /> : null}
-      {site.data && map.data ? <MapView site={site.data} map={map.data} /> : null}
+      {site.data && map.data ? <MapView site={site.data} map={map.data} moving={moving} /> : null}
       {site.data?.has_map === false ? (
         <Panel>
           <EmptyState icon={<MapPinned size={20} />} title={t("pages.map.none")} text={t("pages.map.noneText")}>
