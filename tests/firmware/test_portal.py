@@ -8,6 +8,7 @@ import socket
 import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -165,32 +166,35 @@ def test_an_empty_secret_keeps_the_one_that_is_there(page: Page) -> None:
     assert "token" not in kept
 
 
-@pytest.mark.parametrize(
-    ("values", "sentence"),
-    [
-        ({"id": "a/b"}, "'id' must be 1 to 64 letters"),
-        ({"id": ""}, "does not say 'id'"),
-        ({"port": "many"}, "'port' must be in numbers"),
-        ({"port": "70000"}, "'port' must be a whole number from 1 to 65535"),
-        ({"wifi_password": "short"}, "'wifi_password' must be empty, or a text of 8 to 63"),
-        ({"driver": "bomb"}, "'driver' must be one of: dispenser, drop-off"),
-        ({"location": "1 2 3"}, "'location' must be a list of 4 numbers"),
-        ({"location": "1 2 nan 3"}, "'location' must be a list of 4 numbers"),
-        ({"host": "x" * 254}, "'host' must be a name or address"),
-        ({"name": "a\x00b"}, "'name' must be a text"),
-        ({"ca": "no certificate"}, "the certificate is not in PEM form"),
-    ],
-)
-def test_a_value_that_does_not_fit_is_named_and_nothing_is_kept(
-    page: Page, values: dict[str, str], sentence: str
-) -> None:
+WRONG = [
+    ({"id": "a/b"}, """The form: "This device's id" must be 1 to 64 letters, digits, '_', '.' or '-'."""),
+    ({"id": ""}, """The form does not say "This device's id"."""),
+    ({"port": "many"}, 'The form: "Broker: port (8883 with TLS)" must be in numbers.'),
+    ({"port": "70000"}, 'The form: "Broker: port (8883 with TLS)" must be a whole number from 1 to 65535.'),
+    ({"wifi_password": "short"}, 'The form: "Wi-Fi password" must be empty, or a text of 8 to 63 characters.'),
+    ({"driver": "bomb"}, 'The form: "This device is a" must be one of: dispenser, drop-off, inventory, mixer,'),
+    ({"location": "1 2 3"}, 'The form: "Place: x y z theta (metres, radians)" must be a list of 4 numbers'),
+    ({"location": "1 2 nan 3"}, 'The form: "Place: x y z theta (metres, radians)" must be a list of 4 numbers'),
+    ({"host": "x" * 254}, 'The form: "Broker: name or address" must be a name or address of at most 253 characters.'),
+    ({"name": "a\x00b"}, 'The form: "Name on the map" must be a text of 1 to 100 characters.'),
+    (
+        {"join_key": "j" * 129},
+        """The form: "The site's join key, for a newcomer" must be empty, or a text of 1 to 128""",
+    ),
+    ({"join_key": "word"}, """The form has a join key, but does not say "Site (its short name)", whose key it is."""),
+    ({"ca": "no certificate"}, "The form: the certificate is not in PEM form."),
+]
+
+
+def test_a_value_that_does_not_fit_is_named_and_nothing_is_kept(page: Page) -> None:
     before = (page.chip.folder / "config.json").read_text()
     good = {**page.form.values, "driver": "mixer", "name": "Mixer"}
-    status, _, body = page.post({**good, **values})
-    told = re.search(r'role="alert">(.*?)</p>', body)
-    assert status == 200
-    assert told is not None, body
-    assert sentence in told[1].replace("&#39;", "'")
+    for values, sentence in WRONG:
+        status, _, body = page.post({**good, **values})
+        told = re.search(r'role="alert">(.*?)</p>', body)
+        assert status == 200
+        assert told is not None, body
+        assert unescape(told[1]).startswith(sentence)
     assert (page.chip.folder / "config.json").read_text() == before
     assert page.chip.process.poll() is None
 

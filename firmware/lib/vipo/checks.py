@@ -73,10 +73,14 @@ def is_right(value, kind, limits):
         return is_number(value, *limits)
     if kind == "row":
         count, least, most = limits
-        return isinstance(value, (list, tuple)) and len(value) == count and all(is_number(v, least, most) for v in value)
+        return (
+            isinstance(value, (list, tuple)) and len(value) == count and all(is_number(v, least, most) for v in value)
+        )
     if kind == "pins":
         # To MicroPython a bool is no int.
-        return isinstance(value, dict) and all(isinstance(n, (int, bool)) and 0 <= n <= MOST_PINS for n in value.values())
+        return isinstance(value, dict) and all(
+            isinstance(n, (int, bool)) and 0 <= n <= MOST_PINS for n in value.values()
+        )
     return isinstance(value, str) and is_right_text(value, kind, limits)
 
 

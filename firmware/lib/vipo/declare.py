@@ -70,7 +70,9 @@ def check_value(declared, value):
         options = declared.get("options")
         if options:
             return "" if value in options else "one of: " + ", ".join(options)
-        return "" if isinstance(value, str) and len(value) <= MOST_TEXT else "a text of at most %d characters" % MOST_TEXT
+        return (
+            "" if isinstance(value, str) and len(value) <= MOST_TEXT else "a text of at most %d characters" % MOST_TEXT
+        )
     if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
         return "a number"
     least, most = declared["least"], declared["most"]

@@ -3,10 +3,10 @@
 import asyncio
 import json
 
-from vipo import panel as lights
+from vipo import light as lights
 from vipo.portable import seconds_since, ticks_ms
 
-STATE_EVERY_S = 30
+STATE_EVERY_S = 25
 CHECK_EVERY_S = 0.5
 
 

@@ -2,7 +2,7 @@
 
 import asyncio
 
-from vipo import panel as lights
+from vipo import light as lights
 from vipo.commands import Answers, BadCommand, make_answer, read_command, read_object
 from vipo.declare import check_arguments
 from vipo.entrance import is_key

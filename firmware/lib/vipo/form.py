@@ -52,7 +52,7 @@ def row(name, kind, label, most, value):
     """Return one field with its label."""
     if kind == "driver":
         options = "".join(
-            '<option%s>%s</option>' % (" selected" if option == value else "", option) for option in NAMES
+            "<option%s>%s</option>" % (" selected" if option == value else "", option) for option in NAMES
         )
         return '<label>%s<select name="%s">%s</select></label>' % (label, name, options)
     if isinstance(value, (list, tuple)):

@@ -9,8 +9,18 @@ import random
 
 from vipo.connection import open_stream, shake_hands
 from vipo.outbox import Outbox
-from vipo.packets import PUBACK, PUBLISH, SUBACK, SUBSCRIBE_FAILED, MqttFailure, Refused
-from vipo.packets import connect_packet, read_packet, split_publish, subscribe_packet
+from vipo.packets import (
+    PUBACK,
+    PUBLISH,
+    SUBACK,
+    SUBSCRIBE_FAILED,
+    MqttFailure,
+    Refused,
+    connect_packet,
+    read_packet,
+    split_publish,
+    subscribe_packet,
+)
 from vipo.portable import close_stream, seconds_since, ticks_ms
 
 ANSWER_TIMEOUT_S = 10

@@ -2,7 +2,6 @@
 
 import asyncio
 
-from vipo.light import AMBER, BLUE, GREEN, RED
 from vipo.portable import ticks_ms
 
 WIDTH = 16

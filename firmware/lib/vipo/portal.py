@@ -131,7 +131,7 @@ class Portal:
         configuration, fault = merge(known, values)
         fault = fault or find_fault(configuration, "The form", NEEDED) or fault_of_authority(authority)
         if fault:
-            return response(200, page(configuration, self.token, fault)), False
+            return response(200, page(configuration, self.token, in_words(fault))), False
         if authority:
             write_file(self._path(AUTHORITY), authority + "\n")
             configuration["ca"] = AUTHORITY
@@ -219,6 +219,13 @@ def merge(known, values):
         elif kind != "secret":
             configuration.pop(name, None)
     return configuration, ""
+
+
+def in_words(fault):
+    """Return a fault with the page's own words for its fields."""
+    for name, _, label, _ in FIELDS:
+        fault = fault.replace("'%s'" % name, '"%s"' % label)
+    return fault
 
 
 def fault_of_authority(text):

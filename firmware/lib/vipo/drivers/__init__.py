@@ -1,8 +1,9 @@
 """The machines that this firmware can be. A driver declares its methods; the device core does the talking.
 
-A driver is a `vipo.drivers.machine.Machine` with `device_class`, `about` and `size` (metres), `gives` and `takes`,
-`readings` (declared values), `methods` {name: declared method} with their `order`, which a dict of MicroPython does not
-keep, `properties` {name: value now}, and a coroutine for each method, called with the Work and the checked arguments. Each module has one, called Driver.
+Each module has a class Driver, a `vipo.drivers.machine.Machine` with `device_class`, `about` and `size` (metres),
+`gives` and `takes`, `readings` (declared values), `methods` {name: declared method} with their `order`, which a dict of
+MicroPython does not keep, `properties` {name: value now}, and a coroutine for each method, called with the Work and the
+checked arguments.
 """
 
 NAMES = ("dispenser", "drop-off", "inventory", "mixer", "oven", "painter", "relay")
