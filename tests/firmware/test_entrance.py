@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from registry.mqtt import tls_context
 from tests.bus import Ear
 from tests.firmware.rig import (
     ACCOUNTS,
@@ -16,7 +18,9 @@ from tests.firmware.rig import (
     LIMIT_S,
     EmbeddedBus,
     Running,
+    configuration,
     interpreter_command,
+    running_chip,
     start_firmware,
     wait_for,
 )
@@ -88,3 +92,19 @@ def come_back(newcomer: Running, key: str) -> None:
     newcomer.ear.forget()
     restart_with(newcomer.bus, key)
     newcomer.ear.wait(lambda h: h.topic == newcomer.up + "desc" and not h.retained, LIMIT_S)
+
+
+def test_a_board_knocks_over_tls(micropython: str, tmp_path: Path) -> None:
+    with run_mosquitto(tmp_path, DOOR, tls=True) as bus:
+        authority = tls_context(bus.authority)
+        settings = configuration(bus, tmp_path, password="", join_key=JOIN_KEY, wifi_name="hall")
+        (tmp_path / "config.json").write_text(json.dumps(settings))
+        with (
+            Ear(bus.port, ACCOUNTS["server"], "vipo/v1/#", tls=authority) as ear,
+            running_chip(micropython, tmp_path, {}) as chip,
+        ):
+            board = Running(ear, bus, chip.process, tmp_path / "console")
+            knock = ear.wait(lambda h: h.topic == f"vipo/v1/join/hall/{DEVICE}", LIMIT_S)
+            restart_with(bus, knock.json["key"])
+            board.state(lambda _state: True)
+            assert chip.process.poll() is None
