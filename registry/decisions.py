@@ -18,10 +18,10 @@ from registry.credentials import broker_hash, make_credential, secret_hash
 from registry.device_rows import BadDevice, announce, check_id, lock_device, write_event
 from registry.errors import RegistryError
 from registry.handing_over import hand_over
-from registry.joining import list_broker_hashes
+from registry.joining import DOOR, list_broker_hashes
 from registry.live import publish
 from registry.models import Device, User
-from registry.sites import find_site
+from registry.sites import find_site, set_join_key
 from registry.views import DeviceView, view_of
 
 Lifecycle = Device.Lifecycle
@@ -159,6 +159,15 @@ def _remember_key(device: Device, credential: str) -> None:
     if device.credential_hash != secret_hash(credential) or not device.broker_hash:
         device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
         device.save(update_fields=["credential_hash", "broker_hash"])
+
+
+def renew_join_key(*, site: str) -> str:
+    """Give a site's door a new key and return it this once; the old one ends. Raises NotAMember, BrokerAway."""
+    key = make_credential()
+    with transaction.atomic():
+        set_join_key(site=site, join_key=key)
+        accounts().put(Account(DOOR + site, key))
+    return key
 
 
 def reconcile_accounts() -> tuple[frozenset[str], frozenset[str]]:

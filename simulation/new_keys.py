@@ -1,4 +1,4 @@
-"""Virtual devices take a new key that the server gives them, as real ones do: kept first, used from the next time on."""
+"""Virtual devices take a new key that the server gives them, as real ones do: kept first, used from then on."""
 
 from __future__ import annotations
 

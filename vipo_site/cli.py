@@ -74,7 +74,7 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="vipo", description="Check, print, plan and rehearse programs for robots and machines.")
-    names = "|".join([*(name for name, _, _ in _COMMANDS), "describe", "call", "devices", "approve"])
+    names = "|".join([*(name for name, _, _ in _COMMANDS), "describe", "call", "devices", "approve", "join-key"])
     commands = parser.add_subparsers(required=True, metavar=names, parser_class=_Parser)
     for name, command, text in _COMMANDS:
         sub = commands.add_parser(name, help=text, description=text)
@@ -95,6 +95,7 @@ def _parser() -> argparse.ArgumentParser:
     for word, text, add in (
         ("devices", devices_cli.DEVICES, devices_cli.add_devices_arguments),
         ("approve", devices_cli.APPROVE, devices_cli.add_approve_arguments),
+        ("join-key", devices_cli.JOIN_KEY, devices_cli.add_join_key_arguments),
     ):
         add(commands.add_parser(word, help=text, description=text))
     return parser

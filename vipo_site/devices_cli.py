@@ -1,4 +1,4 @@
-"""`vipo devices` and `vipo approve`: a site's devices on the command line, for whoever may read its database."""
+"""`vipo devices`, `vipo approve`, `vipo join-key`: a site's devices for whoever may read its database."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import django
 CLEAN, UNUSABLE = 0, 2
 DEVICES = "List the devices of a site, or of all sites, with their state."
 APPROVE = "Let a pending device take part, and print its new key this once."
+JOIN_KEY = "Make a new join key for a site's newcomers, and print it this once; the old one ends."
 COLUMNS = ("id", "name", "site", "kind", "life", "state", "last seen")
 
 
@@ -28,6 +29,12 @@ def add_approve_arguments(sub: argparse.ArgumentParser) -> None:
     sub.add_argument("device", help="the device's id")
     sub.add_argument("--json", action="store_true", help="write JSON for machines")
     sub.set_defaults(run=approve)
+
+
+def add_join_key_arguments(sub: argparse.ArgumentParser) -> None:
+    """Describe what stands behind `vipo join-key`."""
+    sub.add_argument("site", help="the site's short name")
+    sub.set_defaults(run=renew_join_key)
 
 
 def list_devices(options: argparse.Namespace) -> int:
@@ -80,6 +87,19 @@ def approve(options: argparse.Namespace) -> int:
         return CLEAN
     _write(f"Its key, shown this once: {decided.credential}")
     _write("The device has taken it by itself." if decided.taken else "Type it into the device, as its password.")
+    return CLEAN
+
+
+def renew_join_key(options: argparse.Namespace) -> int:
+    """Make a site's door a new key and print it; return 0, or 2 when that cannot be."""
+    _set_up()
+    from registry import services
+    from registry.errors import VipoError
+
+    try:
+        _write(services.renew_join_key(site=options.site))
+    except VipoError as error:
+        return _complain(error.detail)
     return CLEAN
 
 

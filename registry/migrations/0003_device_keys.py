@@ -4,30 +4,29 @@ from django.db import migrations, models
 
 
 class Migration(migrations.Migration):
-
     dependencies = [
-        ('registry', '0002_device_event_changes'),
+        ("registry", "0002_device_event_changes"),
     ]
 
     operations = [
         migrations.AddField(
-            model_name='device',
-            name='broker_hash',
+            model_name="device",
+            name="broker_hash",
             field=models.CharField(blank=True, max_length=160),
         ),
         migrations.AddField(
-            model_name='device',
-            name='dropped',
+            model_name="device",
+            name="dropped",
             field=models.BigIntegerField(default=0),
         ),
         migrations.AddField(
-            model_name='device',
-            name='ends_before',
+            model_name="device",
+            name="ends_before",
             field=models.DateTimeField(null=True),
         ),
         migrations.AddField(
-            model_name='site',
-            name='join_broker_hash',
+            model_name="site",
+            name="join_broker_hash",
             field=models.CharField(blank=True, max_length=160),
         ),
     ]
