@@ -164,6 +164,7 @@ def test_a_newcomer_makes_a_key_of_its_own_and_knocks_with_it(
         kept = tmp_path / "state.json"
         assert json.loads(kept.read_text())["key"] == knock.json["key"]
         assert kept.stat().st_mode & 0o777 == 0o600
+    assert "Traceback" not in (tmp_path / "agent.log").read_text()
 
 
 def go(server: Server, *commands: tuple[str, list[list[float]]], **more: Any) -> None:

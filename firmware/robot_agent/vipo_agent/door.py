@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import logging
 import random
 import secrets
 import threading
 import time
 
 from vipo_agent.config import Config
-from vipo_agent.link import make_client
+from vipo_agent.link import make_client, wait_until
 from vipo_agent.messages import write
 
+log = logging.getLogger("vipo_agent")
 KEY_BYTES = 24
 KNOCK_S = 10
 LEAST_PAUSE_S, MOST_PAUSE_S = 5.0, 30.0
@@ -43,12 +45,11 @@ class Door:
         client = make_client(self._config, name, self._config.join_key)
         client.connect_async(self._config.host, self._config.port, KNOCK_S)
         client.loop_start()
-        said = client.publish(
-            f"vipo/v1/join/{self._config.site}/{self._config.id}", write({"key": self._config.password}), 1
-        )
-        waited_s = 0.0
-        while not said.is_published() and waited_s < KNOCK_S:
-            time.sleep(0.05)
-            waited_s += 0.05
+        if wait_until(client.is_connected, KNOCK_S):
+            topic = f"vipo/v1/join/{self._config.site}/{self._config.id}"
+            said = client.publish(topic, write({"key": self._config.password}), 1)
+            wait_until(said.is_published, KNOCK_S)
+        else:
+            log.warning("The broker does not let this robot knock at %s.", self._config.site)
         client.disconnect()
         client.loop_stop()

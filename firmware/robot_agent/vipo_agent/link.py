@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ssl
+import time
 from typing import Any, Callable
 
 import paho.mqtt.client as mqtt
@@ -11,6 +12,7 @@ from vipo_agent.config import Config
 from vipo_agent.messages import Told, read_command, read_stop, write
 
 KEEPALIVE_S = 15
+GOODBYE_S = 5.0
 SERVER_STATUS = "vipo/v1/srv/status"
 
 
@@ -37,9 +39,9 @@ class Link:
 
     def stop(self) -> None:
         """Say that the robot leaves, and end the connection."""
-        said = self.say("presence", self._presence("offline"), retain=True)
         if self._client.is_connected():
-            said.wait_for_publish(5)
+            said = self.say("presence", self._presence("offline"), retain=True)
+            wait_until(said.is_published, GOODBYE_S)
         self._client.disconnect()
         self._client.loop_stop()
 
@@ -92,6 +94,19 @@ def make_client(config: Config, name: str, key: str) -> Any:
     if config.ca:
         client.tls_set_context(ssl.create_default_context(cafile=config.ca))
     return client
+
+
+def wait_until(is_so: Callable[[], bool], limit_s: float) -> bool:
+    """Wait for something of paho's; False when it did not come within the time, or the connection broke."""
+    end_s = time.monotonic() + limit_s
+    while time.monotonic() < end_s:
+        try:
+            if is_so():
+                return True
+        except (RuntimeError, ValueError):  # paho's way to say that a message was lost
+            return False
+        time.sleep(0.02)
+    return False
 
 
 def _ignore(_said: Any) -> None:
