@@ -106,6 +106,7 @@ export function Methods({ site, device }: { site: Site; device: Device }) {
           </tbody>
         </table>
       </Panel>
+      {site.role === "viewer" ? <p className={styles.none}>{t("device.try.onlyOperators")}</p> : null}
     </section>
   );
 }

@@ -4,7 +4,7 @@ import { useTranslation } from "react-i18next";
 import type { Series } from "@/api/types";
 import { formatNumber } from "@/i18n/format";
 import { readingsOf, type Reading } from "@/live/readings";
-import { joinReadings, rangeOf, sparkPath } from "./spark";
+import { cornersOf, joinReadings, rangeOf, sparkPath } from "./spark";
 import { RANGE_MS, useHistory, type Range } from "./useHistory";
 import styles from "./detail.module.css";
 
@@ -34,9 +34,12 @@ function useClock(every_ms: number): number {
 /** The server's points with times as performance.now() has them. */
 function numbered(series: Series | undefined) {
   const offset = performance.timeOrigin;
-  return (series?.points ?? []).flatMap(({ at, value }) =>
-    typeof value === "number" ? [{ at: Date.parse(at) - offset, value }] : [],
+  const points = (series?.points ?? []).flatMap(({ at, value, minimum, maximum }) =>
+    typeof value === "number"
+      ? [{ at: Date.parse(at) - offset, value, minimum: minimum ?? value, maximum: maximum ?? value }]
+      : [],
   );
+  return cornersOf(points, (series?.bucket_s ?? 0) * 1000);
 }
 
 export function Sparkline({ slug, device, property, range, colour }: SparklineProps) {

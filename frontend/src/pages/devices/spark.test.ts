@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { joinReadings, rangeOf, sparkPath } from "./spark";
+import { cornersOf, joinReadings, rangeOf, sparkPath } from "./spark";
 
 const FRAME = { now: 1000, window_ms: 1000, width: 100, height: 30 };
 
@@ -56,4 +56,20 @@ test("the range is of the window, with what held when it began", () => {
     { at: 500, value: 20 },
   ];
   expect(rangeOf(readings, FRAME)).toEqual({ low: 10, high: 20 });
+});
+
+test("a reading holds until it changes, and what it reached within its span is drawn", () => {
+  const kept = [
+    { at: 0, value: 20, minimum: 18, maximum: 30 },
+    { at: 60, value: 21, minimum: 21, maximum: 21 },
+    { at: 600, value: 25, minimum: 25, maximum: 25 },
+  ];
+  expect(cornersOf(kept, 60).map(({ at, value }) => [at, value])).toEqual([
+    [0, 18],
+    [0, 30],
+    [0, 20],
+    [60, 21],
+    [540, 21],
+    [600, 25],
+  ]);
 });

@@ -11,6 +11,21 @@ interface Frame {
   readonly height: number;
 }
 
+interface Kept extends Numbered {
+  readonly minimum: number;
+  readonly maximum: number;
+}
+
+/** The corners of what was kept: within its span a reading reached its least and greatest, after it nothing changed. */
+export function cornersOf(points: readonly Kept[], span_ms: number): Numbered[] {
+  return points.flatMap(({ at, value, minimum, maximum }, index) => {
+    const before = points[index - 1];
+    const held = before && at - before.at > 2 * span_ms ? [{ at: at - span_ms, value: before.value }] : [];
+    const reached = [minimum, maximum].filter((each) => each !== value).map((each) => ({ at, value: each }));
+    return [...held, ...reached, { at, value }];
+  });
+}
+
 /** What was kept, and behind it what has come live since: the live ones are exact. */
 export function joinReadings(kept: readonly Numbered[], live: readonly Numbered[]): Numbered[] {
   const first = live[0]?.at ?? Infinity;
