@@ -8,7 +8,7 @@ import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from threading import Event, Lock
 
@@ -71,7 +71,7 @@ class Fleet:
     def __init__(self, client: MqttClient, interface: str, setting: Setting) -> None:
         self.refused: Counter[str] = Counter()
         self._client, self._interface = client, interface
-        self._setting = replace(setting, publish=self._publish)
+        self._setting = setting
         self._inbox: SimpleQueue[Said | LineEvent] = SimpleQueue()
         self._members: dict[str, Member] = {}
         self._by_name: dict[VehicleName, Member] = {}
@@ -140,7 +140,7 @@ class Fleet:
         read_connection(said.payload, said.name)
         if len(self._members) >= MOST_VEHICLES:
             raise BadMessage(f"{'/'.join(said.name)} is one vehicle too many: a connector serves {MOST_VEHICLES}.")
-        member = Member(said.name, self._setting, self._inbox.put)
+        member = Member(said.name, self._setting, self._publish, self._inbox.put)
         self._members[member.id] = self._by_name[said.name] = member
         return member
 

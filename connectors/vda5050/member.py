@@ -37,15 +37,18 @@ ASK_S = 1.0
 ASK_AGAIN_S = 30.0
 
 
+Publish = Callable[[VehicleName, str, bytes], None]
+"""Sends a message's body to a vehicle, on a subtopic."""
+
+
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What all vehicles of a connector share; `publish` takes a vehicle, a subtopic and a message's body."""
+    """What all vehicles of a connector share."""
 
     site: str
     frame: Frame
     station_type: str
     folder: Path
-    publish: Callable[[VehicleName, str, bytes], None]
     connect: ConnectionMaker
     new_id: Callable[[], str]
     clock: Callable[[], datetime]
@@ -54,8 +57,11 @@ class Setting:
 class Member:
     """A vehicle that was heard of. It becomes a device when its connection, factsheet and state are known."""
 
-    def __init__(self, name: VehicleName, setting: Setting, inbox: Callable[[LineEvent], None]) -> None:
+    def __init__(
+        self, name: VehicleName, setting: Setting, publish: Publish, inbox: Callable[[LineEvent], None]
+    ) -> None:
         self.name, self.id = name, device_id(name)
+        self._publish = publish
         self.control: VehicleControl | None = None
         self._setting, self._inbox = setting, inbox
         self._path = setting.folder / f"{self.id}.json"
@@ -65,6 +71,7 @@ class Member:
         self._sheet_said = b""
         self._description = b""
         self._version = "2.0.0"
+        self._told_facts = (b"", "")
         self._connected = self._held = False
         self._newest: dict[str, Header] = {}
         self._state: VehicleState | None = None
@@ -168,13 +175,15 @@ class Member:
 
     def _become_device(self) -> None:
         """Make the device, or describe it anew when the factsheet has changed."""
-        if self._sheet is None or self._state is None or self._located is None or not self._connected:
+        facts = (self._sheet_said, self._version)
+        if not self._connected or facts == self._told_facts:
             return
+        if self._sheet is None or self._state is None or self._located is None:
+            return
+        self._told_facts = facts
         home = self._memory.home or self._setting.frame.to_site(self._located.pose)
         description = describe(self.name, self._sheet, home, self._setting.site)
         vehicle = Vehicle(description, self._sheet, self._setting.frame, self._version, self._setting.station_type)
-        if self.control is not None and self.control.vehicle == vehicle:
-            return
         self._memory.home, self._description = home, write_description(description).encode()
         if self.control is not None:
             self.control.vehicle = vehicle
@@ -225,4 +234,4 @@ class Member:
             "serialNumber": self.name.serial_number,
         }
         rest = body if subtopic == "order" else instant_actions([body], self._version)
-        self._setting.publish(self.name, subtopic, json.dumps({**header, **rest}, separators=(",", ":")).encode())
+        self._publish(self.name, subtopic, json.dumps({**header, **rest}, separators=(",", ":")).encode())

@@ -75,7 +75,6 @@ def make_fleet(options: dict[str, Any]) -> Fleet:
         frame=read_origin(options["origin"]),
         station_type=options["station_type"],
         folder=folder / "vda5050" / site,
-        publish=lambda _name, _subtopic, _payload: None,
         connect=device_connections(site, folder / "secrets"),
         new_id=lambda: uuid.uuid4().hex,
         clock=lambda: datetime.now(UTC),
