@@ -15,7 +15,17 @@ import pytest
 from registry.demo.devices import DEVICES
 from registry.describing import canonical_hash, read
 from tests.firmware.conftest import find_interpreter
-from tests.firmware.rig import ACCOUNTS, DEVICE, ROOT, Running, listening, running_bus, start_firmware, wait_for
+from tests.firmware.rig import (
+    ACCOUNTS,
+    DEVICE,
+    LIMIT_S,
+    ROOT,
+    Running,
+    listening,
+    running_bus,
+    start_firmware,
+    wait_for,
+)
 from tests.servers import run_mosquitto
 from vipo_site.firmware_process import firmware_command
 
@@ -44,10 +54,10 @@ def mixer(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Running]:
 
 
 def test_it_joins_mixes_and_answers(mixer: Running) -> None:
-    description = mixer.ear.wait(lambda h: h.topic == UP + "desc")
+    description = mixer.ear.wait(lambda h: h.topic == UP + "desc", LIMIT_S)
     told = read(description.payload, device_id=DEVICE).description
     assert (told.device_class, told.site, [m.name for m in told.methods]) == ("mixer", "hall", ["mixPaint", "dispense"])
-    assert mixer.ear.wait(lambda h: h.topic == UP + "presence").json["s"] == "online"
+    assert mixer.ear.wait(lambda h: h.topic == UP + "presence", LIMIT_S).json["s"] == "online"
     first = mixer.state(lambda s: True)
     assert (first["done"], first["cmd"], first["props"]) == (True, "", {"jobStatus": 0, "temperature": 22.0})
 
@@ -134,17 +144,19 @@ def test_it_comes_back_after_the_broker_was_killed_and_says_what_was_missed(mixe
     mixer.bus.kill()
     mixer.ear.forget()
     mixer.bus.start()
-    assert mixer.ear.wait(lambda h: h.topic == UP + "presence" and h.json["s"] == "online").json["boot"] == boot
+    assert (
+        mixer.ear.wait(lambda h: h.topic == UP + "presence" and h.json["s"] == "online", LIMIT_S).json["boot"] == boot
+    )
     mixer.answer("c1", "DONE")
-    mixer.ear.wait(lambda h: h.topic == UP + "desc")
+    mixer.ear.wait(lambda h: h.topic == UP + "desc", LIMIT_S)
 
 
 def test_a_new_server_is_told_everything_anew(mixer: Running) -> None:
     mixer.state(lambda s: True)
     mixer.ear.forget()
     mixer.ear.say("vipo/v1/srv/status", {"s": "online"}, retain=True)
-    mixer.ear.wait(lambda h: h.topic == UP + "desc")
-    mixer.ear.wait(lambda h: h.topic == UP + "presence")
+    mixer.ear.wait(lambda h: h.topic == UP + "desc", LIMIT_S)
+    mixer.ear.wait(lambda h: h.topic == UP + "presence", LIMIT_S)
     mixer.ear.wait(lambda h: h.topic == UP + "state")
 
 
@@ -154,11 +166,14 @@ def test_a_killed_device_is_declared_offline_with_its_boot_and_the_next_boot_is_
     boot = mixer.state(lambda s: True)["boot"]
     mixer.process.send_signal(signal.SIGKILL)
     mixer.process.wait()
-    gone = mixer.ear.wait(lambda h: h.topic == UP + "presence" and h.json["s"] == "offline")
+    gone = mixer.ear.wait(lambda h: h.topic == UP + "presence" and h.json["s"] == "offline", LIMIT_S)
     assert gone.json["boot"] == boot
     mixer.ear.forget()
     mixer.process = start_firmware(mixer.interpreter, tmp_path, mixer.bus)
-    assert mixer.ear.wait(lambda h: h.topic == UP + "presence" and h.json["s"] == "online").json["boot"] == boot + 1
+    assert (
+        mixer.ear.wait(lambda h: h.topic == UP + "presence" and h.json["s"] == "online", LIMIT_S).json["boot"]
+        == boot + 1
+    )
 
 
 def test_a_configuration_that_cannot_be_used_is_said_in_a_sentence(interpreter: list[str], tmp_path: Path) -> None:

@@ -79,7 +79,7 @@ class Page:
 def page(micropython: str, tmp_path: Path) -> Iterator[Page]:
     known = {"wifi_name": "hall", "password": SECRET, "name": EVIL, "pins": {"sda": 21, "scl": 22, "button": 0}}
     (tmp_path / "config.json").write_text(json.dumps({**known, "host": "old", "port": 1883, "id": "old"}))
-    with set_up(micropython, tmp_path, {"VIPO_PRESSED": "0"}) as found:
+    with set_up(micropython, tmp_path, {"VIPO_PRESSED": str(tmp_path)}) as found:
         yield found
 
 
@@ -113,7 +113,10 @@ def test_from_the_box_to_the_bus(micropython: str, tmp_path: Path) -> None:
         with set_up(micropython, tmp_path, {}) as page:
             (point,) = [entry[2] for entry in page.chip.record if entry[1] == "point"]
             assert texts(page.chip.record)[-1] == ("VIPO-12abcd     ", f"key {point['password']}    ")
-            assert (point["ssid"], point["authmode"], len(point["password"])) == ("VIPO-12abcd", 4, 8)
+            assert (point["ssid"], point["authmode"], len(point["password"])) == ("VIPO-12abcd", 3, 8)
+            assert ["addresses", ["127.0.0.1", "255.255.255.0", "127.0.0.1", "127.0.0.1"]] in [
+                entry[1:] for entry in page.chip.record
+            ]
             form = page.form
             status, _, body = page.post(
                 {
@@ -246,3 +249,20 @@ def test_every_name_leads_to_the_page(page: Page) -> None:
         answer = asker.recv(512)
     assert struct.unpack("!HHHHHH", answer[:12]) == (0x1234, 0x8500, 1, 1, 0, 0)
     assert answer.endswith(b"\xc0\x0c\x00\x01\x00\x01\x00\x00\x00\x0a\x00\x04\x7f\x00\x00\x01")
+
+
+def test_the_button_asks_for_the_page_while_the_wifi_is_looked_for(micropython: str, tmp_path: Path) -> None:
+    pressed = tmp_path / "pressed"
+    known = {"wifi_name": "gone", "host": "old", "port": 1883, "id": "old", "password": "word", "pins": {"button": 0}}
+    (tmp_path / "config.json").write_text(json.dumps(known))
+    environment = {"VIPO_PRESSED": str(pressed)}
+    with running_chip(micropython, tmp_path, environment) as chip:
+        chip.wait(lambda record: any(entry[1] == "join" for entry in record))
+        pressed.touch()
+        wait_for(lambda: "release button" in chip.console, "the button was not seen")
+        assert chip.process.poll() is None
+        pressed.unlink()
+        assert chip.process.wait(LIMIT_S) == 7
+    with set_up(micropython, tmp_path, environment) as page:
+        assert page.form.values["host"] == "old"
+    assert not (tmp_path / "set-up").exists()

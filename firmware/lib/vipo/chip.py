@@ -1,14 +1,15 @@
 """The life of an ESP32: Wi-Fi, the clock, then the machine that config.json describes; or the set-up page."""
 
+import os
 import sys
 import time
 
 import machine
 import network
-from vipo.configuration import BadConfiguration, read_configuration
+from vipo.configuration import BadConfiguration, read_configuration, write_file
 from vipo.portable import clock_is_set, load, show_error
 
-CONFIGURATION = "config.json"
+CONFIGURATION, ASKED = "config.json", "set-up"
 # Of the board in docs/devices/esp32.md; 0 is the BOOT button that most boards have.
 DEFAULT_PINS = {"sda": 21, "scl": 22, "red": 25, "green": 26, "blue": 27, "output": 23, "button": 0}
 NEEDED = ("host", "port", "id", "wifi_name")
@@ -24,7 +25,7 @@ def run():
     pins = configuration.get("pins") or DEFAULT_PINS
     output = make_output(pins)
     try:
-        if fault or is_pressed(pins):
+        if fault or is_pressed(pins) or was_asked():
             from vipo.setting_up import set_up
 
             set_up(panel_of(pins), fault)
@@ -77,7 +78,7 @@ def serve(configuration, pins, output):
     from vipo.start import make_device
 
     panel.show("Wi-Fi", configuration["wifi_name"])
-    if not join_wifi(configuration["wifi_name"], configuration.get("wifi_password", "")):
+    if not join_wifi(configuration["wifi_name"], configuration.get("wifi_password"), lambda: ask(panel, pins)):
         panel.show("No Wi-Fi", configuration["wifi_name"])
         time.sleep(SHOWN_S)
         return
@@ -90,16 +91,39 @@ def serve(configuration, pins, output):
     asyncio.run(device.run())
 
 
-def join_wifi(name, password):
-    """Return whether the network was joined in time; later it is joined again by itself."""
+def join_wifi(name, password, look):
+    """Return whether the network was joined in time; later it is joined again by itself. `look` is called meanwhile."""
     station = network.WLAN(network.STA_IF)
     station.active(True)
-    station.connect(name, password)
+    station.connect(name, password or None)
     for _ in range(WIFI_TIMEOUT_S * 10):
+        look()
         if station.isconnected():
             return True
         time.sleep(0.1)
     return False
+
+
+def ask(panel, pins):
+    """Start again with the set-up page if the button is held.
+
+    BOOT cannot be held at the start itself: an ESP32 then waits for new firmware.
+    """
+    if is_pressed(pins):
+        panel.show("Set-up page", "release button")
+        while is_pressed(pins):
+            time.sleep(0.05)
+        write_file(ASKED, "")
+        machine.reset()
+
+
+def was_asked():
+    """Tell whether somebody asked for the set-up page before this start, and forget it."""
+    try:
+        os.remove(ASKED)
+    except OSError:
+        return False
+    return True
 
 
 def set_clock(server):

@@ -33,7 +33,7 @@ class Pin:
 
     def __init__(self, number, mode=IN, pull=None, value=None):
         self.number, self.mode = number, mode
-        self.level = 1 if pull == self.PULL_UP and number != int(os.getenv("VIPO_PRESSED") or -1) else 0
+        self.level = 1 if pull == self.PULL_UP and not (number == 0 and _exists(os.getenv("VIPO_PRESSED"))) else 0
         if value is not None:
             self.value(value)
 

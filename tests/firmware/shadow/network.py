@@ -5,7 +5,7 @@ import os
 from machine import note
 
 STA_IF, AP_IF = 0, 1
-AUTH_WPA_WPA2_PSK = 4
+AUTH_WPA2_PSK = 3
 
 
 class WLAN:
@@ -25,5 +25,7 @@ class WLAN:
     def config(self, **settings):
         note("point", settings)
 
-    def ifconfig(self):
+    def ifconfig(self, wanted=None):
+        if wanted:
+            note("addresses", wanted)
         return ("127.0.0.1", "255.255.255.0", "127.0.0.1", "127.0.0.1")
