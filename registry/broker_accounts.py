@@ -25,7 +25,7 @@ from registry.mqtt import MqttClient
 
 CONTROL = "$CONTROL/dynamic-security/v1"
 BROKER_CHANNEL = "broker"
-ANSWER_LIMIT_S = 5.0
+ANSWER_LIMIT_S = 10.0
 PAGE = 200
 Command = Mapping[str, Any]
 
@@ -134,7 +134,7 @@ def _ask(commands: Sequence[Command]) -> Sequence[Mapping[str, Any]]:
     client.subscribe(f"{CONTROL}/response", 1, hear)
     client.start()
     try:
-        if not client.wait_connected(ANSWER_LIMIT_S):
+        if not client.wait_subscribed(ANSWER_LIMIT_S):
             raise BrokerAway("The MQTT broker does not answer, so nothing was changed. Try again in a moment.")
         client.publish(CONTROL, json.dumps({"commands": body}).encode())
         if not heard.wait(ANSWER_LIMIT_S):

@@ -108,7 +108,7 @@ def readmit_device(*, site: str, device_id: str, by: User | None, at: datetime) 
 
 
 def rotate_credential(*, site: str, device_id: str, by: User | None, at: datetime) -> Decided:
-    """Give an approved device a new key; the old one ends when the device has taken it, after 5 s at the latest.
+    """Give an approved device a new key; the old one ends when the device has taken it, after 10 s at the latest.
 
     Raises NoSuchDevice, NotApproved, BrokerAway.
     """

@@ -18,13 +18,13 @@ from registry.mqtt import MqttClient, MqttError
 from registry.wire import BadMessage, down_topic, parse_ack, up_topic
 
 log = logging.getLogger(__name__)
-CONNECT_LIMIT_S = 3.0
-ANSWER_LIMIT_S = 5.0
+CONNECT_LIMIT_S = 10.0
+ANSWER_LIMIT_S = 10.0
 FINAL = frozenset({"DONE", "FAILED", "REJECTED", "CANCELED"})
 
 
 def hand_over(*, device_id: str, credential: str) -> bool:
-    """Say a device its new key, and tell whether it answered within 5 s that it has taken it."""
+    """Say a device its new key, and tell whether it answered within 10 s that it has taken it."""
     command = str(uuid.uuid4())
     answered = threading.Event()
     answers: list[str] = []
@@ -46,7 +46,7 @@ def hand_over(*, device_id: str, credential: str) -> bool:
     client.subscribe(up_topic(device_id, "ack"), 1, hear)
     client.start()
     try:
-        if client.wait_connected(CONNECT_LIMIT_S):
+        if client.wait_subscribed(CONNECT_LIMIT_S):
             body = {"id": command, "v": {"credential": credential}, "ttl_s": ANSWER_LIMIT_S}
             client.publish(down_topic(device_id, "credential"), json.dumps(body).encode(), expiry_s=ANSWER_LIMIT_S)
             answered.wait(ANSWER_LIMIT_S)

@@ -103,6 +103,8 @@ class MqttClient:
         self._connected_callbacks: list[Callable[[], None]] = []
         self._early: deque[tuple[str, bytes, int, bool, float | None]] = deque(maxlen=EARLY_LIMIT)
         self._guard = threading.RLock()
+        self._answered = threading.Condition(self._guard)
+        self._unanswered: set[int | None] = set()
         self._online = threading.Event()
         self._stopping = False
         self._refusal = ""
@@ -118,6 +120,7 @@ class MqttClient:
             password=settings["password"],
             client_id=client_id,
             tls=tls_context(settings.get("ca", "")) if settings.get("tls") else None,
+            protocol=settings.get("protocol", "auto"),
             **more,
         )
 
@@ -139,6 +142,11 @@ class MqttClient:
     def wait_connected(self, timeout_s: float) -> bool:
         """Block until the connection stands; False when it did not within the time."""
         return self._online.wait(timeout_s)
+
+    def wait_subscribed(self, timeout_s: float) -> bool:
+        """Block until the broker has taken every subscription; False when it has not within the time."""
+        with self._answered:
+            return self._answered.wait_for(lambda: self.connected and not self._unanswered, timeout_s)
 
     def on_connected(self, callback: Callable[[], None]) -> None:
         """Call back after every connection, once the subscriptions were asked for again."""
@@ -208,6 +216,7 @@ class MqttClient:
         client.on_connect = self._connected
         client.on_disconnect = self._disconnected
         client.on_message = self._received
+        client.on_subscribe = self._subscribed
         return client
 
     def _launch(self) -> None:
@@ -227,11 +236,14 @@ class MqttClient:
             return
         with self._guard:
             self._settled, self._refusal = True, ""
+            self._unanswered.clear()
             for subscription in self._subscriptions:
                 self._ask(subscription)
             while self._early:
                 self._send(*self._early.popleft())
         self._online.set()
+        with self._answered:
+            self._answered.notify_all()
         for callback in list(self._connected_callbacks):
             callback()
 
@@ -287,9 +299,16 @@ class MqttClient:
 
     def _ask(self, subscription: _Subscription) -> None:
         if self._version == "5":
-            self._paho.subscribe(subscription.topic, options=SubscribeOptions(qos=subscription.qos))
+            _, number = self._paho.subscribe(subscription.topic, options=SubscribeOptions(qos=subscription.qos))
         else:
-            self._paho.subscribe(_bare(subscription.topic), qos=subscription.qos)
+            _, number = self._paho.subscribe(_bare(subscription.topic), qos=subscription.qos)
+        self._unanswered.add(number)
+
+    def _subscribed(self, client: paho.Client, _data: Any, number: int, _reasons: Any, _properties: Any) -> None:
+        with self._answered:
+            if client is self._paho:
+                self._unanswered.discard(number)
+                self._answered.notify_all()
 
     def _send(self, topic: str, payload: bytes, qos: int, retain: bool, expiry_s: float | None) -> None:
         properties = None

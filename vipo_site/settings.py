@@ -127,6 +127,7 @@ VIPO_MQTT = {
     "password": required("VIPO_MQTT_PASSWORD") if SERVED else local_secret("mqtt-server"),
     "tls": os.environ.get("VIPO_MQTT_TLS", "1" if SERVED else "0") == "1",
     "ca": os.environ.get("VIPO_MQTT_CA", ""),
+    "protocol": "auto" if SERVED else "3.1.1",
 }
 VIPO_BROKER_ACCOUNTS = f"registry.broker_accounts.{'DynamicSecurity' if SERVED else 'AskedAccounts'}"
 VIPO_GATEWAY = f"gateway-{os.environ.get('VIPO_GATEWAY') or socket.gethostname()}"
