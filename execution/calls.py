@@ -28,6 +28,7 @@ from registry import services as registry
 EXPIRY_S = 30.0
 """A call that no device has answered after so long is given up: a person waits, and a late start would surprise."""
 NO_ANSWER = "The device did not answer in time. Look whether it is switched on and connected."
+MOST_MISFITS = 5
 DRIVES = "drives only in a program, where its way is kept free of others. Draw a Move and run it."
 LATE = "The device took longer than it may. Look what it is doing."
 
@@ -47,7 +48,7 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
     _check_arguments(device, method, given)
     with transaction.atomic():
         FloorState.objects.get_or_create(site_id=site_id(site))
-        row = FloorState.objects.select_for_update().get(site__slug=site)
+        row = FloorState.objects.select_for_update(of=("self",)).get(site__slug=site)
         _check_free(row, registry.get_device(site=site, device_id=device_id))
         command = _write(row, device_id, method, given, by)
         inbox.post(inbox.site_target(site), [(f"call:{command.id}", _news(command))])
@@ -60,7 +61,7 @@ def _check_arguments(device: registry.DeviceView, method: str, arguments: Mappin
     places = [place.id for place in registry.list_places(site=device.site)]
     misfits = find_misfits(device.canonical, method, arguments, devices, places)
     if misfits:
-        raise BadArguments(" ".join(misfits))
+        raise BadArguments(" ".join(misfits[:MOST_MISFITS]))
 
 
 def _check_free(row: FloorState, device: registry.DeviceView) -> None:

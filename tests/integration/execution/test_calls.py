@@ -97,6 +97,12 @@ def test_what_the_description_does_not_allow_is_refused_by_name(factory, body, t
     assert Command.objects.count() == 0
 
 
+def test_of_many_misfits_the_first_are_named(factory):
+    answer = ask(member("operator"), {"method": "mixPaint", "args": {f"x{n}": n for n in range(5_000)}})
+    assert answer.status_code == 422
+    assert answer.json()["detail"].count("mixPaint takes no argument") == 5
+
+
 def test_a_device_that_is_not_there_is_not_found(factory):
     client = member("operator")
     assert ask(client, path=f"/api/sites/{SITE}/devices/nothing/call").json()["code"] == "no_such_device"
