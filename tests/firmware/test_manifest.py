@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import threading
 from functools import partial
@@ -72,3 +73,19 @@ def test_every_file_is_small_enough_to_be_compiled_on_the_board(micropython: str
         [micropython, "-X", "heapsize=64k", "-c", program], capture_output=True, text=True, timeout=60
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_the_guides_configuration_can_be_used_and_its_table_has_every_machine(micropython: str, tmp_path: Path) -> None:
+    guide = (FIRMWARE.parent / "docs" / "devices" / "esp32.md").read_text()
+    (example,) = re.findall(r"```json\n(.*?)```", guide, re.DOTALL)
+    (tmp_path / "config.json").write_text(example.replace("…", "a word or so"))
+    program = (
+        "from vipo.drivers import NAMES; from vipo.configuration import read_configuration\n"
+        f"read_configuration({str(tmp_path / 'config.json')!r}); print(' '.join(NAMES))"
+    )
+    env = {"MICROPYPATH": f"{FIRMWARE / 'lib'}:.frozen", "PATH": "/usr/bin:/bin"}
+    done = subprocess.run([micropython, "-c", program], env=env, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    table = guide.partition("## The machines")[2].partition("\n\n")[0]
+    _heading, *machines = re.findall(r"^\| `([a-z-]+)` \|", table, re.MULTILINE)
+    assert sorted(machines) == done.stdout.split()
