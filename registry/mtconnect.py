@@ -120,6 +120,8 @@ def _states(view: DeviceView) -> Iterable[tuple[str, DataItem, str]]:
     failed = bool(view.readings.get("error"))
     text = items.say_execution(online=view.online, done=view.done, failed=failed)
     yield DONE, items.execution_of(view.id), text
+    if view.kind == "robot":
+        yield "", items.position_of(view.id), items.say_position(view.pose) if view.online else items.UNAVAILABLE
     for spec in view.canonical.properties:
         item = items.item_of(view.id, spec)
         yield spec.name, item, items.say_value(item, view.readings.get(spec.name)) if view.online else items.UNAVAILABLE

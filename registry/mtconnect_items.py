@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import degrees
 from typing import Literal
 
-from registry.capability import PropertySpec, Scalar
+from registry.capability import Pose, PropertySpec, Scalar
 from registry.views import DeviceView
 
 Category = Literal["SAMPLE", "EVENT", "CONDITION"]
@@ -79,6 +79,11 @@ def condition_of(device_id: str) -> DataItem:
     return DataItem(f"c_{device_id}", "CONDITION", "SYSTEM")
 
 
+def position_of(device_id: str) -> DataItem:
+    """Return the item that says where a robot is, on the site's map."""
+    return DataItem(f"p_{device_id}", "SAMPLE", "PATH_POSITION", measure=Measure("PATH_POSITION", "MILLIMETER_3D"))
+
+
 def item_of(device_id: str, spec: PropertySpec) -> DataItem:
     """Return a property's item: a sample when it is a number in a unit that MTConnect knows, else a message."""
     key = f"x{len(spec.name)}_{spec.name}_{device_id}"
@@ -91,7 +96,8 @@ def item_of(device_id: str, spec: PropertySpec) -> DataItem:
 def items_of(view: DeviceView) -> tuple[DataItem, ...]:
     """Return all that a device tells."""
     own = (item_of(view.id, spec) for spec in view.canonical.properties)
-    return (availability_of(view.id), execution_of(view.id), condition_of(view.id), *own)
+    place = (position_of(view.id),) if view.kind == "robot" else ()
+    return (availability_of(view.id), execution_of(view.id), condition_of(view.id), *place, *own)
 
 
 def element_name(item: DataItem) -> str:
@@ -108,6 +114,11 @@ def say_value(item: DataItem, value: Scalar) -> str:
     if isinstance(value, bool) or not isinstance(value, int | float):
         return UNAVAILABLE
     return repr(round(float(value) * item.measure.factor, 6))
+
+
+def say_position(pose: Pose) -> str:
+    """Return a place as three numbers of millimetres."""
+    return " ".join(repr(round(metres * 1000.0, 3)) for metres in (pose.x, pose.y, pose.z))
 
 
 def say_availability(*, online: bool) -> str:

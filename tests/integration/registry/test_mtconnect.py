@@ -18,7 +18,7 @@ from registry.models import Device, User
 from registry.mtconnect_items import MEASURES
 from registry.samples import SampleBuffer
 
-from .conftest import MIXER, ROLES, come, describe, say
+from .conftest import MIXER, ROBOT, ROLES, come, describe, say
 
 SCHEMAS = Path(__file__).parents[2] / "fixtures" / "mtconnect"
 ADDRESS = "/api/sites/hall/mtconnect"
@@ -93,6 +93,17 @@ def test_current_says_how_devices_are_in_the_units_of_the_standard(plant: Plant)
     assert sorted(texts(root, "AccumulatedTime")) == ["120.0", "UNAVAILABLE", "UNAVAILABLE"]
     assert texts(root, "Message") == ["a\ufffd<&>", "true", "24"]
     assert len(texts(root, "Normal")) == 1
+
+
+def test_a_robot_says_where_it_is_in_millimetres(plant: Plant) -> None:
+    describe(ROBOT)
+    Device.objects.update(lifecycle="approved")
+    assert texts(plant.ask("current"), "PathPosition") == ["UNAVAILABLE"]
+    come("robot1", at=START)
+    say("robot1", at=START, loc=[1.25, -0.5, 0, 1])
+    assert texts(plant.ask("current"), "PathPosition") == ["1250.0 -500.0 0.0"]
+    places = [item.get("units") for item in plant.ask("probe").iter("{*}DataItem") if item.get("id") == "p_robot1"]
+    assert places == ["MILLIMETER_3D"]
 
 
 @pytest.mark.parametrize(
