@@ -132,7 +132,7 @@ class Client:
         if self.on_up:
             self.on_up()
         while True:
-            data = self.outbox.next_packet()
+            data = self.outbox.next_bytes()
             if data:
                 writer.write(data)
                 await writer.drain()
