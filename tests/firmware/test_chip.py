@@ -144,3 +144,15 @@ def test_a_single_led_blinks_in_rhythms(micropython: str, tmp_path: Path) -> Non
             wait_for(lambda: levels(chip.record, 2)[-1] == 0, "ready is steady, and lit is low")
             mixer.ear.say("vipo/v1/site/hall/stop", {"active": True})
             chip.wait(lambda record: levels(record, 2)[-4:] in ([0, 1, 0, 1], [1, 0, 1, 0]))
+
+
+def test_a_fault_is_shown_and_the_board_starts_again(micropython: str, tmp_path: Path) -> None:
+    flash(
+        tmp_path, {"host": "127.0.0.1", "port": 1, "id": "x", "password": "p", "pins": PINS, "description": "gone.ttl"}
+    )
+    (tmp_path / "fast.py").write_text("import vipo.chip as chip\nchip.SHOWN_S = 0\nchip.run()\n")
+    with running_chip(micropython, tmp_path, {}, main=tmp_path / "fast.py") as chip:
+        assert chip.process.wait(30) == 7
+        assert "There is no description file gone.ttl." in chip.console
+        assert texts(chip.record)[-1] == (line("Fault"), "There is no desc")
+        assert chip.record[-1][1] == "reset"

@@ -31,11 +31,19 @@ def run():
             set_up(panel_of(pins), fault)
         else:
             serve(configuration, pins, output)
-    except Exception as error:  # the edge of the program
-        show_error(error)
-        panel_of(pins).show("Fault", str(error))
-        time.sleep(SHOWN_S)
+    except Exception as error:  # the edge of the program; Ctrl-C goes through, to whoever works on the board
+        report(error, pins)
     machine.reset()
+
+
+def report(error, pins):
+    """Show why the program ended, if that can still be shown."""
+    show_error(error)
+    try:
+        panel_of(pins).show("Fault", str(error))
+    except (OSError, MemoryError, ImportError) as other:
+        show_error(other)
+    time.sleep(SHOWN_S)
 
 
 def look_up():
