@@ -90,7 +90,8 @@ def _change(device: Device, said: DeviceState, message: SaidState) -> None:
     known = {**device.properties, **said.properties}
     device.properties = known if len(known) <= MOST_READINGS else dict(said.properties)
     device.pose = asdict(said.pose) if said.pose else device.pose
-    device.online = device.online or (not message.retained and said.boot >= device.presence_boot)
+    is_alive = not message.retained and said.boot >= device.presence_boot and not device.is_locked_out
+    device.online = device.online or is_alive
     device.last_seen_at = message.at
 
 

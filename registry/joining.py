@@ -158,7 +158,7 @@ def ingest_presence(*, device_id: str, payload: bytes, at: datetime) -> DeviceVi
     said = parse_presence(payload)
     with transaction.atomic():
         device = _lock_or_make(device_id, "", at)
-        if said.boot < device.presence_boot:
+        if said.boot < device.presence_boot or (said.online and device.is_locked_out):
             return None
         before = view_of(device, device.site.slug) if device.description else None
         came_or_went = device.online != said.online

@@ -212,6 +212,11 @@ class Device(models.Model):
     def __str__(self) -> str:
         return self.id
 
+    @property
+    def is_locked_out(self) -> bool:
+        """Tell whether its key was taken away; what was on its way still then does not bring it back."""
+        return self.ends_before is not None and not self.credential_hash
+
 
 class DeviceEvent(models.Model):
     """One line of a device's history."""

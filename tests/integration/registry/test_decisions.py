@@ -71,6 +71,8 @@ def test_a_revoked_key_lets_nobody_in_and_is_not_brought_back_by_the_next_start(
     assert not may_come_in(key)
     assert services.find_ended(logins={"mixer1": Login("", NOW + timedelta(days=1))}) == {"mixer1"}
     assert services.list_broker_hashes() == {}
+    assert come(boot=2) is None
+    assert say(boot=2, seq=5).online is False
 
 
 def test_a_retired_device_stays_out_until_an_admin_lets_it_come_back(hall: str) -> None:
