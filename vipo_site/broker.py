@@ -223,6 +223,16 @@ class _Handler(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no typ
         if self._reader_task is not None:
             self._reader_task.cancel()
 
+    async def end(self) -> None:
+        """End the connection now, and its will with it.
+
+        The transport, too: of a client that speaks at this very moment, amqtt's reader hears the message and not that
+        it was cancelled (asyncio.wait_for of Python 3.11), and would be waited for without end.
+        """
+        await self.handle_connection_closed()
+        if self.writer is not None:
+            self.writer._writer.transport.abort()
+
 
 class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
     """amqtt with VIPO's rules; see the module's text for what it mends."""
@@ -324,13 +334,13 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
                 continue
             for name in ended & there.keys():
                 log.info("MQTT: ended the connection of %s: its key does not hold any more.", name)
-                await there[name].handle_connection_closed()
+                await there[name].end()
 
     async def _take_over(self, session: Any) -> Any:
         """End an older connection of the same client first, so that its will goes out before the new one speaks."""
         old, handler = self._sessions.get(session.client_id, (None, None))
         if old is not None and old.transitions.state == "connected":
-            await handler.handle_connection_closed()
+            await handler.end()
             await _until(lambda: old.transitions.state != "connected", 2.0)
         if session.clean_session:
             await self._delete_session(session.client_id)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import threading
 import time
 from collections.abc import Iterator
 
@@ -196,3 +197,30 @@ def connect_packet(
         body += field(will[0].encode()) + field(will[1])
     body += field(user.encode()) + field(password.encode())
     return bytes((0x10, len(body))) + body
+
+
+def test_a_client_that_never_stops_speaking_is_ended_by_the_next_one_of_its_name(broker: EmbeddedBroker) -> None:
+    for _ in range(15):
+        with socket.create_connection(("127.0.0.1", broker.port), timeout=5) as talker:
+            talker.sendall(connect_packet("robot01", "robot01", "one"))
+            assert talker.recv(4)[0] == 0x20
+            thread = threading.Thread(target=talk_until_closed, args=(talker,))
+            thread.start()
+            time.sleep(0.05)
+            successor = device(broker, "robot01")
+            successor.start()
+            assert successor.wait_connected(5)
+            thread.join(5)
+            assert not thread.is_alive(), "the first connection is still open"
+            successor.stop()
+
+
+def talk_until_closed(talker: socket.socket) -> None:
+    """Publish without a pause until the broker closes the connection."""
+    topic = b"vipo/v1/dev/robot01/up/state"
+    body = len(topic).to_bytes(2, "big") + topic + b"{}"
+    try:
+        while True:
+            talker.sendall(bytes([0x30, len(body)]) + body)
+    except OSError:
+        return
