@@ -77,7 +77,7 @@ def screens(page: Page, things: dict[str, str]) -> list[Screen]:
         Screen("devices", f"{site}/devices", "tbody tr"),
         Screen("a device", f"{site}/devices/paintMixer02", "aside table"),
         Screen("programs", f"{site}/programs", "tbody tr"),
-        Screen("library", f"{site}/library", "main h3, main section"),
+        Screen("library", f"{site}/library", "main li, main section p"),
         Screen("runs", f"{site}/runs", "tbody tr"),
         Screen("map", f"{site}/map", "main canvas"),
         Screen("a new site", "/sites/new", "form"),
