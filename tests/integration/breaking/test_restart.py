@@ -46,7 +46,7 @@ def test_a_run_survives_ctrl_c_and_kill_9_and_does_each_thing_once(tmp_path: Pat
         demo.process.wait()
         assert children.keys() == {"twin", "firmware"}
         names = ", ".join(f"{name} (process {pid})" for name, pid in children.items())
-        wait_for(f"end of {names}", lambda: not any(map(is_alive, children.values())), 15)
+        wait_for(f"end of {names}", lambda: not any(map(is_alive, children.values())), 60)
     assert complaints(demo.log.read_text()) == []
 
     with running_demo(state, speed=10) as demo:
