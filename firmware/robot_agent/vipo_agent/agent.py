@@ -8,6 +8,7 @@ import os
 import queue
 import threading
 import time
+from abc import ABC, abstractmethod
 from pathlib import Path
 from typing import Any, Callable
 
@@ -27,26 +28,26 @@ MAP_EVERY_S = 10.0
 """A map that grows is sent at most that often: each is sent whole."""
 
 
-class Navigation:
+class Navigation(ABC):
     """What a robot's shell does; results go to the agent's `reached` and `failed` with the goal's number."""
 
     limits_speed = False
 
+    @abstractmethod
     def start(self, agent: Agent) -> None:
         """Connect to the robot and report its pose, battery and map from now on."""
-        raise NotImplementedError
 
+    @abstractmethod
     def go(self, goal: Go) -> None:
         """Drive somewhere, in place of the goal before it."""
-        raise NotImplementedError
 
+    @abstractmethod
     def halt(self) -> None:
         """Give up the goal and stand."""
-        raise NotImplementedError
 
+    @abstractmethod
     def stop(self) -> None:
         """End the connection to the robot."""
-        raise NotImplementedError
 
 
 class Agent:
