@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
-from collections import defaultdict
+import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
+from typing import Any
 from uuid import UUID
 
-from django.db import transaction
-from django.db.models import F
+from django.db import connection
 
-from execution.models import Command, SiteStop
+from execution.models import Command
 from registry import services as registry
 from registry import wire
 
@@ -27,6 +26,53 @@ WINDOW = 12
 """A device remembers its last 16 commands: nobody runs so far ahead of an open one that it would do that one again."""
 
 
+def _words(values: Iterable[str]) -> str:
+    return ", ".join(f"'{value}'" for value in values)
+
+
+_CLAIM = f"""
+WITH due AS MATERIALIZED (
+    SELECT id, site_id, device, position, piece, tries, method FROM execution_command
+    WHERE status IN ({_words(Command.OPEN)}) AND send_after <= %(now)s
+    ORDER BY site_id, position LIMIT {MOST_DUE}
+), lane AS MATERIALIZED (
+    SELECT site_id, device, min(position) AS oldest,
+        min(CASE WHEN piece AND status IN ({_words(UNANSWERED)}) THEN position END) AS unanswered_piece
+    FROM execution_command
+    WHERE device IN (SELECT device FROM due) AND status IN ({_words(Command.OPEN)})
+    GROUP BY site_id, device
+), chosen AS MATERIALIZED (
+    SELECT due.id FROM due JOIN lane ON lane.site_id = due.site_id AND lane.device = due.device
+    WHERE due.method IN ({_words(CONTROLS)}) OR (
+        due.site_id NOT IN (SELECT site_id FROM execution_sitestop WHERE active)
+        AND NOT (due.piece AND due.position > coalesce(lane.unanswered_piece, due.position))
+        AND (due.tries > 0 OR due.position - lane.oldest < {WINDOW} OR {WINDOW} > (
+            SELECT count(*) FROM (
+                SELECT 1 FROM execution_command AS own
+                WHERE own.device = due.device AND own.site_id = due.site_id
+                    AND own.position >= lane.oldest AND own.position < due.position
+                LIMIT {WINDOW}
+            ) AS between_them
+        ))
+    )
+    ORDER BY due.site_id, due.position LIMIT %(limit)s
+), taken AS MATERIALIZED (
+    SELECT id AS taken_id FROM execution_command
+    WHERE id IN (SELECT id FROM chosen) AND status IN ({_words(Command.OPEN)}) AND send_after <= %(now)s
+    <lock>
+)
+UPDATE execution_command SET tries = tries + 1, send_after = CASE
+    WHEN device IN ({registry.DONE_FLAG_ONLY_SQL}) THEN %(never)s
+    WHEN status NOT IN ({_words(UNANSWERED)}) THEN %(last)s
+    WHEN tries = 0 THEN %(first)s WHEN tries = 1 THEN %(second)s WHEN tries = 2 THEN %(third)s
+    ELSE %(last)s END
+FROM taken WHERE id = taken_id
+RETURNING site_id, position, id, device, method, arguments, ttl_s
+"""  # noqa: S608 - made of this product's own constants only
+_LOCKS = {"postgresql": "FOR UPDATE SKIP LOCKED", "sqlite": ""}
+"""SQLite lets one write at a time: two that claim at once come one after the other."""
+
+
 @dataclass(frozen=True, slots=True)
 class OutgoingCommand:
     """A command as it goes out over MQTT."""
@@ -38,43 +84,6 @@ class OutgoingCommand:
     ttl_s: float
 
 
-@dataclass(frozen=True, slots=True)
-class _Waiting:
-    """An open command that is due; `position` orders the commands of a site."""
-
-    id: UUID
-    site: int
-    device: str
-    position: int
-    piece: bool
-    is_first_try: bool
-    is_control: bool
-
-
-@dataclass(slots=True)
-class _Lane:
-    """The open commands of one device at one site, by their positions."""
-
-    site: int
-    device: str
-    oldest: int
-    unanswered_piece: int | None = None
-    since_oldest: list[int] | None = None
-
-    def holds_piece(self, position: int) -> bool:
-        """Tell whether a piece of way before this one is not answered yet."""
-        return self.unanswered_piece is not None and self.unanswered_piece < position
-
-    def is_far_ahead(self, position: int) -> bool:
-        """Tell whether at least `WINDOW` commands lie between the oldest open one and this one."""
-        if position - self.oldest < WINDOW:
-            return False
-        if self.since_oldest is None:
-            own = Command.objects.filter(site_id=self.site, device=self.device, position__gte=self.oldest)
-            self.since_oldest = list(own.order_by("position").values_list("position", flat=True))
-        return bisect_left(self.since_oldest, position) >= WINDOW
-
-
 def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     """Return commands that are due to be sent, in their order; nobody else is given them for a while.
 
@@ -82,77 +91,31 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     site is stopped only pause, resume and cancel go out. A piece of way waits until the robot has accepted the piece
     before it: with a gateway that died in between, it would otherwise cut the corner through a wall. Nothing new goes
     out while a command that is `WINDOW` older is open: asked again, the device might have forgotten it.
+    All that is one statement: a command waits for this, and each question more is a millisecond.
     """
-    now = datetime.now(UTC)
-    due = _list_due(now)
-    if not due:
-        return ()
-    chosen = _let_out(due)[:limit]
-    return tuple(_outgoing(row) for row in _take([row.id for row in chosen], now))
+    with connection.cursor() as cursor:
+        cursor.execute(_CLAIM.replace("<lock>", _LOCKS[connection.vendor]), _parameters(datetime.now(UTC), limit))
+        rows = cursor.fetchall()
+    return tuple(_outgoing(*row[2:]) for row in sorted(rows, key=lambda row: row[:2]))
 
 
-def _list_due(now: datetime) -> list[_Waiting]:
-    rows = Command.objects.filter(status__in=Command.OPEN, send_after__lte=now).order_by("site_id", "position")
-    found = rows.values_list("id", "site_id", "device", "position", "piece", "tries", "method")[:MOST_DUE]
-    return [
-        _Waiting(key, site, device, position, piece, tries == 0, method in CONTROLS)
-        for key, site, device, position, piece, tries, method in found
-    ]
+def _parameters(now: datetime, limit: int) -> dict[str, Any]:
+    waits_s = {
+        "now": 0.0,
+        "first": FIRST_RETRY_S,
+        "second": FIRST_RETRY_S * 2,
+        "third": FIRST_RETRY_S * 4,
+        "last": LAST_RETRY_S,
+        "never": NEVER_AGAIN_S,
+    }
+    when = connection.ops.adapt_datetimefield_value
+    return {"limit": limit} | {name: when(now + timedelta(seconds=wait)) for name, wait in waits_s.items()}
 
 
-def _let_out(due: list[_Waiting]) -> list[_Waiting]:
-    """Leave out what has to wait for another command, or for the end of a stop."""
-    stopped = set(SiteStop.objects.filter(active=True).values_list("site_id", flat=True))
-    lanes = _read_lanes({row.device for row in due})
-    return [row for row in due if _may_go(row, lanes.get((row.site, row.device)), is_stopped=row.site in stopped)]
-
-
-def _may_go(row: _Waiting, lane: _Lane | None, *, is_stopped: bool) -> bool:
-    if row.is_control:
-        return True
-    if is_stopped:
-        return False
-    if lane is None:  # everything of the device has ended meanwhile, this one too
-        return False
-    if row.piece and lane.holds_piece(row.position):
-        return False
-    return not (row.is_first_try and lane.is_far_ahead(row.position))
-
-
-def _read_lanes(devices: set[str]) -> dict[tuple[int, str], _Lane]:
-    lanes: dict[tuple[int, str], _Lane] = {}
-    rows = Command.objects.filter(device__in=devices, status__in=Command.OPEN).order_by("position")
-    for site, device, position, piece, status in rows.values_list("site_id", "device", "position", "piece", "status"):
-        lane = lanes.setdefault((site, device), _Lane(site, device, position))
-        if piece and status in UNANSWERED and lane.unanswered_piece is None:
-            lane.unanswered_piece = position
-    return lanes
-
-
-def _take(ids: list[UUID], now: datetime) -> list[Command]:
-    """Take these for ourselves until their next try; another gateway that asks at the same time gets none of them."""
-    later: dict[float, list[UUID]] = defaultdict(list)
-    with transaction.atomic():
-        rows = Command.objects.filter(id__in=ids, status__in=Command.OPEN, send_after__lte=now)
-        taken = list(rows.select_for_update(skip_locked=True, of=("self",)).order_by("site_id", "position"))
-        once = registry.list_done_flag_only(devices={row.device for row in taken})
-        for row in taken:
-            later[NEVER_AGAIN_S if row.device in once else _wait_s(row)].append(row.id)
-        for wait_s, those in later.items():
-            again = now + timedelta(seconds=wait_s)
-            Command.objects.filter(id__in=those).update(tries=F("tries") + 1, send_after=again)
-    return taken
-
-
-def _wait_s(row: Command) -> float:
-    if row.status in {Command.Status.ACCEPTED, Command.Status.RUNNING}:
-        return LAST_RETRY_S
-    return min(LAST_RETRY_S, FIRST_RETRY_S * 2.0**row.tries)
-
-
-def _outgoing(row: Command) -> OutgoingCommand:
-    payload = wire.command_payload(str(row.id), row.arguments, row.ttl_s)
-    return OutgoingCommand(str(row.id), row.device, wire.down_topic(row.device, row.method), payload, row.ttl_s)
+def _outgoing(key: UUID | str, device: str, method: str, arguments: str, ttl_s: float) -> OutgoingCommand:
+    command = str(UUID(str(key)))  # SQLite keeps it without dashes
+    payload = wire.command_payload(command, json.loads(arguments), ttl_s)
+    return OutgoingCommand(command, device, wire.down_topic(device, method), payload, ttl_s)
 
 
 def mark_commands_sent(*, ids: Iterable[str]) -> None:

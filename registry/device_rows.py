@@ -11,12 +11,15 @@ from registry.differences import Change
 from registry.errors import RegistryError
 from registry.live import publish
 from registry.models import Device, DeviceEvent, User
+from registry.rdf_text import CONTENT_TYPES
 from registry.views import DeviceView, changed_fields
 from registry.wire import is_device_id
 
 MOST_EVENTS = 200
 MOST_CHARACTERS = 300
 RESERVED_IDS = frozenset({"server"})
+DONE_FLAG_ONLY_SQL = f"SELECT id FROM registry_device WHERE source_type = '{CONTENT_TYPES['paper']}'"  # noqa: S608 - a constant
+"""A subquery of the devices that describe themselves by the paper's message, and may answer by `done` alone."""
 
 
 class NoSuchDevice(RegistryError):

@@ -7,7 +7,7 @@ updates, and what is older than what is known is ignored by (boot, seq).
 from __future__ import annotations
 
 import hmac
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime, timedelta
 
@@ -206,12 +206,6 @@ def mark_stale(*, now: datetime) -> tuple[DeviceView, ...]:
                 found.append(view_of(device, device.site.slug))
                 announce(before, found[-1])
     return tuple(found)
-
-
-def list_done_flag_only(*, devices: Collection[str]) -> frozenset[str]:
-    """Return which of these devices describe themselves by the paper's message, and may answer by `done` alone."""
-    rows = Device.objects.filter(pk__in=devices, source_type=CONTENT_TYPES["paper"])
-    return frozenset(rows.values_list("pk", flat=True))
 
 
 def count_dropped(*, dropped: Mapping[str, int]) -> None:

@@ -15,7 +15,7 @@ from registry.decisions import (
     revoke_credential,
     rotate_credential,
 )
-from registry.device_rows import BadDevice, NoSuchDevice
+from registry.device_rows import DONE_FLAG_ONLY_SQL, BadDevice, NoSuchDevice
 from registry.history import PointView, SeriesView, read_history
 from registry.intake import SaidState, find_unchanged, ingest_states
 from registry.joining import (
@@ -32,7 +32,6 @@ from registry.joining import (
     list_broker_hashes,
     list_device_events,
     list_devices,
-    list_done_flag_only,
     mark_stale,
     record_problem,
     update_device,
@@ -71,6 +70,7 @@ from registry.views import (
 )
 
 __all__ = [
+    "DONE_FLAG_ONLY_SQL",
     "BadDevice",
     "Decided",
     "DeviceEventView",
@@ -116,7 +116,6 @@ __all__ = [
     "list_broker_hashes",
     "list_device_events",
     "list_devices",
-    "list_done_flag_only",
     "list_places",
     "list_sites",
     "list_slugs",

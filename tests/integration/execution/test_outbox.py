@@ -4,7 +4,7 @@ from datetime import UTC, datetime, timedelta
 from uuid import UUID, uuid4
 
 from execution import services
-from execution.models import Command
+from execution.models import Command, SiteStop
 from registry.models import Site
 
 
@@ -83,3 +83,40 @@ def test_nothing_new_goes_out_so_far_behind_an_open_command_that_the_device_migh
     assert claimed() == []
     answer("robot01", open_one, "DONE")
     assert claimed() == others[11:]
+
+
+def test_claiming_is_one_statement_whatever_waits(db, django_assert_num_queries):
+    site = Site.objects.create(name="Hall", slug="hall")
+    first = add(site, 1)
+    calls = [add(site, position, f"oven{position}", "curePaint", piece=False) for position in range(2, 6)]
+    with django_assert_num_queries(1):
+        assert claimed() == [first, *calls]
+    with django_assert_num_queries(1):
+        assert claimed() == []
+
+
+def test_a_stopped_site_gets_controls_only_and_another_one_everything(db):
+    hall, yard = Site.objects.create(name="Hall", slug="hall"), Site.objects.create(name="Yard", slug="yard")
+    SiteStop.objects.create(site=hall, active=True)
+    SiteStop.objects.create(site=yard, active=False)
+    held, pause, free = add(hall, 1), add(hall, 2, method="pause", piece=False), add(yard, 1, "robot09")
+    assert claimed() == [pause, free]
+    SiteStop.objects.update(active=False)
+    assert claimed() == [held]
+
+
+def test_who_does_not_answer_is_asked_again_after_2_4_8_and_then_every_15_seconds(db):
+    site = Site.objects.create(name="Hall", slug="hall")
+    command, waits = add(site, 1), []
+    for _ in range(5):
+        Command.objects.update(send_after=datetime.now(UTC))
+        begun = datetime.now(UTC)
+        assert claimed() == [command]
+        row = Command.objects.get()
+        waits.append(int((row.send_after - begun).total_seconds()))
+    assert (waits, row.tries) == ([2, 4, 8, 15, 15], 5)
+    accept("robot01", command)
+    begun = datetime.now(UTC)
+    Command.objects.update(send_after=begun, tries=0)
+    assert claimed() == [command]
+    assert int((Command.objects.get().send_after - begun).total_seconds()) == 15
