@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Literal
 from xml.etree import ElementTree
 
 from registry import mtconnect_items as items
+from registry.capability import Scalar
 from registry.mtconnect_items import DataItem
+from registry.mtconnect_path import Node
 from registry.samples import DONE, ONLINE
 from registry.views import DeviceView
 
 VERSION = "1.2"
 BUFFER_SIZE = 131_072
-ErrorCode = Literal["NO_DEVICE", "OUT_OF_RANGE", "INVALID_REQUEST", "UNSUPPORTED"]
+ErrorCode = Literal["NO_DEVICE", "OUT_OF_RANGE", "INVALID_REQUEST", "INVALID_PATH", "TOO_MANY"]
 Element = ElementTree.Element
 
 
@@ -47,6 +49,17 @@ class Observation:
     value: str
     at_ms: int
     sequence: int
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """Devices as they are or were; `latest` gives the numbers of their readings, `placed` says whether robots' places
+    are known.
+    """
+
+    devices: Sequence[DeviceView]
+    latest: Iterable[Observation]
+    placed: bool = True
 
 
 def write_devices(agent: Agent, devices: Sequence[DeviceView]) -> bytes:
@@ -83,72 +96,97 @@ def _text(root: Element) -> bytes:
 
 
 def _add_device(listed: Element, agent: Agent, view: DeviceView) -> None:
-    told = {"id": items.component_id(view.id), "name": view.id, "uuid": _uuid(view.id)}
+    told = {"id": items.component_id(view.id), "name": view.id, "uuid": uuid_of(view.id)}
     device = ElementTree.SubElement(listed, "Device", told)
     about = ElementTree.SubElement(device, "Description", {"station": agent.site})
     about.text = items.sayable(". ".join(filter(None, (view.name, view.canonical.description))))
     data_items = ElementTree.SubElement(device, "DataItems")
     for item in items.items_of(view):
-        said = {"id": item.id, "category": item.category, "type": item.type}
-        named = {"name": item.name} if item.name else {}
-        units = {"units": item.measure.units} if item.measure else {}
-        ElementTree.SubElement(data_items, "DataItem", {**named, **said, **units})
+        ElementTree.SubElement(data_items, "DataItem", item.attributes)
 
 
-def _uuid(device_id: str) -> str:
+def document_of(devices: Iterable[DeviceView]) -> Node:
+    """Return what a `path` is held against: the elements of MTConnectDevices, their names without a prefix."""
+    listed = tuple(
+        Node(
+            "Device",
+            {"id": items.component_id(view.id), "name": view.id, "uuid": uuid_of(view.id)},
+            (Node("DataItems", {}, tuple(Node("DataItem", item.attributes) for item in items.items_of(view))),),
+        )
+        for view in devices
+    )
+    return Node("", {}, (Node("MTConnectDevices", {}, (Node("Devices", {}, listed),)),))
+
+
+def uuid_of(device_id: str) -> str:
+    """Return a device's name that no other has, anywhere."""
     return f"urn:vipo:device:{device_id}"
 
 
-def write_current(
-    agent: Agent, sequences: Sequences, devices: Sequence[DeviceView], latest: Iterable[Observation]
-) -> bytes:
-    """Return the document MTConnectStreams of how devices are; `latest` gives the numbers of their readings."""
+def write_current(agent: Agent, sequences: Sequences, situation: Situation, wanted: Collection[str]) -> bytes:
+    """Return the document MTConnectStreams of how devices are.
+
+    Of the items only those are told whose ids are `wanted`, and of a device of which none is, nothing.
+    """
     root, streams = _streams(agent, sequences)
-    numbers = {(o.device, o.property): (o.sequence, o.at_ms) for o in latest}
-    for view in devices:
-        seen_ms = int(view.last_seen_at.timestamp() * 1000) if view.last_seen_at else int(agent.at.timestamp() * 1000)
-        stream = _Stream(streams, view.id)
-        for name, item, text in _states(view):
-            sequence, at_ms = numbers.get((view.id, name), (sequences.first, seen_ms))
-            stream.add(item, text, at_ms, sequence)
-        stream.add_condition(view, seen_ms, sequences.first)
+    numbers = {(o.device, o.property): (o.sequence, o.at_ms) for o in situation.latest}
+    for view in situation.devices:
+        unknown = (sequences.first, int((view.last_seen_at or agent.at).timestamp() * 1000))
+        told = [item for item in items.items_of(view) if item.id in wanted]
+        stream = _Stream(streams, view.id) if told else None
+        for item in told:
+            assert stream is not None
+            sequence, at_ms = numbers.get((view.id, item.source), unknown)
+            stream.add(item, *_state(view, item, placed=situation.placed), at_ms, sequence)
     return _text(root)
 
 
-def _states(view: DeviceView) -> Iterable[tuple[str, DataItem, str]]:
-    yield ONLINE, items.availability_of(view.id), items.say_availability(online=view.online)
-    failed = bool(view.readings.get("error"))
-    text = items.say_execution(online=view.online, done=view.done, failed=failed)
-    yield DONE, items.execution_of(view.id), text
-    if view.kind == "robot":
-        yield "", items.position_of(view.id), items.say_position(view.pose) if view.online else items.UNAVAILABLE
-    for spec in view.canonical.properties:
-        item = items.item_of(view.id, spec)
-        yield spec.name, item, items.say_value(item, view.readings.get(spec.name)) if view.online else items.UNAVAILABLE
+def _state(view: DeviceView, item: DataItem, *, placed: bool) -> tuple[str, str | None]:
+    """Return what an item is called in a stream, and its text."""
+    if item.category == "CONDITION":
+        return items.say_condition(item, view.readings.get(item.source), online=view.online)
+    if not item.source and not placed:
+        return items.element_name(item), items.UNAVAILABLE
+    return items.element_name(item), _text_of(view, item)
+
+
+def _text_of(view: DeviceView, item: DataItem) -> str:
+    if item.source == ONLINE:
+        return items.say_availability(online=view.online)
+    if item.source == DONE:
+        return items.say_execution(online=view.online, done=view.done, failed=bool(view.readings.get("error")))
+    if not view.online:
+        return items.UNAVAILABLE
+    return items.say_value(item, view.readings.get(item.source)) if item.source else items.say_position(view.pose)
 
 
 def write_samples(
-    agent: Agent, sequences: Sequences, devices: Sequence[DeviceView], observations: Iterable[Observation]
+    agent: Agent,
+    sequences: Sequences,
+    devices: Sequence[DeviceView],
+    observations: Iterable[Observation],
+    wanted: Collection[str],
 ) -> bytes:
     """Return the document MTConnectStreams of what devices have said, in the order of its numbers."""
     root, streams = _streams(agent, sequences)
-    known = {view.id: _Stream(streams, view.id) for view in devices}
-    own = {(view.id, spec.name): items.item_of(view.id, spec) for view in devices for spec in view.canonical.properties}
+    chosen = {view.id: [item for item in items.items_of(view) if item.id in wanted] for view in devices}
+    known = {device: _Stream(streams, device) for device, told in chosen.items() if told}
+    own = {(device, item.source): item for device, told in chosen.items() for item in told if item.source}
     for seen in observations:
-        item, text = _observed(seen, own)
-        if item is not None and seen.device in known:
-            known[seen.device].add(item, text, seen.at_ms, seen.sequence)
+        item = own.get((seen.device, seen.property))
+        if item is not None:
+            known[seen.device].add(item, *_observed(item, json.loads(seen.value)), seen.at_ms, seen.sequence)
     return _text(root)
 
 
-def _observed(seen: Observation, own: dict[tuple[str, str], DataItem]) -> tuple[DataItem | None, str]:
-    value = json.loads(seen.value)
-    if seen.property == ONLINE:
-        return items.availability_of(seen.device), items.say_availability(online=bool(value))
-    if seen.property == DONE:
-        return items.execution_of(seen.device), items.say_execution(online=True, done=bool(value))
-    item = own.get((seen.device, seen.property))
-    return item, items.say_value(item, value) if item else ""
+def _observed(item: DataItem, value: Scalar) -> tuple[str, str | None]:
+    if item.category == "CONDITION":
+        return items.say_condition(item, value, online=True)
+    if item.source == ONLINE:
+        return items.element_name(item), items.say_availability(online=bool(value))
+    if item.source == DONE:
+        return items.element_name(item), items.say_execution(online=True, done=bool(value))
+    return items.element_name(item), items.say_value(item, value)
 
 
 def _streams(agent: Agent, sequences: Sequences) -> tuple[Element, Element]:
@@ -163,7 +201,7 @@ class _Stream:
     """A device's part of a document; what it holds is put in where the schema wants it."""
 
     def __init__(self, streams: Element, device_id: str) -> None:
-        self._stream = ElementTree.SubElement(streams, "DeviceStream", {"name": device_id, "uuid": _uuid(device_id)})
+        self._stream = ElementTree.SubElement(streams, "DeviceStream", {"name": device_id, "uuid": uuid_of(device_id)})
         self._device_id = device_id
         self._parts: dict[str, Element] = {}
 
@@ -174,31 +212,26 @@ class _Stream:
             told = {"componentId": items.component_id(self._device_id), "name": self._device_id, "component": "Device"}
             component = ElementTree.SubElement(self._stream, "ComponentStream", told)
         if name not in self._parts:
-            order = ("Samples", "Events", "Condition")
+            order = tuple(_PARTS.values())
             before = sum(1 for other in order[: order.index(name)] if other in self._parts)
             self._parts[name] = Element(name)
             component.insert(before, self._parts[name])
         return self._parts[name]
 
-    def add(self, item: DataItem, text: str, at_ms: int, sequence: int) -> None:
-        """Add an observation."""
-        part = self._part("Samples" if item.category == "SAMPLE" else "Events")
-        ElementTree.SubElement(part, items.element_name(item), _facts(item, at_ms, sequence)).text = text
+    def add(self, item: DataItem, name: str, text: str | None, at_ms: int, sequence: int) -> None:
+        """Add an observation, called `name`."""
+        told = ElementTree.SubElement(self._part(_PARTS[item.category]), name, _facts(item, at_ms, sequence))
+        told.text = text
 
-    def add_condition(self, view: DeviceView, at_ms: int, sequence: int) -> None:
-        """Add whether the device reports an error or a warning."""
-        item = items.condition_of(view.id)
-        error, warning = view.readings.get("error"), view.readings.get("warning")
-        name = "Fault" if error else "Warning" if warning else "Normal"
-        said = {**_facts(item, at_ms, sequence), "type": item.type}
-        told = ElementTree.SubElement(self._part("Condition"), name if view.online else "Unavailable", said)
-        told.text = items.sayable(str(error or warning)) if view.online and (error or warning) else None
+
+_PARTS: dict[items.Category, str] = {"SAMPLE": "Samples", "EVENT": "Events", "CONDITION": "Condition"}
 
 
 def _facts(item: DataItem, at_ms: int, sequence: int) -> dict[str, str]:
     at = _moment(datetime.fromtimestamp(at_ms / 1000, UTC))
     named = {"name": item.name} if item.name else {}
-    return {"dataItemId": item.id, **named, "timestamp": at, "sequence": str(sequence)}
+    kind = {"type": item.type} if item.category == "CONDITION" else {}
+    return {"dataItemId": item.id, **named, **kind, "timestamp": at, "sequence": str(sequence)}
 
 
 def write_error(agent: Agent, code: ErrorCode, sentence: str) -> bytes:

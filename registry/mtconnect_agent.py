@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable
+from dataclasses import dataclass
 from datetime import datetime, timedelta
 
-from django.db.models import Max, QuerySet
+from django.db.models import Max, Q, QuerySet
 
 from registry import mtconnect
 from registry.joining import list_devices
 from registry.models import Sample, SampleClock
-from registry.mtconnect import Agent, ErrorCode, Observation, Sequences
+from registry.mtconnect import Agent, ErrorCode, Observation, Sequences, Situation
+from registry.mtconnect_items import items_of
+from registry.mtconnect_past import look_back
+from registry.mtconnect_path import BadPath, choose, read_path
 from registry.sites import find_site
 from registry.views import DeviceView
 
@@ -28,64 +33,127 @@ class AgentError(Exception):
         self.code, self.sentence = code, sentence
 
 
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is asked, as texts: of which device (its name or uuid; empty: of all), which items, and of when."""
+
+    device: str = ""
+    path: str | None = None
+    begin: str | None = None
+    count: str | None = None
+    at: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """A document, and with which number to go on."""
+
+    document: bytes
+    next: int
+
+
 def agent_of(*, site: str, now: datetime) -> Agent:
     """Return who answers for a site."""
     return Agent(site, int(find_site(site).created_at.timestamp()), now)
 
 
-def _devices(site: str) -> tuple[DeviceView, ...]:
-    devices = list_devices(site=site, lifecycle="approved")
-    if not devices:
-        raise AgentError("NO_DEVICE", "This site has no approved device yet.")
-    return devices
-
-
-def probe_site(*, agent: Agent) -> bytes:
+def probe_site(agent: Agent, question: Question) -> Answer:
     """Return which devices there are. Raises AgentError."""
-    return mtconnect.write_devices(agent, _devices(agent.site))
+    return Answer(mtconnect.write_devices(agent, _devices(agent.site, question.device)), 1)
 
 
-def current_of_site(*, agent: Agent) -> bytes:
-    """Return how the devices are. Raises AgentError."""
-    devices = _devices(agent.site)
-    since = int((agent.at - LATELY).timestamp() // 60)
-    lately = _rows(agent.site).filter(minute__gte=since).values_list("device_id", "property")
-    latest = lately.annotate(Max("at_ms"), Max("seq"))
-    numbers = (Observation(device, name, "", at_ms, seq) for device, name, at_ms, seq in latest)
+def current_of_site(agent: Agent, question: Question) -> Answer:
+    """Return how the devices are, or how they were when an observation was made. Raises AgentError."""
+    devices = _devices(agent.site, question.device)
+    wanted = _wanted(devices, question.path)
     first, following = _bounds(agent.site)
-    return mtconnect.write_current(agent, Sequences(first, max(first, following - 1), following), devices, numbers)
+    sequences = Sequences(first, max(first, following - 1), following)
+    situation = Situation(devices, _numbers(agent))
+    if question.at is not None:
+        situation = look_back(devices, whole("at", question.at, first, first, sequences.last))
+    return Answer(mtconnect.write_current(agent, sequences, situation, wanted), following)
 
 
-def sample_of_site(*, agent: Agent, begin: str | None, count: str | None) -> bytes:
+def sample_of_site(agent: Agent, question: Question) -> Answer:
     """Return what the devices have said from a sequence number on, so many observations at most. Raises AgentError."""
-    devices = _devices(agent.site)
+    devices = _devices(agent.site, question.device)
+    wanted = _wanted(devices, question.path)
     first, following = _bounds(agent.site)
-    start, most = _whole("from", begin, first), _whole("count", count, DEFAULT_COUNT)
-    if not first <= start <= following:
-        raise AgentError("OUT_OF_RANGE", f"`from` must lie between {first} and {following}, not at {start}.")
-    if not 1 <= most <= MOST_COUNT:
-        raise AgentError("OUT_OF_RANGE", f"`count` must lie between 1 and {MOST_COUNT}, not at {most}.")
-    shown = list(_observations(_rows(agent.site).filter(seq__gte=start, seq__lt=following).order_by("seq")[:most]))
+    start = whole("from", question.begin, first, first, following)
+    most = whole("count", question.count, DEFAULT_COUNT, 1, MOST_COUNT)
+    rows = _rows(agent.site).filter(_chosen(devices, wanted), seq__gte=start, seq__lt=following)
+    shown = list(_observations(rows.order_by("seq")[:most]))
     going_on = shown[-1].sequence + 1 if len(shown) == most else following
-    return mtconnect.write_samples(agent, Sequences(first, max(first, following - 1), going_on), devices, shown)
+    sequences = Sequences(first, max(first, following - 1), going_on)
+    return Answer(mtconnect.write_samples(agent, sequences, devices, shown, wanted), going_on)
 
 
-def _whole(name: str, text: str | None, default: int) -> int:
+def next_number() -> int:
+    """Return the number that the next observation will have."""
+    clock = SampleClock.objects.filter(pk=1).first()
+    return clock.next if clock else 1
+
+
+def whole(name: str, text: str | None, default: int, least: int, most: int) -> int:
+    """Read a whole number within limits. Raises AgentError."""
     if text is None:
         return default
     if not text.isascii() or not text.removeprefix("-").isdigit() or len(text) > 18:
         raise AgentError("INVALID_REQUEST", f"`{name}` must be a whole number, not {text[:40]!r}.")
+    if not least <= int(text) <= most:
+        raise AgentError("OUT_OF_RANGE", f"`{name}` must lie between {least} and {most}, not at {int(text)}.")
     return int(text)
+
+
+def _devices(site: str, named: str) -> tuple[DeviceView, ...]:
+    devices = list_devices(site=site, lifecycle="approved")
+    if not devices:
+        raise AgentError("NO_DEVICE", "This site has no approved device yet.")
+    found = tuple(view for view in devices if named in {"", view.id, mtconnect.uuid_of(view.id)})
+    if not found:
+        raise AgentError("NO_DEVICE", f"This site has no approved device {named[:80]!r}. `probe` lists those it has.")
+    return found
+
+
+def _wanted(devices: Iterable[DeviceView], path: str | None) -> set[str]:
+    """Return the ids of the items that a path chooses. Raises AgentError."""
+    if path is None:
+        return {item.id for view in devices for item in items_of(view)}
+    try:
+        wanted = choose(read_path(path), mtconnect.document_of(devices))
+    except BadPath as error:
+        raise AgentError("INVALID_PATH", str(error)) from error
+    if not wanted:
+        raise AgentError("INVALID_PATH", "`path` chooses nothing that the devices tell. `probe` shows what they tell.")
+    return wanted
+
+
+def _chosen(devices: Iterable[DeviceView], wanted: set[str]) -> Q:
+    """Return which rows belong to the items; devices of which the same is asked go together."""
+    together: defaultdict[frozenset[str], list[str]] = defaultdict(list)
+    for view in devices:
+        together[frozenset(item.source for item in items_of(view) if item.id in wanted)].append(view.id)
+    rows = Q(pk__in=())
+    for names, ids in together.items():
+        rows |= Q(device_id__in=ids, property__in=names)
+    return rows
 
 
 def _rows(site: str) -> QuerySet[Sample]:
     return Sample.objects.filter(device__site__slug=site, device__lifecycle="approved")
 
 
+def _numbers(agent: Agent) -> Iterable[Observation]:
+    """Give the numbers of what was told lately."""
+    since = int((agent.at - LATELY).timestamp() // 60)
+    lately = _rows(agent.site).filter(minute__gte=since).values_list("device_id", "property")
+    for device, name, at_ms, seq in lately.annotate(Max("at_ms"), Max("seq")):
+        yield Observation(device, name, "", at_ms, seq)
+
+
 def _bounds(site: str) -> tuple[int, int]:
     """Return the first number that is kept, and the one that the next observation will have."""
-    clock = SampleClock.objects.filter(pk=1).first()
-    following = clock.next if clock else 1
+    following = next_number()
     oldest = _rows(site).order_by("seq").values_list("seq", flat=True).first()
     return oldest or following, following
 

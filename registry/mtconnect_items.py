@@ -5,14 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, isfinite
 from typing import Literal
 
 from registry.capability import Pose, PropertySpec, Scalar
+from registry.samples import DONE, ONLINE
 from registry.views import DeviceView
 
 Category = Literal["SAMPLE", "EVENT", "CONDITION"]
 UNAVAILABLE = "UNAVAILABLE"
+LEVELS: Mapping[str, str] = {"error": "Fault", "warning": "Warning"}
+"""The readings that are conditions, and what a condition is called while there is such a reading."""
 _UNSAYABLE = re.compile("[^\\t\\n\\r\\x20-\\ud7ff\\ue000-\\ufffd\\U00010000-\\U0010ffff]")
 
 
@@ -50,13 +53,24 @@ MEASURES: Mapping[str, Measure] = {
 
 @dataclass(frozen=True, slots=True)
 class DataItem:
-    """One thing that a device tells; `measure` is None where it is no number with a unit that MTConnect knows."""
+    """One thing that a device tells; `measure` is None where it is no number with a unit that MTConnect knows.
+
+    `source` is the reading behind it; the place of a robot, which is not kept, has none.
+    """
 
     id: str
     category: Category
     type: str
     name: str = ""
     measure: Measure | None = None
+    source: str = ""
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """How the item is written in MTConnectDevices."""
+        named = {"name": self.name} if self.name else {}
+        units = {"units": self.measure.units} if self.measure else {}
+        return {**named, "id": self.id, "category": self.category, "type": self.type, **units}
 
 
 def component_id(device_id: str) -> str:
@@ -66,17 +80,17 @@ def component_id(device_id: str) -> str:
 
 def availability_of(device_id: str) -> DataItem:
     """Return the item that says whether the device is there."""
-    return DataItem(f"a_{device_id}", "EVENT", "AVAILABILITY")
+    return DataItem(f"a_{device_id}", "EVENT", "AVAILABILITY", source=ONLINE)
 
 
 def execution_of(device_id: str) -> DataItem:
     """Return the item that says whether the device is at work."""
-    return DataItem(f"e_{device_id}", "EVENT", "EXECUTION")
+    return DataItem(f"e_{device_id}", "EVENT", "EXECUTION", source=DONE)
 
 
-def condition_of(device_id: str) -> DataItem:
-    """Return the item that says whether the device reports an error or a warning."""
-    return DataItem(f"c_{device_id}", "CONDITION", "SYSTEM")
+def conditions_of(device_id: str) -> tuple[DataItem, ...]:
+    """Return the items that say whether the device reports an error, and whether it reports a warning."""
+    return tuple(DataItem(f"c_{name}_{device_id}", "CONDITION", "SYSTEM", name, source=name) for name in LEVELS)
 
 
 def position_of(device_id: str) -> DataItem:
@@ -89,15 +103,15 @@ def item_of(device_id: str, spec: PropertySpec) -> DataItem:
     key = f"x{len(spec.name)}_{spec.name}_{device_id}"
     measure = MEASURES.get(spec.unit) if spec.type == "number" else None
     if measure is None:
-        return DataItem(key, "EVENT", "MESSAGE", spec.name)
-    return DataItem(key, "SAMPLE", measure.type, spec.name, measure)
+        return DataItem(key, "EVENT", "MESSAGE", spec.name, source=spec.name)
+    return DataItem(key, "SAMPLE", measure.type, spec.name, measure, spec.name)
 
 
 def items_of(view: DeviceView) -> tuple[DataItem, ...]:
     """Return all that a device tells."""
-    own = (item_of(view.id, spec) for spec in view.canonical.properties)
+    own = (item_of(view.id, spec) for spec in view.canonical.properties if spec.name not in LEVELS)
     place = (position_of(view.id),) if view.kind == "robot" else ()
-    return (availability_of(view.id), execution_of(view.id), condition_of(view.id), *place, *own)
+    return (availability_of(view.id), execution_of(view.id), *conditions_of(view.id), *place, *own)
 
 
 def element_name(item: DataItem) -> str:
@@ -113,12 +127,20 @@ def say_value(item: DataItem, value: Scalar) -> str:
         return str(value).lower() if isinstance(value, bool) else sayable(str(value))
     if isinstance(value, bool) or not isinstance(value, int | float):
         return UNAVAILABLE
-    return repr(round(float(value) * item.measure.factor, 6))
+    measured = float(value) * item.measure.factor
+    return repr(round(measured, 6)) if isfinite(measured) else UNAVAILABLE
 
 
 def say_position(pose: Pose) -> str:
     """Return a place as three numbers of millimetres."""
     return " ".join(repr(round(metres * 1000.0, 3)) for metres in (pose.x, pose.y, pose.z))
+
+
+def say_condition(item: DataItem, value: Scalar, *, online: bool) -> tuple[str, str | None]:
+    """Return what a condition is called, and its text: a reading that is empty is none."""
+    if not online:
+        return "Unavailable", None
+    return (LEVELS[item.source], sayable(str(value))) if value else ("Normal", None)
 
 
 def say_availability(*, online: bool) -> str:

@@ -1017,7 +1017,7 @@ export interface paths {
         };
         /**
          * Current
-         * @description Send MTConnectStreams: how the devices are.
+         * @description Send MTConnectStreams: how the devices are; with `at` how they were, with `interval` again and again.
          */
         get: operations["registry_mtconnect_api_current"];
         put?: never;
@@ -1060,6 +1060,66 @@ export interface paths {
          * @description Send MTConnectStreams: what the devices have said, from the sequence number `from` on, `count` at most.
          */
         get: operations["registry_mtconnect_api_sample"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/mtconnect/{device}/current": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Current Of Device
+         * @description Send MTConnectStreams of one device: how it is.
+         */
+        get: operations["registry_mtconnect_api_current_of_device"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/mtconnect/{device}/probe": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Probe Device
+         * @description Send MTConnectDevices of one device, named by its id or uuid.
+         */
+        get: operations["registry_mtconnect_api_probe_device"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/mtconnect/{device}/sample": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Sample Of Device
+         * @description Send MTConnectStreams of one device: what it has said.
+         */
+        get: operations["registry_mtconnect_api_sample_of_device"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1257,12 +1317,6 @@ export interface components {
         AskRoutes: {
             pairs: components["schemas"]["AskRoute"][];
         };
-        /** @description Which observations: texts, since what is no number is answered with an MTConnect error. */
-        Asked: {
-            count?: string | null;
-            from?: string | null;
-            interval?: string | null;
-        };
         /** @description Who wrote something. */
         Author: {
             id: number;
@@ -1319,6 +1373,12 @@ export interface components {
             order: string[];
             revision: number;
             script: string;
+        };
+        /** @description Which items, and of when: texts, since what cannot be read is answered with an MTConnect error. */
+        CurrentAsked: {
+            at?: string | null;
+            interval?: string | null;
+            path?: string | null;
         };
         /** @description What a library function holds; `functions` are those that it calls. */
         DefinitionShape: {
@@ -1942,6 +2002,14 @@ export interface components {
                 [key: string]: components["schemas"]["RunStepShape"];
             };
             version: number;
+        };
+        /** @description Which observations: texts, since what cannot be read is answered with an MTConnect error. */
+        SampleAsked: {
+            count?: string | null;
+            from?: string | null;
+            heartbeat?: string | null;
+            interval?: string | null;
+            path?: string | null;
         };
         /** @description Where a script leaves the language; lines and columns count from 1. */
         ScriptProblem: {
@@ -3892,7 +3960,11 @@ export interface operations {
     };
     registry_mtconnect_api_current: {
         parameters: {
-            query?: never;
+            query?: {
+                path?: string | null;
+                at?: string | null;
+                interval?: string | null;
+            };
             header?: never;
             path: {
                 slug: string;
@@ -3908,6 +3980,7 @@ export interface operations {
                 };
                 content: {
                     "application/xml": string;
+                    "multipart/x-mixed-replace": string;
                 };
             };
             /** @description A refusal */
@@ -3955,9 +4028,11 @@ export interface operations {
     registry_mtconnect_api_sample: {
         parameters: {
             query?: {
+                path?: string | null;
                 from?: string | null;
                 count?: string | null;
                 interval?: string | null;
+                heartbeat?: string | null;
             };
             header?: never;
             path: {
@@ -3974,6 +4049,115 @@ export interface operations {
                 };
                 content: {
                     "application/xml": string;
+                    "multipart/x-mixed-replace": string;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_mtconnect_api_current_of_device: {
+        parameters: {
+            query?: {
+                path?: string | null;
+                at?: string | null;
+                interval?: string | null;
+            };
+            header?: never;
+            path: {
+                slug: string;
+                device: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/xml": string;
+                    "multipart/x-mixed-replace": string;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_mtconnect_api_probe_device: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/xml": string;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_mtconnect_api_sample_of_device: {
+        parameters: {
+            query?: {
+                path?: string | null;
+                from?: string | null;
+                count?: string | null;
+                interval?: string | null;
+                heartbeat?: string | null;
+            };
+            header?: never;
+            path: {
+                slug: string;
+                device: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/xml": string;
+                    "multipart/x-mixed-replace": string;
                 };
             };
             /** @description A refusal */

@@ -27,6 +27,7 @@ PROPERTIES = (
     PropertySpec("lid", "text"),
     PropertySpec("wet", "boolean"),
     PropertySpec("stock", "number"),
+    PropertySpec("error", "text"),
 )
 START = timezone.now() - timedelta(minutes=10)
 
@@ -79,7 +80,7 @@ def test_probe_lists_what_each_device_tells_with_units(plant: Plant) -> None:
     device = root.find(".//{*}Device")
     assert (device.get("name"), device.get("uuid"), device.get("id")) == ("7.a", "urn:vipo:device:7.a", "d_7.a")
     items = {item.get("name") or item.get("type"): item for item in root.iter("{*}DataItem")}
-    assert {"AVAILABILITY", "EXECUTION", "SYSTEM", "lid", "in_DEG_C"} <= set(items)
+    assert {"AVAILABILITY", "EXECUTION", "error", "warning", "lid", "in_DEG_C"} <= set(items)
     assert [items["in_DEG_C"].get(key) for key in ("category", "type", "units")] == ["SAMPLE", "TEMPERATURE", "CELSIUS"]
     assert [items["stock"].get(key) for key in ("category", "type", "units")] == ["EVENT", "MESSAGE", None]
 
@@ -92,7 +93,7 @@ def test_current_says_how_devices_are_in_the_units_of_the_standard(plant: Plant)
     assert sorted(texts(root, "Displacement")) == ["1250.0", "UNAVAILABLE", "UNAVAILABLE"]
     assert sorted(texts(root, "AccumulatedTime")) == ["120.0", "UNAVAILABLE", "UNAVAILABLE"]
     assert texts(root, "Message") == ["a\ufffd<&>", "true", "24"]
-    assert len(texts(root, "Normal")) == 1
+    assert [element.get("name") for element in root.iter("{*}Normal")] == ["error", "warning"]
 
 
 def test_a_robot_says_where_it_is_in_millimetres(plant: Plant) -> None:
@@ -109,10 +110,11 @@ def test_a_robot_says_where_it_is_in_millimetres(plant: Plant) -> None:
 @pytest.mark.parametrize(
     ("changes", "expected"),
     [
-        ({"online": False}, ["UNAVAILABLE", "UNAVAILABLE", "Unavailable"]),
-        ({"properties": {"error": "Lid open"}}, ["AVAILABLE", "STOPPED", "Fault"]),
-        ({"properties": {"warning": "Low"}}, ["AVAILABLE", "READY", "Warning"]),
-        ({"done": False}, ["AVAILABLE", "ACTIVE", "Normal"]),
+        ({"online": False}, ["UNAVAILABLE", "UNAVAILABLE", "Unavailable", "Unavailable"]),
+        ({"properties": {"error": "Lid open"}}, ["AVAILABLE", "STOPPED", "Fault", "Normal"]),
+        ({"properties": {"warning": "Low"}}, ["AVAILABLE", "READY", "Normal", "Warning"]),
+        ({"done": False}, ["AVAILABLE", "ACTIVE", "Normal", "Normal"]),
+        ({"properties": {"in_M": 1e308}}, ["AVAILABLE", "READY", "Normal", "Normal"]),
     ],
 )
 def test_what_a_device_reports_becomes_execution_and_condition(
@@ -120,8 +122,8 @@ def test_what_a_device_reports_becomes_execution_and_condition(
 ) -> None:
     Device.objects.update(**changes)
     root = plant.ask("current")
-    condition = etree.QName(root.find(".//{*}Condition")[0]).localname
-    assert [*texts(root, "Availability", "Execution"), condition] == expected
+    conditions = [etree.QName(element).localname for element in root.find(".//{*}Condition")]
+    assert [*texts(root, "Availability", "Execution"), *conditions] == expected
 
 
 def test_samples_lead_on_from_one_answer_to_the_next(plant: Plant) -> None:
@@ -153,7 +155,13 @@ def test_samples_lead_on_from_one_answer_to_the_next(plant: Plant) -> None:
         ({"count": -1}, "OUT_OF_RANGE"),
         ({"count": 5_001}, "OUT_OF_RANGE"),
         ({"count": "many"}, "INVALID_REQUEST"),
-        ({"interval": 100}, "UNSUPPORTED"),
+        ({"interval": "soon"}, "INVALID_REQUEST"),
+        ({"interval": -1}, "OUT_OF_RANGE"),
+        ({"interval": 100, "heartbeat": 0}, "OUT_OF_RANGE"),
+        ({"interval": 100, "from_": 10_000}, "OUT_OF_RANGE"),
+        ({"path": "//DataItem["}, "INVALID_PATH"),
+        ({"path": "//Axes"}, "INVALID_PATH"),
+        ({"path": "count(//DataItem) > 0"}, "INVALID_PATH"),
     ],
 )
 def test_what_is_asked_wrongly_is_answered_in_the_standards_own_way(
@@ -162,6 +170,67 @@ def test_what_is_asked_wrongly_is_answered_in_the_standards_own_way(
     plant.say(0, in_DEG_C=20)
     root = plant.ask("sample", 400, **query)
     assert [error.get("errorCode") for error in root.iter("{*}Error")] == [code]
+
+
+@pytest.mark.parametrize(
+    ("query", "code"),
+    [
+        ({"at": 0}, "OUT_OF_RANGE"),
+        ({"at": 10_000}, "OUT_OF_RANGE"),
+        ({"at": "x"}, "INVALID_REQUEST"),
+        ({"at": 1, "interval": 100}, "INVALID_REQUEST"),
+        ({"path": "//" * 600}, "INVALID_PATH"),
+    ],
+)
+def test_current_is_asked_wrongly(plant: Plant, query: dict[str, Any], code: str) -> None:
+    plant.say(0, in_DEG_C=20)
+    assert [e.get("errorCode") for e in plant.ask("current", 400, **query).iter("{*}Error")] == [code]
+
+
+def test_a_path_chooses_among_what_devices_tell(plant: Plant) -> None:
+    plant.say(0, in_DEG_C=20, in_M=1, lid="open")
+    for path, expected in {
+        '//DataItem[@type="TEMPERATURE"]': ["20.0"],
+        "//DataItem[@category='SAMPLE' and @name='in_M']|//DataItem[@name='lid']": ["1000.0", "open"],
+        "//m:Device[@name='7.a']//DataItem[@name='in_DEG_C']": ["20.0"],
+    }.items():
+        for call in ("current", "sample"):
+            root = plant.ask(call, path=path)
+            assert [e.text for e in root.iter("{*}Temperature", "{*}Displacement", "{*}Message")] == expected
+            assert root.find(".//{*}Availability") is None
+    assert header(plant.ask("sample", path="//DataItem[@name='lid']", count=1))["next"] == 4
+
+
+def test_current_tells_how_devices_were_when_an_observation_was_made(plant: Plant) -> None:
+    for minute, (heat, done, error) in enumerate([(20, True, ""), (21, False, ""), (22, True, "Lid open")]):
+        plant.say(60 * minute, done=done, in_DEG_C=heat, error=error)
+    root = plant.ask("sample")
+    heats = [int(e.get("sequence")) for e in root.iter("{*}Temperature")]
+    told = []
+    for number in (heats[1] - 1, heats[2] - 1, header(root)["last"]):
+        root = plant.ask("current", at=number)
+        told.append((*texts(root, "Temperature", "Execution"), len(texts(root, "Fault"))))
+    assert told == [("20.0", "READY", 0), ("21.0", "ACTIVE", 0), ("22.0", "STOPPED", 1)]
+
+
+def test_a_device_has_addresses_of_its_own(plant: Plant) -> None:
+    describe(ROBOT)
+    Device.objects.update(lifecycle="approved")
+    for name in ("7.a", "urn:vipo:device:7.a"):
+        assert [d.get("name") for d in plant.ask(f"{name}/probe").iter("{*}Device")] == ["7.a"]
+        assert [d.get("name") for d in plant.ask(f"{name}/current").iter("{*}DeviceStream")] == ["7.a"]
+        assert [d.get("name") for d in plant.ask(f"{name}/sample").iter("{*}DeviceStream")] == ["7.a"]
+    assert [e.get("errorCode") for e in plant.ask("8.b/current", 404).iter("{*}Error")] == ["NO_DEVICE"]
+
+
+def test_conditions_come_and_go_in_samples(plant: Plant) -> None:
+    plant.say(0, error="Lid open")
+    plant.say(60, error="")
+    conditions = plant.ask("sample", path="//DataItem[@category='CONDITION']").find(".//{*}Condition")
+    assert [(etree.QName(e).localname, e.get("name"), e.text) for e in conditions] == [
+        ("Fault", "error", "Lid open"),
+        ("Normal", "error", None),
+    ]
 
 
 def test_a_site_without_devices_says_so(plant: Plant) -> None:
@@ -176,6 +245,7 @@ def test_every_member_may_read_and_strangers_learn_nothing(plant: Plant, role: s
     if role != "nobody":
         client.force_login(User.objects.get(email=f"{role}@vipo.example"))
     expected = {"stranger": 404, "nobody": 401}.get(role, 200)
-    answers = [client.get(f"{ADDRESS}/{call}") for call in ("probe", "current", "sample")]
-    assert [answer.status_code for answer in answers] == [expected] * 3
+    calls = ("probe", "current", "sample", "7.a/probe", "7.a/current", "7.a/sample", "sample?interval=1000")
+    answers = [client.get(f"{ADDRESS}/{call}") for call in calls]
+    assert [answer.status_code for answer in answers] == [expected] * len(calls)
     assert role != "stranger" or answers[0].json()["code"] == "not_found"

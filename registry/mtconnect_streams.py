@@ -1,0 +1,144 @@
+"""MTConnect documents one after another over one answer: `interval` and `heartbeat`, bounded in time, bytes, number."""
+
+from __future__ import annotations
+
+import threading
+import time
+from asyncio import sleep
+from collections import Counter
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+from asgiref.sync import sync_to_async
+from django.utils import timezone
+
+from registry.access import find_access
+from registry.models import User
+from registry.mtconnect import Agent, write_error
+from registry.mtconnect_agent import AgentError, Answer, Question, agent_of, next_number, whole
+
+BOUNDARY = "vipo-mtconnect-part"
+MEDIA_TYPE = f"multipart/x-mixed-replace;boundary={BOUNDARY}"
+LEAST_PAUSE_S = 1.0
+MOST_INTERVAL_MS, MOST_HEARTBEAT_MS = 3_600_000, 60_000
+HEARTBEAT_MS = 10_000
+MOST_BYTES = 4_000_000
+"""A listener that does not read leaves at most so much in memory; one that reads asks again with its next number."""
+MOST_SECONDS = 900.0
+MOST_OF_USER, MOST_OF_SITE, MOST_IN_PROCESS = 4, 16, 32
+_open: Counter[str] = Counter()
+_lock = threading.Lock()
+
+
+@dataclass(frozen=True, slots=True)
+class Listener:
+    """Who listens to which documents of a site; a sample goes on with its number, `current` comes as a whole."""
+
+    user: User
+    site: str
+    write: Callable[[Agent, Question], Answer]
+    question: Question
+    is_sample: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Rhythm:
+    """How long to wait at least between two documents, and how long at most when nothing happens."""
+
+    pause_s: float
+    heartbeat_s: float
+
+
+def read_rhythm(question: Question, interval: str, heartbeat: str | None) -> Rhythm:
+    """Read both, in milliseconds. Raises AgentError."""
+    if question.at is not None:
+        raise AgentError("INVALID_REQUEST", "`at` and `interval` cannot be asked together: what was does not change.")
+    pause_s = whole("interval", interval, 0, 0, MOST_INTERVAL_MS) / 1000
+    heartbeat_s = whole("heartbeat", heartbeat, HEARTBEAT_MS, 1, MOST_HEARTBEAT_MS) / 1000
+    return Rhythm(max(LEAST_PAUSE_S, pause_s), max(LEAST_PAUSE_S, heartbeat_s))
+
+
+def check_room(user: User, site: str) -> None:
+    """Raise AgentError when this user, this site or this process has as many streams as it may."""
+    for key, most, whose in _places(user, site):
+        if _open[key] >= most:
+            raise AgentError("TOO_MANY", f"{most} streams are open {whose}. Close one, or ask without `interval`.")
+
+
+def _places(user: User, site: str) -> tuple[tuple[str, int, str], ...]:
+    return (
+        (f"user {user.pk}", MOST_OF_USER, "for you"),
+        (f"site {site}", MOST_OF_SITE, "at this site"),
+        ("all", MOST_IN_PROCESS, "at this server"),
+    )
+
+
+@contextmanager
+def _counted(listener: Listener) -> Iterator[None]:
+    keys = [key for key, _, _ in _places(listener.user, listener.site)]
+    with _lock:
+        _open.update(keys)
+    try:
+        yield
+    finally:
+        with _lock:
+            _open.subtract(keys)
+            for key in keys:
+                if not _open[key]:
+                    del _open[key]
+
+
+async def stream_documents(listener: Listener, rhythm: Rhythm, first: Answer) -> AsyncIterator[bytes]:
+    """Give a first document, then each when it is due, as parts of one answer.
+
+    It ends when the listener is no member any more, when what is asked of has gone (an error is the last part), and
+    after MOST_SECONDS or MOST_BYTES.
+    """
+    until, left, answer = time.monotonic() + MOST_SECONDS, MOST_BYTES, first
+    with _counted(listener):
+        while True:
+            part = _part(answer.document)
+            left -= len(part)
+            yield part
+            if left <= 0 or not await _wait(listener, rhythm, answer, until):
+                break
+            answer, is_last = await sync_to_async(_next_answer)(listener, answer)
+            if is_last:
+                yield _part(answer.document)
+                break
+        yield f"--{BOUNDARY}--\r\n".encode()
+
+
+async def _wait(listener: Listener, rhythm: Rhythm, last: Answer, until: float) -> bool:
+    """Wait until the next document is due; False when there is to be none."""
+    begun = time.monotonic()
+    while time.monotonic() < until:
+        await sleep(LEAST_PAUSE_S)
+        is_member, following = await sync_to_async(_look)(listener)
+        if not is_member:
+            return False
+        waited_s = time.monotonic() - begun
+        has_news = not listener.is_sample or following > last.next or waited_s >= rhythm.heartbeat_s
+        if has_news and waited_s >= rhythm.pause_s:
+            return True
+    return False
+
+
+def _look(listener: Listener) -> tuple[bool, int]:
+    return find_access(listener.user, listener.site) is not None, next_number()
+
+
+def _next_answer(listener: Listener, last: Answer) -> tuple[Answer, bool]:
+    """Return the next document, and whether it is the last one, which says what is wrong."""
+    agent = agent_of(site=listener.site, now=timezone.now())
+    question = replace(listener.question, begin=str(last.next)) if listener.is_sample else listener.question
+    try:
+        return listener.write(agent, question), False
+    except AgentError as error:
+        return Answer(write_error(agent, error.code, error.sentence), last.next), True
+
+
+def _part(document: bytes) -> bytes:
+    head = f"--{BOUNDARY}\r\nContent-type: text/xml\r\nContent-length: {len(document)}\r\n\r\n"
+    return head.encode() + document + b"\r\n"
