@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 from typing import Any
 
 from amqtt.errors import AMQTTError, CodecError, MQTTError, NoDataError
@@ -55,3 +56,12 @@ async def refuse(writer: Any, code: int) -> None:
     """Answer a CONNECT with a return code of MQTT 3.1.1, and close."""
     await ConnackPacket.build(0, code).to_stream(writer)
     await writer.close()
+
+
+def notice_dead_peers(writer: asyncio.StreamWriter) -> None:
+    """Let the system end a connection whose other side is gone without a word, after about two minutes."""
+    peer: socket.socket = writer.get_extra_info("socket")
+    peer.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+    for name, value in (("TCP_KEEPIDLE", 60), ("TCP_KEEPINTVL", 15), ("TCP_KEEPCNT", 4)):
+        if hasattr(socket, name):  # not every system has all three
+            peer.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)

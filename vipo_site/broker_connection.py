@@ -1,60 +1,200 @@
-"""One client's connection to the embedded broker: what amqtt does for it, within limits."""
+"""One client's connection to the embedded broker.
+
+amqtt takes every packet as a task of its own and sends every message as one, so that what a client says too fast or
+does not read has no bound. Here packets are handled one after the other, and a client is read no faster than that;
+what it is sent waits in its outbox.
+"""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
+from amqtt.adapters import BufferReader
+from amqtt.mqtt import packet as kinds
+from amqtt.mqtt.disconnect import DisconnectPacket
 from amqtt.mqtt.protocol.broker_handler import BrokerProtocolHandler
+from amqtt.mqtt.subscribe import SubscribePacket
+from amqtt.mqtt.unsubscribe import UnsubscribePacket
+
+from vipo_site.broker_connect import UNREADABLE
+from vipo_site.broker_outbox import DEVICE_ROOM, Outbox
 
 PACKET_LIMIT_BYTES = 16384
 """As `max_packet_size` in deploy/mosquitto/mosquitto.conf: whoever sends more is disconnected."""
+STUCK_S = 30.0
+MOST_ASKING = 16
+MOST_UNRELEASED = 1000
+FLUSH_BYTES = 2**16
+_PINGRESP = b"\xd0\x00"
+_ACKNOWLEDGED, _RECEIVED, _COMPLETE = 0x40, 0x50, 0x70
 
 
-class _PacketTooLarge(Exception):
-    """A client announced a packet that is larger than anybody may send."""
+class Unfit(Exception):
+    """A client broke the protocol or its limits; the text says how. Its connection ends, and its will is sent."""
 
 
-class _CappedReader:
-    """Reads for one client; a packet beyond the limit ends the connection before it is read."""
+@dataclass(frozen=True, slots=True)
+class Publication:
+    """A message as a client said it."""
 
-    def __init__(self, reader: Any) -> None:
-        self._reader = reader
-
-    async def read(self, n: int = -1) -> bytes:
-        """Read `n` bytes."""
-        if n > PACKET_LIMIT_BYTES:
-            raise _PacketTooLarge
-        data: bytes = await self._reader.read(n)
-        return data
-
-    def feed_eof(self) -> None:
-        """Say that no more will come."""
-        self._reader.feed_eof()
+    topic: str
+    payload: bytes
+    qos: int
+    retain: bool
 
 
 class Connection(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no types
-    """Serves one client."""
+    """Serves one client; `receive` takes what it publishes, `complain` hears why it was thrown out."""
+
+    receive: Callable[[Any, Publication], Awaitable[None]]
+    complain: Callable[[Any, str], None]
 
     def attach(self, session: Any, reader: Any, writer: Any) -> None:
-        """Read devices' packets up to the limit only."""
-        super().attach(session, reader if session.username == "server" else _CappedReader(reader), writer)
+        """Belong to a session, and to what waits in it."""
+        super().attach(session, reader, writer)
+        self._outbox: Outbox = session.attributes.setdefault("outbox", Outbox(DEVICE_ROOM))
+        self._unreleased: set[int] = session.attributes.setdefault("unreleased", set())
+        self._sender: asyncio.Task[None] | None = None
+        self._pending_subscriptions: asyncio.Queue[Any] = asyncio.Queue(MOST_ASKING)
+        self._pending_unsubscriptions: asyncio.Queue[Any] = asyncio.Queue(MOST_ASKING)
 
-    def handle_read_timeout(self) -> None:
-        """End a connection that was silent for 1.5 keep-alive times, so that its will is sent."""
-        if self._reader_task is not None:
-            self._reader_task.cancel()
+    async def start(self) -> None:
+        """Begin to read and to send."""
+        await super().start()
+        self._outbox.begin()
+        self._sender = asyncio.create_task(self._send_waiting())
+
+    async def stop(self) -> None:
+        """End; what the client has not read by now it will not read."""
+        if self._sender is not None and self._sender is not asyncio.current_task():
+            self._sender.cancel()
+        if self.writer is not None and self.writer._writer.transport.get_write_buffer_size():
+            self.writer._writer.transport.abort()
+        await super().stop()
 
     async def end(self) -> None:
         """End the connection now, and its will with it.
 
-        The transport, too: of a client that speaks at this very moment, amqtt's reader hears the message and not that
-        it was cancelled (asyncio.wait_for of Python 3.11), and would be waited for without end.
+        The transport, too: whoever is waited for hears it at once (asyncio.wait_for of Python 3.11 may lose a
+        cancellation).
         """
         await self.handle_connection_closed()
         if self.writer is not None:
             self.writer._writer.transport.abort()
+
+    async def _reader_loop(self) -> None:
+        self._reader_ready.set()
+        session = self.session
+        try:
+            while await self._read_one():
+                pass
+        except Unfit as reason:
+            self.complain(session, str(reason))
+        except (*UNREADABLE, ValueError, asyncio.CancelledError):
+            pass  # amqtt's own loop takes a cancellation as the order to end properly, and so does this one
+        await self.handle_connection_closed()
+        self._reader_stopped.set()
+        await self.stop()
+
+    async def _read_one(self) -> bool:
+        """Read and handle a packet; False when the client takes its leave."""
+        await asyncio.sleep(0)  # others' turn, also when the packet is here already
+        async with asyncio.timeout(self.keepalive_timeout):
+            head, body = await self._read_packet()
+        kind = head >> 4
+        if kind == kinds.PUBLISH:
+            await self._take_publication(head, body)
+        elif kind == kinds.PUBACK:
+            self._outbox.acknowledge(_number(body))
+        elif kind == kinds.PUBREL:
+            self._unreleased.discard(_number(body))
+            await self._answer(bytes((_COMPLETE, 2)) + body[:2])
+        elif kind in (kinds.SUBSCRIBE, kinds.UNSUBSCRIBE):
+            await self._ask(kind, head, body)
+        elif kind == kinds.PINGREQ:
+            await self._answer(_PINGRESP)
+        elif kind == kinds.DISCONNECT:
+            await self.handle_disconnect(DisconnectPacket())
+            return False
+        else:
+            raise Unfit("a packet that no client sends ended its connection")
+        return True
+
+    async def _read_packet(self) -> tuple[int, bytes]:
+        """Return the first byte and the body; raises Unfit when the packet is larger than anybody may send."""
+        head, byte = await self.reader.read(2)
+        async with asyncio.timeout(STUCK_S):
+            length, shift = byte & 0x7F, 7
+            while byte & 0x80 and shift <= 21:
+                (byte,) = await self.reader.read(1)
+                length |= (byte & 0x7F) << shift
+                shift += 7
+            if length + 1 + shift // 7 > PACKET_LIMIT_BYTES:
+                raise Unfit(f"a packet of more than {PACKET_LIMIT_BYTES} bytes ended its connection")
+            return head, (await self.reader.read(length) if length else b"")
+
+    async def _take_publication(self, head: int, body: bytes) -> None:
+        """Hand a message on and answer it; one of QoS 2 that comes once more is only answered."""
+        qos, end = head >> 1 & 3, 2 + int.from_bytes(body[:2], "big")
+        said = Publication(body[2:end].decode(), body[end + 2 if qos else end :], qos, bool(head & 1))
+        if not said.topic or {"+", "#", "\0"} & set(said.topic) or said.topic.startswith("$") or qos == 3:
+            raise Unfit("a message without a proper topic ended its connection")
+        number = _number(body[end:]) if qos else 0
+        if number not in self._unreleased or qos < 2:
+            await self.receive(self.session, said)
+        if qos == 1:
+            await self._answer(bytes((_ACKNOWLEDGED, 2)) + number.to_bytes(2, "big"))
+        elif qos == 2:
+            self._unreleased.add(number)
+            if len(self._unreleased) > MOST_UNRELEASED:
+                raise Unfit("too many messages of QoS 2 that it does not release ended its connection")
+            await self._answer(bytes((_RECEIVED, 2)) + number.to_bytes(2, "big"))
+
+    async def _ask(self, kind: int, head: int, body: bytes) -> None:
+        """Hand a change of subscriptions to amqtt, which takes one after the other."""
+        header, reader = kinds.MQTTFixedHeader(kind, head & 0x0F, len(body)), BufferReader(body)
+        if kind == kinds.SUBSCRIBE:
+            await self.handle_subscribe(await SubscribePacket.from_stream(reader, fixed_header=header))
+        else:
+            await self.handle_unsubscribe(await UnsubscribePacket.from_stream(reader, fixed_header=header))
+
+    async def _answer(self, data: bytes) -> None:
+        self.writer.write(data)
+        await self._flush()
+
+    async def _flush(self) -> None:
+        """Wait until the client reads; raises TimeoutError when it does not for a long time."""
+        async with asyncio.timeout(STUCK_S):
+            await self.writer.drain()
+
+    async def _send_waiting(self) -> None:
+        """Send what comes into the outbox, as fast as the client reads."""
+        with suppress(OSError, TimeoutError):
+            while True:
+                self._outbox.news.clear()
+                size = 0
+                for packet in self._outbox.packets():
+                    self.writer.write(packet)
+                    size += len(packet)
+                    if size > FLUSH_BYTES:
+                        await self._flush()
+                        await asyncio.sleep(0)
+                        size = 0
+                await self._flush()
+                await self._outbox.news.wait()
+        await self.end()
+
+
+def _number(body: bytes) -> int:
+    """Return a packet id; raises Unfit when there is none."""
+    number = int.from_bytes(body[:2], "big")
+    if len(body) < 2 or not number:
+        raise Unfit("a packet without a number ended its connection")
+    return number
 
 
 async def until(condition: Callable[[], bool], timeout_s: float) -> None:

@@ -3,7 +3,8 @@
 amqtt 0.12 is used through a subclass, because as it comes it (1) drops the session that a stranger names before it
 asks for a password, (2) sends wills without asking the topic rules, (3) gives every newcomer the retained messages of
 all other clients' subscriptions, (4) loses a message when somebody subscribes while it is being spread, (5) never ends
-a connection that fell silent, and (6) waits for ever on a CONNECT of MQTT 5.
+a connection that fell silent, (6) waits for ever on a CONNECT of MQTT 5, and (7) has no bound on what is said too fast,
+not read, kept, asked for or begun. What is dropped is counted for the device's page, as the gateway counts.
 """
 
 from __future__ import annotations
@@ -18,15 +19,15 @@ from datetime import UTC, datetime, timedelta
 from typing import TYPE_CHECKING, Any
 
 from amqtt.adapters import BufferReader
-from amqtt.broker import Broker
-from amqtt.contexts import Action
 from amqtt.errors import MQTTError
 from amqtt.mqtt.connack import NOT_AUTHORIZED, UNACCEPTABLE_PROTOCOL_VERSION
 from django.db import DatabaseError
 
-from vipo_site.broker_connect import PROTOCOL_LEVEL, UNREADABLE, protocol_level, read_connect, refuse
+from vipo_site.broker_connect import PROTOCOL_LEVEL, UNREADABLE, notice_dead_peers, protocol_level, read_connect, refuse
 from vipo_site.broker_connection import Connection, until
-from vipo_site.doorkeeping import Doorkeeper, may_publish, may_subscribe
+from vipo_site.broker_outbox import DEVICE_ROOM, SERVER_ROOM, Outbox
+from vipo_site.broker_spread import SERVER, SpreadingBroker
+from vipo_site.doorkeeping import Doorkeeper, may_publish
 
 if TYPE_CHECKING:
     from registry.services import Login
@@ -37,30 +38,29 @@ CONNECT_TIMEOUT_S = 10.0
 END_TIMEOUT_S = 2.0
 COMPLAINT_EVERY_S = 60.0
 MOST_COMPLAINTS = 1000
+MOST_CONNECTIONS = 800
+MOST_NOT_ADMITTED = 100
+MOST_ABSENT = 1000
+FORGET_AFTER_S = 3600
 
 
-class _Subscriptions(dict[str, list[Any]]):
-    """Subscriptions that may change while somebody walks through them."""
-
-    def __iter__(self) -> Any:
-        return iter(list(super().keys()))
-
-    def items(self) -> Any:
-        """Return a copy: amqtt awaits in the middle of its loops."""
-        return [(topic, list(sessions)) for topic, sessions in super().items()]
-
-
-class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
+class VipoBroker(SpreadingBroker):
     """amqtt with VIPO's rules; see the module's text for what it mends."""
 
     def __init__(self, bind: str, server_password: str, doorkeeper: Doorkeeper) -> None:
-        super().__init__({"listeners": {"default": {"type": "tcp", "bind": bind}}, "plugins": {}})
+        super().__init__(
+            {
+                "listeners": {"default": {"type": "tcp", "bind": bind}},
+                "plugins": {},
+                "session_expiry_interval": FORGET_AFTER_S,
+            }
+        )
         self._server_password = server_password
         self._doorkeeper = doorkeeper
         self._logins: dict[str, Login] = {}
         self._refused_at: dict[str, float] = {}
-        self._subscriptions = _Subscriptions()
-        self._open: set[asyncio.StreamWriter] = set()
+        self._open: dict[asyncio.StreamWriter, None] = {}
+        self._not_admitted: dict[asyncio.StreamWriter, None] = {}
 
     @property
     def bound_port(self) -> int:
@@ -79,12 +79,21 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
     async def stream_connected(
         self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, listener_name: str
     ) -> None:
-        """Serve one connection, and know it while it is open."""
-        self._open.add(writer)
+        """Serve one connection, and know it while it is open; of too many strangers the first has to go."""
+        if len(self._open) >= MOST_CONNECTIONS + MOST_NOT_ADMITTED:
+            writer.transport.abort()
+            return
+        self._open[writer] = self._not_admitted[writer] = None
+        if len(self._not_admitted) > MOST_NOT_ADMITTED:
+            first = next(iter(self._not_admitted))
+            del self._not_admitted[first]
+            first.transport.abort()
+        notice_dead_peers(writer)
         try:
             await super().stream_connected(reader, writer, listener_name)
         finally:
-            self._open.discard(writer)
+            self._open.pop(writer, None)
+            self._not_admitted.pop(writer, None)
             writer.close()
 
     async def _initialize_client_session(
@@ -105,8 +114,11 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
             self._complain(session.client_id, session.username)
             await refuse(writer, NOT_AUTHORIZED)
             raise MQTTError("Not authorised.")
+        self._not_admitted.pop(writer._writer, None)
         session = await self._take_over(session)
         session.keep_alive = math.ceil(session.keep_alive * 1.5)
+        session.attributes.setdefault("outbox", Outbox(SERVER_ROOM if session.username == SERVER else DEVICE_ROOM))
+        handler.receive, handler.complain = self._receive, self._drop
         return handler, session
 
     def _complain(self, client: str, user: str | None) -> None:
@@ -120,9 +132,12 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
 
     async def _admit(self, session: Any) -> bool:
         username, password = session.username or "", session.password or ""
-        if username == "server":
+        if username == SERVER:
             return hmac.compare_digest(password.encode(), self._server_password.encode())
         will_is_own = not session.will_flag or may_publish(username, session.will_topic or "")
+        holder = self._sessions.get(username, (session, None))[0].username
+        if holder == SERVER:
+            return False
         if not username or session.client_id != username or not will_is_own:
             return False
         at = datetime.now(UTC)
@@ -143,7 +158,9 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
                 if name in self._logins and session.transitions.state == "connected"
             }
             self._logins = {n: login for n, login in self._logins.items() if n in there or login.at > soon_after}
+            await self._forget_absent()
             try:
+                await self._record()
                 ended = await asyncio.to_thread(self._doorkeeper.find_ended, dict(self._logins))
             except DatabaseError as error:
                 log.warning("MQTT: who must go is not known now: %s", error)
@@ -158,11 +175,9 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
         if old is not None and old.transitions.state == "connected":
             await handler.end()
             await until(lambda: old.transitions.state != "connected", 2.0)
-        if session.clean_session:
+        if session.clean_session or old is None or old.clean_session:
             await self._delete_session(session.client_id)
             session.parent = 0
-            return session
-        if old is None:
             return session
         for field in ("will_flag", "will_message", "will_topic", "will_qos", "will_retain", "keep_alive", "username"):
             setattr(old, field, getattr(session, field))
@@ -173,19 +188,37 @@ class VipoBroker(Broker):  # type: ignore[misc]  # amqtt has no types
         """Everybody who comes this far was admitted before."""
         return True
 
-    async def _topic_filtering(self, session: Any, topic: str, action: Any) -> bool:
-        username = session.username or ""
-        if username == "server":
-            return True
-        if action == Action.PUBLISH:
-            return may_publish(username, topic)
-        return may_subscribe(username, topic)
+    async def _client_message_loop(self, session: Any, handler: Any) -> None:
+        """See that a session ends with its loop, however that ended."""
+        try:
+            await super()._client_message_loop(session, handler)
+        finally:
+            if session.transitions.state == "connected" and self._get_handler(session) is handler:
+                lost = asyncio.get_running_loop().create_future()
+                lost.set_result(None)
+                await self._handle_disconnect(session, handler, lost)
 
-    async def _publish_retained_messages_for_subscription(self, subscription: tuple[str, int], session: Any) -> None:
-        """Give retained messages to a subscriber only, and only after it asked (QoS 0 here: amqtt's own idea)."""
-        holders = self._subscriptions.get(subscription[0], [])
-        if any(holder is session for holder, _qos in holders):
-            await super()._publish_retained_messages_for_subscription(subscription, session)
+    async def _cleanup_session(self, client_id: str) -> None:
+        """Forget a session, but not one that has come back while amqtt was about to."""
+        session, _ = self._sessions.get(client_id, (None, None))
+        if session is None or session.transitions.state != "connected" or self.transitions.state != "started":
+            await super()._cleanup_session(client_id)
+
+    async def _record(self) -> None:
+        """Give what was dropped to the registry, for the devices' pages."""
+        dropped, lines = self.take_dropped()
+        if dropped:
+            await asyncio.to_thread(self._doorkeeper.record, dropped, lines)
+
+    async def _forget_absent(self) -> None:
+        """Forget the sessions that have been away the longest when too many are kept."""
+        away = [
+            (session.last_disconnect_time or 0, name)
+            for name, (session, _) in self._sessions.items()
+            if session.transitions.state == "disconnected"
+        ]
+        for _, name in sorted(away)[: max(0, len(away) - MOST_ABSENT)]:
+            await self._cleanup_session(name)
 
 
 def _login(key: str, at: datetime) -> Login:

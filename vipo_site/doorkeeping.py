@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from django.db import close_old_connections
@@ -34,6 +34,9 @@ class Doorkeeper(Protocol):
     def wait(self) -> None:
         """Return when it is time to look for ended ones: soon after a change, every 2 s at the latest."""
 
+    def record(self, dropped: Mapping[str, int], lines: Sequence[tuple[str, str]]) -> None:
+        """Note how many messages of each device were dropped, and (device, line) for their histories."""
+
 
 class PasswordDoorkeeper:
     """Lets in whoever a function accepts, for ever."""
@@ -52,6 +55,9 @@ class PasswordDoorkeeper:
     def wait(self) -> None:
         """See Doorkeeper."""
         time.sleep(LOOK_EVERY_S)
+
+    def record(self, _dropped: Mapping[str, int], _lines: Sequence[tuple[str, str]]) -> None:
+        """See Doorkeeper; without a registry there is nothing to note it in."""
 
 
 class RegistryDoorkeeper:
@@ -84,6 +90,18 @@ class RegistryDoorkeeper:
         from registry.live import wait_wake
 
         wait_wake(BROKER_CHANNEL, LOOK_EVERY_S)
+
+    def record(self, dropped: Mapping[str, int], lines: Sequence[tuple[str, str]]) -> None:
+        """See Doorkeeper."""
+        from registry import services
+
+        close_old_connections()
+        try:
+            services.count_dropped(dropped=dropped)
+            for device, line in lines:
+                services.record_problem(device_id=device, text=line)
+        finally:
+            close_old_connections()
 
 
 def may_publish(username: str, topic: str) -> bool:

@@ -1,0 +1,229 @@
+"""What the embedded broker bears from clients that do not read, do not stop, or do not begin."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from tests.bus import Ear
+from tests.integration.wire.raw import Notebook, Raw, connect, field, packet, publish, raw, subscribe
+from vipo_site.broker import EmbeddedBroker
+
+WORD, SERVER_WORD = "word", "secret"
+UP, DOWN = "vipo/v1/dev/loud01/up/", "vipo/v1/dev/loud01/down/"
+MOST_GROWTH_KIB = 40_000
+FILLER = b"x" * 12_000
+
+
+@pytest.fixture
+def notebook() -> Notebook:
+    return Notebook(WORD)
+
+
+@pytest.fixture
+def broker(notebook: Notebook) -> Iterator[EmbeddedBroker]:
+    running = EmbeddedBroker(host="127.0.0.1", port=0, server_password=SERVER_WORD, doorkeeper=notebook)
+    running.start()
+    yield running
+    running.stop()
+    assert not running.running
+
+
+@pytest.fixture
+def ear(broker: EmbeddedBroker) -> Iterator[Ear]:
+    with Ear(broker.port, SERVER_WORD) as listening:
+        assert listening.client.wait_subscribed(20)
+        yield listening
+
+
+def resident_kib() -> int:
+    lines = Path(f"/proc/{os.getpid()}/status").read_text().splitlines()
+    return int(next(line for line in lines if line.startswith("VmRSS")).split()[1])
+
+
+def wait(condition: Callable[[], object]) -> None:
+    deadline = time.monotonic() + 30
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+def others_go_on(broker: EmbeddedBroker, ear: Ear, word: str) -> None:
+    """A calm device says something, and it is heard."""
+    with raw(broker, connect("calm01", WORD)) as calm:
+        calm.send(publish("vipo/v1/dev/calm01/up/state", word.encode(), qos=1))
+        assert calm.read() == (0x40, b"\x00\x01")
+    ear.wait(lambda h: h.payload == word.encode(), 20)
+
+
+def test_what_a_client_does_not_read_is_dropped_and_counted(
+    broker: EmbeddedBroker, notebook: Notebook, ear: Ear
+) -> None:
+    with raw(broker, connect("loud01", WORD)) as deaf, raw(broker, connect("s", SERVER_WORD, user="server")) as server:
+        deaf.send(subscribe(1, DOWN + "#"))
+        assert deaf.read() == (0x90, b"\x00\x01\x01")
+        kib = resident_kib()
+        for _ in range(8000):
+            server.send(publish(DOWN + "move", FILLER))
+        others_go_on(broker, ear, "here")
+        wait(lambda: notebook.dropped["loud01"] > 6000)
+        assert resident_kib() - kib < MOST_GROWTH_KIB
+    assert notebook.lines == [("loud01", "too many messages wait for it: some were dropped")]
+
+
+def test_an_absent_client_with_a_session_gets_the_first_thousand(broker: EmbeddedBroker, notebook: Notebook) -> None:
+    hello = connect("loud01", WORD, clean=False)
+    with raw(broker, hello) as first:
+        first.send(subscribe(1, DOWN + "#"))
+        assert first.read() == (0x90, b"\x00\x01\x01")
+        first.send(b"\xe0\x00")
+        assert first.closed()
+    with raw(broker, connect("s", SERVER_WORD, user="server")) as server:
+        for number in range(3000):
+            server.send(publish(DOWN + "move", b"%d" % number))
+        wait(lambda: notebook.dropped["loud01"] == 2000)
+    with raw(broker, hello, b"\x01\x00") as again:
+        topic = field(DOWN + "move")
+        unacknowledged = [again.read() for _ in range(20)]
+    with raw(broker, hello, b"\x01\x00") as again:
+        heard = []
+        for _ in range(1000):
+            head, body = again.read()
+            heard.append((head, body[len(topic) + 2 :]))
+            again.send(packet(0x40, body[len(topic) :][:2]))
+    assert unacknowledged == [(0x32, topic + bytes((0, n + 1)) + b"%d" % n) for n in range(20)]
+    assert heard == [(0x3A if n < 20 else 0x32, b"%d" % n) for n in range(1000)]
+
+
+def test_a_flood_by_one_who_reads_no_answers_holds_up_itself_alone(broker: EmbeddedBroker, ear: Ear) -> None:
+    kib = resident_kib()
+    with raw(broker, connect("loud01", WORD)) as loud:
+        stop = threading.Event()
+
+        def flood() -> None:
+            with suppress(OSError):
+                while not stop.is_set():
+                    loud.send(publish("vipo/v1/dev/loud01/up/x" + "y" * 3000, b"", qos=1) + b"\xc0\x00" * 500)
+
+        thread = threading.Thread(target=flood)
+        thread.start()
+        for number in range(5):
+            others_go_on(broker, ear, f"here {number}")
+            time.sleep(0.1)
+        assert resident_kib() - kib < MOST_GROWTH_KIB
+        stop.set()
+        loud.socket.shutdown(2)
+        thread.join(20)
+        assert not thread.is_alive()
+
+
+def test_a_giant_packet_ends_its_connection_with_its_will(broker: EmbeddedBroker, notebook: Notebook, ear: Ear) -> None:
+    with raw(broker, connect("loud01", WORD, will=(UP + "presence", "gone"))) as loud:
+        loud.send(b"\x30\xff\xff\xff\x7f" + b"x" * 1000)
+        assert loud.closed()
+    ear.wait(lambda h: h.payload == b"gone")
+    wait(lambda: notebook.lines)
+    assert notebook.lines == [("loud01", "a packet of more than 16384 bytes ended its connection")]
+    with raw(broker, connect("loud01", WORD)) as loud:
+        loud.send(publish(UP + "state", b"x" * (16384 - 4 - len(field(UP + "state"))), qos=0) + b"\xc0\x00")
+        assert loud.read() == (0xD0, b"")
+
+
+def test_of_a_devices_retained_topics_sixty_four_are_kept(broker: EmbeddedBroker, notebook: Notebook) -> None:
+    with raw(broker, connect("loud01", WORD)) as loud:
+        for number in range(2000):
+            loud.send(publish(f"{UP}t{number}", b"kept", retain=True))
+        loud.send(publish(f"{UP}t0", b"", retain=True))
+        loud.send(publish(f"{UP}last", b"kept", retain=True))
+        loud.send(publish(f"{UP}t1", b"anew", retain=True) + b"\xc0\x00")
+        assert loud.read() == (0xD0, b"")
+    wait(lambda: notebook.dropped["loud01"] == 1936)
+    with Ear(broker.port, SERVER_WORD) as ear:
+        assert ear.client.wait_subscribed(20)
+        wait(lambda: len(ear.heard) == 64)
+        kept = {h.topic.rsplit("/", 1)[1]: h.payload for h in ear.heard}
+    assert kept == {f"t{n}": b"kept" for n in range(2, 64)} | {"t1": b"anew", "last": b"kept"}
+    assert notebook.lines == [("loud01", "more than 64 retained topics: some were not kept")]
+
+
+def test_five_hundred_subscriptions_are_taken(broker: EmbeddedBroker, notebook: Notebook) -> None:
+    filters = [f"{DOWN}{number}" for number in range(510)]
+    with raw(broker, connect("loud01", WORD)) as loud:
+        loud.send(subscribe(1, *filters[:300]) + subscribe(2, *filters[300:]))
+        answers = loud.read()[1][2:] + loud.read()[1][2:]
+        assert answers == b"\x01" * 500 + b"\x80" * 10
+        loud.send(packet(0xA2, b"\x00\x03", *(field(each) for each in filters[:300])))
+        assert loud.read() == (0xB0, b"\x00\x03")
+        loud.send(subscribe(4, *filters[500:], DOWN + "/" * 250))
+        assert loud.read() == (0x90, b"\x00\x04" + b"\x01" * 10 + b"\x80")
+    wait(lambda: notebook.dropped["loud01"] == 11)
+
+
+def test_connections_that_never_begin_make_room_for_those_that_do(
+    broker: EmbeddedBroker, ear: Ear, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    silent = [Raw(broker, b"\x10") for _ in range(150)]
+    others_go_on(broker, ear, "here")
+    assert [each.closed() for each in silent[:50]] == [True] * 50
+    monkeypatch.setattr("vipo_site.broker_core.CONNECT_TIMEOUT_S", 0.3)
+    drip = Raw(broker, b"\x10\x40")
+    with suppress(OSError):
+        for _ in range(20):
+            drip.send(b"\x00")
+            time.sleep(0.05)
+    assert drip.closed()
+    for each in (*silent, drip):
+        each.socket.close()
+
+
+def test_a_packet_that_never_ends_counts_as_silence(broker: EmbeddedBroker, ear: Ear) -> None:
+    will = (UP + "presence", "gone")
+    with raw(broker, connect("loud01", WORD, keepalive_s=1, will=will)) as loud:
+        loud.send(b"\x30\x80\x01\x00\x10")
+        with suppress(OSError):
+            for _ in range(40):
+                loud.send(b"x")
+                time.sleep(0.05)
+        ear.wait(lambda h: h.payload == b"gone", 20)
+        assert loud.closed()
+
+
+def test_a_message_without_a_proper_topic_ends_the_connection_and_the_session(broker: EmbeddedBroker, ear: Ear) -> None:
+    for number, topic in enumerate((UP + "+", "$SYS/x", "", UP + "\0")):
+        with raw(broker, connect("loud01", WORD, will=(UP + "presence", f"gone {number}"))) as loud:
+            loud.send(publish(topic, b"x"))
+            assert loud.closed()
+    ear.wait(lambda h: h.payload == b"gone 3")
+    assert [h.payload for h in ear.heard] == [b"gone %d" % number for number in range(4)]
+
+
+def test_a_message_of_qos_2_is_heard_once(broker: EmbeddedBroker, ear: Ear) -> None:
+    with raw(broker, connect("loud01", WORD)) as loud:
+        for number in (7, 7, 8):
+            loud.send(publish(UP + "ack", b"%d" % number, qos=2, number=number))
+            assert loud.read() == (0x50, bytes((0, number)))
+        loud.send(packet(0x62, b"\x00\x07") + publish(UP + "ack", b"7 again", qos=2, number=7))
+        assert [loud.read(), loud.read()] == [(0x70, b"\x00\x07"), (0x50, b"\x00\x07")]
+    ear.wait(lambda h: h.payload == b"7 again")
+    assert [h.payload for h in ear.heard] == [b"7", b"8", b"7 again"]
+
+
+def test_a_device_cannot_take_over_a_connection_of_the_server(broker: EmbeddedBroker, ear: Ear) -> None:
+    imposter = Raw(broker, connect("ear", WORD, clean=False))
+    assert imposter.read() == (0x20, b"\x00\x05")
+    assert imposter.closed()
+    imposter.socket.close()
+    others_go_on(broker, ear, "here")
+
+
+def test_a_message_on_a_foreign_topic_is_noted(broker: EmbeddedBroker, notebook: Notebook) -> None:
+    with raw(broker, connect("loud01", WORD)) as loud:
+        loud.send(publish("vipo/v1/dev/other/up/state", b"x"))
+        wait(lambda: notebook.lines)
+    assert notebook.lines == [("loud01", "not its own topic: vipo/v1/dev/other/up/state")]
