@@ -18,6 +18,7 @@ from typing import Any
 from django.db import DatabaseError, connection
 
 from execution import services as execution
+from execution.alerting import note_complaint
 from execution.intake import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket
 from execution.taking_in import KNOCK, Taker
 from registry import live, wire
@@ -68,6 +69,7 @@ class Gateway:
                 self._write_notes()
                 self._count_dropped(time.monotonic())
                 registry.flush_samples()
+                registry.flush_alerts()
         finally:
             stopping.set()
             sender.join(5)
@@ -99,6 +101,7 @@ class Gateway:
 
     def _note(self, device: str, reason: str) -> None:
         """Count a message that was not taken; the worker writes it into the device's history."""
+        note_complaint(device, reason)
         line = self.complaints.add(device, reason, time.monotonic())
         if line is not None:
             log.warning("Device %s: %s", device, line)

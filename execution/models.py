@@ -141,6 +141,11 @@ class Command(models.Model):
             models.Index(fields=["status", "send_after"]),
             models.Index(fields=["device", "status"]),
             models.Index(fields=["device", "position"]),
+            models.Index(
+                fields=["ended_at"],
+                condition=models.Q(status__in=["failed", "rejected", "timed_out"]),
+                name="commands_gone_wrong",
+            ),
         ]
 
     def __str__(self) -> str:

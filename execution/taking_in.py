@@ -55,6 +55,7 @@ class Taker:
             same = registry.find_unchanged(descriptions=said, at=datetime.now(UTC))
         except DatabaseError:
             return []
+        registry.note_mended(devices=same, code="description_refused")
         unchanged = [entry for entry in entries if entry.device in same]
         for entry in unchanged:
             entry.message.acknowledge()
@@ -128,7 +129,9 @@ class Taker:
     def _ingest(self, device: str, kind: str, message: Message, at: datetime) -> registry.DeviceView | None:
         payload = message.payload
         if kind == "desc":
-            return registry.ingest_description(device_id=device, payload=payload, at=at)
+            view = registry.ingest_description(device_id=device, payload=payload, at=at)
+            registry.note_mended(devices=[device], code="description_refused")
+            return view
         if kind == "presence":
             return registry.ingest_presence(device_id=device, payload=payload, at=at)
         if kind == "state":

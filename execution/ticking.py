@@ -9,6 +9,7 @@ from datetime import datetime, timedelta
 from django.db import transaction
 
 from execution import inbox
+from execution.alerting import watch_alerts
 from execution.arming import start_armed
 from execution.calls import expire_calls
 from execution.models import FloorState, InboxEvent, Lease, Rehearsal, Run, Timer
@@ -33,11 +34,14 @@ class Ticker:
         self._holder = holder
         self._lease_until: datetime | None = None
         self._done_at: dict[str, datetime] = {}
+        self._leads_since: datetime | None = None
 
     def tick(self, now: datetime) -> bool:
         """Do what is due; False when another process has the lease."""
         if not self._hold_lease(now):
+            self._leads_since = None
             return False
+        self._leads_since = self._leads_since or now
         fire_timers(now)
         if self._is_due("sites", TICK_SITES_S, now):
             hint_active_sites()
@@ -48,9 +52,11 @@ class Ticker:
                 registry.note_samples(view=view, at=now)
                 inbox.send_hint(inbox.ADVANCE_SITE, view.site)
             registry.flush_samples()
+            watch_alerts(now=now, since=self._leads_since)
         if self._is_due("prune", PRUNE_S, now):
             InboxEvent.objects.filter(taken_at__lt=now - KEPT_FOR).delete()
             registry.prune_samples(now=now)
+            registry.prune_alerts(now=now)
         return True
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:

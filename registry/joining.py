@@ -15,6 +15,7 @@ from django.conf import settings
 from django.db import transaction
 from django.utils import timezone
 
+from registry.alert_notes import note_alert
 from registry.capability import Description, Pose, description_from_json, description_to_json
 from registry.credentials import secret_hash
 from registry.describing import Reading, canonical_hash, read, source_hash
@@ -179,6 +180,7 @@ def _tell_coming_and_going(device: Device, online: bool, at: datetime) -> None:
     if lately.filter(kind__in=("online", "offline")).count() < MOST_CHANGES_A_MINUTE:
         write_event(device, at, "online" if online else "offline", "Came online" if online else "Left")
     elif not lately.filter(kind="flapping").exists():
+        note_alert(device_id=device.pk, code="flapping")
         write_event(device, at, "flapping", "Comes and leaves all the time; not every time is written down")
 
 
@@ -248,6 +250,8 @@ def check_device_password(*, username: str, password: str) -> Principal | None:
         return None
     if device and device.credential_hash:
         is_its_key = hmac.compare_digest(device.credential_hash, offered)
+        if not is_its_key:
+            note_alert(device_id=username, code="wrong_key")
         return Principal(username, False, offered) if is_its_key else None
     if device and device.lifecycle != Device.Lifecycle.PENDING:
         return None

@@ -11,6 +11,7 @@ from datetime import datetime, timedelta
 
 from django.db import transaction
 
+from registry.alert_notes import note_alert
 from registry.broker_accounts import Account, accounts
 from registry.credentials import LEAST_CHARACTERS, MOST_CHARACTERS, broker_hash, is_strong, secret_hash
 from registry.device_rows import BadDevice, check_id, write_event
@@ -74,6 +75,7 @@ def _make_room(site_id: int, at: datetime) -> None:
 
 def _require_keyless(device: Device, site_id: int) -> None:
     if device.lifecycle != Device.Lifecycle.PENDING or device.credential_hash or device.site_id != site_id:
+        note_alert(device_id=device.pk, code="foreign_knock")
         raise BadDevice(
             f"Somebody knocked as {device.pk}, which is known with another key. "
             "If it is the same device, reject or retire it first and let it come back."

@@ -1,5 +1,18 @@
 """What the other apps may ask of the registry; everything else in this app is its own affair."""
 
+from registry.alert_causes import AlertCode
+from registry.alert_list import (
+    find_alert,
+    list_alerts,
+    list_open_alerts,
+    mark_alert_seen,
+    mark_all_seen,
+    prune_alerts,
+)
+from registry.alert_notes import flush_alerts, note_alert, note_mended
+from registry.alert_views import AlertView, alert_to_json
+from registry.alert_watch import watch_devices
+from registry.alerts import Raised, end_alert, end_alerts, raise_alert, raise_alerts
 from registry.decisions import (
     Decided,
     NotApproved,
@@ -71,6 +84,8 @@ from registry.views import (
 
 __all__ = [
     "DONE_FLAG_ONLY_SQL",
+    "AlertCode",
+    "AlertView",
     "BadDevice",
     "Decided",
     "DeviceEventView",
@@ -86,11 +101,13 @@ __all__ = [
     "PointView",
     "Principal",
     "QueryAnswer",
+    "Raised",
     "SaidState",
     "SeriesView",
     "SiteView",
     "StopView",
     "admit_newcomer",
+    "alert_to_json",
     "approve_device",
     "check_device_password",
     "check_sign_in",
@@ -99,10 +116,14 @@ __all__ = [
     "create_site_from_map",
     "create_user",
     "device_to_json",
+    "end_alert",
+    "end_alerts",
     "expect_device",
+    "find_alert",
     "find_device",
     "find_ended",
     "find_unchanged",
+    "flush_alerts",
     "flush_samples",
     "get_device",
     "get_floor",
@@ -113,15 +134,24 @@ __all__ = [
     "ingest_presence",
     "ingest_state",
     "ingest_states",
+    "list_alerts",
     "list_broker_hashes",
     "list_device_events",
     "list_devices",
+    "list_open_alerts",
     "list_places",
     "list_sites",
     "list_slugs",
+    "mark_alert_seen",
+    "mark_all_seen",
     "mark_stale",
+    "note_alert",
+    "note_mended",
     "note_samples",
+    "prune_alerts",
     "prune_samples",
+    "raise_alert",
+    "raise_alerts",
     "read_history",
     "readmit_device",
     "reconcile_accounts",
@@ -140,4 +170,5 @@ __all__ = [
     "set_site_stop",
     "site_to_json",
     "update_device",
+    "watch_devices",
 ]

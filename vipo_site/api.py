@@ -11,6 +11,7 @@ from ninja.security import django_auth
 
 from editor.api import router as editor_router
 from execution.api import router as execution_router
+from registry.alerts_api import router as alerts_router
 from registry.api import router as registry_router
 from registry.errors import VipoError
 from registry.history_api import router as history_router
@@ -58,6 +59,7 @@ def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
 
 
 api.add_router("", registry_router)
+api.add_router("", alerts_router)
 api.add_router("", history_router)
 api.add_router("", sparql_router)
 api.add_router("", things_router)

@@ -94,6 +94,7 @@ def _parser() -> argparse.ArgumentParser:
     call_device.add_arguments(commands.add_parser("call", help=call_device.WHAT, description=call_device.WHAT))
     for word, text, add in (
         ("devices", devices_cli.DEVICES, devices_cli.add_devices_arguments),
+        ("alerts", devices_cli.ALERTS, devices_cli.add_alerts_arguments),
         ("approve", devices_cli.APPROVE, devices_cli.add_approve_arguments),
         ("join-key", devices_cli.JOIN_KEY, devices_cli.add_join_key_arguments),
     ):

@@ -1,4 +1,4 @@
-"""`vipo devices`, `vipo approve`, `vipo join-key`: a site's devices for whoever may read its database."""
+"""`vipo devices`, `vipo alerts`, `vipo approve`, `vipo join-key`: devices for whoever may read the database."""
 
 from __future__ import annotations
 
@@ -6,22 +6,35 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import django
 
 CLEAN, UNUSABLE = 0, 2
 DEVICES = "List the devices of a site, or of all sites, with their state."
+ALERTS = "List the alerts of a site, or of all sites, that are not over."
 APPROVE = "Let a pending device take part, and print its new key this once."
 JOIN_KEY = "Make a new join key for a site's newcomers, and print it this once; the old one ends."
+ALERT_COLUMNS = ("severity", "site", "device", "state", "times", "since", "what")
 COLUMNS = ("id", "name", "site", "kind", "life", "state", "last seen")
 
 
 def add_devices_arguments(sub: argparse.ArgumentParser) -> None:
     """Describe what stands behind `vipo devices`."""
+    _add_listing_arguments(sub)
+    sub.set_defaults(run=list_devices)
+
+
+def add_alerts_arguments(sub: argparse.ArgumentParser) -> None:
+    """Describe what stands behind `vipo alerts`."""
+    _add_listing_arguments(sub)
+    sub.set_defaults(run=list_alerts)
+
+
+def _add_listing_arguments(sub: argparse.ArgumentParser) -> None:
     sub.add_argument("--site", default="", help="one site only")
     sub.add_argument("--json", action="store_true", help="write JSON for machines")
-    sub.set_defaults(run=list_devices)
 
 
 def add_approve_arguments(sub: argparse.ArgumentParser) -> None:
@@ -61,6 +74,33 @@ def list_devices(options: argparse.Namespace) -> int:
     for line in _table([COLUMNS, *rows]):
         _write(line)
     return CLEAN
+
+
+def list_alerts(options: argparse.Namespace) -> int:
+    """Print the alerts, the latest first; return 0, or 2 when there is no such site."""
+    _set_up()
+    from registry import services
+    from registry.errors import VipoError
+
+    try:
+        slugs = [options.site] if options.site else services.list_slugs()
+        found = [(slug, services.alert_to_json(a)) for slug in slugs for a in services.list_alerts(site=slug)]
+    except VipoError as error:
+        return _complain(error.detail)
+    if options.json:
+        _write(json.dumps([alert | {"site": slug} for slug, alert in found], ensure_ascii=False, indent=1))
+        return CLEAN
+    rows = [
+        (a["severity"], slug, a["device"], _state_of(a), str(a["count"]), a["first_at"][:19] + "Z", a["text"])
+        for slug, a in found
+    ]
+    for line in _table([ALERT_COLUMNS, *rows]):
+        _write(line)
+    return CLEAN
+
+
+def _state_of(alert: Mapping[str, Any]) -> str:
+    return f"seen by {alert['seen_by']}" if alert["seen_by"] else str(alert["state"])
 
 
 def approve(options: argparse.Namespace) -> int:

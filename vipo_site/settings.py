@@ -134,6 +134,8 @@ VIPO_GATEWAY = f"gateway-{os.environ.get('VIPO_GATEWAY') or socket.gethostname()
 """What the broker knows a gateway by; two on one machine need names of their own."""
 VIPO_BROKER_URL = os.environ.get("VIPO_BROKER_URL", "" if SERVED else f"mqtt://127.0.0.1:{VIPO_MQTT['port']}/")
 VIPO_DEFAULT_SITE = os.environ.get("VIPO_DEFAULT_SITE", "painting-factory")
+VIPO_OFFLINE_ALERT_S = float(os.environ.get("VIPO_OFFLINE_ALERT_S", "600"))
+"""After so many seconds a device that is away is worth an alert; one that is needed for work is at once."""
 VIPO_SPEED = float(os.environ.get("VIPO_SPEED", "1"))
 VIPO_DEMO = os.environ.get("VIPO_DEMO", "") == "1"
 

@@ -4,6 +4,26 @@
  */
 
 export interface paths {
+    "/api/alerts/{alert_id}/seen": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Mark Seen
+         * @description Say that the asker has seen an alert; of several people the first one stays named.
+         */
+        post: operations["registry_alerts_api_mark_seen"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/library": {
         parameters: {
             query?: never;
@@ -700,6 +720,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/alerts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Alerts
+         * @description List a site's alerts, the latest first: those that are not over, or those in one `state`; 1,000 at most.
+         */
+        get: operations["registry_alerts_api_list_alerts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/alerts/seen": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Mark All Seen
+         * @description Say that the asker has seen all open alerts of a site; answers with those that are not over.
+         */
+        post: operations["registry_alerts_api_mark_all_seen"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/devices": {
         parameters: {
             query?: never;
@@ -1244,6 +1304,33 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * @description Something about a device that people should know; `text` is the English sentence, `args` what it is made of.
+         *
+         *     `count` says how often it was raised since `first_at`, `role` the least role that it concerns.
+         */
+        AlertShape: {
+            args: {
+                [key: string]: boolean | number | string;
+            };
+            /** @enum {string} */
+            code: "offline_at_work" | "offline" | "error" | "warning" | "battery_low" | "newcomer_waits" | "description_refused" | "messages_dropped" | "messages_refused" | "flapping" | "wrong_key" | "foreign_knock" | "command_rejected" | "command_failed" | "command_timed_out";
+            count: number;
+            device: string;
+            first_at: string;
+            id: number;
+            last_at: string;
+            over_at: string | null;
+            /** @enum {string} */
+            role: "viewer" | "admin";
+            seen_at: string | null;
+            seen_by: string;
+            /** @enum {string} */
+            severity: "info" | "warning" | "error";
+            /** @enum {string} */
+            state: "open" | "seen" | "over";
+            text: string;
+        };
         /** @description The answer: yes or no, a number, a text, or one of the options. */
         AnswerQuestion: {
             value: boolean | number | string;
@@ -2168,6 +2255,37 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
+    registry_alerts_api_mark_seen: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                alert_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AlertShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     editor_api_search_library: {
         parameters: {
             query?: {
@@ -3387,6 +3505,70 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SiteShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_alerts_api_list_alerts: {
+        parameters: {
+            query?: {
+                state?: ("open" | "seen" | "over") | null;
+            };
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AlertShape"][];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_alerts_api_mark_all_seen: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AlertShape"][];
                 };
             };
             /** @description A refusal */

@@ -1,0 +1,131 @@
+"""Alerts about commands and messages, raised and ended by the ticker and the taker that also serve the product."""
+
+import json
+import threading
+from collections import Counter
+from datetime import UTC, datetime, timedelta
+from uuid import uuid4
+
+import pytest
+
+from execution import services
+from execution.alerting import note_complaint
+from execution.intake import Entry
+from execution.models import Command, Run
+from execution.taking_in import Taker
+from execution.ticking import Ticker
+from registry import alert_notes
+from registry import services as registry
+from registry.alert_notes import NoteBuffer
+from registry.capability import Description, Pose, Size
+from registry.describing import write_description
+from registry.models import Device, Site
+from registry.mqtt import Message
+
+MIXER = Description("mixer", "Mixer", "machine", "mixer", Pose(1, 1), Size(1, 1, 1), site="hall")
+NOW = datetime.now(UTC)
+
+
+@pytest.fixture
+def hall(db, monkeypatch):
+    monkeypatch.setattr(alert_notes, "_buffer", NoteBuffer())
+    registry.create_site(name="Hall", slug="hall")
+    describe(MIXER)
+    Device.objects.update(lifecycle="approved", online=True)
+    return Site.objects.get(slug="hall")
+
+
+def describe(description):
+    payload = write_description(description).encode()
+    return registry.ingest_description(device_id="mixer", payload=payload, at=NOW)
+
+
+def add(site, method="mix", **more):
+    return Command.objects.create(
+        id=uuid4(), site=site, position=Command.objects.count(), device="mixer", method=method, send_after=NOW,
+        created_at=NOW, **more,
+    )  # fmt: skip
+
+
+def answer(command, status, seconds=0, why=""):
+    at = NOW + timedelta(seconds=seconds)
+    services.record_ack(device="mixer", command_id=str(command.id), status=status, why=why, result={}, at=at)
+
+
+@pytest.fixture
+def tick(hall):
+    ticker = Ticker()
+    ticker.tick(NOW - timedelta(hours=1))
+    return lambda seconds: ticker.tick(NOW + timedelta(seconds=seconds))
+
+
+def alerts(state=None):
+    return [(a.code, dict(a.args), a.count) for a in registry.list_alerts(site="hall", state=state)]
+
+
+def test_commands_that_go_wrong_are_told_until_the_same_is_done(hall, tick):
+    wrong = [add(hall), add(hall), add(hall, "heat")]
+    answer(wrong[0], "REJECTED", 1, "Lid open")
+    tick(2)
+    tick(3)
+    assert alerts() == [("command_rejected", {"method": "mix", "why": "Lid open"}, 1)]
+    answer(wrong[1], "REJECTED", 4, "Lid still open")
+    answer(wrong[2], "FAILED", 5)
+    tick(6)
+    tick(7)
+    assert alerts() == [
+        ("command_failed", {"method": "heat"}, 1),
+        ("command_rejected", {"method": "mix", "why": "Lid still open"}, 2),
+    ]
+    answer(add(hall), "DONE", 8)
+    tick(9)
+    assert alerts() == [("command_failed", {"method": "heat"}, 1)]
+
+
+def test_what_nobody_answers_is_told_and_what_people_ended_is_not(hall, tick):
+    late = add(hall, by="Ada", status="sent")
+    Command.objects.filter(id=late.id).update(created_at=NOW - timedelta(minutes=5))
+    answer(add(hall), "CANCELED", 1)
+    answer(add(hall, "pause"), "REJECTED", 1)
+    answer(add(hall, "move", piece=True), "REJECTED", 1)
+    tick(2)
+    tick(4)
+    (told,) = alerts()
+    assert (told[0], told[1]["method"], told[2]) == ("command_timed_out", "mix", 1)
+
+
+@pytest.mark.parametrize("needed", ["command", "run"])
+def test_who_is_needed_and_gone_is_told(hall, tick, needed):
+    if needed == "command":
+        add(hall, status="running")
+    else:
+        Run.objects.create(
+            site=hall, number=1, program=uuid4(), roles={"robot": "mixer"}, status="paused", created_at=NOW
+        )
+    registry.ingest_presence(device_id="mixer", payload=b'{"s": "offline", "boot": 1}', at=NOW)
+    tick(3)
+    assert alerts() == []
+    tick(8)
+    assert alerts() == [("offline_at_work", {}, 1)]
+
+
+def test_refused_messages_are_told_until_better_ones_come(hall, tick):
+    taker = Taker(note_complaint, Counter())
+
+    def send(kind, payload):
+        entry = Entry(Message(f"vipo/v1/dev/mixer/up/{kind}", payload, False, lambda: None), "mixer", kind)
+        taker.take_all([entry], threading.Event())
+        registry.flush_alerts()
+
+    send("desc", b"not a description")
+    send("state", json.dumps({"boot": -1}).encode())
+    assert sorted(code for code, _, _ in alerts()) == ["description_refused", "messages_refused"]
+    assert all(args["why"] for _, args, _ in alerts())
+    send("desc", write_description(MIXER).encode())
+    assert [code for code, _, _ in alerts()] == ["messages_refused"]
+    note_complaint("mixer", "too many messages: some were dropped")
+    note_complaint("mixer", "knock/: nobody's")
+    registry.flush_alerts()
+    assert sorted(code for code, _, _ in alerts()) == ["messages_dropped", "messages_refused"]
+    tick(3600)
+    assert [code for code, _, _ in alerts()] == ["offline"]
