@@ -7,9 +7,11 @@ import json
 from dataclasses import dataclass
 
 from registry.capability import Description, description_to_json, find_faults
-from registry.ontology import describe_json_ld, describe_turtle, write_rdf
+from registry.device_triples import describe
+from registry.ontology import write_rdf
 from registry.paper_message import describe_message, write_message
 from registry.paper_text import read_text
+from registry.rdf_reading import read_json_ld, read_turtle
 from registry.rdf_text import (
     FORMS,
     BadDescription,
@@ -70,7 +72,7 @@ def _read_json_form(text: str) -> Reading:
     if form == "paper":
         description, notes = describe_message(body)
         return Reading(description, form, notes)
-    return Reading(describe_json_ld(body), form)
+    return Reading(describe(read_json_ld(body)), form)
 
 
 def _read_text_form(text: str) -> Reading:
@@ -79,7 +81,7 @@ def _read_text_form(text: str) -> Reading:
         message = read_text(text)
         description, notes = describe_message(message.body, message.places, message.notes)
         return Reading(description, form, notes)
-    return Reading(describe_turtle(text), form)
+    return Reading(describe(read_turtle(text)), form)
 
 
 def read_description(payload: bytes, *, device_id: str | None = None) -> Description:

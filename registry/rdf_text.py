@@ -93,7 +93,7 @@ def form_of(payload: bytes) -> DescriptionForm:
 
 
 def plain_text(payload: bytes) -> str:
-    """Return a payload's text. Raises BadDescription for what is too long, XML, not UTF-8, or holds NUL or markup."""
+    """Return a payload's text. Raises BadDescription for what is too long, XML, not UTF-8, or holds NUL."""
     if len(payload) > MAX_BYTES:
         raise BadDescription(f"The description has {len(payload)} bytes; {MAX_BYTES} is the most.")
     if _MARKUP.match(payload.removeprefix(b"\xef\xbb\xbf")) or b"<rdf:RDF" in payload:
@@ -106,8 +106,6 @@ def plain_text(payload: bytes) -> str:
         raise BadDescription("The description is not UTF-8.") from error
     if "\0" in text or "\\u0000" in text or "\\U00000000" in text:
         raise BadDescription("The description holds the character NUL. Remove it.")
-    if "XMLLiteral" in text or "rdf-syntax-ns#HTML" in text or "rdf:HTML" in text:
-        raise BadDescription("The description holds XML or HTML literals. Use plain text.")
     return text
 
 

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from registry.describing import Reading
-from registry.ontology import graph_of, graph_of_json_ld, graph_of_turtle
+from registry.ontology import graph_of, graph_of_triples
+from registry.rdf_reading import read_json_ld, read_turtle
 from registry.rdf_text import BadDescription, Fault, is_json, plain_text, read_json
 
 SHAPES = Path(__file__).parent / "shapes" / "device.ttl"
@@ -22,14 +23,14 @@ SELECT DISTINCT ?message ?value WHERE {
 
 @cache
 def _shapes() -> Any:
-    return graph_of_turtle(SHAPES.read_text(encoding="utf-8"))
+    return graph_of_triples(read_turtle(SHAPES.read_text(encoding="utf-8")))
 
 
 def check_rdf(payload: bytes) -> tuple[Fault, ...]:
     """Return where RDF leaves the shapes, in the order of the sentences. Raises BadDescription when it is no RDF."""
     text = plain_text(payload)
-    graph = graph_of_json_ld(read_json(text)) if is_json(text) else graph_of_turtle(text)
-    return tuple(_faults(graph))
+    triples = read_json_ld(read_json(text)) if is_json(text) else read_turtle(text)
+    return tuple(_faults(graph_of_triples(triples)))
 
 
 def check_reading(reading: Reading, payload: bytes) -> tuple[Fault, ...]:

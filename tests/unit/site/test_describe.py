@@ -51,7 +51,7 @@ def test_describe_says_what_it_mended(capsys: pytest.CaptureFixture[str]) -> Non
 @pytest.mark.parametrize(
     ("text", "place", "says"),
     [
-        ("@prefix a: <b> .\n<x> <y> foo bar .", ":2:8", "is not RDF (Turtle, N-Triples or JSON-LD)"),
+        ("@prefix a: <b> .\n<x> <y> foo bar .", ":2:9", "is not RDF (Turtle, N-Triples or JSON-LD)"),
         ('{"id": "m1",\n "size" 3}', ":2:9", "is not JSON"),
         ('{"id": 3}', ": /id", "needs text in quotes for id"),
         ('id: "m1"\nlocation: x\n', ":2:11", "needs a list of numbers for location"),
