@@ -60,3 +60,11 @@ def require(user: AbstractBaseUser | AnonymousUser, site: str | Site, role: str)
     if not access.allows(role):
         raise NotAllowed(f"You are {access.role} of this site; this needs the role {role}. Ask an admin for it.")
     return access
+
+
+def list_visible(user: AbstractBaseUser | AnonymousUser) -> frozenset[str]:
+    """Return the slugs of the sites of which the user is a member."""
+    if not user.is_authenticated:
+        return frozenset()
+    memberships = Membership.objects.filter(user_id=user.pk, user__is_active=True)
+    return frozenset(memberships.values_list("site__slug", flat=True))

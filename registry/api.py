@@ -37,6 +37,7 @@ from registry.shapes import (
     SignIn,
     SiteShape,
 )
+from registry.thing_log import call_listeners
 from registry.views import device_to_json, site_to_json
 
 router = Router(tags=["registry"])
@@ -86,6 +87,7 @@ def sign_in(request: HttpRequest, body: SignIn) -> dict[str, Any]:
 def sign_out(request: HttpRequest) -> dict[str, Any]:
     """End the session."""
     logout(request)
+    call_listeners()
     return show_me(request)
 
 

@@ -12,6 +12,7 @@ from registry.errors import RegistryError
 from registry.live import publish
 from registry.models import Device, DeviceEvent, User
 from registry.rdf_text import CONTENT_TYPES
+from registry.thing_log import record_thing
 from registry.views import DeviceView, changed_fields
 from registry.wire import is_device_id
 
@@ -63,7 +64,8 @@ def write_event(
 
 
 def announce(before: DeviceView | None, after: DeviceView) -> None:
-    """Tell the browsers what is new, once the transaction holds."""
+    """Tell browsers and directories what is new, once the transaction holds."""
+    record_thing(before, after)
     changes = changed_fields(before, after)
     if len(changes) > 1:
         transaction.on_commit(lambda: publish(after.site, {"type": "device", "device": changes}))

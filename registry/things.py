@@ -1,36 +1,22 @@
-"""A site as a directory of W3C Things: which there are, what may be changed of one, and when one has changed."""
+"""Devices as W3C Things: how they are written, what people may change of one, and what has become of one."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
+from hashlib import sha256
 from math import isfinite
 from typing import Any, Literal
 
-from registry.capability import Pose
+from registry.capability import Description, Pose
 from registry.errors import RegistryError
 from registry.thing import DEVICE_URN, thing_of
 from registry.views import DeviceView
 
 EventName = Literal["thing_created", "thing_updated", "thing_deleted"]
+EVENTS: tuple[EventName, ...] = ("thing_created", "thing_updated", "thing_deleted")
 PATCHABLE = ("title", "vipo:location")
-_TELLING = (
-    "kind",
-    "name",
-    "description",
-    "image",
-    "device_class",
-    "size",
-    "radius_m",
-    "gives",
-    "takes",
-    "capacity",
-    "simulated",
-    "methods",
-    "lifecycle",
-)
-"""What of a device, as the API says it, stands in its Thing Description, too."""
 
 
 class BadThingPatch(RegistryError):
@@ -51,6 +37,16 @@ class ThingPatch:
 def thing_to_json(view: DeviceView, broker: str) -> dict[str, Any]:
     """Return a device as a Thing Description, with the name and place that hold."""
     return thing_of(view.canonical, broker)
+
+
+def thing_text(view: DeviceView, broker: str) -> str:
+    """Return a device's Thing Description as it is sent."""
+    return json.dumps(thing_to_json(view, broker), ensure_ascii=False)
+
+
+def thing_tag(text: str) -> str:
+    """Return the entity tag (RFC 9110) of what is sent."""
+    return f'"{sha256(text.encode()).hexdigest()[:32]}"'
 
 
 def device_id_of(thing: str) -> str:
@@ -95,42 +91,37 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
 
 
-@dataclass(slots=True)
-class ThingWatch:
-    """Turns what is said of a site's devices into what has become of its Things."""
+def what_became(before: DeviceView | None, after: DeviceView, broker: str) -> tuple[EventName, dict[str, Any]] | None:
+    """Return what a decision or a description made of a Thing, and the change: nothing for readings and drives.
 
-    known: dict[str, dict[str, Any]] = field(default_factory=dict)
-
-    def begin(self, devices: list[dict[str, Any]]) -> None:
-        """Take in the site's devices as they are now."""
-        self.known = {device["id"]: _told(device, {}) for device in devices}
-
-    def take(self, message: Mapping[str, Any]) -> tuple[EventName, str] | None:
-        """Take in a live message; return what has become of which device's Thing, if anything has."""
-        if message["type"] == "device_removed":
-            gone = self.known.pop(message["id"], None)
-            return ("thing_deleted", message["id"]) if _is_listed(gone) else None
-        if message["type"] != "device":
-            return None
-        device = message["device"]
-        before = self.known.get(device["id"])
-        after = _told(device, before or {})
-        self.known[device["id"]] = after
-        if _is_listed(after):
-            changed: EventName = "thing_updated" if _is_listed(before) else "thing_created"
-            return (changed, device["id"]) if after != before else None
-        return ("thing_deleted", device["id"]) if _is_listed(before) else None
+    The change is the whole Thing when it is new, and a merge patch (RFC 7396) when it is another.
+    """
+    was, is_now = _as_listed(before), _as_listed(after)
+    if was == is_now:
+        return None
+    if is_now is None:
+        return ("thing_deleted", {})
+    if was is None:
+        return ("thing_created", thing_to_json(after, broker))
+    change = merge_patch(thing_of(was, broker), thing_of(is_now, broker))
+    return ("thing_updated", change) if change else None
 
 
-def _is_listed(told: Mapping[str, Any] | None) -> bool:
-    return told is not None and told.get("lifecycle") == "approved"
+def _as_listed(view: DeviceView | None) -> Description | None:
+    """Return what a directory says of a device but for its state; None when it does not stand there."""
+    if view is None or view.lifecycle != "approved":
+        return None
+    still = replace(view.canonical, done=True)
+    return replace(still, pose=Pose(0.0, 0.0)) if view.kind == "robot" else still
 
 
-def _told(device: Mapping[str, Any], before: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what the Thing says, after a change: not readings, and not where a robot drives."""
-    after = {**before, **{name: device[name] for name in _TELLING if name in device}}
-    if "properties" in device:
-        after["properties"] = [{k: v for k, v in each.items() if k != "value"} for each in device["properties"]]
-    if "location" in device and after.get("kind") == "machine":
-        after["location"] = device["location"]
-    return after
+def merge_patch(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the JSON merge patch (RFC 7396) that makes the one of the other; null takes a member away."""
+    patch: dict[str, Any] = {name: None for name in before if name not in after}
+    for name, value in after.items():
+        old = before.get(name)
+        if isinstance(old, Mapping) and isinstance(value, Mapping):
+            patch |= {name: inner} if (inner := merge_patch(old, value)) else {}
+        elif name not in before or old != value:
+            patch[name] = value
+    return patch

@@ -44,11 +44,11 @@ def on_refusal(request: HttpRequest, error: VipoError) -> HttpResponse:
 
 
 @api.exception_handler(ValidationError)
-def on_bad_request(request: HttpRequest, error: ValidationError) -> HttpResponse:
+def on_bad_request(request: HttpRequest, error: ValidationError, status: int = 422) -> HttpResponse:
     """Say which fields of the request do not fit, and why."""
     fields = [{"field": ".".join(str(p) for p in e["loc"][1:]), "message": e["msg"]} for e in error.errors]
     named = "; ".join(f"{f['field']}: {f['message']}" for f in fields)
-    return problem(422, "bad_request", f"The request does not fit: {named}", fields=fields)
+    return problem(status, "bad_request", f"The request does not fit: {named}", fields=fields)
 
 
 @api.exception_handler(HttpError)

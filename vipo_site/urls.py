@@ -8,6 +8,7 @@ from django.urls import path, re_path
 from django.views.decorators.csrf import ensure_csrf_cookie
 
 from vipo_site.api import api, problem
+from vipo_site.directory import directory_urls
 from vipo_site.health import check_health
 
 
@@ -36,6 +37,7 @@ def no_such_call(request: HttpRequest) -> HttpResponse:
 urlpatterns = [
     path("api/", api.urls),
     path("health", health),
+    *directory_urls(),
     re_path(r"^(api|ws)/.*$", no_such_call),
     re_path(r"^(?!static/|assets/).*$", page),
 ]

@@ -1265,7 +1265,7 @@ export interface paths {
         };
         /**
          * Watch Things
-         * @description Send `thing_created`, `thing_updated` and `thing_deleted` as they happen; with `diff` the whole Thing, too.
+         * @description Send `thing_created`, `thing_updated` and `thing_deleted` as they happen; with `diff` what changed, too.
          */
         get: operations["registry_things_api_watch_things"];
         put?: never;
@@ -1767,11 +1767,8 @@ export interface components {
             limit: number;
             /** @default 0 */
             offset: number;
-            /**
-             * @default id
-             * @constant
-             */
-            sort_by: "id";
+            /** @default id */
+            sort_by: string;
             /**
              * @default asc
              * @enum {string}
@@ -4500,7 +4497,7 @@ export interface operations {
                 offset?: number;
                 limit?: number;
                 format?: "array" | "collection";
-                sort_by?: "id";
+                sort_by?: string;
                 sort_order?: "asc" | "desc";
             };
             header?: never;

@@ -1,24 +1,20 @@
-"""A site as a WoT directory: listing, one Thing, its patch, and the stream of events."""
+"""A site as a WoT directory: listing, one Thing, and its patch."""
 
 from __future__ import annotations
 
-import asyncio
 import json
-from collections.abc import AsyncIterator
-from contextlib import aclosing
 from dataclasses import replace
 from typing import Any
 
 import pytest
-from asgiref.sync import sync_to_async
 from django.test import Client
 
-from registry import live, services, things_events
-from registry.capability import Pose, PropertySpec
-from registry.models import Device, DeviceEvent, Membership, User
+from registry import services
+from registry.capability import Pose
+from registry.models import Device, DeviceEvent, User
 from registry.td_schema import check_thing
 
-from .conftest import MIXER, NOW, ROBOT, ROLES, come, describe, say
+from .conftest import MIXER, ROBOT, ROLES, describe
 
 ADDRESS = "/api/sites/hall/things"
 URN = "urn:vipo:device:"
@@ -47,10 +43,11 @@ def test_approved_devices_are_listed_as_valid_things_a_page_at_a_time(things: st
     assert [thing["id"] for thing in answer.json()] == [f"{URN}a", f"{URN}b"]
     for thing in answer.json():
         check_thing(thing)
-    following = answer["Link"].removeprefix("<").removesuffix('>; rel="next"')
+    following, rest = answer["Link"].removeprefix("<").split('>; rel="next", ')
+    assert rest.startswith(f'<{ADDRESS}>; rel="canonical"; etag="')
     last = client_of("viewer").get(following)
     assert [thing["title"] for thing in last.json()] == ["Mixer c"]
-    assert "Link" not in last
+    assert last["Link"] == rest
 
 
 def test_a_collection_names_its_total_and_the_next_page(things: str) -> None:
@@ -117,77 +114,3 @@ def test_what_is_not_for_people_to_change_is_refused(things: str, body: str, tol
     assert (answer.status_code, answer.json()["code"]) == (400, "bad_thing_patch")
     assert answer.json()["detail"].startswith(told)
     assert DeviceEvent.objects.count() == before
-
-
-def stream(**options: Any) -> AsyncIterator[bytes]:
-    user = User.objects.get(email="viewer@vipo.example")
-    given = {"types": things_events.EVENTS, "diff": False, **options}
-    return things_events.stream_events(site="hall", user=user, **given)
-
-
-async def heard(events: AsyncIterator[bytes]) -> tuple[str, Any]:
-    """Return the next event's name and data."""
-    text = (await asyncio.wait_for(anext(events), 30)).decode()
-    name, data = (line.partition(": ")[2] for line in text.strip().splitlines())
-    return name, json.loads(data)
-
-
-@pytest.mark.django_db(transaction=True)
-async def test_what_becomes_of_things_is_sent_and_readings_are_not(things: str) -> None:
-    async with aclosing(await sync_to_async(stream)()) as events:
-        assert (await anext(events)).startswith(b"retry: 2000\n")
-        await sync_to_async(come)("a")
-        await sync_to_async(say)("a", props={"jobStatus": 40})
-        await sync_to_async(services.update_device)(site="hall", device_id="a", name="Left", by=None, at=NOW)
-        assert await heard(events) == ("thing_updated", {"id": f"{URN}a"})
-        await sync_to_async(services.approve_device)(site="hall", device_id="newcomer", by=None, at=NOW)
-        assert await heard(events) == ("thing_created", {"id": f"{URN}newcomer"})
-        await sync_to_async(say)("newcomer", loc=[1, 2, 0, 0])
-        more = replace(ROBOT, id="newcomer", properties=(PropertySpec("heat", "number"),))
-        await sync_to_async(describe)(more)
-        assert await heard(events) == ("thing_updated", {"id": f"{URN}newcomer"})
-        await sync_to_async(services.retire_device)(site="hall", device_id="newcomer", by=None, at=NOW)
-        assert await heard(events) == ("thing_deleted", {"id": f"{URN}newcomer"})
-
-
-@pytest.mark.django_db(transaction=True)
-async def test_a_listener_may_ask_for_some_events_and_for_the_whole_thing(things: str) -> None:
-    async with aclosing(await sync_to_async(stream)(types=("thing_created",), diff=True)) as events:
-        await anext(events)
-        await sync_to_async(services.update_device)(site="hall", device_id="a", name="Left", by=None, at=NOW)
-        await sync_to_async(services.approve_device)(site="hall", device_id="newcomer", by=None, at=NOW)
-        name, thing = await heard(events)
-        assert (name, thing["title"]) == ("thing_created", "Robot One")
-        check_thing(thing)
-
-
-@pytest.mark.django_db(transaction=True)
-async def test_who_reads_too_slowly_is_dropped_and_who_is_no_member_any_more_too(things: str) -> None:
-    async with aclosing(await sync_to_async(stream)()) as events:
-        await anext(events)
-        for number in range(things_events.MOST_WAITING + 1):
-            live.publish("hall", {"type": "device", "device": {"id": "a", "name": f"n{number}"}})
-        await asyncio.sleep(0)
-        assert [text async for text in events] == []
-    async with aclosing(await sync_to_async(stream)()) as events:
-        await anext(events)
-        await sync_to_async(Membership.objects.filter(user__email="viewer@vipo.example").delete)()
-        live.publish("hall", {"type": "members"})
-        assert [text async for text in events] == []
-    assert things_events._open == 0
-
-
-@pytest.mark.django_db(transaction=True)
-async def test_a_stream_ends_when_it_has_sent_enough(things: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(things_events, "MOST_BYTES", 100)
-    async with aclosing(await sync_to_async(stream)()) as events:
-        await anext(events)
-        for number in range(10):
-            live.publish("hall", {"type": "device", "device": {"id": "a", "name": f"n{number}"}})
-        assert len([text async for text in events]) == 2
-
-
-def test_only_so_many_streams_are_open_at_once(things: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(things_events, "_open", things_events.MOST_STREAMS)
-    answer = client_of("viewer").get(f"{ADDRESS}/events")
-    assert (answer.status_code, answer.json()["code"]) == (429, "too_many_streams")

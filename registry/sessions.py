@@ -1,0 +1,32 @@
+"""Whether a session that opened a stream still stands while the stream goes on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from django.contrib.auth import SESSION_KEY, get_user
+from django.contrib.sessions.backends.db import SessionStore
+from django.http import HttpRequest
+
+from registry.models import User
+
+
+@dataclass(frozen=True, slots=True)
+class Session:
+    """A browser's or program's session, by its key and the id of the person who signed in."""
+
+    key: str
+    person: int
+
+
+def session_of(request: HttpRequest) -> Session:
+    """Return the session of a request that is signed in."""
+    return Session(request.session.session_key or "", int(request.session[SESSION_KEY]))
+
+
+def find_person(session: Session) -> User | None:
+    """Return who is signed in with a session; None once it has ended: signed out, another password, locked out."""
+    request = HttpRequest()
+    request.session = SessionStore(session.key)
+    user = get_user(request)
+    return user if isinstance(user, User) and user.pk == session.person and user.is_active else None
