@@ -11,7 +11,6 @@ from django.db.models.functions import Lower
 
 from registry.alert_rows import DeviceAlert as DeviceAlert  # Django looks for models here
 from registry.thing_rows import ThingEvent as ThingEvent  # Django looks for models here
-from registry.topic_rows import TopicClaim as TopicClaim  # Django looks for models here
 
 
 class UserManager(BaseUserManager["User"]):
@@ -229,10 +228,10 @@ class DeviceEvent(models.Model):
     at = models.DateTimeField()
     kind = models.CharField(max_length=20)
     text = models.CharField(max_length=300)
-    changes = models.JSONField(default=list)
-    by = models.ForeignKey(User, null=True, on_delete=models.SET_NULL, related_name="+")
     code = models.CharField(max_length=30, blank=True)
     args = models.JSONField(default=dict)
+    changes = models.JSONField(default=list)
+    by = models.ForeignKey(User, null=True, on_delete=models.SET_NULL, related_name="+")
 
     class Meta:
         """Read newest first."""
