@@ -135,7 +135,7 @@ def _wait_for(heard: Queue[tuple[str, float]], wanted: str, began: float) -> flo
     while True:
         what, at = heard.get(timeout=10)
         if what == wanted:
-            time.sleep(0.2)
+            time.sleep(0.2 + at % 0.1)  # at no fixed distance from the gateway's own look every 0.1 s
             return (at - began) * 1000
 
 

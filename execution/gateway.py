@@ -31,7 +31,7 @@ log = logging.getLogger(__name__)
 EVERYTHING = "$share/gateway/vipo/v1/dev/+/up/#"
 KNOCKS = "$share/gateway/vipo/v1/join/+/+"
 SERVER_STATUS = "vipo/v1/srv/status"
-WAKE_CHANNEL = "gateway"
+WAKE_CHANNEL, STOPS_CHANNEL = "gateway", "stops"
 POLL_S = 0.1
 STOPS_EVERY_S = 1.0
 CLAIM_LIMIT = 100
@@ -137,18 +137,17 @@ class Gateway:
             except Exception:  # the edge of the process: without this thread no command would ever go out
                 log.exception("Sending commands failed.")
                 busy = not stopping.wait(1.0)
-            if not busy and live.wait_wake(WAKE_CHANNEL, POLL_S):
-                self._stops_at = 0.0
+            if not busy:
+                live.wait_wake(WAKE_CHANNEL, POLL_S)
         connection.close()
 
     def _send_once(self) -> bool:
         """Publish what waits; True when there may be more."""
         if self._greeting_due.is_set():
             self._greet()
-        now = time.monotonic()
-        if now - self._stops_at >= STOPS_EVERY_S:
-            self._stops_at = now
+        if live.wait_wake(STOPS_CHANNEL, 0) or time.monotonic() - self._stops_at >= STOPS_EVERY_S:
             self._publish_stops()
+            self._stops_at = time.monotonic()
         commands = execution.claim_commands(limit=CLAIM_LIMIT)
         for command in commands:
             self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import partial
 from uuid import uuid4
 
 from django.db import transaction
@@ -78,4 +79,5 @@ def _latch(row: SiteStop, site: str, *, active: bool, by: str) -> None:
     registry.set_site_stop(site=site, active=active, by=by, at=row.at)
     message = {"type": "stop", "active": active, "by": by, "at": row.at.isoformat()}
     transaction.on_commit(lambda: live.publish(site, message))
-    transaction.on_commit(lambda: live.wake("gateway"))
+    for channel in ("stops", "gateway"):  # what there is to look at, then the hint that ends the gateway's wait
+        transaction.on_commit(partial(live.wake, channel))
