@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from datetime import UTC, datetime
 from queue import Queue
+from threading import Event
 from typing import Any
 from uuid import uuid4
 
@@ -19,12 +21,14 @@ from django.core.management import call_command  # noqa: E402 - Django is set up
 from django.db import transaction  # noqa: E402
 
 from bench.flow import device_name  # noqa: E402
+from execution.intake import Entry  # noqa: E402
 from execution.models import Command  # noqa: E402
+from execution.taking_in import Taker  # noqa: E402
 from registry import live, services  # noqa: E402
 from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size  # noqa: E402
 from registry.describing import write_description  # noqa: E402
 from registry.models import Device  # noqa: E402
-from registry.mqtt import MqttClient  # noqa: E402
+from registry.mqtt import Message, MqttClient  # noqa: E402
 from registry.wire import down_topic, up_topic  # noqa: E402
 
 SITE = "hall"
@@ -57,9 +61,18 @@ def rate(count: int, work: Callable[[], object]) -> float:
 
 
 def take_in(payloads: dict[str, bytes]) -> None:
-    at = datetime.now(UTC)
-    for device, payload in payloads.items():
-        services.ingest_description(device_id=device, payload=payload, at=at)
+    """Let the gateway's worker take descriptions in as it does: what waits, at most 200 at once."""
+    refused: list[str] = []
+    acknowledged: list[str] = []
+    taker = Taker(lambda device, reason: refused.append(f"{device}: {reason}"), Counter())
+    entries = [
+        Entry(Message(up_topic(name, "desc"), payload, False, lambda: acknowledged.append("")), name, "desc")
+        for name, payload in payloads.items()
+    ]
+    for start in range(0, len(entries), AT_ONCE):
+        taker.take_all(entries[start : start + AT_ONCE], Event())
+    if refused or len(acknowledged) < len(payloads):
+        raise RuntimeError(f"{len(acknowledged)} descriptions were acknowledged. {' '.join(refused[:3])}")
 
 
 def payloads(count: int, name: str = "") -> dict[str, bytes]:

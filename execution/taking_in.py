@@ -16,18 +16,22 @@ from registry import services as registry
 from registry import wire
 from registry.errors import VipoError
 from registry.mqtt import Message
+from registry.outage import Outage
 
 log = logging.getLogger(__name__)
 KNOCK = "knock/"
 """The kind of a knock; a kind of `up/` topics has no slash."""
 POISON_TRIES = 3
+MOST_DESCRIPTIONS = 50
+"""So many are read and kept in one go: what others wait for does not wait long behind them."""
 
 
 class Taker:
     """Takes messages in and acknowledges each to the broker once it is kept, or will never be."""
 
-    def __init__(self, note: Callable[[str, str], None], counts: Counter[str]) -> None:
+    def __init__(self, note: Callable[[str, str], None], counts: Counter[str], outage: Outage | None = None) -> None:
         self._note, self._counts = note, counts
+        self._outage = outage or Outage("The database", "What devices say waits.")
 
     def take_all(self, entries: Sequence[Entry], stopping: threading.Event) -> None:
         """Take in what has come; the messages of one device in the order of their arrival."""
@@ -37,13 +41,24 @@ class Taker:
     def _take_round(self, entries: list[Entry], stopping: threading.Event) -> None:
         """Take in at most one message of each device: answers first, since runs wait for them."""
         states = [e for e in entries if e.kind == "state" and e.message.payload and not e.outdated]
-        descriptions = [e for e in entries if e.kind == "desc" and e.message.payload]
-        taken = {id(entry) for entry in (*states, *self._take_unchanged(descriptions))}
+        said = [e for e in entries if e.kind == "desc" and e.message.payload]
+        unchanged = {id(entry) for entry in self._take_unchanged(said)}
+        changed = [entry for entry in said if id(entry) not in unchanged]
+        together = {id(entry) for entry in (*states, *said)}
         for entry in entries:
-            if id(entry) not in taken:
+            if id(entry) not in together:
                 self._handle(entry, stopping)
-        if not self._take_states(states):
-            for entry in states:
+        for start in range(0, len(changed), MOST_DESCRIPTIONS):
+            some = changed[start : start + MOST_DESCRIPTIONS]
+            self._take_or_handle(self._take_descriptions, some, stopping)
+        self._take_or_handle(self._take_states, states, stopping)
+
+    def _take_or_handle(
+        self, take: Callable[[list[Entry]], bool], entries: list[Entry], stopping: threading.Event
+    ) -> None:
+        """Take messages in together, or each by itself where that did not work."""
+        if entries and not take(entries):
+            for entry in entries:
                 self._handle(entry, stopping)
 
     def _take_unchanged(self, entries: list[Entry]) -> list[Entry]:
@@ -53,7 +68,7 @@ class Taker:
         said = {entry.device: entry.message.payload for entry in entries}
         try:
             same = registry.find_unchanged(descriptions=said, at=datetime.now(UTC))
-        except DatabaseError:
+        except (DatabaseError, InterfaceError):
             return []
         registry.note_mended(devices=same, code="description_refused")
         unchanged = [entry for entry in entries if entry.device in same]
@@ -63,20 +78,33 @@ class Taker:
 
     def _take_states(self, entries: list[Entry]) -> bool:
         """Take in states of different devices with one question and one write; False when that did not work."""
-        if not entries:
-            return True
         at = datetime.now(UTC)
         said = [registry.SaidState(e.device, e.message.payload, at, e.message.retained) for e in entries]
+        return self._take_together(entries, "state", lambda: registry.ingest_states(states=said), at)
+
+    def _take_descriptions(self, entries: list[Entry]) -> bool:
+        """Take in descriptions of different devices with few statements; False when that did not work."""
+        at = datetime.now(UTC)
+        said = [registry.SaidDescription(e.device, e.message.payload, at) for e in entries]
+        return self._take_together(entries, "desc", lambda: registry.ingest_descriptions(descriptions=said), at)
+
+    def _take_together(
+        self,
+        entries: list[Entry],
+        kind: str,
+        ingest: Callable[[], Sequence[registry.DeviceView | VipoError | None]],
+        at: datetime,
+    ) -> bool:
         try:
-            for entry, outcome in zip(entries, registry.ingest_states(states=said), strict=True):
+            for entry, outcome in zip(entries, ingest(), strict=True):
                 if isinstance(outcome, VipoError):
-                    self._note(entry.device, f"state: {outcome.detail}")
+                    self._note(entry.device, f"{kind}: {outcome.detail}")
                 elif outcome is not None:
                     self._pass_on(outcome, at)
-        except DatabaseError:
+        except (DatabaseError, InterfaceError):
             return False  # each is tried by itself then, and waits for a database that is away
         except Exception:  # the edge of the process: one device's message must not end all the others'
-            log.exception("The states of %d devices were not taken in together.", len(entries))
+            log.exception("What %d devices said (%s) was not taken in together.", len(entries), kind)
             return False
         for entry in entries:
             entry.message.acknowledge()
@@ -88,12 +116,13 @@ class Taker:
         while not entry.outdated and not stopping.is_set():
             try:
                 self._take_in(entry.device, entry.kind, entry.message)
+                self._outage.end()
                 break
             except VipoError as error:
                 self._note(entry.device, f"{entry.kind}: {error.detail}")
                 break
             except (OperationalError, InterfaceError) as error:
-                log.warning("The database does not take a message of %s now: %s", entry.device, error)
+                self._outage.begin(error)
                 connection.close()
                 stopping.wait(0.5)
             except DatabaseError:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from registry.capability import Description, description_to_json, find_faults
 from registry.device_triples import describe
@@ -42,7 +44,12 @@ def source_hash(payload: bytes) -> str:
 
 def canonical_hash(description: Description) -> str:
     """Return the hash of a description's meaning, the same for every form it comes in."""
-    body = json.dumps(description_to_json(description), sort_keys=True, separators=(",", ":"))
+    return hash_of_json(description_to_json(description))
+
+
+def hash_of_json(canonical: Mapping[str, Any]) -> str:
+    """Return the hash of a canonical description that is JSON already."""
+    body = json.dumps(canonical, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(body.encode()).hexdigest()
 
 

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from datetime import datetime
 
 from django.db import transaction
+from django.db.models import Count
 
 from registry.differences import Change
 from registry.errors import RegistryError
-from registry.live import publish
+from registry.event_words import Said
+from registry.live import publish_all
 from registry.models import Device, DeviceEvent, User
 from registry.rdf_text import CONTENT_TYPES
-from registry.thing_log import record_thing
+from registry.thing_log import record_things
 from registry.views import DeviceView, changed_fields
 from registry.wire import is_device_id
 
 MOST_EVENTS = 200
+EVENTS_TO_SPARE = 20
+"""How many more a history may have before it is cut, where many devices speak at once."""
 MOST_CHARACTERS = 300
 RESERVED_IDS = frozenset({"server"})
 DONE_FLAG_ONLY_SQL = f"SELECT id FROM registry_device WHERE source_type = '{CONTENT_TYPES['paper']}'"  # noqa: S608 - a constant
@@ -52,20 +57,61 @@ def lock_device(site: str, device_id: str) -> Device:
     return device
 
 
+def line_of_history(
+    device: Device,
+    at: datetime,
+    kind: str,
+    words: Said | str,
+    by: User | None = None,
+    *,
+    changes: tuple[Change, ...] = (),
+) -> DeviceEvent:
+    """Return a line of a device's history, which is not written yet; bare words have no code."""
+    line = words if isinstance(words, Said) else Said(words)
+    told = {"text": line.text[:MOST_CHARACTERS], "code": line.code, "args": dict(line.args)}
+    differences = [asdict(change) for change in changes]
+    return DeviceEvent(device=device, at=at, kind=kind, by=by, changes=differences, **told)
+
+
 def write_event(
-    device: Device, at: datetime, kind: str, text: str, by: User | None = None, *, changes: tuple[Change, ...] = ()
+    device: Device,
+    at: datetime,
+    kind: str,
+    words: Said | str,
+    by: User | None = None,
+    *,
+    changes: tuple[Change, ...] = (),
 ) -> None:
     """Add a line of history and forget the ones beyond the newest 200."""
-    told = [asdict(change) for change in changes]
-    DeviceEvent.objects.create(device=device, at=at, kind=kind, text=text[:MOST_CHARACTERS], by=by, changes=told)
-    oldest = DeviceEvent.objects.filter(device=device).order_by("-pk").values_list("pk", flat=True)[MOST_EVENTS:][:1]
-    for key in list(oldest):
-        DeviceEvent.objects.filter(device=device, pk__lte=key).delete()
+    line_of_history(device, at, kind, words, by, changes=changes).save(force_insert=True)
+    _forget_old(device.pk)
+
+
+def write_lines(lines: Sequence[DeviceEvent]) -> None:
+    """Add lines of history of many devices, oldest first; who has 20 more than 200 keeps the newest 200."""
+    if not lines:
+        return
+    DeviceEvent.objects.bulk_create(lines)
+    kept = DeviceEvent.objects.filter(device__in={line.device_id for line in lines}).order_by()
+    counts = kept.values_list("device").annotate(lines=Count("pk")).filter(lines__gt=MOST_EVENTS + EVENTS_TO_SPARE)
+    for device_id, _ in counts:
+        _forget_old(device_id)
+
+
+def _forget_old(device_id: str) -> None:
+    own = DeviceEvent.objects.filter(device=device_id)
+    for key in list(own.order_by("-pk").values_list("pk", flat=True)[MOST_EVENTS:][:1]):
+        own.filter(pk__lte=key).delete()
 
 
 def announce(before: DeviceView | None, after: DeviceView) -> None:
     """Tell browsers and directories what is new, once the transaction holds."""
-    record_thing(before, after)
-    changes = changed_fields(before, after)
-    if len(changes) > 1:
-        transaction.on_commit(lambda: publish(after.site, {"type": "device", "device": changes}))
+    announce_all([(before, after)])
+
+
+def announce_all(changes: Sequence[tuple[DeviceView | None, DeviceView]]) -> None:
+    """Tell browsers and directories what is new of several devices, once the transaction holds."""
+    record_things(changes)
+    told = [(after.site, changed_fields(before, after)) for before, after in changes]
+    news = [(slug, {"type": "device", "device": fields}) for slug, fields in told if len(fields) > 1]
+    transaction.on_commit(lambda: publish_all(news))

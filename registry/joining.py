@@ -16,11 +16,9 @@ from django.db import transaction
 from django.utils import timezone
 
 from registry.alert_notes import note_alert
-from registry.capability import Description, Pose, description_from_json, description_to_json
+from registry.capability import Pose
 from registry.credentials import secret_hash
-from registry.describing import Reading, canonical_hash, read, source_hash
 from registry.device_rows import (
-    MOST_CHARACTERS,
     RESERVED_IDS,
     BadDevice,
     NoSuchDevice,
@@ -29,18 +27,16 @@ from registry.device_rows import (
     lock_device,
     write_event,
 )
-from registry.differences import Change, list_changes
+from registry.differences import Change
 from registry.errors import RegistryError
 from registry.intake import SaidState, ingest_states
 from registry.models import Device, DeviceEvent, Site, User
-from registry.rdf_text import CONTENT_TYPES
 from registry.sites import find_site
 from registry.views import DeviceEventView, DeviceView, view_of
 from registry.wire import is_device_id, parse_presence
 
 STALE_AFTER = timedelta(seconds=45)
 """A device speaks at least every 30 s (docs/protocol.md); its last will usually tells long before this."""
-MOST_LINES = 8
 MOST_CHANGES_A_MINUTE = 6
 PROBLEM_EVERY = timedelta(seconds=10)
 DOOR = "join:"
@@ -64,23 +60,6 @@ class Login:
     at: datetime
 
 
-def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> DeviceView:
-    """Take in what a device says of itself; an unknown one becomes pending. Raises BadDescription, BadDevice."""
-    digest = source_hash(payload)
-    known = Device.objects.filter(pk=device_id, source_hash=digest, description__isnull=False).select_related("site")
-    if known.update(last_seen_at=at):
-        device = known.get()
-        return view_of(device, device.site.slug)
-    reading = read(payload, device_id=device_id)
-    with transaction.atomic():
-        device = _lock_or_make(device_id, reading.description.site, at)
-        before = view_of(device, device.site.slug) if device.description else None
-        _describe(device, reading, payload, digest, at)
-        after = view_of(device, device.site.slug)
-        announce(before, after)
-    return after
-
-
 def _lock_or_make(device_id: str, said_site: str, at: datetime) -> Device:
     """Return the device's locked row; a new one stands at the site it names, else at the default one."""
     check_id(device_id)
@@ -98,60 +77,6 @@ def _site_for(slug: str) -> Site:
     if site is None:
         raise BadDevice(f"There is no site {slug[:64]!r} that the device could join, and no default site.")
     return site
-
-
-def _describe(device: Device, reading: Reading, payload: bytes, digest: str, at: datetime) -> None:
-    """Write the description into the row and its history; called under the row's lock."""
-    description = reading.description
-    before, after = device.description, description_to_json(description)
-    text = _difference(description_from_json(before) if before else None, description)
-    changes = list_changes(before, after) if before else ()
-    if reading.form == "paper" and before and before.get("done") != after.get("done"):
-        device.done = description.done
-    device.description = after
-    device.description_hash = canonical_hash(description)
-    device.source, device.source_hash, device.source_type = payload, digest, CONTENT_TYPES[reading.form]
-    device.first_seen_at = device.first_seen_at or at
-    device.last_seen_at = at
-    device.save()
-    if text:
-        write_event(device, at, "described", text, changes=changes)
-        for line in reversed(_packed(reading.notes)):
-            write_event(device, at, "mended", line)
-
-
-def _packed(notes: tuple[str, ...]) -> list[str]:
-    """Put what was mended into few lines of history, none longer than one may be."""
-    lines: list[str] = []
-    for note in notes:
-        if lines and len(lines[-1]) + len(note) < MOST_CHARACTERS:
-            lines[-1] += f" {note}"
-        elif len(lines) < MOST_LINES:
-            lines.append(note)
-    return lines
-
-
-def _difference(before: Description | None, after: Description) -> str:
-    """Say in words what changed; empty when the meaning is the same."""
-    if before is None:
-        return f"Described itself for the first time: {after.name}, {after.device_class or after.kind}"
-    words = [
-        *_differing_names("method", [m.name for m in before.methods], [m.name for m in after.methods]),
-        *_differing_names("property", [p.name for p in before.properties], [p.name for p in after.properties]),
-    ]
-    if before.name != after.name:
-        words.append(f"calls itself {after.name}")
-    if before.pose != after.pose:
-        words.append(f"says it stands at {after.pose.x:.2f}, {after.pose.y:.2f}")
-    if not words and replace(before, done=after.done) != after:
-        words.append("changed its description")
-    told = "; ".join(words)[:MOST_CHARACTERS]
-    return told[:1].upper() + told[1:]
-
-
-def _differing_names(what: str, before: list[str], after: list[str]) -> list[str]:
-    added, gone = [n for n in after if n not in before], [n for n in before if n not in after]
-    return [f"added {what} {n}" for n in added] + [f"removed {what} {n}" for n in gone]
 
 
 def ingest_presence(*, device_id: str, payload: bytes, at: datetime) -> DeviceView | None:

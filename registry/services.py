@@ -28,6 +28,7 @@ from registry.decisions import (
     revoke_credential,
     rotate_credential,
 )
+from registry.described import SaidDescription, ingest_description, ingest_descriptions
 from registry.device_rows import DONE_FLAG_ONLY_SQL, BadDevice, NoSuchDevice
 from registry.history import PointView, SeriesView, read_history
 from registry.intake import SaidState, find_unchanged, ingest_states
@@ -39,7 +40,6 @@ from registry.joining import (
     find_device,
     find_ended,
     get_device,
-    ingest_description,
     ingest_presence,
     ingest_state,
     list_broker_hashes,
@@ -102,6 +102,7 @@ __all__ = [
     "Principal",
     "QueryAnswer",
     "Raised",
+    "SaidDescription",
     "SaidState",
     "SeriesView",
     "SiteView",
@@ -131,6 +132,7 @@ __all__ = [
     "get_site",
     "get_walls",
     "ingest_description",
+    "ingest_descriptions",
     "ingest_presence",
     "ingest_state",
     "ingest_states",

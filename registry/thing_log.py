@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -34,13 +34,22 @@ class ThingNews:
 
 def record_thing(before: DeviceView | None, after: DeviceView) -> None:
     """Write what became of a device's Thing, if anything did; call it within the transaction that changes it."""
-    news = what_became(before, after, settings.VIPO_BROKER_URL)
-    if news is None:
+    record_things([(before, after)])
+
+
+def record_things(changes: Sequence[tuple[DeviceView | None, DeviceView]]) -> None:
+    """Write what became of devices' Things, if anything did; call it within the transaction that changes them."""
+    became = [(after, what_became(before, after, settings.VIPO_BROKER_URL)) for before, after in changes]
+    told = [(after, news) for after, news in became if news is not None]
+    if not told:
         return
     _wait_for_turn()
-    site = Site.objects.only("pk").get(slug=after.site)
-    row = ThingEvent.objects.create(site=site, device_id=after.id, kind=news[0], change=news[1])
-    ThingEvent.objects.filter(pk__lte=row.pk - MOST_KEPT).delete()
+    sites = dict(Site.objects.filter(slug__in={after.site for after, _ in told}).values_list("slug", "pk"))
+    rows = ThingEvent.objects.bulk_create(
+        ThingEvent(site_id=sites[after.site], device_id=after.id, kind=kind, change=change)
+        for after, (kind, change) in told
+    )
+    ThingEvent.objects.filter(pk__lte=rows[-1].pk - MOST_KEPT).delete()
     transaction.on_commit(call_listeners)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from registry import joining, live, services
+from registry import described, live, services
 from registry.capability import MethodSpec, Pose
 from registry.credentials import secret_hash
 from registry.describing import read, write_description
@@ -110,7 +110,7 @@ def test_all_that_was_mended_stands_in_the_history(hall: str) -> None:
 
 def test_an_unchanged_description_is_not_parsed_again(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
     describe()
-    monkeypatch.setattr(joining, "read", lambda *a, **k: pytest.fail("parsed again"))
+    monkeypatch.setattr(described, "read", lambda *a, **k: pytest.fail("parsed again"))
     assert describe().last_seen_at == NOW
 
 
