@@ -110,8 +110,8 @@ class VipoBroker(SpreadingBroker):
         except UNREADABLE as error:
             await writer.close()
             raise MQTTError(f"No proper CONNECT from {remote_address}:{remote_port}: {error}") from error
-        if not await self._admit(session):
-            self._complain(session.client_id, session.username)
+        if fault := await self._find_fault(session):
+            self._complain(session, fault)
             await refuse(writer, NOT_AUTHORIZED)
             raise MQTTError("Not authorised.")
         self._not_admitted.pop(writer._writer, None)
@@ -121,31 +121,33 @@ class VipoBroker(SpreadingBroker):
         handler.receive, handler.complain = self._receive, self._drop
         return handler, session
 
-    def _complain(self, client: str, user: str | None) -> None:
+    def _complain(self, session: Any, fault: str) -> None:
         """Say that somebody was refused; of one who comes again and again, once a minute."""
-        now = time.monotonic()
+        now, client = time.monotonic(), session.client_id
         if now - self._refused_at.get(client, -COMPLAINT_EVERY_S) >= COMPLAINT_EVERY_S:
             if len(self._refused_at) >= MOST_COMPLAINTS:
                 self._refused_at.clear()
             self._refused_at[client] = now
-            log.warning("MQTT: refused %s (user %s): wrong password or name.", client, user)
+            log.warning("MQTT: refused %s (user %s): %s.", client, session.username, fault)
 
-    async def _admit(self, session: Any) -> bool:
+    async def _find_fault(self, session: Any) -> str:
+        """Return why somebody may not come in, empty when they may."""
         username, password = session.username or "", session.password or ""
         if username == SERVER:
-            return hmac.compare_digest(password.encode(), self._server_password.encode())
-        will_is_own = not session.will_flag or may_publish(username, session.will_topic or "")
-        holder = self._sessions.get(username, (session, None))[0].username
-        if holder == SERVER:
-            return False
-        if not username or session.client_id != username or not will_is_own:
-            return False
+            right = hmac.compare_digest(password.encode(), self._server_password.encode())
+            return "" if right else "wrong password"
+        if not username or session.client_id != username:
+            return "a device's client id and its user name must both be its id"
+        if session.will_flag and not may_publish(username, session.will_topic or ""):
+            return "its last will is not on a topic of its own"
+        if self._sessions.get(username, (session, None))[0].username == SERVER:
+            return "the server itself uses this name"
         at = datetime.now(UTC)
         key = await asyncio.to_thread(self._doorkeeper.admit, username, password)
         if key is None:
-            return False
+            return "wrong password, or nobody of this name"
         self._logins[username] = _login(key, at)
-        return True
+        return ""
 
     async def end_whoever_must_go(self) -> None:
         """End the connections whose device was taken out or got another key, until cancelled."""

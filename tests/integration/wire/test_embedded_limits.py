@@ -7,13 +7,16 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 
+from registry import services
 from tests.bus import Ear
 from tests.integration.wire.raw import Notebook, Raw, connect, field, packet, publish, raw, subscribe
 from vipo_site.broker import EmbeddedBroker
+from vipo_site.doorkeeping import RegistryDoorkeeper
 
 WORD, SERVER_WORD = "word", "secret"
 UP, DOWN = "vipo/v1/dev/loud01/up/", "vipo/v1/dev/loud01/down/"
@@ -214,12 +217,38 @@ def test_a_message_of_qos_2_is_heard_once(broker: EmbeddedBroker, ear: Ear) -> N
     assert [h.payload for h in ear.heard] == [b"7", b"8", b"7 again"]
 
 
-def test_a_device_cannot_take_over_a_connection_of_the_server(broker: EmbeddedBroker, ear: Ear) -> None:
-    imposter = Raw(broker, connect("ear", WORD, clean=False))
+@pytest.mark.parametrize(
+    ("hello", "why"),
+    [
+        (connect("ear", WORD, clean=False), "ear (user ear): the server itself uses this name."),
+        (connect("a", WORD, user="b"), "a (user b): a device's client id and its user name must both be its id."),
+        (connect("a", WORD, will=("vipo/x", "")), "a (user a): its last will is not on a topic of its own."),
+        (connect("a", "wrong"), "a (user a): wrong password, or nobody of this name."),
+        (connect("a", "wrong", user="server"), "a (user server): wrong password."),
+    ],
+)
+def test_who_is_refused_is_told_to_the_log_with_the_reason(
+    broker: EmbeddedBroker, ear: Ear, caplog: pytest.LogCaptureFixture, hello: bytes, why: str
+) -> None:
+    imposter = Raw(broker, hello)
     assert imposter.read() == (0x20, b"\x00\x05")
     assert imposter.closed()
     imposter.socket.close()
-    others_go_on(broker, ear, "here")
+    assert ear.client.connected
+    assert f"MQTT: refused {why}" in caplog.messages
+
+
+def test_a_client_that_reads_nothing_is_ended(
+    broker: EmbeddedBroker, ear: Ear, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("vipo_site.broker_connection.STUCK_S", 0.5)
+    with raw(broker, connect("loud01", WORD, keepalive_s=0, will=(UP + "presence", "gone"))) as deaf:
+        deaf.send(subscribe(1, DOWN + "#", qos=0))
+        assert deaf.read() == (0x90, b"\x00\x01\x00")
+        with raw(broker, connect("s", SERVER_WORD, user="server")) as server:
+            for _ in range(2000):
+                server.send(publish(DOWN + "move", FILLER))
+            ear.wait(lambda h: h.payload == b"gone", 20)
 
 
 def test_a_message_on_a_foreign_topic_is_noted(broker: EmbeddedBroker, notebook: Notebook) -> None:
@@ -227,3 +256,14 @@ def test_a_message_on_a_foreign_topic_is_noted(broker: EmbeddedBroker, notebook:
         loud.send(publish("vipo/v1/dev/other/up/state", b"x"))
         wait(lambda: notebook.lines)
     assert notebook.lines == [("loud01", "not its own topic: vipo/v1/dev/other/up/state")]
+
+
+@pytest.mark.django_db(transaction=True)
+def test_the_registry_shows_what_was_dropped() -> None:
+    site = services.create_site(name="Hall", slug="painting-factory")
+    text = Path("registry/demo/devices/paintMixer03.ttl").read_bytes()
+    services.ingest_description(device_id="paintMixer03", payload=text, at=datetime.now(UTC))
+    RegistryDoorkeeper().record({"paintMixer03": 7, "server": 2}, [("paintMixer03", "7 were dropped"), ("server", "x")])
+    device = services.get_device(site=site.slug, device_id="paintMixer03")
+    events = services.list_device_events(site=site.slug, device_id="paintMixer03")
+    assert (device.dropped, events[0].text) == (7, "7 were dropped")

@@ -1,0 +1,84 @@
+"""The guide for devices of any kind, followed literally: its commands in a shell, against the embedded broker."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from execution.gateway import Gateway
+from registry import services
+from tests.integration.wire.bus import SITE, Bus, wait
+
+ROOT = Path(__file__).resolve().parents[3]
+LIMIT_S = 120
+pytestmark = pytest.mark.servers
+
+
+@pytest.fixture
+def folder(bus: Bus, database: Path, tmp_path: Path) -> Path:
+    """A folder with the guide's files, for this broker and site; `vipo` finds the same database."""
+    if shutil.which("mosquitto_pub") is None:
+        pytest.skip("mosquitto_pub is not here; scripts/install-test-servers.sh installs it")
+    made = tmp_path / "lamp"
+    made.mkdir()
+    page = (ROOT / "docs" / "devices" / "any.md").read_text()
+    page = page.replace("1883", str(bus.server_port)).replace("painting-factory", SITE)
+    for form, text in re.findall(r"```(\w+)\n(.*?)```", page, re.DOTALL):
+        name = re.match(r"# (\S+\.\w+)\n", text)
+        if name or form == "turtle":
+            (made / (name[1] if name else "lamp.ttl")).write_text(text)
+        else:
+            with (made / "commands").open("a") as file:
+                file.write(text + "\0")
+    return made
+
+
+def shell(folder: Path, commands: str) -> str:
+    environment = {
+        **os.environ,
+        "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
+        "VIPO_STATE_DIR": str(folder.parent),
+        "DJANGO_SETTINGS_MODULE": "vipo_site.settings",
+    }
+    done = subprocess.run(
+        ["sh", "-eu", "-c", commands], cwd=folder, env=environment, capture_output=True, text=True, timeout=LIMIT_S
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@contextmanager
+def running(folder: Path, *command: str) -> Iterator[None]:
+    process = subprocess.Popen(command, cwd=folder, start_new_session=True)
+    try:
+        yield
+    finally:
+        os.killpg(process.pid, 9)
+        process.wait()
+
+
+def level() -> object:
+    return services.get_device(site=SITE, device_id="lamp01").readings.get("level")
+
+
+@pytest.mark.parametrize("bus", ["amqtt"], indirect=True)
+def test_the_guide_brings_in_a_lamp(folder: Path, gateway: Gateway) -> None:
+    describe, knock, come_in, call, _ = (folder / "commands").read_text().split("\0")
+    assert shell(folder, describe).startswith("lamp.ttl: Turtle. It describes the machine lamp01, “Lamp”")
+    assert "takes part at hall from now on.\nIt keeps the key that it came with." in shell(folder, knock + come_in)
+    with running(folder, "sh", "lamp.sh"):
+        assert shell(folder, call) == "lamp01: dim is done\n"
+        wait("the level", lambda: level() == 30)
+    with running(folder, sys.executable, "lamp.py"):
+        wait("the program's first state", lambda: level() == 0)
+        assert shell(folder, call) == "lamp01: dim is done, level 30\n"
+        wait("the level", lambda: level() == 30)
+    wait("its last will", lambda: not services.get_device(site=SITE, device_id="lamp01").online)
