@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import logging
 import os
 import secrets
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from registry.mqtt import MqttClient
@@ -26,12 +28,22 @@ class KeyRing:
 
     def key(self, device: str) -> str:
         """Return a device's key; one that has none gets one, which is kept for this user's eyes only."""
-        own = _read(self._own)
-        found = _read(self._by_hand).get(device) or own.get(device)
-        if found is None:
-            found = secrets.token_urlsafe(KEY_BYTES)
-            _write(self._own, {**own, device: found})
-        return found
+        with _alone(self._own):
+            own = _read(self._own)
+            found = _read(self._by_hand).get(device) or own.get(device)
+            if found is None:
+                found = secrets.token_urlsafe(KEY_BYTES)
+                _write(self._own, {**own, device: found})
+            return found
+
+
+@contextmanager
+def _alone(path: Path) -> Iterator[None]:
+    """Keep others out meanwhile, since several connectors of a site may share a file of keys."""
+    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+    with path.with_suffix(".lock").open("a") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def _read(path: Path) -> dict[str, str]:
@@ -46,7 +58,6 @@ def _read(path: Path) -> dict[str, str]:
 
 
 def _write(path: Path, keys: dict[str, str]) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     draft = path.with_suffix(".new")
     draft.touch(mode=0o600)
     draft.write_text(json.dumps(keys))

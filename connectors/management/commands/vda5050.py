@@ -16,13 +16,12 @@ from urllib.parse import unquote, urlsplit
 from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
-from connectors.device_line import ConnectionMaker
-from connectors.keys import Doorstep, KeyRing
 from connectors.vda5050.fleet import Fleet
 from connectors.vda5050.frame import Frame
 from connectors.vda5050.member import Setting
+from connectors.vipo_side import device_connections
 from registry.errors import RegistryError
-from registry.mqtt import MqttClient, Will, tls_context
+from registry.mqtt import MqttClient, tls_context
 from registry.wire import is_device_id
 
 STOP_LIMIT_S = 8
@@ -75,7 +74,7 @@ def make_fleet(options: dict[str, Any]) -> Fleet:
         frame=read_origin(options["origin"]),
         station_type=options["station_type"],
         folder=folder / "vda5050" / site,
-        connect=device_connections(site, folder / "secrets"),
+        connect=device_connections(site, folder / "secrets", "vda5050"),
         new_id=lambda: uuid.uuid4().hex,
         clock=lambda: datetime.now(UTC),
     )
@@ -104,40 +103,4 @@ def vehicle_client(address: str, authority: str, client_id: str) -> MqttClient:
         password=os.environ.get("VIPO_VDA5050_PASSWORD", unquote(parts.password or "")),
         client_id=client_id,
         tls=tls_context(authority) if is_safe else None,
-    )
-
-
-def device_connections(site: str, secrets: Path) -> ConnectionMaker:
-    """Return what connects a vehicle's device to VIPO, by its own key; a newcomer knocks with the join key."""
-    ring = KeyRing(secrets / "devices.json", secrets / f"vda5050-{site}.json")
-    join_key = read_join_key(secrets)
-    doorstep = Doorstep(site, lambda: vipo_client(f"join:{site}", join_key))
-
-    def connect(device: str, will: Will) -> MqttClient:
-        key = ring.key(device)
-        client = vipo_client(device, key, will)
-        if join_key:
-            doorstep.wait(device, key, client)
-        return client
-
-    return connect
-
-
-def read_join_key(secrets: Path) -> str:
-    """Return the site's join key, empty where there is none."""
-    path = secrets / "join"
-    return os.environ.get("VIPO_JOIN_KEY", "") or (path.read_text().strip() if path.exists() else "")
-
-
-def vipo_client(name: str, key: str, will: Will | None = None) -> MqttClient:
-    """Return a connection to the devices' listener of VIPO's broker."""
-    broker: dict[str, Any] = settings.VIPO_MQTT
-    return MqttClient(
-        host=broker["host"],
-        port=int(os.environ.get("VIPO_MQTT_DEVICE_PORT", broker["port"])),
-        username=name,
-        password=key,
-        client_id=name,
-        tls=tls_context(broker["ca"]) if broker["tls"] else None,
-        will=will,
     )

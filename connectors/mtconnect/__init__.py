@@ -1,0 +1,1 @@
+"""Machines whose MTConnect agents are read, versions 1.2 to 2.x."""

@@ -1,0 +1,146 @@
+"""Machines of an MTConnect agent as devices: the connector and the broker are real, the agent speaks HTTP."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from connectors.mtconnect import agent as asking
+from connectors.mtconnect.agent import Agent, AgentAway, read_address
+from connectors.mtconnect.documents import BadDocument
+from registry.describing import read_description
+from tests.bus import Ear
+from tests.integration.connectors.agents import Handler, MachineConnector, Misbehaviour, ScriptedAgent
+from tests.integration.connectors.vehicles import Server
+from tests.servers import run_mosquitto
+
+LATHE = "M8010-1"
+ACCOUNTS = {"server": "secret of the server", LATHE: f"the word of {LATHE}"}
+
+
+@pytest.fixture
+def agent() -> Iterator[ScriptedAgent]:
+    agent = ScriptedAgent()
+    agent.start()
+    yield agent
+    agent.stop()
+
+
+def test_a_machine_lives_as_its_agent_says(tmp_path: Path) -> None:
+    agent = ScriptedAgent("2.0", keeps=50)
+    agent.start()
+    agent.say("avail", "AVAILABLE")
+    agent.say("exec", "READY")
+    with run_mosquitto(tmp_path, ACCOUNTS) as vipo, Ear(vipo.port, ACCOUNTS["server"]) as ear:
+        connector = MachineConnector(tmp_path, vipo, f"http://127.0.0.1:{agent.port}/", ("--place", "3,4,0"))
+        connector.start()
+        try:
+            server = Server(ear, LATHE)
+            _appears(server)
+            _tells(server, agent)
+            _begins_anew(server, agent)
+            _misses_something(server, agent)
+            _comes_and_goes(server, agent)
+            connector.kill()
+            server.wait_presence("offline")
+            ear.forget()
+            connector.start()
+            server.wait_presence("online")
+            ear.forget()
+            assert connector.stop() == 0
+            server.wait_presence("offline")
+        finally:
+            connector.kill()
+    log = connector.log.read_text()
+    assert "Traceback" not in log
+    assert "It has begun anew." in log
+    assert "The agent does not keep what it said since number" in log
+
+
+def _appears(server: Server) -> None:
+    described = server.ear.wait(lambda h: h.topic == server.up("desc"), 60)
+    found = read_description(described.payload, device_id=LATHE)
+    assert (found.name, found.pose.x, found.pose.y, found.methods) == ("Lathe", 3.0, 4.0, ())
+    server.wait_presence("online")
+    server.wait_state(execution="READY", done=True)
+    server.tell("pause", "hold", command="x")
+    refused = "This machine is only read over MTConnect; it cannot be told anything."
+    assert server.wait_ack("hold") == {"id": "hold", "st": "REJECTED", "why": refused, "result": {}}
+
+
+def _tells(server: Server, agent: ScriptedAgent) -> None:
+    agent.say("exec", "ACTIVE")
+    agent.say("xpos", "250.5")
+    agent.say("system", "Door open", level="Fault", code="17")
+    said = server.wait_state(execution="ACTIVE", Xact=0.2505, error="Door open")
+    assert not said["done"]
+    agent.say("system", "", level="Normal", code="17")
+    agent.say("exec", "READY")
+    server.wait_state(execution="READY", error="", Xact=0.2505)
+
+
+def _begins_anew(server: Server, agent: ScriptedAgent) -> None:
+    """What is known of the old life is forgotten."""
+    server.ear.forget()
+    agent.restart()
+    agent.say("exec", "INTERRUPTED")
+    assert server.wait_state(execution="INTERRUPTED", done=False)["props"]["Xact"] is None
+
+
+def _misses_something(server: Server, agent: ScriptedAgent) -> None:
+    """Between two questions the buffer runs over; so the connector asks how all is."""
+    agent.say_at_once(("xpos", "7"), *(("prog", f"O{n}") for n in range(60)))
+    server.wait_state(program="O59", Xact=0.007)
+
+
+def _comes_and_goes(server: Server, agent: ScriptedAgent) -> None:
+    server.ear.forget()
+    agent.say("avail", "UNAVAILABLE")
+    server.wait_presence("offline")
+    agent.say("avail", "AVAILABLE")
+    server.wait_presence("online")
+    server.ear.forget()
+    agent.stop()
+    server.wait_presence("offline")
+    server.ear.forget()
+    agent.start()
+    agent.say("xpos", "8")
+    server.wait_presence("online")
+    server.wait_state(Xact=0.008)
+
+
+def drips(handler: Handler) -> None:
+    handler.drip()
+
+
+@pytest.mark.parametrize(
+    ("misbehave", "told"),
+    [
+        (lambda h: h.send(b"", 302, Location="http://127.0.0.1:1/probe"), "redirects are not followed"),
+        (lambda h: h.send(b"{}", Content_Type="application/json"), "answers with application/json"),
+        (lambda h: h.send(b"\x1f\x8b", Content_Encoding="gzip"), "packs its answer"),
+        (lambda h: h.send(b"<a/>", Content_Length="9"), "breaks off 5 bytes before its end"),
+        (lambda h: h.send(b"<a/>", Content_Type="multipart/x-mixed-replace;boundary=x"), "not with XML"),
+        (lambda h: h.send(b"<a " + b"b" * 9_000_000), "bytes"),
+        (lambda h: h.wfile.write(b"nonsense\r\n" * 500), "BadStatusLine"),
+        (lambda h: h.wfile.write(b"HTTP/1.1 200 OK\r\n" + b"A: b\r\n" * 200), "HTTPException"),
+        (drips, ""),
+    ],
+)
+def test_an_agent_that_misbehaves_costs_little(agent: ScriptedAgent, misbehave: Misbehaviour, told: str) -> None:
+    agent.misbehave = misbehave
+    with pytest.raises((AgentAway, BadDocument)) as refused:
+        Agent(read_address(f"http://127.0.0.1:{agent.port}"), limit_s=1.0).ask("probe")
+    assert told in str(refused.value)
+
+
+def test_a_password_and_headers_go_along(agent: ScriptedAgent) -> None:
+    heard: list[str | None] = []
+    agent.misbehave = lambda h: heard.extend((h.headers["Authorization"], h.headers["Cookie"], h.path))
+    address = read_address(f"http://ann:pw@127.0.0.1:{agent.port}/cell 1/", headers="Cookie: sessionid=x")
+    with pytest.raises(AgentAway):
+        Agent(address).ask("sample", **{"from": 3, "count": 5})
+    assert heard == ["Basic YW5uOnB3", "sessionid=x", "/cell%201/sample?from=3&count=5"]
+    assert asking.LIMIT_S == 20.0

@@ -1,0 +1,90 @@
+"""VIPO's own MTConnect agent, asked over HTTP by VIPO's own connector: each holds the other to the standard."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from queue import Queue
+from threading import Event, Thread
+from typing import Any
+
+import pytest
+from django.test import Client
+from django.utils import timezone
+
+from connectors.mtconnect.agent import Agent, AgentAway, read_address
+from connectors.mtconnect.condition import MachineCondition
+from connectors.mtconnect.follower import Follower, Heard, Probed, Said
+from connectors.mtconnect.portrait import Stand, portray
+from registry import samples, services
+from registry.capability import Pose, PropertySpec, Size
+from registry.models import Device, User
+from registry.samples import SampleBuffer
+from tests.integration.registry.conftest import MIXER, come, describe, hall, say
+
+__all__ = ["hall"]
+PROPERTIES = (PropertySpec("width", "number", "M"), PropertySpec("lid", "text"), PropertySpec("error", "text"))
+
+
+@pytest.fixture
+def told(hall: str, live_server: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[Queue[Heard]]:
+    """Follow the site's agent as its viewer; gives what is heard."""
+    monkeypatch.setattr(samples, "_buffer", SampleBuffer())
+    describe(replace(MIXER, properties=PROPERTIES))
+    Device.objects.update(lifecycle="approved")
+    come(at=timezone.now())
+    tell(1, width=1.5, lid="shut", error="")
+    client = Client()
+    client.force_login(User.objects.get(email="viewer@vipo.example"))
+    cookie = f"Cookie: sessionid={client.cookies['sessionid'].value}"
+    queue: Queue[Heard] = Queue()
+    stopping = Event()
+    address = read_address(f"{live_server.url}/api/sites/hall/mtconnect", headers=cookie)
+    thread = Thread(target=Follower(Agent(address), 0.1, queue.put).run, args=(stopping,))
+    thread.start()
+    yield queue
+    stopping.set()
+    thread.join(30)
+
+
+def tell(seq: int, *, done: bool = True, **readings: Any) -> None:
+    now = timezone.now()
+    view = say(at=now, seq=seq, done=done, props=readings)
+    services.note_samples(view=view, at=now)
+    services.flush_samples(all_of_it=True)
+
+
+@pytest.mark.django_db(transaction=True)
+def test_a_device_of_one_site_can_be_a_machine_of_another(told: Queue[Heard]) -> None:
+    probed = told.get(timeout=60)
+    assert isinstance(probed, Probed)
+    (machine,) = probed.machines
+    portrait = portray(machine, "other", Stand(Pose(0, 0), Size(1, 1, 1)))
+    assert (machine.uuid, machine.name) == ("urn:vipo:device:mixer1", "mixer1")
+    assert [(p.name, p.type, p.unit) for p in portrait.description.properties[3:]] == [
+        ("width", "number", "M"),
+        ("lid", "text", ""),
+    ]
+    condition = MachineCondition(portrait)
+
+    def wait(**wanted: Any) -> None:
+        while True:
+            state = condition.look(1, 1)
+            now = {**state.properties, "done": state.done}
+            if all(now[name] == value for name, value in wanted.items()):
+                return
+            heard = told.get(timeout=60)
+            assert isinstance(heard, Said)
+            condition.take(heard.observations)
+
+    wait(width=1.5, lid="shut", error="", execution="READY")
+    tell(2, done=False, width=2.25, lid="open", error="Lid open")
+    wait(width=2.25, lid="open", error="Lid open", execution="ACTIVE", done=False)
+    tell(3, width=2.25, lid="shut", error="")
+    wait(lid="shut", error="", execution="READY", done=True)
+
+
+@pytest.mark.django_db(transaction=True)
+def test_who_is_not_signed_in_is_told_so(hall: str, live_server: Any) -> None:
+    with pytest.raises(AgentAway, match=r"answers with application/problem\+json \(status 401\)"):
+        Agent(read_address(f"{live_server.url}/api/sites/hall/mtconnect")).ask("probe")
