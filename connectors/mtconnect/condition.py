@@ -31,14 +31,17 @@ class MachineCondition:
         self._items |= portrait.executions | portrait.availabilities | portrait.stops
         self._values: dict[str, str] = {}
         self._conditions: dict[str, dict[str, tuple[str, str]]] = {}
+        self._looked: tuple[bool, dict[str, Scalar]] | None = None
 
     def forget(self) -> None:
         """Know nothing any more."""
         self._values.clear()
         self._conditions.clear()
+        self._looked = None
 
     def take(self, told: Iterable[Observation]) -> None:
         """Take in what the agent said of this machine, the oldest first; what its probe does not name is ignored."""
+        self._looked = None
         for observation in told:
             if observation.item in self._portrait.conditions:
                 self._take_condition(observation)
@@ -64,9 +67,11 @@ class MachineCondition:
 
     def look(self, boot: int, seq: int) -> DeviceState:
         """Return the device's state."""
-        doing = self._said(self._portrait.executions)
-        done = AT_WORK.isdisjoint(doing)
-        return DeviceState(boot, seq, done, properties=_fitting(self._properties(doing)))
+        if self._looked is None:
+            doing = self._said(self._portrait.executions)
+            self._looked = AT_WORK.isdisjoint(doing), _fitting(self._properties(doing))
+        done, properties = self._looked
+        return DeviceState(boot, seq, done, properties=properties)
 
     def _said(self, items: Iterable[str]) -> list[str]:
         return [text for item in sorted(items) if (text := self._values.get(item, UNAVAILABLE)) != UNAVAILABLE]
