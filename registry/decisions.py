@@ -17,6 +17,7 @@ from registry.broker_accounts import Account, accounts
 from registry.credentials import broker_hash, make_credential, secret_hash
 from registry.device_rows import BadDevice, announce, check_id, lock_device, write_event
 from registry.errors import RegistryError
+from registry.event_words import said
 from registry.handing_over import hand_over
 from registry.joining import DOOR, list_broker_hashes
 from registry.live import publish
@@ -75,7 +76,7 @@ def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) 
         if not had_own_key:
             _give_key(device, credential)
         device.save(update_fields=["lifecycle", "credential_hash", "broker_hash"])
-        write_event(device, at, "approved", "Approved", by)
+        write_event(device, at, "approved", said("approved"), by)
         after = view_of(device, site)
         announce(before, after)
     taken = after.online and hand_over(device_id=device_id, credential=credential)
@@ -87,12 +88,12 @@ def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) 
 
 def reject_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
     """Turn a pending device away; it may not connect again. Raises NoSuchDevice, NotPending, BrokerAway."""
-    return _take_out(site, device_id, "Rejected", by, at, _require_pending)
+    return _take_out(site, device_id, "rejected", by, at, _require_pending)
 
 
 def retire_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
     """Take an approved device out; its history stays. Raises NoSuchDevice, NotApproved, BrokerAway."""
-    return _take_out(site, device_id, "Retired", by, at, _require_approved)
+    return _take_out(site, device_id, "retired", by, at, _require_approved)
 
 
 def readmit_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
@@ -103,7 +104,7 @@ def readmit_device(*, site: str, device_id: str, by: User | None, at: datetime) 
             raise NotRetired(f"{device_id} was not taken out; it is {device.lifecycle}.")
         device.lifecycle, device.ends_before = Lifecycle.PENDING, None
         device.save(update_fields=["lifecycle", "ends_before"])
-        write_event(device, at, "readmitted", "May come back", by)
+        write_event(device, at, "readmitted", said("readmitted"), by)
         claim_again(device, at)
         after = view_of(device, site)
         announce(None, after)
@@ -132,7 +133,7 @@ def revoke_credential(*, site: str, device_id: str, by: User | None, at: datetim
         before = view_of(device, site)
         _lock_out(device, at)
         device.save(update_fields=["credential_hash", "broker_hash", "ends_before", "online"])
-        write_event(device, at, "revoked", "Its key was revoked", by)
+        write_event(device, at, "revoked", said("revoked"), by)
         after = view_of(device, site)
         announce(before, after)
     return after
@@ -206,7 +207,7 @@ def _replace_key(site: str, device_id: str, credential: str, by: User | None, at
         _give_key(device, credential)
         device.ends_before = at
         device.save(update_fields=["credential_hash", "broker_hash", "ends_before"])
-        write_event(device, at, "credential", "Got a new key", by)
+        write_event(device, at, "credential", said("credential"), by)
         after = view_of(device, site)
         announce(before, after)
     return after
@@ -234,7 +235,7 @@ def _take_out(
         _lock_out(device, at)
         device.save(update_fields=["lifecycle", "credential_hash", "broker_hash", "ends_before", "online"])
         release_topics(device, at)
-        write_event(device, at, "retired", word, by)
+        write_event(device, at, "retired", said(word), by)
         transaction.on_commit(lambda: publish(site, {"type": "device_removed", "id": device_id}))
         after = view_of(device, site)
         record_thing(before, after)

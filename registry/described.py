@@ -28,7 +28,8 @@ from registry.device_rows import (
 )
 from registry.differences import list_changes
 from registry.errors import RegistryError
-from registry.event_words import described, said
+from registry.event_words import described
+from registry.event_words import said as in_words
 from registry.models import Device, DeviceEvent, Site
 from registry.rdf_text import CONTENT_TYPES
 from registry.views import DeviceView, view_of
@@ -78,12 +79,12 @@ def ingest_descriptions(*, descriptions: Sequence[SaidDescription]) -> tuple[Fat
     """Take in descriptions of different devices, at most one of each; return what came of each, in the same order."""
     fates: dict[str, Fate] = {}
     found: list[_News] = []
-    for said in descriptions:
+    for each in descriptions:
         try:
-            check_id(said.device_id)
-            found.append(_News(said, read(said.payload, device_id=said.device_id)))
+            check_id(each.device_id)
+            found.append(_News(each, read(each.payload, device_id=each.device_id)))
         except RegistryError as error:
-            fates[said.device_id] = error
+            fates[each.device_id] = error
     sites = _find_sites(found)
     homeless = _make_rows(found, sites)
     fates |= _take([news for news in found if news.said.device_id not in homeless], sites)
@@ -171,7 +172,8 @@ def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[De
     if not (words := described(old, description)):
         return []
     told = line_of_history(device, at, "described", words, changes=list_changes(before, after) if before else ())
-    return [told, *(line_of_history(device, at, "mended", said("mended", text=line)) for line in reversed(_packed(news.reading.notes)))]
+    mended = [in_words("mended", text=line) for line in reversed(_packed(news.reading.notes))]
+    return [told, *(line_of_history(device, at, "mended", words) for words in mended)]
 
 
 def _write(devices: list[Device]) -> None:

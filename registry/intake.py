@@ -18,6 +18,7 @@ from registry.capability import DeviceState
 from registry.describing import source_hash
 from registry.device_rows import write_event
 from registry.errors import RegistryError
+from registry.event_words import said
 from registry.live import publish_all
 from registry.models import Device
 from registry.views import DeviceView, changed_state, view_of
@@ -110,9 +111,9 @@ def _write(devices: list[Device]) -> None:
 def _tell_trouble(device: Device, before: DeviceView, after: DeviceView, at: datetime) -> None:
     """Write into the history that a device reports an error, or no longer does."""
     if after.status == "error" and before.status != "error":
-        write_event(device, at, "error", f"Reports an error: {after.doing}")
+        write_event(device, at, "error", said("error", text=after.doing.text))
     elif before.status == "error" and after.status not in ("error", "offline"):
-        write_event(device, at, "recovered", "Reports no error any more")
+        write_event(device, at, "recovered", said("recovered"))
 
 
 def find_unchanged(*, descriptions: Mapping[str, bytes], at: datetime) -> frozenset[str]:

@@ -29,6 +29,7 @@ from registry.device_rows import (
 )
 from registry.differences import Change
 from registry.errors import RegistryError
+from registry.event_words import Said, said
 from registry.intake import SaidState, ingest_states
 from registry.models import Device, DeviceEvent, Site, User
 from registry.sites import find_site
@@ -103,10 +104,11 @@ def _tell_coming_and_going(device: Device, online: bool, at: datetime) -> None:
     """Write that a device came or left; one that does so all the time gets one line a minute."""
     lately = DeviceEvent.objects.filter(device=device, at__gt=at - timedelta(minutes=1))
     if lately.filter(kind__in=("online", "offline")).count() < MOST_CHANGES_A_MINUTE:
-        write_event(device, at, "online" if online else "offline", "Came online" if online else "Left")
+        kind = "online" if online else "offline"
+        write_event(device, at, kind, said(kind))
     elif not lately.filter(kind="flapping").exists():
         note_alert(device_id=device.pk, code="flapping")
-        write_event(device, at, "flapping", "Comes and leaves all the time; not every time is written down")
+        write_event(device, at, "flapping", said("flapping"))
 
 
 def ingest_state(*, device_id: str, payload: bytes, at: datetime, retained: bool = False) -> DeviceView | None:
@@ -126,7 +128,7 @@ def mark_stale(*, now: datetime) -> tuple[DeviceView, ...]:
     found = []
     for device in silent.select_related("site"):
         if silent.filter(pk=device.pk).update(online=False):
-            write_event(device, now, "offline", f"Said nothing for {STALE_AFTER.seconds} s")
+            write_event(device, now, "offline", said("silent", seconds=STALE_AFTER.seconds))
             before = view_of(device, device.site.slug) if device.description else None
             device.online = False
             if before:
@@ -155,7 +157,7 @@ def record_problem(*, device_id: str, text: str, at: datetime | None = None) -> 
     device = Device.objects.filter(pk=device_id).first()
     if device is None or DeviceEvent.objects.filter(device=device, kind="problem", at__gt=at - PROBLEM_EVERY).exists():
         return False
-    write_event(device, at, "problem", text)
+    write_event(device, at, "problem", said("problem", text=text))
     return True
 
 
@@ -229,18 +231,18 @@ def update_device(
             device.pose_override = asdict(pose)
         device.save(update_fields=["name_override", "pose_override"])
         after = view_of(device, site)
-        for text in _edits(before, after):
-            write_event(device, at, "edited", text, by)
+        for line in _edits(before, after):
+            write_event(device, at, "edited", line, by)
         announce(before, after)
     return after
 
 
-def _edits(before: DeviceView, after: DeviceView) -> list[str]:
+def _edits(before: DeviceView, after: DeviceView) -> list[Said]:
     edits = []
     if before.name != after.name:
-        edits.append(f"Renamed from {before.name} to {after.name}")
+        edits.append(said("renamed", before=before.name, after=after.name))
     if before.pose != after.pose:
-        edits.append(f"Moved to {after.pose.x:.2f}, {after.pose.y:.2f}")
+        edits.append(said("moved", x=after.pose.x, y=after.pose.y))
     return edits
 
 
@@ -272,7 +274,13 @@ def list_device_events(*, site: str, device_id: str, limit: int = 50) -> tuple[D
     rows = DeviceEvent.objects.filter(device__pk=device_id, device__site__slug=site).select_related("by")
     return tuple(
         DeviceEventView(
-            e.at, e.kind, e.text, e.by.display_name if e.by else "", tuple(Change(**change) for change in e.changes)
+            e.at,
+            e.kind,
+            e.text,
+            e.by.display_name if e.by else "",
+            tuple(Change(**change) for change in e.changes),
+            e.code,
+            e.args,
         )
         for e in rows.order_by("-pk")[:limit]
     )

@@ -15,6 +15,7 @@ from registry.alert_notes import note_alert
 from registry.broker_accounts import Account, accounts
 from registry.credentials import LEAST_CHARACTERS, MOST_CHARACTERS, broker_hash, is_strong, secret_hash
 from registry.device_rows import BadDevice, check_id, write_event
+from registry.event_words import said
 from registry.models import Device
 from registry.sites import find_site
 from registry.wire import BadMessage, parse_json
@@ -39,7 +40,7 @@ def admit_newcomer(*, site: str, device_id: str, payload: bytes, at: datetime) -
             _require_keyless(device, row.pk)
             device.credential_hash, device.broker_hash = secret_hash(key), broker_hash(key)
             device.save(update_fields=["credential_hash", "broker_hash"])
-            write_event(device, at, "knocked", "Knocked with the join key and brought a key of its own")
+            write_event(device, at, "knocked", said("knocked"))
     accounts().put(Account(device_id, key))
     return not is_known
 

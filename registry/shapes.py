@@ -154,6 +154,13 @@ class MethodShape(Schema):
     parameters: list[ParameterShape]
 
 
+class Activity(Schema):
+    """What a device is doing, for screens in other languages; `args` by code as in registry/doing.py."""
+
+    code: str
+    args: dict[str, Reading]
+
+
 class DeviceShape(Schema):
     """A device as it is now."""
 
@@ -165,6 +172,7 @@ class DeviceShape(Schema):
     lifecycle: Lifecycle
     status: Status
     doing: str
+    activity: Activity | None
     location: PoseShape
     size: SizeShape
     radius_m: float
@@ -206,11 +214,13 @@ class ChangeShape(Schema):
 
 
 class DeviceEventShape(Schema):
-    """One line of a device's history."""
+    """One line of a device's history; `code` and `args` are what it is said from in another language."""
 
     at: str
     kind: str
     text: str
+    code: str
+    args: dict[str, Any]
     by: str
     changes: list[ChangeShape]
 

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from registry.capability import Description, MethodSpec, Pose, PropertySpec, Scalar, description_from_json
 from registry.differences import Change
+from registry.doing import NOT_TRUSTED, NOTHING, Doing, Seen, doing_of
 from registry.floor import Grid
 from registry.models import Device
 from registry.rdf_text import CONTENT_TYPES
@@ -88,7 +89,7 @@ class DeviceView:
     readings: Mapping[str, Scalar] = field(default_factory=dict)
     carrying: Mapping[str, int] = field(default_factory=dict)
     status: Status = "idle"
-    doing: str = ""
+    doing: Doing = NOTHING
     last_seen_at: datetime | None = None
     has_key: bool = False
     dropped: int = 0
@@ -112,13 +113,18 @@ class DeviceView:
 
 @dataclass(frozen=True, slots=True)
 class DeviceEventView:
-    """One line of a device's history; `changes` say field by field how a description differs from the last."""
+    """One line of a device's history; `changes` say field by field how a description differs from the last.
+
+    `code` and `args` are what a screen says it from in another language; older lines have none.
+    """
 
     at: datetime
     kind: str
     text: str
     by: str
     changes: tuple[Change, ...] = ()
+    code: str = ""
+    args: Mapping[str, Any] = field(default_factory=dict)
 
 
 def view_of(device: Device, site: str) -> DeviceView:
@@ -141,7 +147,7 @@ def view_of(device: Device, site: str) -> DeviceView:
         dropped=device.dropped,
         only_done_flag=device.source_type == CONTENT_TYPES["paper"],
     )
-    return replace(view, status=status_of(view), doing=doing_of(view))
+    return replace(view, status=status_of(view), doing=_doing(view))
 
 
 def effective_description(device: Device) -> Description:
@@ -187,40 +193,12 @@ def status_of(view: DeviceView) -> Status:
     return "warning" if low or view.readings.get("warning") else "idle"
 
 
-def doing_of(view: DeviceView) -> str:
-    """Return in a few words what a device is doing."""
+def _doing(view: DeviceView) -> Doing:
     if view.lifecycle == "pending":
-        return "Not trusted yet"
+        return NOT_TRUSTED
     if not view.online:
-        return ""
-    for trouble in ("error", "warning"):
-        if text := view.readings.get(trouble):
-            return str(text)
-    if view.carrying:
-        return "Carrying " + ", ".join(_counted(count, name) for name, count in sorted(view.carrying.items()))
-    return _idle_words(view) if view.done else _busy_words(view)
-
-
-def _busy_words(view: DeviceView) -> str:
-    progress = view.readings.get("jobStatus")
-    if isinstance(progress, int | float):
-        return f"Working, {progress:.0f} %"
-    return "Driving" if view.kind == "robot" else "Working"
-
-
-def _idle_words(view: DeviceView) -> str:
-    stock, slots = view.readings.get("stock"), view.readings.get("freeSlots")
-    if isinstance(stock, int | float):
-        return _counted(round(stock), (view.canonical.gives or ("object",))[0])
-    if isinstance(slots, int | float):
-        return f"{slots:.0f} slots free"
-    return "Ready"
-
-
-def _counted(count: int, name: str) -> str:
-    """Return `1 box`, `2 boxes`, `3 cans`."""
-    plural = name + ("es" if name.endswith(("x", "s", "ch", "sh")) else "s")
-    return f"{count} {name if count == 1 else plural}"
+        return NOTHING
+    return doing_of(Seen(view.canonical, view.readings, view.carrying, view.done))
 
 
 def device_to_json(view: DeviceView) -> dict[str, Any]:
@@ -234,7 +212,7 @@ def device_to_json(view: DeviceView) -> dict[str, Any]:
         "icon": _ICONS.get(said.device_class, said.device_class),
         "lifecycle": view.lifecycle,
         "status": view.status,
-        "doing": view.doing,
+        **_doing_to_json(view.doing),
         "location": asdict(said.pose),
         "size": asdict(said.size),
         "radius_m": said.radius_m,
@@ -252,6 +230,11 @@ def device_to_json(view: DeviceView) -> dict[str, Any]:
         "has_key": view.has_key,
         "dropped": view.dropped,
     }
+
+
+def _doing_to_json(doing: Doing) -> dict[str, Any]:
+    said = {"code": doing.code, "args": dict(doing.args)} if doing.code else None
+    return {"doing": doing.text, "activity": said}
 
 
 def _property_to_json(spec: PropertySpec, value: Scalar) -> dict[str, Any]:
@@ -297,7 +280,7 @@ def _state_to_json(view: DeviceView) -> dict[str, Any]:
     pose = view.canonical.pose
     return {
         "status": view.status,
-        "doing": view.doing,
+        **_doing_to_json(view.doing),
         "location": {"x": pose.x, "y": pose.y, "z": pose.z, "theta": pose.theta},
         "carrying": dict(view.carrying),
         "last_seen_at": view.last_seen_at.isoformat() if view.last_seen_at else None,

@@ -33,6 +33,12 @@ export interface DeviceMethod {
   parameters: MethodParameter[];
 }
 
+/** What a device is doing, by a code. */
+export interface Activity {
+  code: string;
+  args: Record<string, Scalar | null>;
+}
+
 export interface Device {
   id: string;
   name: string;
@@ -42,6 +48,7 @@ export interface Device {
   lifecycle: Lifecycle;
   status: DeviceStatus;
   doing: string;
+  activity: Activity | null;
   location: { x: number; y: number; z: number; theta: number };
   size: { x: number; y: number; z: number };
   radius_m: number | null;
@@ -97,6 +104,9 @@ export interface DeviceEvent {
   at: string;
   kind: string;
   text: string;
+  /** What it is said from; empty for older lines. */
+  code: string;
+  args: Record<string, unknown>;
   by: string | null;
   changes: FieldChange[];
 }

@@ -29,7 +29,7 @@ export type LiveMessage =
   | { type: "programs" };
 
 /** Changes that people must see at once; the rest (poses, readings) may be gathered. */
-const URGENT: readonly (keyof Device)[] = ["status", "doing", "lifecycle", "carrying", "name", "done"];
+const URGENT: readonly (keyof Device)[] = ["status", "doing", "activity", "lifecycle", "carrying", "name", "done"];
 
 export function isUrgent(before: Device | undefined, change: DeviceChange): boolean {
   if (!before) return true;

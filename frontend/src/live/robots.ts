@@ -1,4 +1,5 @@
 /** The live robots of a site as the map's robot layer asks for them, once a frame. */
+import { doingWords } from "@/i18n/doing";
 import { waitWords } from "@/i18n/waits";
 import { statusOf } from "@/map/device";
 import { interpolatePose, type RobotSource, type RobotView } from "@/map/robots";
@@ -18,7 +19,7 @@ export const liveRobots: RobotSource = (now) => {
       id: device.id,
       name: device.name,
       status: statusOf(device),
-      note: device.doing || undefined,
+      note: doingWords(device) || undefined,
       carrying: Object.values(device.carrying).some((count) => count > 0),
       x: pose.x,
       y: pose.y,

@@ -1,4 +1,5 @@
 /** What a map needs to know about a device, and how a status looks. */
+import type { Activity } from "@/api/devices";
 import { PIXELS_PER_METRE } from "./projection";
 
 export type DeviceStatus = "idle" | "busy" | "done" | "waiting" | "warning" | "error" | "offline" | "pending";
@@ -10,6 +11,7 @@ export interface MapDevice {
   readonly device_class: string;
   readonly status: string;
   readonly doing: string;
+  readonly activity?: Activity | null;
   readonly location: { readonly x: number; readonly y: number; readonly theta: number };
   readonly size: { readonly x: number; readonly y: number } | null;
   readonly properties: readonly { readonly name: string; readonly value: unknown }[];

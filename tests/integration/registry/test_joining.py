@@ -36,7 +36,12 @@ def test_an_unknown_device_becomes_pending_and_is_shown(
 ) -> None:
     with django_capture_on_commit_callbacks(execute=True):
         view = describe()
-    assert (view.lifecycle, view.status, view.doing, view.online) == ("pending", "pending", "Not trusted yet", False)
+    assert (view.lifecycle, view.status, view.doing.text, view.online) == (
+        "pending",
+        "pending",
+        "Not trusted yet",
+        False,
+    )
     assert services.list_devices(site="hall") == (view,)
     assert [(slug, m["type"], m["device"]["id"], m["device"]["status"]) for slug, m in heard] == [
         ("hall", "device", "mixer1", "pending")
@@ -138,7 +143,7 @@ def test_an_approved_device_comes_works_and_goes(heard: list[Any], person: Calla
     services.approve_device(site="hall", device_id="mixer1", by=person("admin"), at=NOW)
     assert come().status == "idle"
     busy = say(seq=2, done=False, cmd="c1", props={"jobStatus": 75.0})
-    assert (busy.status, busy.doing, busy.command) == ("busy", "Working, 75 %", "c1")
+    assert (busy.status, busy.doing.text, busy.command) == ("busy", "Working, 75 %", "c1")
     assert services.device_to_json(busy)["properties"][0]["value"] == 75.0
     assert come(online=False).status == "offline"
     assert services.list_device_events(site="hall", device_id="mixer1")[0].text == "Left"
@@ -160,6 +165,7 @@ def test_only_what_changed_goes_to_the_browsers(heard: list[Any], django_capture
                     "location": {"x": 1.0, "y": 2.0, "z": 0.0, "theta": 0.5},
                     "carrying": {"box": 2},
                     "doing": "Carrying 2 boxes",
+                    "activity": {"code": "carrying", "args": {"box": 2}},
                 },
             },
         )
@@ -306,7 +312,7 @@ def test_low_batteries_and_errors_are_seen(hall: str) -> None:
     services.approve_device(site="hall", device_id="robot1", by=None, at=NOW)
     assert say("robot1", seq=2, props={"battery": 12}).status == "warning"
     failing = say("robot1", seq=3, props={"error": "Lid open"})
-    assert (failing.status, failing.doing) == ("error", "Lid open")
+    assert (failing.status, failing.doing.text) == ("error", "Lid open")
 
 
 def test_problems_are_noted_at_most_every_ten_seconds(hall: str) -> None:

@@ -1,5 +1,6 @@
 /** A machine on the map: its outline with the ring, its name and how it is. */
 import { memo, type CSSProperties } from "react";
+import { doingWords } from "@/i18n/doing";
 import { statusOf } from "@/map/device";
 import { DeviceToken } from "@/map/DeviceToken";
 import type { SiteDevice } from "../scene/surroundings";
@@ -32,7 +33,7 @@ export const MachineNode = memo(function MachineNode({ device, light, caption, s
       {caption ? <span className={classes.caption}>{caption}</span> : null}
       <span className={classes.label}>
         <strong>{device.name}</strong>
-        <span data-status={statusOf(device)}>{device.doing}</span>
+        <span data-status={statusOf(device)}>{doingWords(device)}</span>
       </span>
     </div>
   );

@@ -1,4 +1,5 @@
 /** The scene as React Flow's nodes, with explicit sizes so that nothing is measured. */
+import { doingWords } from "@/i18n/doing";
 import type { MapPlace } from "@/map/floor";
 import { toPixels, type Box } from "@/map/projection";
 import { footprint, isRobot } from "@/map/device";
@@ -38,7 +39,7 @@ export function buildNodes(
   return [
     ...machines.map((device) => {
       const others = machines.filter((each) => each.id !== device.id).map((each) => grown(deviceBox(each), 4));
-      const label = labelPlace(deviceBox(device), labelWidth(device.name, device.doing), [...covers, ...others]);
+      const label = labelPlace(deviceBox(device), labelWidth(device.name, doingWords(device)), [...covers, ...others]);
       covers.push(label.box);
       return machineNode(device, label, looks);
     }),
@@ -72,7 +73,7 @@ function machineNode(device: SiteDevice, label: LabelPlace, looks: NodeLooks): M
     draggable: false,
     selectable: false,
     focusable: true,
-    ariaLabel: `${device.name} ${device.doing}`.trim(),
+    ariaLabel: `${device.name} ${doingWords(device)}`.trim(),
     zIndex: 1,
     data: {
       device,

@@ -1,6 +1,7 @@
 /** Devices without their restlessness: the same list until something changes that the drawing shows. */
 import { useRef } from "react";
 import type { Device } from "@/api/types";
+import { doingWords } from "@/i18n/doing";
 import { isRobot, progressOf } from "@/map/device";
 
 export function useQuietDevices(devices: Device[]): readonly Device[] {
@@ -19,7 +20,7 @@ function lookOf(device: Device): unknown[] {
     device.name,
     device.status,
     device.lifecycle,
-    isRobot(device) ? null : [x, y, theta, device.doing],
+    isRobot(device) ? null : [x, y, theta, doingWords(device)],
     progress === null ? null : Math.round(progress * 20),
     device.methods.length,
     device.gives,

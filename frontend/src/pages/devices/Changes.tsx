@@ -6,6 +6,7 @@ import { keys } from "@/api/queries";
 import type { DeviceEvent, FieldChange } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { Panel } from "@/design/Panel";
+import { deviceEventWords } from "@/i18n/deviceEvents";
 import { formatMoment } from "@/i18n/format";
 import styles from "./detail.module.css";
 
@@ -44,7 +45,7 @@ function Change({ event }: { event: DeviceEvent }) {
       )}
       <span>
         {event.by ? <b>{event.by} </b> : null}
-        {event.text}
+        {deviceEventWords(event)}
         <small>{formatMoment(event.at)}</small>
         {event.changes.length > 0 ? <Fields changes={event.changes} /> : null}
       </span>

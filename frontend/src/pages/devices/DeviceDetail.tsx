@@ -5,10 +5,12 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate } from "react-router-dom";
 import type { Device, Site } from "@/api/types";
+import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
 import { StatusBadge } from "@/design/StatusBadge";
 import { statusColour } from "@/design/StatusGlyph";
-import { formatAge } from "@/i18n/format";
+import { doingWords } from "@/i18n/doing";
+import { formatAge, formatNumber } from "@/i18n/format";
 import { DeviceIcon } from "@/map/DeviceIcon";
 import { useNow } from "../useNow";
 import { Changes } from "./Changes";
@@ -58,13 +60,13 @@ function Ring({ device }: { device: Device }) {
 function Heading({ device }: { device: Device }) {
   const { t } = useTranslation();
   const now = useNow(1000);
-  const word = t(`shell.status.${device.status}`);
+  const [word, doing] = [t(`shell.status.${device.status}`), doingWords(device)];
   return (
     <div className={styles.heading}>
       <h2>{device.name}</h2>
       <p>
         <StatusBadge status={device.status}>
-          {device.doing && device.status !== "pending" ? `${word}: ${device.doing}` : word}
+          {doing && device.status !== "pending" ? `${word}: ${doing}` : word}
         </StatusBadge>
         {device.last_seen_at ? (
           <span>{t("pages.devices.seen", { age: formatAge(device.last_seen_at, now) })}</span>

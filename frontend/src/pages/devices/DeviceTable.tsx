@@ -3,6 +3,7 @@ import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import type { Device } from "@/api/types";
 import { StatusBadge } from "@/design/StatusBadge";
+import { doingWords } from "@/i18n/doing";
 import { formatAge, formatNumber, withUnit } from "@/i18n/format";
 import { DeviceIcon } from "@/map/DeviceIcon";
 import pages from "../pages.module.css";
@@ -41,8 +42,8 @@ function Row({ device, slug, chosen, now }: { device: Device; slug: string; chos
       <td>
         <StatusBadge status={device.status}>{t(`shell.status.${device.status}`)}</StatusBadge>
       </td>
-      <td className={styles.doing} title={device.doing}>
-        {device.status === "pending" ? t("pages.devices.notTrusted") : device.doing || "–"}
+      <td className={styles.doing} title={doingWords(device)}>
+        {device.status === "pending" ? t("pages.devices.notTrusted") : doingWords(device) || "–"}
       </td>
       <td>
         <code className={styles.position}>{`${formatNumber(x, 2)}, ${formatNumber(y, 2)}`}</code>

@@ -1,5 +1,6 @@
 /** Finding devices: by words, status, kind and what they can do. Pure. */
 import type { Device } from "@/api/types";
+import { doingWords } from "@/i18n/doing";
 
 export interface DeviceFilter {
   readonly query: string;
@@ -24,7 +25,7 @@ export function filterDevices(devices: readonly Device[], filter: DeviceFilter):
 
 function textOf(device: Device): string {
   const methods = device.methods.flatMap((method) => [method.name, method.title, method.topic]);
-  return [device.name, device.id, device.doing, ...methods].join(" ").toLowerCase();
+  return [device.name, device.id, doingWords(device), ...methods].join(" ").toLowerCase();
 }
 
 /** Names of all methods, each once, in order of the alphabet. */

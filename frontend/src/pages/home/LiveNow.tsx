@@ -6,6 +6,7 @@ import type { Device, RunSummary } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { StatusGlyph } from "@/design/StatusGlyph";
+import { doingWords } from "@/i18n/doing";
 import { formatClock } from "@/i18n/format";
 import { isOpen, progressOfRun, secondsOfRun, statusOfRun } from "../runs";
 import { useNow } from "../useNow";
@@ -40,7 +41,9 @@ function DeviceLine({ device, slug }: { device: Device; slug: string }) {
       <Link to={`/sites/${slug}/devices/${device.id}`} className={styles.liveDevice}>
         <b>{device.name}</b>
         <StatusBadge status={device.status}>
-          {device.status === "pending" ? t("shell.status.pending") : device.doing || t(`shell.status.${device.status}`)}
+          {device.status === "pending"
+            ? t("shell.status.pending")
+            : doingWords(device) || t(`shell.status.${device.status}`)}
         </StatusBadge>
       </Link>
     </li>

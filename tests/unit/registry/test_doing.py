@@ -1,0 +1,35 @@
+"""What a device is doing, in a code with arguments and in English."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from registry.capability import Description, Pose, Size
+from registry.doing import Doing, Seen, doing_of
+
+MIXER = Description("mixer", "Mixer", "machine", "mixer", Pose(0, 0), Size(1, 1, 1), gives=("box",))
+ROBOT = replace(MIXER, kind="robot", gives=())
+
+
+@pytest.mark.parametrize(
+    ("device", "facts", "expected"),
+    [
+        (MIXER, {"readings": {"error": "Lid open"}}, Doing("said", "Lid open", {"text": "Lid open"})),
+        (ROBOT, {"carrying": {"can": 2, "box": 1}}, Doing("carrying", "Carrying 1 box, 2 cans", {"box": 1, "can": 2})),
+        (
+            MIXER,
+            {"done": False, "readings": {"jobStatus": 74.6}},
+            Doing("working_percent", "Working, 75 %", {"percent": 75}),
+        ),
+        (MIXER, {"done": False}, Doing("working", "Working")),
+        (ROBOT, {"done": False}, Doing("driving", "Driving")),
+        (MIXER, {"readings": {"stock": 3}}, Doing("stock", "3 boxes", {"count": 3, "object": "box"})),
+        (MIXER, {"readings": {"freeSlots": 2}}, Doing("slots", "2 slots free", {"count": 2})),
+        (MIXER, {}, Doing("ready", "Ready")),
+    ],
+)
+def test_what_a_device_is_doing(device: Description, facts: dict[str, Any], expected: Doing) -> None:
+    assert doing_of(Seen(**{"description": device, "readings": {}, "carrying": {}, "done": True, **facts})) == expected
