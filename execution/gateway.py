@@ -15,7 +15,7 @@ from collections import OrderedDict, deque
 from datetime import UTC, datetime
 from typing import Any
 
-from django.db import DatabaseError, connection
+from django.db import DatabaseError, InterfaceError, connection
 
 from execution import services as execution
 from execution.alerting import note_complaint
@@ -25,6 +25,7 @@ from registry import live, wire
 from registry import services as registry
 from registry.errors import VipoError
 from registry.mqtt import Message, MqttClient
+from registry.outage import Outage
 
 log = logging.getLogger(__name__)
 
@@ -48,7 +49,9 @@ class Gateway:
         self._inbox = Inbox()
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
         self.complaints = Complaints()
-        self._taker = Taker(self._note, self.complaints.counts)
+        self._outage = Outage("The database", "What devices say waits at the broker, and commands wait.")
+        self._outages_seen = 0
+        self._taker = Taker(self._note, self.complaints.counts, self._outage)
         self._notes: deque[tuple[str, str]] = deque(maxlen=1000)
         self._greeting_due = threading.Event()
         self._stops: dict[str, bytes] = {}
@@ -65,7 +68,9 @@ class Gateway:
         sender.start()
         try:
             while not stopping.is_set():
-                self._taker.take_all(self._inbox.get_all(0.2, MOST_AT_ONCE), stopping)
+                entries = self._inbox.get_all(0.2, MOST_AT_ONCE)
+                self._renew_connection()
+                self._taker.take_all(entries, stopping)
                 self._write_notes()
                 self._count_dropped(time.monotonic())
                 registry.flush_samples()
@@ -75,6 +80,12 @@ class Gateway:
             sender.join(5)
             self._client.stop()
             registry.flush_samples(all_of_it=True)
+            connection.close()
+
+    def _renew_connection(self) -> None:
+        """Give up a connection from before an outage; the other thread may have noticed it first."""
+        if self._outages_seen != self._outage.count:
+            self._outages_seen = self._outage.count
             connection.close()
 
     def _arrived(self, message: Message) -> None:
@@ -130,8 +141,8 @@ class Gateway:
         while not stopping.is_set():
             try:
                 busy = self._client.connected and self._send_once()
-            except DatabaseError as error:
-                log.warning("The database does not give commands now: %s", error)
+            except (DatabaseError, InterfaceError) as error:
+                self._outage.begin(error)
                 connection.close()
                 busy = not stopping.wait(0.5)
             except Exception:  # the edge of the process: without this thread no command would ever go out
@@ -149,6 +160,7 @@ class Gateway:
             self._publish_stops()
             self._stops_at = time.monotonic()
         commands = execution.claim_commands(limit=CLAIM_LIMIT)
+        self._outage.end()
         for command in commands:
             self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
         if commands:
@@ -159,7 +171,11 @@ class Gateway:
         """Announce the server, upon which devices describe themselves anew; repeat the stops."""
         self._greeting_due.clear()
         self._stops.clear()
-        self._publish_stops()
+        try:
+            self._publish_stops()
+        except (DatabaseError, InterfaceError):
+            self._greeting_due.set()
+            raise
         birth = {"s": "online", "at": datetime.now(UTC).isoformat(timespec="milliseconds")}
         self._client.publish(SERVER_STATUS, json.dumps(birth).encode(), retain=True)
         _reconcile_accounts()

@@ -10,6 +10,7 @@ import asyncio
 import json
 import logging
 import threading
+import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager, suppress
 from functools import lru_cache
@@ -19,10 +20,13 @@ from django.conf import settings
 from redis import ConnectionPool, Redis
 from redis.exceptions import RedisError
 
+from registry.outage import Outage
+
 log = logging.getLogger(__name__)
 Message = Mapping[str, Any]
 Listener = Callable[[str, Message], None]
 EVERY_SITE = ""
+REST_S = 0.5
 _LIVE, _WAKE = "vipo:live:", "vipo:wake:"
 
 
@@ -125,14 +129,19 @@ class RedisLive:
         self._ready = threading.Event()
         self._closed = threading.Event()
         self._missed: set[str] = set()
+        self._outage = Outage("Redis", "There is no live news, and what waits is found a little later.")
+        self._rests_until = 0.0
 
     def publish(self, site_slug: str, message: Message) -> None:
-        """Send a message; while Redis is away it is dropped, logged, and healed by a `hello` later."""
+        """Send a message; while Redis is away it is dropped, and healed by a `hello` later."""
         self.publish_all([(site_slug, message)])
 
     def publish_all(self, messages: Sequence[tuple[str, Message]]) -> None:
         """Send several messages in one exchange with Redis."""
         texts = [(slug, json.dumps(message)) for slug, message in messages]
+        if self._rests():
+            self._missed |= {slug for slug, _ in texts}
+            return
         try:
             with self._redis.pipeline(transaction=False) as pipe:
                 for missed in (again := list(self._missed)):
@@ -141,11 +150,10 @@ class RedisLive:
                     pipe.publish(_LIVE + slug, text)
                 pipe.execute()
             self._missed.difference_update(again)
+            self._outage.end()
         except RedisError as error:
-            slugs = {slug for slug, _ in texts}
-            self._missed |= slugs
-            named = ", ".join(sorted(slugs))
-            log.warning("Live news of site %s was dropped; Redis does not answer: %s", named, error)
+            self._missed |= {slug for slug, _ in texts}
+            self._rest(error)
 
     def listen(self, callback: Listener) -> Callable[[], None]:
         """See Live."""
@@ -154,11 +162,14 @@ class RedisLive:
         return stop
 
     def wake(self, channel: str) -> None:
-        """Hint; a hint that Redis does not take is logged, since waiters also look by themselves."""
+        """Hint; one that Redis does not take is dropped, since waiters also look by themselves."""
+        if self._rests():
+            return
         try:
             self._redis.publish(_WAKE + channel, "")
+            self._outage.end()
         except RedisError as error:
-            log.warning("A wake-up on %s was dropped; Redis does not answer: %s", channel, error)
+            self._rest(error)
 
     def wait_wake(self, channel: str, timeout_s: float) -> bool:
         """See Live."""
@@ -172,6 +183,14 @@ class RedisLive:
             self._thread.join(5)
         self._here.close()
         self._redis.close()
+
+    def _rests(self) -> bool:
+        """Tell whether Redis failed just now: who publishes must not wait for it with each message anew."""
+        return time.monotonic() < self._rests_until
+
+    def _rest(self, error: RedisError) -> None:
+        self._rests_until = time.monotonic() + REST_S
+        self._outage.begin(error)
 
     def _start(self) -> None:
         """Begin to listen at the first need; only the first caller waits, and not for ever, until Redis has heard."""
@@ -190,8 +209,8 @@ class RedisLive:
                     channel.psubscribe(_LIVE + "*", _WAKE + "*")
                     self._hear_from(channel, say_hello=connected_before)
             except RedisError as error:
-                log.warning("Live messages are interrupted; Redis does not answer: %s", error)
-                self._closed.wait(0.5)
+                self._outage.begin(error)
+                self._closed.wait(REST_S)
             connected_before = True
 
     def _hear_from(self, channel: Any, *, say_hello: bool) -> None:
@@ -201,6 +220,7 @@ class RedisLive:
                 continue
             if message["type"] == "psubscribe":
                 self._ready.set()
+                self._outage.end()
                 if say_hello:
                     self._here.deliver(EVERY_SITE, json.dumps({"type": "hello"}))
                     say_hello = False

@@ -29,12 +29,32 @@ class ServerMissing(AssertionError):
     """A server program is not installed; the message says how to get it."""
 
 
-@dataclass(frozen=True)
+@dataclass
 class Postgres:
-    """A running PostgreSQL with one empty database."""
+    """A running PostgreSQL with one database, empty at first."""
 
     url: str
     port: int
+    data: Path
+    log: Path
+    options: list[str]
+    process: subprocess.Popen[bytes] | None = None
+
+    def start(self) -> None:
+        """Start (again), on the same port and with what it kept."""
+        command = [*plain_user(), str(postgres_programs() / "postgres"), "-D", f"{self.data}/db", *self.options]
+        with self.log.open("ab") as out:
+            self.process = subprocess.Popen(command, stdout=out, stderr=out, cwd="/")
+        ask = [str(postgres_programs() / "pg_isready"), "-q", "-h", "127.0.0.1", "-p", str(self.port)]
+        wait_until(lambda: subprocess.run(ask).returncode == 0, self.log.read_text, self.process)
+
+    def stop(self) -> None:
+        """End it at once, as a crash would: what was committed is found in its log at the next start."""
+        control = [*plain_user(), str(postgres_programs() / "pg_ctl"), "-D", f"{self.data}/db"]
+        stop = [*control, "-m", "immediate", "-w", "stop"]
+        subprocess.run(stop, capture_output=True, cwd="/")
+        if self.process is not None:
+            self.process.wait(20)
 
 
 @dataclass
@@ -43,7 +63,22 @@ class Redis:
 
     url: str
     port: int
-    process: subprocess.Popen[bytes]
+    folder: Path
+    process: subprocess.Popen[bytes] = field(init=False)
+
+    def start(self) -> None:
+        """Start (again), on the same port and empty."""
+        alone = ["--bind", "127.0.0.1", "--save", "", "--appendonly", "no", "--dir", str(self.folder)]
+        log = self.folder / "redis.log"
+        with log.open("ab") as out:
+            command = [find_program("redis-server"), "--port", str(self.port), *alone]
+            self.process = subprocess.Popen(command, stdout=out, stderr=out)
+        wait_until(lambda: answers(self.port), log.read_text, self.process)
+
+    def kill(self) -> None:
+        """End it without warning."""
+        self.process.kill()
+        self.process.wait()
 
 
 @dataclass
@@ -148,58 +183,34 @@ def run_postgres(folder: Path, *, keep_durable: bool = False) -> Iterator[Postgr
     # The server's own user cannot enter pytest's folders, which belong to the one who runs the tests.
     made_folder = subprocess.run([*become, "mktemp", "-d", "/tmp/vipo-pg.XXXXXX"], capture_output=True, check=True)
     data = Path(made_folder.stdout.decode().strip())
-    log = folder / "postgres.log"
     options = f"-p {port} -k {data} -c listen_addresses=127.0.0.1 -c max_connections=60 -c shared_buffers=32MB"
     options += "" if keep_durable else " -c fsync=off -c synchronous_commit=off -c full_page_writes=off"
+    url = f"postgresql://vipo@127.0.0.1:{port}/vipo"
+    server = Postgres(url, port, data, folder / "postgres.log", options.split())
     try:
-        made = [
-            *become,
-            programs / "initdb",
-            "-D",
-            data / "db",
-            "-U",
-            "vipo",
-            "-A",
-            "trust",
-            "-E",
-            "UTF8",
-            "--locale=C",
-            "-N",
-        ]
-        subprocess.run(made, capture_output=True, check=True, cwd="/")
-        with log.open("ab") as out:
-            command = [*become, programs / "postgres", "-D", data / "db", *options.split()]
-            process = subprocess.Popen(command, stdout=out, stderr=out, cwd="/")
-        try:
-            create = [programs / "createdb", "-h", "127.0.0.1", "-p", str(port), "-U", "vipo", "vipo"]
-            wait_until(
-                lambda: answers(port) and subprocess.run(create, capture_output=True).returncode == 0,
-                log.read_text,
-                process,
-            )
-            yield Postgres(f"postgresql://vipo@127.0.0.1:{port}/vipo", port)
-        finally:
-            stop = [*become, programs / "pg_ctl", "-D", data / "db", "-m", "immediate", "-w", "stop"]
-            subprocess.run(stop, capture_output=True, cwd="/")
-            process.wait(20)
+        make = [*become, str(programs / "initdb"), "-D", f"{data}/db", "-U", "vipo"]
+        plain = ["-A", "trust", "-E", "UTF8", "--locale=C", "-N"]
+        subprocess.run([*make, *plain], capture_output=True, check=True, cwd="/")
+        server.start()
+        create = [str(programs / "createdb"), "-h", "127.0.0.1", "-p", str(port), "-U", "vipo", "vipo"]
+        subprocess.run(create, capture_output=True, check=True)
+        yield server
     finally:
+        server.stop()
         subprocess.run([*become, "rm", "-rf", data], check=False)
 
 
 @contextmanager
 def run_redis(folder: Path) -> Iterator[Redis]:
     """Run Redis without persistence."""
-    program, port = find_program("redis-server"), free_port()
-    log = folder / "redis.log"
-    command = [program, "--port", str(port), "--bind", "127.0.0.1", "--save", "", "--appendonly", "no", "--dir", folder]
-    with log.open("ab") as out:
-        process = subprocess.Popen(command, stdout=out, stderr=out)
+    port = free_port()
+    server = Redis(f"redis://127.0.0.1:{port}/0", port, folder)
+    server.start()
     try:
-        wait_until(lambda: answers(port), log.read_text, process)
-        yield Redis(f"redis://127.0.0.1:{port}/0", port, process)
+        yield server
     finally:
-        process.terminate()
-        process.wait(10)
+        server.process.terminate()
+        server.process.wait(10)
 
 
 @contextmanager

@@ -142,5 +142,5 @@ def test_after_a_gap_watchers_are_told_to_begin_anew(tmp_path: Path, caplog: pyt
         redis.process.wait()
         live.publish("a", {"n": 2})
         live.wake("gateway")
-    assert "was dropped; Redis does not answer" in caplog.text
+    assert caplog.text.count("Redis does not answer") == 2
     live.close()
