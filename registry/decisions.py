@@ -215,7 +215,7 @@ def _replace_key(site: str, device_id: str, credential: str, by: User | None, at
 
 def _give_key(device: Device, credential: str) -> None:
     device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
-    accounts().put(Account(device.id, credential, tuple(sorted(device.granted.values()))))
+    accounts().put(Account(device.id, credential))
 
 
 def _lock_out(device: Device, at: datetime) -> None:
