@@ -38,7 +38,8 @@ class Triples:
             if isinstance(value, Text) and value.datatype in _MARKUP:
                 raise BadDescription("The description holds XML or HTML literals. Use plain text.")
             self._about[subject][predicate][value] = None
-        if (count := sum(1 for _ in self)) > MOST_TRIPLES:
+        count = sum(len(values) for said in self._about.values() for values in said.values())
+        if count > MOST_TRIPLES:
             raise BadDescription(f"The description has {count} triples; {MOST_TRIPLES} is the most.")
 
     def __iter__(self) -> Iterator[Triple]:

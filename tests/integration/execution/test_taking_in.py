@@ -108,3 +108,30 @@ def test_when_a_batch_cannot_be_kept_each_message_is_tried_by_itself(
     taker.take_all(entries, threading.Event())
     assert readings("b") == {"stock": 7}
     assert sorted(post.acknowledged) == [0, 1, 2, 3]
+
+
+def test_a_description_that_is_refused_is_noted_and_harms_no_other(taker: Taker, notes: list[tuple[str, str]]) -> None:
+    post = Post()
+    entries = [post("a", "desc", description("a")), post("b", "desc", b"no RDF"), post("c", "desc", description("d"))]
+    taker.take_all([*entries, post("d", "desc", description("d"))], threading.Event())
+    assert [d.id for d in services.list_devices(site="hall")] == ["a", "d"]
+    assert [device for device, _ in notes] == ["b", "c"]
+    assert all(line.startswith("desc: ") for _, line in notes)
+    assert sorted(post.acknowledged) == [0, 1, 2, 3]
+
+
+def test_descriptions_that_cannot_be_kept_together_are_kept_one_by_one_and_then_acknowledged(
+    taker: Taker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tried: list[int] = []
+
+    def refuse(*, descriptions: Any) -> Any:
+        tried.append(len(descriptions))
+        assert post.acknowledged == []
+        raise DatabaseError("The batch is too large.")
+
+    post = Post()
+    monkeypatch.setattr(services, "ingest_descriptions", refuse)
+    taker.take_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
+    assert [d.id for d in services.list_devices(site="hall")] == ["a", "b"]
+    assert (tried, sorted(post.acknowledged)) == ([2], [0, 1])
