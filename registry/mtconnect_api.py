@@ -12,10 +12,10 @@ from ninja import Field, Query, Router, Schema
 from registry import mtconnect_agent, mtconnect_streams
 from registry.access import require
 from registry.api import signed_in
-from registry.models import User
 from registry.mtconnect import Agent, ErrorCode, write_error
 from registry.mtconnect_agent import AgentError, Answer, Question
 from registry.mtconnect_streams import Listener
+from registry.sessions import session_of
 
 router = Router(tags=["mtconnect"])
 XML, STREAM = "application/xml", "multipart/x-mixed-replace"
@@ -82,28 +82,29 @@ def sample_of_device(request: HttpRequest, slug: str, device: str, asked: Query[
 
 
 def _probe(request: HttpRequest, slug: str, device: str) -> HttpResponse:
-    user = signed_in(request)
-    return _answer(user, slug, mtconnect_agent.probe_site, Question(device))
+    return _answer(request, slug, mtconnect_agent.probe_site, Question(device))
 
 
 def _current(request: HttpRequest, slug: str, device: str, asked: CurrentAsked) -> Any:
-    user, question = signed_in(request), Question(device, asked.path, at=asked.at)
+    question = Question(device, asked.path, at=asked.at)
     if asked.interval is None:
-        return _answer(user, slug, mtconnect_agent.current_of_site, question)
-    listener = Listener(user, slug, mtconnect_agent.current_of_site, question, is_sample=False)
+        return _answer(request, slug, mtconnect_agent.current_of_site, question)
+    require(signed_in(request), slug, "viewer")
+    listener = Listener(session_of(request), slug, mtconnect_agent.current_of_site, question, is_sample=False)
     return _stream(listener, asked.interval, None)
 
 
 def _sample(request: HttpRequest, slug: str, device: str, asked: SampleAsked) -> Any:
-    user, question = signed_in(request), Question(device, asked.path, asked.begin, asked.count)
+    question = Question(device, asked.path, asked.begin, asked.count)
     if asked.interval is None:
-        return _answer(user, slug, mtconnect_agent.sample_of_site, question)
-    listener = Listener(user, slug, mtconnect_agent.sample_of_site, question, is_sample=True)
+        return _answer(request, slug, mtconnect_agent.sample_of_site, question)
+    require(signed_in(request), slug, "viewer")
+    listener = Listener(session_of(request), slug, mtconnect_agent.sample_of_site, question, is_sample=True)
     return _stream(listener, asked.interval, asked.heartbeat)
 
 
-def _answer(user: User, slug: str, write: Write, question: Question) -> HttpResponse:
-    require(user, slug, "viewer")
+def _answer(request: HttpRequest, slug: str, write: Write, question: Question) -> HttpResponse:
+    require(signed_in(request), slug, "viewer")
     agent = mtconnect_agent.agent_of(site=slug, now=timezone.now())
     try:
         return HttpResponse(write(agent, question).document, content_type=XML)
@@ -112,11 +113,10 @@ def _answer(user: User, slug: str, write: Write, question: Question) -> HttpResp
 
 
 def _stream(listener: Listener, interval: str, heartbeat: str | None) -> HttpResponse | StreamingHttpResponse:
-    require(listener.user, listener.site, "viewer")
     agent = mtconnect_agent.agent_of(site=listener.site, now=timezone.now())
     try:
         rhythm = mtconnect_streams.read_rhythm(listener.question, interval, heartbeat)
-        mtconnect_streams.check_room(listener.user, listener.site)
+        mtconnect_streams.check_room(listener)
         first = listener.write(agent, listener.question)
     except AgentError as error:
         return _refusal(agent, error)

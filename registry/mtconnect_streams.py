@@ -7,16 +7,16 @@ import time
 from asyncio import sleep
 from collections import Counter
 from collections.abc import AsyncIterator, Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 
 from asgiref.sync import sync_to_async
 from django.utils import timezone
 
 from registry.access import find_access
-from registry.models import User
 from registry.mtconnect import Agent, write_error
 from registry.mtconnect_agent import AgentError, Answer, Question, agent_of, next_number, whole
+from registry.sessions import Session, find_person
 
 BOUNDARY = "vipo-mtconnect-part"
 MEDIA_TYPE = f"multipart/x-mixed-replace;boundary={BOUNDARY}"
@@ -26,16 +26,16 @@ HEARTBEAT_MS = 10_000
 MOST_BYTES = 4_000_000
 """A listener that does not read leaves at most so much in memory; one that reads asks again with its next number."""
 MOST_SECONDS = 900.0
-MOST_OF_USER, MOST_OF_SITE, MOST_IN_PROCESS = 4, 16, 32
+MOST_OF_PERSON, MOST_OF_SITE, MOST_IN_PROCESS = 4, 16, 32
 _open: Counter[str] = Counter()
 _lock = threading.Lock()
 
 
 @dataclass(frozen=True, slots=True)
 class Listener:
-    """Who listens to which documents of a site; a sample goes on with its number, `current` comes as a whole."""
+    """Whose session listens to which documents of a site; a sample goes on with its number, `current` comes whole."""
 
-    user: User
+    session: Session
     site: str
     write: Callable[[Agent, Question], Answer]
     question: Question
@@ -59,25 +59,26 @@ def read_rhythm(question: Question, interval: str, heartbeat: str | None) -> Rhy
     return Rhythm(max(LEAST_PAUSE_S, pause_s), max(LEAST_PAUSE_S, heartbeat_s))
 
 
-def check_room(user: User, site: str) -> None:
-    """Raise AgentError when this user, this site or this process has as many streams as it may."""
-    for key, most, whose in _places(user, site):
+def check_room(listener: Listener) -> None:
+    """Raise AgentError when this person, this site or this process has as many streams as it may."""
+    for key, most, whose in _places(listener):
         if _open[key] >= most:
             raise AgentError("TOO_MANY", f"{most} streams are open {whose}. Close one, or ask without `interval`.")
 
 
-def _places(user: User, site: str) -> tuple[tuple[str, int, str], ...]:
+def _places(listener: Listener) -> tuple[tuple[str, int, str], ...]:
     return (
-        (f"user {user.pk}", MOST_OF_USER, "for you"),
-        (f"site {site}", MOST_OF_SITE, "at this site"),
+        (f"person {listener.session.person}", MOST_OF_PERSON, "for you"),
+        (f"site {listener.site}", MOST_OF_SITE, "at this site"),
         ("all", MOST_IN_PROCESS, "at this server"),
     )
 
 
 @contextmanager
 def _counted(listener: Listener) -> Iterator[None]:
-    keys = [key for key, _, _ in _places(listener.user, listener.site)]
+    keys = [key for key, _, _ in _places(listener)]
     with _lock:
+        check_room(listener)
         _open.update(keys)
     try:
         yield
@@ -92,11 +93,11 @@ def _counted(listener: Listener) -> Iterator[None]:
 async def stream_documents(listener: Listener, rhythm: Rhythm, first: Answer) -> AsyncIterator[bytes]:
     """Give a first document, then each when it is due, as parts of one answer.
 
-    It ends when the listener is no member any more, when what is asked of has gone (an error is the last part), and
-    after MOST_SECONDS or MOST_BYTES.
+    It ends when the listener is signed out or no member any more, when what is asked of has gone (an error is the
+    last part), and after MOST_SECONDS or MOST_BYTES.
     """
     until, left, answer = time.monotonic() + MOST_SECONDS, MOST_BYTES, first
-    with _counted(listener):
+    with suppress(AgentError), _counted(listener):
         while True:
             part = _part(answer.document)
             left -= len(part)
@@ -115,8 +116,8 @@ async def _wait(listener: Listener, rhythm: Rhythm, last: Answer, until: float) 
     begun = time.monotonic()
     while time.monotonic() < until:
         await sleep(LEAST_PAUSE_S)
-        is_member, following = await sync_to_async(_look)(listener)
-        if not is_member:
+        following = await sync_to_async(_look)(listener)
+        if following is None:
             return False
         waited_s = time.monotonic() - begun
         has_news = not listener.is_sample or following > last.next or waited_s >= rhythm.heartbeat_s
@@ -125,8 +126,10 @@ async def _wait(listener: Listener, rhythm: Rhythm, last: Answer, until: float) 
     return False
 
 
-def _look(listener: Listener) -> tuple[bool, int]:
-    return find_access(listener.user, listener.site) is not None, next_number()
+def _look(listener: Listener) -> int | None:
+    """Return the number that the next observation will have; None when the listener may hear no more."""
+    person = find_person(listener.session)
+    return next_number() if person is not None and find_access(person, listener.site) else None
 
 
 def _next_answer(listener: Listener, last: Answer) -> tuple[Answer, bool]:

@@ -83,7 +83,7 @@ def portray(machine: Machine, site: str, stand: Stand) -> Portrait:
         turtle,
         tuple(reading for reading, _ in shown),
         _of_type(machine, "EXECUTION"),
-        _of_type(machine, "AVAILABILITY"),
+        _availabilities(machine),
         _of_type(machine, "EMERGENCY_STOP"),
         frozenset(item.id for item in machine.items if item.category == "CONDITION"),
         len(found) - len(shown),
@@ -92,6 +92,12 @@ def portray(machine: Machine, site: str, stand: Stand) -> Portrait:
 
 def _of_type(machine: Machine, kind: str) -> frozenset[str]:
     return frozenset(item.id for item in machine.items if item.type == kind)
+
+
+def _availabilities(machine: Machine) -> frozenset[str]:
+    """Return what tells whether the machine is there: its own items, before those of its components."""
+    own = frozenset(item.id for item in machine.items if item.type == "AVAILABILITY" and not item.part)
+    return own or _of_type(machine, "AVAILABILITY")
 
 
 def _describe(machine: Machine, site: str, stand: Stand, shown: Iterable[tuple[Reading, PropertySpec]]) -> Description:

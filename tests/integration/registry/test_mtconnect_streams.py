@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from asgiref.sync import sync_to_async
+from django.contrib.sessions.models import Session as Kept
 from django.test import Client
 from django.utils import timezone
 from lxml import etree
@@ -18,6 +19,7 @@ from registry.models import Device, Membership, User
 from registry.mtconnect_agent import Question
 from registry.mtconnect_streams import BOUNDARY, Listener, Rhythm, stream_documents
 from registry.samples import SampleBuffer
+from registry.sessions import Session
 
 from .conftest import come, describe, say
 
@@ -44,9 +46,11 @@ def tell(progress: float) -> None:
 
 
 def listen(*, is_sample: bool = True, heartbeat_s: float = 30.0, device: str = "") -> AsyncIterator[bytes]:
-    user, question = User.objects.get(email="viewer@vipo.example"), Question(device)
+    client, question = Client(), Question(device)
+    client.force_login(User.objects.get(email="viewer@vipo.example"))
+    session = Session(client.cookies["sessionid"].value, int(client.session["_auth_user_id"]))
     write = mtconnect_agent.sample_of_site if is_sample else mtconnect_agent.current_of_site
-    listener = Listener(user, "hall", write, question, is_sample=is_sample)
+    listener = Listener(session, "hall", write, question, is_sample=is_sample)
     first = write(mtconnect_agent.agent_of(site="hall", now=timezone.now()), question)
     return stream_documents(listener, Rhythm(0.02, heartbeat_s), first)
 
@@ -86,10 +90,11 @@ async def test_current_comes_again_and_again(mixer: str) -> None:
             pass
 
 
-async def test_a_stream_ends_when_its_listener_is_no_member_any_more(mixer: str) -> None:
+@pytest.mark.parametrize("rows", [Membership.objects.filter(user__email="viewer@vipo.example"), Kept.objects.all()])
+async def test_a_stream_ends_when_its_listener_is_no_member_any_more_or_signs_out(mixer: str, rows: Any) -> None:
     async with aclosing(await sync_to_async(listen)()) as parts:
         await heard(parts)
-        await sync_to_async(Membership.objects.filter(user__email="viewer@vipo.example").delete)()
+        await sync_to_async(rows.all().delete)()
         assert [part async for part in parts] == [f"--{BOUNDARY}--\r\n".encode()]
 
 
@@ -113,7 +118,7 @@ async def test_a_stream_ends_when_it_has_sent_enough(mixer: str, monkeypatch: py
 @pytest.mark.parametrize(
     ("key", "most", "told"),
     [
-        ("user", "MOST_OF_USER", "4 streams are open for you."),
+        ("person", "MOST_OF_PERSON", "4 streams are open for you."),
         ("site hall", "MOST_OF_SITE", "16 streams are open at this site."),
         ("all", "MOST_IN_PROCESS", "32 streams are open at this server."),
     ],
@@ -124,7 +129,7 @@ def test_only_so_many_streams_are_open_at_once(
     user = User.objects.get(email="viewer@vipo.example")
     client = Client()
     client.force_login(user)
-    key = f"user {user.pk}" if key == "user" else key
+    key = f"person {user.pk}" if key == "person" else key
     monkeypatch.setitem(mtconnect_streams._open, key, getattr(mtconnect_streams, most))
     answer = client.get(f"{ADDRESS}/sample?interval=100")
     error = etree.fromstring(answer.content).find(".//{*}Error")
