@@ -1,49 +1,13 @@
-"""Commands of the server as a device reads them, and what it remembers of those it has answered."""
+"""What a device remembers of the commands that it has answered."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
-from dataclasses import dataclass
 from math import isfinite
 
-from registry.errors import RegistryError
-from registry.wire import AckMessage, is_device_id, parse_json
+from registry.wire import AckMessage
 
 REMEMBERED = 16
 OPEN = frozenset({"ACCEPTED", "RUNNING"})
-
-
-@dataclass(frozen=True, slots=True)
-class Told:
-    """A command: its id, the method, and the arguments by name."""
-
-    command: str
-    method: str
-    arguments: Mapping[str, object]
-
-
-def read_command(method: str, payload: bytes) -> Told | None:
-    """Read `{"id", "v", "ttl_s"}`; None when it is no command."""
-    try:
-        body = parse_json(payload)
-    except RegistryError:
-        return None
-    command, arguments = (body.get("id"), body.get("v", {})) if isinstance(body, dict) else (None, None)
-    if not isinstance(command, str) or not 0 < len(command) <= 64 or not is_device_id(method):
-        return None
-    return Told(command, method, arguments) if isinstance(arguments, dict) else None
-
-
-def read_stop(payload: bytes) -> bool:
-    """Read a site's stop; what cannot be read stops, what is empty does not."""
-    if not payload:
-        return False
-    try:
-        body = json.loads(payload)
-    except (ValueError, RecursionError):
-        return True
-    return not (isinstance(body, dict) and body.get("active") is False)
 
 
 def is_number(value: object) -> bool:

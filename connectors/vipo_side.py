@@ -8,8 +8,8 @@ from typing import Any
 
 from django.conf import settings
 
-from connectors.device_line import ConnectionMaker
 from connectors.keys import Doorstep, KeyRing
+from registry.device_line import ConnectionMaker
 from registry.mqtt import MqttClient, Will, tls_context
 
 

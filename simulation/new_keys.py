@@ -10,8 +10,8 @@ from pathlib import Path
 
 from registry.credentials import is_strong
 from registry.mqtt import MqttClient
+from registry.told import read_command
 from registry.wire import AckMessage, ack_payload, down_topic, up_topic
-from simulation.face import read_command
 
 log = logging.getLogger(__name__)
 
@@ -38,7 +38,7 @@ def take_new_keys(device: str, client: MqttClient, key_file: KeyFile) -> None:
     """Let a device's connection hear `down/credential`, keep what comes, and answer."""
 
     def hear(_topic: str, payload: bytes, retained: bool) -> None:
-        told = None if retained else read_command(device, "credential", payload)
+        told = None if retained else read_command("credential", payload)
         key = told.arguments.get("credential") if told else None
         if told is None or not isinstance(key, str) or not is_strong(key):
             log.warning("%s: a message on down/credential brings no key; it was ignored.", device)

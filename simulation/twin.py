@@ -15,7 +15,8 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 
 from registry.capability import Pose
-from simulation.face import CameIn, ConnectionMaker, Face, Incoming, Look, Stopped, Told
+from registry.device_line import CameIn, Commanded, ConnectionMaker, LineEvent, Stopped
+from simulation.face import Face, Look
 from simulation.services import DriverName, make_world
 from simulation.site_facts import SiteFacts
 from simulation.twin_memory import TwinMemory, read_memory, take_down, write_memory
@@ -50,13 +51,13 @@ class Twin:
 
     def __init__(self, plan: TwinPlan, make_connection: ConnectionMaker) -> None:
         self._plan, self._facts, self._make_connection = plan, plan.facts, make_connection
-        self._inbox: SimpleQueue[Incoming] = SimpleQueue()
+        self._inbox: SimpleQueue[LineEvent] = SimpleQueue()
         memory = read_memory(plan.memory_path)
         self._boots = {**memory.boots, **{name: memory.next_boot(name) for name in plan.voices}}
         self._world: World = self._make_world(memory)
         self._held = False
         self._faces = {
-            d.description.id: Face(d, plan.facts.slug, self._boots[d.description.id], self._inbox)
+            d.description.id: Face(d, plan.facts.slug, self._boots[d.description.id], self._inbox.put)
             for d in plan.facts.devices
             if d.description.id in plan.voices
         }
@@ -98,10 +99,10 @@ class Twin:
         except Empty:
             return
 
-    def _hear(self, message: Incoming) -> None:
+    def _hear(self, message: LineEvent) -> None:
         match message:
-            case Told(device=device, method=method, arguments=arguments, command=command):
-                self._world.command(device, method, arguments, command)
+            case Commanded(device=device, told=told):
+                self._world.command(device, told.method, told.arguments, told.command)
             case CameIn(device=device):
                 self._faces[device].introduce()
             case Stopped(active=active) if active != self._held:

@@ -13,13 +13,13 @@ from queue import Empty, Full, Queue
 from threading import Event, Thread
 from time import monotonic
 
-from connectors.commands import Told
-from connectors.device_line import CameIn, Commanded, ConnectionMaker, DeviceLine, LineEvent
 from connectors.mtconnect.agent import Agent
 from connectors.mtconnect.condition import MachineCondition
 from connectors.mtconnect.documents import BadDocument, Machine, Observation
 from connectors.mtconnect.follower import Follower, Gone, Heard, Probed, Said
 from connectors.mtconnect.portrait import Portrait, Stand, portray
+from registry.device_line import CameIn, Commanded, ConnectionMaker, DeviceLine, LineEvent
+from registry.told import Told
 from registry.wire import AckMessage
 
 log = logging.getLogger(__name__)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
-from connectors.commands import Answers, Told
+from connectors.commands import Answers
 from connectors.vda5050.frame import Point
 from connectors.vda5050.messages import DRIVING_MODES, ENDED, Located, VehicleError, VehicleState
 from connectors.vda5050.orders import (
@@ -35,6 +35,7 @@ from connectors.vda5050.tasks import (
     task_to_json,
 )
 from registry.capability import DeviceState, Pose
+from registry.told import Told
 from registry.wire import AckMessage, AckStatus
 
 CONTROLS = ("pause", "resume", "cancel")

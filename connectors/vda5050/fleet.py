@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from threading import Event, Lock
 
-from connectors.device_line import CameIn, Commanded, LineEvent, Stopped
 from connectors.vda5050.member import Member, Setting
 from connectors.vda5050.messages import VehicleName, read_connection
+from registry.device_line import CameIn, Commanded, LineEvent, Stopped
 from registry.mqtt import MqttClient
 from registry.wire import BadMessage
 

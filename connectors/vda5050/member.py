@@ -10,8 +10,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from connectors.commands import OPEN, Told
-from connectors.device_line import ConnectionMaker, DeviceLine, LineEvent
+from connectors.commands import OPEN
 from connectors.vda5050.control import Send, VehicleControl
 from connectors.vda5050.factsheet import Factsheet, describe, device_id, read_factsheet
 from connectors.vda5050.frame import Frame
@@ -28,6 +27,8 @@ from connectors.vda5050.messages import (
 from connectors.vda5050.orders import action, instant_actions
 from connectors.vda5050.tasks import Vehicle
 from registry.describing import write_description
+from registry.device_line import ConnectionMaker, DeviceLine, LineEvent
+from registry.told import Told
 from registry.wire import AckMessage
 
 log = logging.getLogger(__name__)

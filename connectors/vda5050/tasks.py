@@ -7,11 +7,12 @@ from dataclasses import asdict, dataclass
 from math import hypot
 from typing import Any
 
-from connectors.commands import Told, is_number
+from connectors.commands import is_number
 from connectors.vda5050.factsheet import HANDLING, Factsheet, capacity, offered_actions
 from connectors.vda5050.frame import Frame, Point
 from connectors.vda5050.orders import Waypoint
 from registry.capability import Description
+from registry.told import Told
 
 MOST_POINTS = 200
 ASTRAY_M = 0.6

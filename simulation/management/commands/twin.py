@@ -14,9 +14,9 @@ from typing import Any
 from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
+from registry.device_line import ConnectionMaker
 from registry.errors import RegistryError
 from registry.mqtt import MqttClient, Will, tls_context
-from simulation.face import ConnectionMaker
 from simulation.new_keys import KeyFile, take_new_keys
 from simulation.site_facts import SiteFacts, read_site_facts
 from simulation.twin import Twin, TwinPlan

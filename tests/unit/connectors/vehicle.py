@@ -7,13 +7,13 @@ from collections.abc import Callable
 from itertools import count
 from typing import Any
 
-from connectors.commands import Told
 from connectors.vda5050.control import Send, VehicleControl
 from connectors.vda5050.factsheet import describe, read_factsheet
 from connectors.vda5050.frame import Frame
 from connectors.vda5050.messages import VehicleName, VehicleState, read_state
 from connectors.vda5050.tasks import Vehicle
 from registry.capability import Pose
+from registry.told import Told
 from registry.wire import AckMessage
 from tests.integration.connectors.factsheet import FACTSHEET
 

@@ -1,4 +1,4 @@
-"""A device's connection to VIPO: one MQTT client that speaks the protocol for a device of another world."""
+"""A device's connection to VIPO: one MQTT client that speaks the protocol for a pretend or a foreign device."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from connectors.commands import Told, read_command, read_stop
 from registry.capability import DeviceState
 from registry.mqtt import MqttClient, Will
+from registry.told import Told, read_command, read_stop
 from registry.wire import AckMessage, Presence, ack_payload, down_topic, presence_payload, state_payload, up_topic
 
 log = logging.getLogger(__name__)
@@ -70,6 +70,10 @@ class DeviceLine:
     def close(self) -> None:
         """Say that the device goes offline, and end the connection."""
         self.say_presence(online=False)
+        self.disconnect()
+
+    def disconnect(self) -> None:
+        """End the connection; what was said is sent before."""
         if self._client is not None:
             self._client.stop()
 
