@@ -34,6 +34,7 @@ class ProgramShape(Schema):
     name: str
     site: str
     kinds: list[str]
+    devices: list[str]
     edited_at: datetime
     edited_by: Author | None
     errors: int

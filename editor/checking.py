@@ -117,10 +117,27 @@ def _keep(program_id: str, document: Mapping[str, Any], compiled: Compiled, fing
     kinds = sorted({str(step["kind"]) for step in document["steps"].values() if isinstance(step.get("kind"), str)})
     Program.objects.filter(pk=program_id).update(
         kinds=kinds,
+        devices=sorted(devices_in(document)),
         errors=severities.count("error"),
         warnings=severities.count("warning"),
         checked_against=fingerprint,
     )
+
+
+def devices_in(document: Mapping[str, Any]) -> frozenset[str]:
+    """Return the ids of the devices that a document names, wherever they stand."""
+    found: set[str] = set()
+    waiting: list[Any] = [document.get(name) for name in ("steps", "roles", "parameters", "functions")]
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, Mapping):
+            read = value.get("property")
+            named = [value.get("device"), *(read[:1] if isinstance(read, list) else ())]
+            found.update(name for name in named if isinstance(name, str))
+            waiting.extend(value.values())
+        elif isinstance(value, list):
+            waiting.extend(value)
+    return frozenset(found)
 
 
 def _keep_uses(program: Program, document: Mapping[str, Any]) -> None:

@@ -170,6 +170,7 @@ def _view(row: Program) -> ProgramView:
         site=row.site.slug,
         name=row.name,
         kinds=tuple(row.kinds),
+        devices=tuple(row.devices),
         edited_at=row.edited_at,
         edited_by=view_author(row.edited_by),
         errors=row.errors,

@@ -16,6 +16,7 @@ from registry.api import router as registry_router
 from registry.errors import VipoError
 from registry.history_api import router as history_router
 from registry.mtconnect_api import router as mtconnect_router
+from registry.onboarding_api import router as onboarding_router
 from registry.sparql_api import router as sparql_router
 from registry.things_api import router as things_router
 from vipo_site.openapi import DescribedAPI
@@ -61,6 +62,7 @@ def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
 api.add_router("", registry_router)
 api.add_router("", alerts_router)
 api.add_router("", history_router)
+api.add_router("", onboarding_router)
 api.add_router("", sparql_router)
 api.add_router("", things_router)
 api.add_router("", mtconnect_router)

@@ -101,6 +101,8 @@ export interface Program {
   name: string;
   site: string;
   kinds: StepKind[];
+  /** The ids of the devices that it names. */
+  devices: string[];
   edited_at: string;
   edited_by: { name: string; initials: string } | string | null;
   errors: number;

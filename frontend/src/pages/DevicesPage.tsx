@@ -1,5 +1,6 @@
 /** The registry: where the devices are, who wants to join, what each can do. */
-import { Cpu } from "lucide-react";
+import { Button } from "@mantine/core";
+import { Cpu, Download } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
@@ -11,6 +12,7 @@ import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
 import { StatusGlyph } from "@/design/StatusGlyph";
+import { AddDevice } from "./devices/adding/AddDevice";
 import { DeviceDetail } from "./devices/DeviceDetail";
 import { DeviceFilters } from "./devices/DeviceFilters";
 import { DeviceTable } from "./devices/DeviceTable";
@@ -54,6 +56,25 @@ function Registry({ site, devices, chosen }: { site: Site; devices: Device[]; ch
   );
 }
 
+function Actions({ site }: { site: Site }) {
+  const { t } = useTranslation();
+  return (
+    <>
+      <Button
+        component="a"
+        href={`/api/sites/${site.slug}/devices.ttl`}
+        download
+        variant="default"
+        classNames={{ label: styles.exportLabel ?? "", section: styles.exportIcon ?? "" }}
+        leftSection={<Download size={16} aria-hidden="true" />}
+      >
+        {t("adding.export")}
+      </Button>
+      <AddDevice site={site} />
+    </>
+  );
+}
+
 export function DevicesPage() {
   const { t } = useTranslation();
   const { slug = "", id } = useParams();
@@ -71,6 +92,7 @@ export function DevicesPage() {
           </Chip>
         ) : null
       }
+      actions={site.data ? <Actions site={site.data} /> : null}
       detail={site.data && chosen ? <DeviceDetail key={chosen.id} site={site.data} device={chosen} /> : null}
     >
       {problem ? (

@@ -14,7 +14,7 @@ import { ProgramActions } from "./ProgramActions";
 import { StepIcons } from "./steps";
 import { useNow } from "./useNow";
 
-function Soundness({ program }: { program: Program }) {
+export function Soundness({ program }: { program: Program }) {
   const { t } = useTranslation();
   if (program.kinds.length === 0) return <StatusBadge status="idle">{t("pages.programs.empty")}</StatusBadge>;
   if (program.errors > 0)

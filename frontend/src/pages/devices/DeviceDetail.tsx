@@ -21,6 +21,7 @@ import { LiveProperties } from "./LiveProperties";
 import { Methods } from "./Methods";
 import { RdfSource } from "./RdfSource";
 import { RenameDevice } from "./RenameDevice";
+import { UsedIn, useUsedIn } from "./UsedIn";
 import styles from "./detail.module.css";
 
 function Ring({ device }: { device: Device }) {
@@ -130,6 +131,7 @@ function Actions({ site, device }: { site: Site; device: Device }) {
 
 export function DeviceDetail({ site, device }: { site: Site; device: Device }) {
   const { t } = useTranslation();
+  const uses = useUsedIn(site.slug, device.id).found?.length ?? 0;
   return (
     <aside className={styles.detail} aria-label={device.name}>
       <header className={styles.head}>
@@ -142,6 +144,9 @@ export function DeviceDetail({ site, device }: { site: Site; device: Device }) {
           <Tabs.Tab value="overview">{t("pages.devices.tab.overview")}</Tabs.Tab>
           <Tabs.Tab value="rdf">{t("pages.devices.rdf")}</Tabs.Tab>
           <Tabs.Tab value="history">{t("pages.devices.tab.history")}</Tabs.Tab>
+          <Tabs.Tab value="used" rightSection={uses > 0 ? <Chip>{formatNumber(uses)}</Chip> : null}>
+            {t("adding.usedIn")}
+          </Tabs.Tab>
         </Tabs.List>
         <Tabs.Panel value="overview">
           <Overview site={site} device={device} />
@@ -152,6 +157,9 @@ export function DeviceDetail({ site, device }: { site: Site; device: Device }) {
         </Tabs.Panel>
         <Tabs.Panel value="history" className={styles.whole}>
           <Changes slug={site.slug} device={device.id} most={200} />
+        </Tabs.Panel>
+        <Tabs.Panel value="used" className={styles.whole}>
+          <UsedIn slug={site.slug} device={device.id} />
         </Tabs.Panel>
       </Tabs>
     </aside>

@@ -1,0 +1,141 @@
+"""Devices that an admin adds before they come, a look at a description, and all devices as one Turtle file."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from datetime import timedelta
+from typing import Any
+
+import pytest
+from django.test import Client, override_settings
+from rdflib import Graph
+
+from registry import services
+from registry.describing import read_description, write_description
+from registry.expecting import expect_newcomer
+from registry.knocking import FORGOTTEN_AFTER, MOST_NEWCOMERS
+from registry.models import Device, User
+from registry.services import BadDevice
+
+from .conftest import MIXER, NOW, ROBOT, ROLES, describe
+
+SITE = "/api/sites/hall"
+CALLS = {
+    "newcomers": {"id": "mixer1"},
+    "join-key": {},
+    "describe": {"text": "id: x"},
+}
+
+
+def signed_in(name: str) -> Client:
+    client = Client()
+    if name != "nobody":
+        client.force_login(User.objects.get(email=f"{name}@vipo.example"))
+    return client
+
+
+def send(who: str, call: str, body: Any = None) -> Any:
+    return signed_in(who).post(f"{SITE}/{call}", CALLS[call] if body is None else body, content_type="application/json")
+
+
+def may_come_in(device: str, key: str) -> bool:
+    return services.check_device_password(username=device, password=key) is not None
+
+
+@pytest.mark.parametrize("who", [*ROLES, "stranger", "nobody"])
+def test_admins_add_devices_and_members_look_at_descriptions(hall: str, who: str) -> None:
+    outside = {"stranger": 404, "nobody": 401}
+    told = {call: send(who, call).status_code for call in CALLS}
+    assert told == {
+        "newcomers": outside.get(who, 201 if who == "admin" else 403),
+        "join-key": outside.get(who, 200 if who == "admin" else 403),
+        "describe": outside.get(who, 200),
+    }
+    assert signed_in(who).get(f"{SITE}/devices.ttl").status_code == outside.get(who, 200)
+
+
+@override_settings(VIPO_BROKER_URL="mqtts://broker.example:8883/")
+def test_an_added_device_comes_in_with_its_key_and_waits_for_approval(hall: str) -> None:
+    told = send("admin", "newcomers").json()
+    assert (told["id"], told["site"], told["broker"]) == ("mixer1", "hall", "mqtts://broker.example:8883/")
+    assert may_come_in("mixer1", told["credential"])
+    assert services.list_devices(site="hall") == ()
+    describe()
+    (device,) = services.list_devices(site="hall")
+    assert device.lifecycle == "pending"
+    assert told["credential"] not in json.dumps(list(Device.objects.values("credential_hash", "broker_hash")))
+
+
+def test_a_second_key_ends_the_first_until_the_device_has_come(hall: str) -> None:
+    first, second = (send("admin", "newcomers").json()["credential"] for _ in range(2))
+    assert (may_come_in("mixer1", first), may_come_in("mixer1", second)) == (False, True)
+    describe()
+    refused = send("admin", "newcomers")
+    assert (refused.status_code, refused.json()["code"]) == (422, "bad_device")
+    assert may_come_in("mixer1", second)
+
+
+def test_ids_of_other_sites_and_ids_that_cannot_be_are_refused(hall: str) -> None:
+    services.create_site(name="Yard", slug="yard")
+    services.expect_device(site="yard", device_id="crane", credential="c" * 32, approved=False)
+    for name in ("crane", "server", "a/b", "#", "", "x" * 64 + "y"):
+        assert send("admin", "newcomers", {"id": name}).status_code == 422, name
+    assert may_come_in("crane", "c" * 32)
+
+
+def test_who_does_not_come_is_forgotten_and_no_more_than_two_hundred_wait(hall: str, person: Any) -> None:
+    who = {"site": "hall", "by": person("admin")}
+    expect_newcomer(device_id="early", at=NOW - FORGOTTEN_AFTER - timedelta(minutes=1), **who)
+    Device.objects.bulk_create(
+        Device(pk=f"w{n}", site=Device.objects.get().site, first_seen_at=NOW) for n in range(MOST_NEWCOMERS - 1)
+    )
+    expect_newcomer(device_id="last", at=NOW, **who)
+    assert not Device.objects.filter(pk="early").exists()
+    with pytest.raises(BadDevice):
+        expect_newcomer(device_id="one-too-many", at=NOW, **who)
+
+
+def test_a_new_join_key_ends_the_old_one(hall: str) -> None:
+    services.set_join_key(site="hall", join_key="j" * 32)
+    told = send("admin", "join-key").json()
+    assert may_come_in("join:hall", told["join_key"])
+    assert not may_come_in("join:hall", "j" * 32)
+
+
+def test_a_look_at_a_description_says_what_it_is_and_keeps_nothing(hall: str) -> None:
+    told = send("viewer", "describe", {"text": write_description(MIXER, "td")}).json()
+    assert (told["form"], told["faults"], told["description"]["name"]) == ("td", [], "Mixer One")
+    assert read_description(told["turtle"].encode()) == MIXER
+    assert not Device.objects.exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("@prefix a: <urn:a> .\na:b a:c", "line"),
+        ('<?xml version="1.0"?><rdf:RDF/>', "RDF/XML"),
+        ("x" * 20_000, "16384"),
+        ("", ""),
+    ],
+)
+def test_a_broken_description_is_told_its_faults(hall: str, text: str, word: str) -> None:
+    answer = send("viewer", "describe", json.dumps({"text": text}))
+    assert answer.status_code == 200
+    assert answer.json()["faults"]
+    assert word.lower() in json.dumps(answer.json()["faults"]).lower()
+
+
+@pytest.mark.parametrize("text", ["x" * 70_000, "\ud800"])
+def test_what_can_be_no_text_of_a_description_is_refused(hall: str, text: str) -> None:
+    assert send("viewer", "describe", json.dumps({"text": text})).status_code == 422
+
+
+def test_all_devices_are_one_turtle_file(hall: str) -> None:
+    describe(MIXER)
+    describe(replace(ROBOT, name='Robot "One"'))
+    answer = signed_in("viewer").get(f"{SITE}/devices.ttl")
+    assert answer["Content-Disposition"] == 'attachment; filename="hall-devices.ttl"'
+    graph = Graph().parse(data=answer.content.decode(), format="turtle")
+    names = {str(name) for name in graph.objects(None, next(p for p in set(graph.predicates()) if p.endswith("title")))}
+    assert {"Mixer One", 'Robot "One"'} <= names
