@@ -207,16 +207,20 @@ class _Stream:
 
     def _part(self, name: str) -> Element:
         """Return `Samples`, `Events` or `Condition`, in this order."""
-        component = self._stream.find("ComponentStream")
-        if component is None:
-            told = {"componentId": items.component_id(self._device_id), "name": self._device_id, "component": "Device"}
-            component = ElementTree.SubElement(self._stream, "ComponentStream", told)
         if name not in self._parts:
+            component = self._component()
             order = tuple(_PARTS.values())
             before = sum(1 for other in order[: order.index(name)] if other in self._parts)
             self._parts[name] = Element(name)
             component.insert(before, self._parts[name])
         return self._parts[name]
+
+    def _component(self) -> Element:
+        component = self._stream.find("ComponentStream")
+        if component is not None:
+            return component
+        told = {"componentId": items.component_id(self._device_id), "name": self._device_id, "component": "Device"}
+        return ElementTree.SubElement(self._stream, "ComponentStream", told)
 
     def add(self, item: DataItem, name: str, text: str | None, at_ms: int, sequence: int) -> None:
         """Add an observation, called `name`."""

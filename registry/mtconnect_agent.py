@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 
 from django.db.models import Max, Q, QuerySet
 
 from registry import mtconnect
-from registry.joining import list_devices
+from registry.device_rows import NoSuchDevice
+from registry.joining import get_device, list_devices
 from registry.models import Sample, SampleClock
 from registry.mtconnect import Agent, ErrorCode, Observation, Sequences, Situation
 from registry.mtconnect_items import items_of
@@ -68,7 +69,7 @@ def current_of_site(agent: Agent, question: Question) -> Answer:
     wanted = _wanted(devices, question.path)
     first, following = _bounds(agent.site)
     sequences = Sequences(first, max(first, following - 1), following)
-    situation = Situation(devices, _numbers(agent))
+    situation = Situation(devices, _numbers(agent, devices if question.device else ()))
     if question.at is not None:
         situation = look_back(devices, whole("at", question.at, first, first, sequences.last))
     return Answer(mtconnect.write_current(agent, sequences, situation, wanted), following)
@@ -106,13 +107,22 @@ def whole(name: str, text: str | None, default: int, least: int, most: int) -> i
 
 
 def _devices(site: str, named: str) -> tuple[DeviceView, ...]:
+    if named:
+        return (_device(site, named),)
     devices = list_devices(site=site, lifecycle="approved")
     if not devices:
         raise AgentError("NO_DEVICE", "This site has no approved device yet.")
-    found = tuple(view for view in devices if named in {"", view.id, mtconnect.uuid_of(view.id)})
-    if not found:
+    return devices
+
+
+def _device(site: str, named: str) -> DeviceView:
+    try:
+        view = get_device(site=site, device_id=named.removeprefix(mtconnect.uuid_of("")))
+    except NoSuchDevice:
+        view = None
+    if view is None or view.lifecycle != "approved":
         raise AgentError("NO_DEVICE", f"This site has no approved device {named[:80]!r}. `probe` lists those it has.")
-    return found
+    return view
 
 
 def _wanted(devices: Iterable[DeviceView], path: str | None) -> set[str]:
@@ -143,11 +153,14 @@ def _rows(site: str) -> QuerySet[Sample]:
     return Sample.objects.filter(device__site__slug=site, device__lifecycle="approved")
 
 
-def _numbers(agent: Agent) -> Iterable[Observation]:
-    """Give the numbers of what was told lately."""
+def _numbers(agent: Agent, devices: Sequence[DeviceView]) -> Iterable[Observation]:
+    """Give the numbers of what was told lately, by these devices or (none given) by all."""
     since = int((agent.at - LATELY).timestamp() // 60)
-    lately = _rows(agent.site).filter(minute__gte=since).values_list("device_id", "property")
-    for device, name, at_ms, seq in lately.annotate(Max("at_ms"), Max("seq")):
+    lately = _rows(agent.site).filter(minute__gte=since)
+    if devices:
+        lately = lately.filter(device_id__in=[view.id for view in devices])
+    newest = lately.values_list("device_id", "property").annotate(Max("at_ms"), Max("seq"))
+    for device, name, at_ms, seq in newest:
         yield Observation(device, name, "", at_ms, seq)
 
 

@@ -23,6 +23,8 @@ MEDIA_TYPE = f"multipart/x-mixed-replace;boundary={BOUNDARY}"
 LEAST_PAUSE_S = 1.0
 MOST_INTERVAL_MS, MOST_HEARTBEAT_MS = 3_600_000, 60_000
 HEARTBEAT_MS = 10_000
+REST = 20.0
+"""So many times as long as a document took there is a pause before the next: a large site's cost no core."""
 MOST_BYTES = 4_000_000
 """A listener that does not read leaves at most so much in memory; one that reads asks again with its next number."""
 MOST_SECONDS = 900.0
@@ -96,15 +98,18 @@ async def stream_documents(listener: Listener, rhythm: Rhythm, first: Answer) ->
     It ends when the listener is signed out or no member any more, when what is asked of has gone (an error is the
     last part), and after MOST_SECONDS or MOST_BYTES.
     """
-    until, left, answer = time.monotonic() + MOST_SECONDS, MOST_BYTES, first
+    until, left, answer, took_s = time.monotonic() + MOST_SECONDS, MOST_BYTES, first, 0.0
     with suppress(AgentError), _counted(listener):
         while True:
             part = _part(answer.document)
             left -= len(part)
             yield part
-            if left <= 0 or not await _wait(listener, rhythm, answer, until):
+            pause_s = max(rhythm.pause_s, REST * took_s)
+            if left <= 0 or not await _wait(listener, replace(rhythm, pause_s=pause_s), answer, until):
                 break
+            begun = time.monotonic()
             answer, is_last = await sync_to_async(_next_answer)(listener, answer)
+            took_s = time.monotonic() - begun
             if is_last:
                 yield _part(answer.document)
                 break
