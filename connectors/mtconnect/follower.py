@@ -70,7 +70,7 @@ class Follower:
             has_more = self._step()
         except Restarted:
             self._instance = None
-            return self._fail("It has begun anew.")
+            return self._fail("it has begun anew")
         except (AgentAway, BadDocument) as error:
             return self._fail(str(error))
         if self._failures:
@@ -83,7 +83,7 @@ class Follower:
         self._failures += 1
         pause_s = min(self._interval_s * 2.0 ** min(self._failures - 1, 12), MOST_PAUSE_S)
         if self._failures in {1, GONE_AFTER}:
-            log.warning("The agent cannot be read: %s It is asked again, up to %d s apart.", why, MOST_PAUSE_S)
+            log.warning("The agent cannot be read (%s). It is asked again, up to %d s apart.", why, MOST_PAUSE_S)
         if self._failures == GONE_AFTER:
             self._instance = None
             self._hear(Gone())
@@ -93,53 +93,51 @@ class Follower:
         """Ask what is due; True when there is more to be had at once."""
         if self._instance is None or monotonic() - self._probed_s >= PROBE_AGAIN_S:
             return self._probe()
-        return self._sample()
+        return self._sample(self._instance)
 
     def _probe(self) -> bool:
-        document = self._ask("probe")
+        document = self._agent.ask("probe")
         if not isinstance(document, Devices):
             raise BadDocument("The agent answers `probe` with something else.")
+        instance = document.header.instance
         is_new = self._instance is None or document.machines != self._machines
-        self._probed_s, self._machines, self._instance = monotonic(), document.machines, document.header.instance
-        if is_new:
+        self._probed_s, self._machines = monotonic(), document.machines
+        if is_new or instance != self._instance:
+            self._instance = None
             self._hear(Probed(document.machines))
-            self._current()
+            self._current(instance)
         return True
 
-    def _current(self) -> None:
-        """Take in how all is, and where to go on."""
-        document = self._streams("current")
-        self._next = max(document.header.next, 1)
+    def _current(self, instance: int) -> None:
+        """Take in how all is, and where to go on; from then on it is this life of the agent that is followed."""
+        document = self._ask("current", instance)
+        if not isinstance(document, Streams):
+            raise BadDocument(_why(document, "current"))
+        self._instance, self._next = instance, max(document.header.next, 1)
         self._hear(Said(document.observations, is_whole=True))
 
-    def _sample(self) -> bool:
-        document = self._ask("sample", **{"from": self._next, "count": COUNT})
+    def _sample(self, instance: int) -> bool:
+        document = self._ask("sample", instance, **{"from": self._next, "count": COUNT})
         if isinstance(document, Refusal) and "OUT_OF_RANGE" in document.codes:
-            return self._fill_gap()
+            return self._fill_gap(instance)
         if not isinstance(document, Streams):
             raise BadDocument(_why(document, "sample"))
         header = document.header
         if header.first > self._next or header.next < self._next:
-            return self._fill_gap()
+            return self._fill_gap(instance)
         has_more = self._next < header.next <= header.last
         self._next = header.next
         self._hear(Said(document.observations, is_whole=False))
         return has_more
 
-    def _fill_gap(self) -> bool:
+    def _fill_gap(self, instance: int) -> bool:
         log.warning("The agent does not keep what it said since number %d; it is asked how all is.", self._next)
-        self._current()
+        self._current(instance)
         return False
 
-    def _streams(self, call: str) -> Streams:
-        document = self._ask(call)
-        if not isinstance(document, Streams):
-            raise BadDocument(_why(document, call))
-        return document
-
-    def _ask(self, call: str, **query: int) -> Document:
+    def _ask(self, call: str, instance: int, **query: int) -> Document:
         document = self._agent.ask(call, **query)
-        if call != "probe" and document.header.instance != self._instance:
+        if document.header.instance != instance:
             raise Restarted
         return document
 

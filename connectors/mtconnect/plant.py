@@ -42,6 +42,10 @@ class Setting:
     clock: Callable[[], datetime]
 
 
+class FollowerEnded(RuntimeError):
+    """The thread that asks the agent has ended by a fault: better no connector than one that tells old values."""
+
+
 class Member:
     """One machine: its device's connection, and what is known of it."""
 
@@ -110,16 +114,19 @@ class Plant:
     def run(self, stopping: Event) -> None:
         """Serve until `stopping` is set; then say that the machines are not to be seen any more."""
         follower = Follower(self._agent, self._setting.interval_s, self._inbox.put)
-        Thread(target=follower.run, args=(stopping,), name="follower", daemon=True).start()
+        thread = Thread(target=follower.run, args=(stopping,), name="follower", daemon=True)
+        thread.start()
         try:
-            self._serve(stopping)
+            self._serve(stopping, thread)
         finally:
             with ThreadPoolExecutor(max_workers=max(1, len(self._members))) as pool:
                 list(pool.map(Member.leave, self._members.values()))
 
-    def _serve(self, stopping: Event) -> None:
+    def _serve(self, stopping: Event, follower: Thread) -> None:
         ticked_s = 0.0
         while not stopping.is_set():
+            if not follower.is_alive():
+                raise FollowerEnded("Nothing follows the agent any more; why stands above. Start the connector anew.")
             with suppress(Empty):
                 self._take(self._inbox.get(timeout=TICK_S))
             if (now := monotonic()) - ticked_s >= TICK_S:

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -26,7 +27,6 @@ class ScriptedAgent:
     def __init__(self, version: str = "1.2", keeps: int = 1000) -> None:
         self.version, self.keeps = version, keeps
         self.instance, self.port = 1, 0
-        self.asked: list[str] = []
         self.misbehave: Misbehaviour | None = None
         self._said: list[str] = []
         self._lock = threading.Lock()
@@ -92,13 +92,12 @@ class Handler(BaseHTTPRequestHandler):
     script: ScriptedAgent
 
     def do_GET(self) -> None:
+        (self.script.misbehave or Handler.reply)(self)
+
+    def reply(self) -> None:
         parts = urlsplit(self.path)
         query = {name: int(values[0]) for name, values in parse_qs(parts.query).items()}
         call = parts.path.rpartition("/")[2]
-        self.script.asked.append(self.path)
-        if self.script.misbehave is not None:
-            self.script.misbehave(self)
-            return
         status, body = self.script.answer(call, query.get("from", 1), query.get("count", 100))
         self.send(body, status)
 
@@ -114,10 +113,11 @@ class Handler(BaseHTTPRequestHandler):
         self.send_response(200)
         self.send_header("Content-Type", "text/xml")
         self.end_headers()
-        while True:
-            self.wfile.write(b" ")
-            self.wfile.flush()
-            time.sleep(0.05)
+        with suppress(OSError):
+            while True:
+                self.wfile.write(b" ")
+                self.wfile.flush()
+                time.sleep(0.05)
 
     def log_message(self, *_: object) -> None:
         """Stay silent."""

@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator
+from datetime import UTC, datetime
 from pathlib import Path
+from queue import Queue
+from threading import Event, Thread
 
 import pytest
 
 from connectors.mtconnect import agent as asking
 from connectors.mtconnect.agent import Agent, AgentAway, read_address
-from connectors.mtconnect.documents import BadDocument
+from connectors.mtconnect.documents import BadDocument, Document
+from connectors.mtconnect.follower import Follower, Heard, Probed, Said
+from connectors.mtconnect.plant import FollowerEnded, Plant, Setting
+from connectors.mtconnect.portrait import Stand
+from registry.capability import Pose, Size
 from registry.describing import read_description
 from tests.bus import Ear
 from tests.integration.connectors.agents import Handler, MachineConnector, Misbehaviour, ScriptedAgent
@@ -17,6 +25,7 @@ from tests.integration.connectors.vehicles import Server
 from tests.servers import run_mosquitto
 
 LATHE = "M8010-1"
+BOMB = b'<!DOCTYPE a [<!ENTITY b "bbbb"><!ENTITY c "&b;&b;&b;&b;">]><a>&c;</a>'
 ACCOUNTS = {"server": "secret of the server", LATHE: f"the word of {LATHE}"}
 
 
@@ -55,7 +64,7 @@ def test_a_machine_lives_as_its_agent_says(tmp_path: Path) -> None:
             connector.kill()
     log = connector.log.read_text()
     assert "Traceback" not in log
-    assert "It has begun anew." in log
+    assert "it has begun anew" in log
     assert "The agent does not keep what it said since number" in log
 
 
@@ -109,6 +118,47 @@ def _comes_and_goes(server: Server, agent: ScriptedAgent) -> None:
     agent.say("xpos", "8")
     server.wait_presence("online")
     server.wait_state(Xact=0.008)
+    server.ear.forget()
+    agent.misbehave = lambda handler: handler.send(BOMB)
+    server.wait_presence("offline")
+    agent.misbehave = None
+    server.wait_presence("online")
+    server.wait_state(Xact=0.008)
+
+
+def test_what_is_missed_at_the_beginning_is_asked_again(agent: ScriptedAgent) -> None:
+    """A probe without the picture that belongs to it is of no use: the next one counts."""
+    agent.say("exec", "READY")
+    agent.misbehave = lambda handler: handler.send(b"<a/>") if "current" in handler.path else handler.reply()
+    heard: Queue[Heard] = Queue()
+    stopping = Event()
+    thread = Thread(
+        target=Follower(Agent(read_address(f"http://127.0.0.1:{agent.port}")), 0.05, heard.put).run, args=[stopping]
+    )
+    thread.start()
+    try:
+        assert isinstance(heard.get(timeout=60), Probed)
+        agent.misbehave = None
+        while not isinstance(said := heard.get(timeout=60), Said):
+            pass
+        assert ([o.text for o in said.observations], said.is_whole) == (["READY"], True)
+        assert heard.get(timeout=60) == Said((), is_whole=False)
+    finally:
+        stopping.set()
+        thread.join(30)
+
+
+class BrokenAgent(Agent):
+    def ask(self, call: str, **query: int) -> Document:
+        raise AssertionError("a fault of the connector")
+
+
+def test_a_connector_that_does_not_follow_any_more_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(threading, "excepthook", lambda _: None)
+    stand = Stand(Pose(0, 0), Size(1, 1, 1))
+    setting = Setting("hall", stand, 0.1, lambda *_: pytest.fail("no machine is known"), lambda: datetime.now(UTC))
+    with pytest.raises(FollowerEnded):
+        Plant(BrokenAgent(read_address("http://127.0.0.1:1")), setting).run(Event())
 
 
 def drips(handler: Handler) -> None:
