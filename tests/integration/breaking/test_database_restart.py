@@ -19,6 +19,7 @@ from django.core.management import call_command
 from django.db import connection, connections
 from pytest_django import DjangoDbBlocker
 
+from execution import services as execution
 from execution.models import Command
 from registry import services
 from registry.live import make_live
@@ -244,6 +245,34 @@ def test_a_connection_that_is_cut_is_made_anew(plant: Plant) -> None:
     wait_heard(plant, commands)
 
 
+def claim_until_none_is_open(ids: set[str], taken: list[str]) -> None:
+    mine = Command.objects.filter(id__in=ids)
+    while mine.filter(status="pending").exists():
+        got = [command.id for command in execution.claim_commands(limit=3)]
+        Command.objects.filter(id__in=got).update(status="done")
+        taken.extend(got)
+    connection.close()
+
+
+def test_each_command_goes_to_one_of_three_that_claim_at_the_same_time(plant: Plant) -> None:
+    ids = {str(add_command(NAMES[number % len(NAMES)], due_in_s=1)) for number in range(50)}
+    taken: list[list[str]] = [[], []]
+    threads = [threading.Thread(target=claim_until_none_is_open, args=(ids, mine)) for mine in taken]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+    by_hand = [*taken[0], *taken[1]]
+    by_gateway = ids - set(by_hand)
+
+    def heard() -> set[str]:
+        return {message.json["id"] for message in plant.ear.all("/mixPaint")} & ids
+
+    wait_for("the gateway's", lambda: by_gateway <= heard())
+    assert len(by_hand) == len(set(by_hand))
+    assert heard() == by_gateway
+
+
 def test_live_news_and_hints_come_back_with_redis(plant: Plant) -> None:
     news: list[str] = []
     live = make_live(plant.redis.url)
@@ -262,11 +291,12 @@ def test_live_news_and_hints_come_back_with_redis(plant: Plant) -> None:
         return any('"device"' in told for told in news)
 
     wait_for("a device's news", is_told)
-    woken = threading.Event()
-    waiter = threading.Thread(target=lambda: live.wait_wake("gateway", 30) and woken.set())
-    waiter.start()
-    wait_for("the hint", lambda: live.wake("gateway") or woken.is_set())
-    waiter.join()
+
+    def is_woken() -> bool:
+        live.wake("gateway")
+        return live.wait_wake("gateway", 0.1)
+
+    wait_for("the hint", is_woken)
     live.close()
     assert plant.log_lines("Redis does not answer") == 1
     assert plant.log_lines("Redis answers again") == 1
