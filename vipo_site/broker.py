@@ -126,3 +126,4 @@ async def _cancel_the_rest() -> None:
         task.cancel()
     if others:
         await asyncio.wait(others, timeout=1.0)
+    await asyncio.sleep(0.01)  # sockets close one turn after their connections

@@ -59,6 +59,7 @@ class VipoBroker(SpreadingBroker):
         self._doorkeeper = doorkeeper
         self._logins: dict[str, Login] = {}
         self._refused_at: dict[str, float] = {}
+        self._ending = False
         self._open: dict[asyncio.StreamWriter, None] = {}
         self._not_admitted: dict[asyncio.StreamWriter, None] = {}
 
@@ -69,6 +70,7 @@ class VipoBroker(SpreadingBroker):
 
     async def end(self) -> None:
         """Close the port first, so that nobody comes back meanwhile, then the connections, then the rest."""
+        self._ending = True
         self._servers["default"].instance.close()
         for writer in list(self._open):
             writer.transport.abort()
@@ -80,7 +82,7 @@ class VipoBroker(SpreadingBroker):
         self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, listener_name: str
     ) -> None:
         """Serve one connection, and know it while it is open; of too many strangers the first has to go."""
-        if len(self._open) >= MOST_CONNECTIONS + MOST_NOT_ADMITTED:
+        if self._ending or len(self._open) >= MOST_CONNECTIONS + MOST_NOT_ADMITTED:
             writer.transport.abort()
             return
         self._open[writer] = self._not_admitted[writer] = None

@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -25,9 +26,10 @@ SPEED = 60  # a minute of mixing takes a second
 ACCOUNTS = {"server": "secret", DEVICE: "mixer's word"}
 LIMIT_S = 30
 # A kilobyte of a computer's heap holds half of what one of the chip's holds: its words are twice as long.
-HEAP = ("-X", "heapsize=100k")
-# On a board `machine` and `network` lie in the flash; the recorder that stands for them takes this heap's room.
-HEAP_WITH_RECORDER = ("-X", "heapsize=112k")
+HEAP_BYTES = 100 * 1024
+HEAP = ("-X", f"heapsize={HEAP_BYTES}")
+IMPORTS = "import gc, os, sys, time; gc.collect(); before = gc.mem_alloc(); "
+MEASURE = IMPORTS + "import machine, network; gc.collect(); print(gc.mem_alloc() - before)"
 
 
 class EmbeddedBus:
@@ -141,9 +143,9 @@ class Chip:
 
     @property
     def record(self) -> list[list[Any]]:
+        """Return [microseconds, what, …] of all that was recorded so far."""
         path = self.folder / "record"
-        lines = path.read_text().splitlines(keepends=True) if path.exists() else []
-        return [json.loads(line) for line in lines if line.endswith("\n")]
+        return read_record(path.read_bytes()) if path.exists() else []
 
     @property
     def console(self) -> str:
@@ -151,6 +153,31 @@ class Chip:
 
     def wait(self, wanted: Callable[[list[list[Any]]], Any]) -> Any:
         return wait_for(lambda: wanted(self.record), f"the board: {self.console}")
+
+
+def read_record(data: bytes) -> list[list[Any]]:
+    """Read what shadow/machine.py writes; the last entry may not be whole yet."""
+    entries: list[list[Any]] = []
+    while b"\n" in data:
+        at, what, *numbers, size = data[: (end := data.index(b"\n"))].decode().split()
+        body, data = data[end + 1 : end + 1 + int(size)], data[end + 1 + int(size) :]
+        if len(body) < int(size):
+            break
+        more = [list(body)] if what == "write" else json.loads(body or b"[]")
+        entries.append([int(at), what, *(int(number) for number in numbers), *more])
+    start = entries[0][0] if entries else 0
+    return [[at - start, *rest] for at, *rest in entries]
+
+
+@cache
+def heap_of_a_board(micropython: str) -> tuple[str, str]:
+    """Return the option for a heap of 100 kB, and what the stand-ins for `machine` and `network` take besides.
+
+    On a board these two lie in the flash and take nothing of it.
+    """
+    environment = {"MICROPYPATH": f"{SHADOW}:.frozen", "VIPO_RECORD": os.devnull}
+    done = subprocess.run([micropython, "-c", MEASURE], env=environment, capture_output=True, text=True, check=True)
+    return "-X", f"heapsize={HEAP_BYTES + int(done.stdout)}"
 
 
 @contextmanager
@@ -167,7 +194,7 @@ def running_chip(
     }
     with (folder / "console").open("wb") as console:
         process = subprocess.Popen(
-            [micropython, *HEAP_WITH_RECORDER, str(main)],
+            [micropython, *heap_of_a_board(micropython), str(main)],
             cwd=folder,
             env={**os.environ, **settings},
             stdout=console,

@@ -13,7 +13,23 @@ from vipo.mqtt import Client
 
 PORT, COUNT, FIRST = [int(word) for word in sys.argv[1:4]]
 MOST_PENDING = 16
-LEAST_USED = {"first": 0, "last": 0}
+STEP_BYTES = 512
+USED, LARGEST = {}, {}
+
+
+def measure(when):
+    """Note how much of the heap is taken, and how large the largest block is that could be had."""
+    gc.collect()
+    USED[when] = gc.mem_alloc()
+    size = gc.mem_free()
+    while size > 0:
+        try:
+            bytearray(size)
+            break
+        except MemoryError:
+            size -= STEP_BYTES
+    LARGEST[when] = size
+    gc.collect()
 
 
 async def send(client):
@@ -24,8 +40,7 @@ async def send(client):
             client.publish("vipo/v1/dev/soak/up/ack", b"%d" % sent)
             sent += 1
             if sent in (COUNT // 10, COUNT):
-                gc.collect()
-                LEAST_USED["first" if sent < COUNT else "last"] = gc.mem_alloc()
+                measure("first" if sent < COUNT else "last")
         await asyncio.sleep(0)
 
 
@@ -53,8 +68,10 @@ async def main():
                 "seconds": seconds,
                 "connections": len(connections),
                 "last_id": client.outbox.last_id,
-                "bytes_at_a_tenth": LEAST_USED["first"],
-                "bytes_at_the_end": LEAST_USED["last"],
+                "bytes_at_a_tenth": USED["first"],
+                "bytes_at_the_end": USED["last"],
+                "largest_block_at_a_tenth": LARGEST["first"],
+                "largest_block_at_the_end": LARGEST["last"],
             }
         )
     )

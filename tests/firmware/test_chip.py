@@ -104,7 +104,7 @@ def test_an_lcd_that_is_unplugged_and_plugged_in_again(micropython: str, tmp_pat
 def test_without_wifi_it_says_so_and_starts_again(micropython: str, tmp_path: Path) -> None:
     flash(tmp_path, {"host": "127.0.0.1", "port": 1, "id": "x", "password": "p", "pins": PINS})
     (tmp_path / "fast.py").write_text(
-        "import vipo.chip as chip\nchip.WIFI_TIMEOUT_S, chip.SHOWN_S = 1, 0\nchip.run()\n"
+        "import vipo.chip as chip, vipo.wifi as wifi\nwifi.TIMEOUT_S, chip.SHOWN_S = 1, 0\nchip.run()\n"
     )
     with running_chip(micropython, tmp_path, {"VIPO_WIFI": "another"}, main=tmp_path / "fast.py") as chip:
         assert chip.process.wait(30) == 7

@@ -244,3 +244,6 @@ def test_seventy_thousand_messages_pass_the_end_of_the_packet_ids(micropython: s
     told = json.loads(done.stdout)
     assert (told["connections"], told["last_id"]) == (1, count - WRAP)
     assert told["bytes_at_the_end"] < told["bytes_at_a_tenth"] + 4096
+    assert told["largest_block_at_the_end"] > told["largest_block_at_a_tenth"] - 2048, (
+        "the heap is ever more full of holes"
+    )

@@ -12,7 +12,11 @@ from tests.firmware.conftest import find_interpreter
 from tests.firmware.rig import DEVICE, Running, listening, running_bus, start_firmware
 
 UNREADABLE = {
-    "too long": b'{"id": "h", "v": {"time": 1}, "x": "' + b"x" * 6000 + b'"}',
+    "too long, the id not first": b'{"v": {"time": 1}, "id": "h", "x": "' + b"x" * 6000 + b'"}',
+    "too long, an id with an escape": b'{"id": "\\u0068", "x": "' + b"x" * 6000 + b'"}',
+    "too long, an id without an end": b'{"id": "' + b"h" * 6000,
+    "too long, an id that is a number": b'{"id": 7, "x": "' + b"x" * 6000 + b'"}',
+    "too long, an id that is not ASCII": b'{"id": "h\xe4", "x": "' + b"x" * 6000 + b'"}',
     "far too long": b"x" * 16000,
     "not JSON": b'{"id": "h", "v": {"time": 1} nonsense',
     "cut off": b'{"id": "h", "v": {"time": 1}',
@@ -71,6 +75,12 @@ def test_hostile_messages_harm_nothing(mixer: Running) -> None:
         assert isinstance(body, dict)
         mixer.ear.say(mixer.down + "mixPaint", {"id": command, **body})
         assert mixer.answer(command, "REJECTED").json["why"] == why
+    for command, size in (("long", 4200), ("longest", 16000)):
+        mixer.ear.say(
+            mixer.down + "mixPaint", b' { "id" : "%s", "v": {"time": 1}, "x": "' % command.encode() + b"x" * size
+        )
+        told = mixer.answer(command, "REJECTED").json["why"]
+        assert told == "the message is too long for this device"
     for method in ("idle", "switched", "properties", "_drift", "__init__", "a/b", "x" * 300):
         mixer.ear.say(mixer.down + method, {"id": "m" + method[:9], "v": {}})
         told = mixer.answer("m" + method[:9], "REJECTED").json["why"]
@@ -93,7 +103,8 @@ def test_a_command_under_way_is_never_forgotten(mixer: Running) -> None:
     mixer.ear.forget()
     mixer.tell("mixPaint", "c1", time=30)
     mixer.answer("c1", "RUNNING")
+    mixer.ear.say(mixer.down + "mixPaint", b'{"id": "c1", "x": "' + b"x" * 6000)
     mixer.tell("cancel", "x1", command="c1")
     mixer.answer("c1", "CANCELED")
-    assert mixer.answers("c1") == ["RUNNING", "CANCELED"]
+    assert mixer.answers("c1") == ["RUNNING", "RUNNING", "CANCELED"]
     assert mixer.log.read_text().count("Mixing Started") == 1

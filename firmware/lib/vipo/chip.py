@@ -1,22 +1,20 @@
-"""The life of an ESP32: Wi-Fi, the clock, then the machine that config.json describes; or the set-up page."""
+"""The life of an ESP32: Wi-Fi, the clock, then the machine that config.json describes; or the set-up page.
 
-import os
-import sys
+What is needed only for a while is loaded for a while: the heap is small.
+"""
+
 import time
 
 import machine
-import network
-from vipo.configuration import BadConfiguration, read_configuration, write_file
-from vipo.portable import clock_is_set, load, show_error
+from vipo.configuration import BadConfiguration, read_configuration
+from vipo.portable import forget, load, show_error
 
-CONFIGURATION, ASKED = "config.json", "set-up"
+CONFIGURATION = "config.json"
 # Of the board in docs/devices/esp32.md; 0 is the BOOT button that most boards have.
 DEFAULT_PINS = {"sda": 21, "scl": 22, "red": 25, "green": 26, "blue": 27, "output": 23, "button": 0}
 NEEDED = ("host", "port", "id", "wifi_name")
-WIFI_TIMEOUT_S = 30
 WATCHDOG_MS = 60000
 SHOWN_S = 5
-TIME_SERVER = "pool.ntp.org"
 
 
 def run():
@@ -25,7 +23,7 @@ def run():
     pins = configuration.get("pins") or DEFAULT_PINS
     output = make_output(pins)
     try:
-        if fault or is_pressed(pins) or was_asked():
+        if fault or is_set_up_due(pins):
             from vipo.setting_up import set_up
 
             set_up(panel_of(pins), fault)
@@ -64,9 +62,11 @@ def make_output(pins):
     return lambda on: pin.value(on ^ inverted)
 
 
-def is_pressed(pins):
-    """Tell whether the set-up button is held; it pulls its pin down."""
-    return "button" in pins and not machine.Pin(pins["button"], machine.Pin.IN, machine.Pin.PULL_UP).value()
+def is_set_up_due(pins):
+    """Tell whether somebody asks for the set-up page."""
+    from vipo.button import was_asked
+
+    return was_asked(pins)
 
 
 def panel_of(pins):
@@ -78,70 +78,48 @@ def panel_of(pins):
 
 def serve(configuration, pins, output):
     """Join the Wi-Fi and be the machine; returns when the Wi-Fi does not come."""
-    from vipo.identity import make_identity
-
     panel = panel_of(pins)
-    identity = make_identity(configuration, panel)
-    load("duties", "mqtt", "device", "start")
-    from vipo.start import make_device
-
-    panel.show("Wi-Fi", configuration["wifi_name"])
-    if not join_wifi(configuration["wifi_name"], configuration.get("wifi_password"), lambda: ask(panel, pins)):
-        panel.show("No Wi-Fi", configuration["wifi_name"])
-        time.sleep(SHOWN_S)
+    forget("board")
+    identity = identify(configuration, panel)
+    forget("identity")
+    if not find_network(configuration, panel, pins):
         return
-    if not set_clock(configuration.get("time_server", TIME_SERVER)) and configuration.get("ca"):
-        panel.show("No time", "certificate?")
-    device = make_device(configuration, panel, identity, output)
+    forget("wifi", "button")
+    device = make(configuration, panel, identity, output)
+    forget("start", "certificate")
+    del configuration, identity
     device.feed = machine.WDT(timeout=WATCHDOG_MS).feed
     import asyncio
 
     asyncio.run(device.run())
 
 
-def join_wifi(name, password, look):
-    """Return whether the network was joined in time; later it is joined again by itself. `look` is called meanwhile."""
-    station = network.WLAN(network.STA_IF)
-    station.active(True)
-    station.connect(name, password or None)
-    for _ in range(WIFI_TIMEOUT_S * 10):
-        look()
-        if station.isconnected():
-            return True
-        time.sleep(0.1)
-    return False
+def identify(configuration, panel):
+    """Return the driver and the description of the machine."""
+    from vipo.identity import make_identity
+
+    return make_identity(configuration, panel)
 
 
-def ask(panel, pins):
-    """Start again with the set-up page if the button is held.
+def find_network(configuration, panel, pins):
+    """Join the Wi-Fi and set the clock; tell whether the Wi-Fi came."""
+    from vipo.button import ask
+    from vipo.wifi import join_wifi, set_clock
 
-    BOOT cannot be held at the start itself: an ESP32 then waits for new firmware.
-    """
-    if is_pressed(pins):
-        panel.show("Set-up page", "release button")
-        while is_pressed(pins):
-            time.sleep(0.05)
-        write_file(ASKED, "")
-        machine.reset()
-
-
-def was_asked():
-    """Tell whether somebody asked for the set-up page before this start, and forget it."""
-    try:
-        os.remove(ASKED)
-    except OSError:
+    name = configuration["wifi_name"]
+    panel.show("Wi-Fi", name)
+    if not join_wifi(name, configuration.get("wifi_password"), lambda: ask(panel, pins)):
+        panel.show("No Wi-Fi", name)
+        time.sleep(SHOWN_S)
         return False
+    if not set_clock(configuration.get("time_server")) and configuration.get("ca"):
+        panel.show("No time", "certificate?")
     return True
 
 
-def set_clock(server):
-    """Return whether the clock is right: certificates are dated, and boots count by it when their file is lost."""
-    if not clock_is_set():
-        try:
-            import ntptime
+def make(configuration, panel, identity, output):
+    """Return the device; its parts are loaded one after the other."""
+    load("duties", "mqtt", "device", "start")
+    from vipo.start import make_device
 
-            ntptime.host, ntptime.timeout = server, 2
-            ntptime.settime()
-        except (OSError, ImportError, OverflowError) as error:
-            sys.stdout.write("no time from %s: %s\n" % (server, error))
-    return clock_is_set()
+    return make_device(configuration, panel, identity, output)

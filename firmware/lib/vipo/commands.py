@@ -20,8 +20,10 @@ class BadCommand(Exception):
         self.why, self.command = why, command
 
 
-def read_command(payload):
-    """Return (id, arguments, ttl_s) of a message, None standing for one that was too long. Raises BadCommand."""
+def read_command(payload, whole=True):
+    """Return (id, arguments, ttl_s) of a message; one that is not whole was too long. Raises BadCommand."""
+    if not whole:
+        raise BadCommand("the message is too long for this device", first_id(payload))
     message = read_object(payload)
     command, values, ttl_s = message.get("id"), message.get("v"), message.get("ttl_s", 1)
     if not is_plain(command):
@@ -35,13 +37,26 @@ def read_command(payload):
     return command, values, ttl_s
 
 
+def first_id(payload):
+    """Return the id that the beginning of a message starts with, as the server's do, or an empty text."""
+    for piece in (b"{", b'"id"', b":", b'"'):
+        payload = payload.strip()
+        if not payload.startswith(piece):
+            return ""
+        payload = payload[len(piece) :]
+    word = payload[: max(0, payload.find(b'"'))]
+    # What is not ASCII is no id, so that each byte may stand for itself.
+    word = "".join([chr(byte) for byte in word[: LONGEST_WORD + 1]])
+    return word if is_plain(word) and "\\" not in word else ""
+
+
 def is_plain(word):
     """Tell whether a value is a text of 1 to 64 printable ASCII characters."""
     return isinstance(word, str) and 0 < len(word) <= LONGEST_WORD and all(" " <= c <= "~" for c in word)
 
 
 def read_object(payload):
-    """Return the JSON object in a payload. Raises BadCommand."""
+    """Return the JSON object in a payload, None standing for one that was too long. Raises BadCommand."""
     if payload is None:
         raise BadCommand("the message is too long")
     check_outside(payload)

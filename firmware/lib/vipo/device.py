@@ -88,12 +88,12 @@ class Device:
         message["seq"] = self.sequence
         self.client.publish(self.base + "up/state", json.dumps(message).encode(), retain=True, replace=True)
 
-    def _heard(self, topic, payload, retained):
-        """Take in a message; a payload of None was too long to be read."""
+    def _heard(self, topic, payload, retained, whole):
+        """Take in a message; one that is not whole was too long, and its payload is only the beginning."""
         if topic == "vipo/v1/srv/status":
             if not retained:
                 self._describe()
         elif topic.endswith("/stop") and topic.startswith("vipo/v1/site/"):
-            self.duties.stop(payload)
+            self.duties.stop(payload if whole else None)
         elif topic.startswith(self.base + "down/") and not retained:
-            self.duties.told(topic[len(self.base) + 5 :], payload)
+            self.duties.told(topic[len(self.base) + 5 :], payload, whole)

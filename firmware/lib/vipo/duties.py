@@ -31,15 +31,12 @@ class Duties:
             self.stopped = True
         self.shine()
 
-    def told(self, method, payload):
-        """Take in a command; a payload of None was too long to be read."""
+    def told(self, method, payload, whole=True):
+        """Take in a command; of one that is not whole only the beginning is there."""
         try:
-            command, values, ttl_s = read_command(payload)
+            command, values, ttl_s = read_command(payload, whole)
         except BadCommand as error:
-            if error.command:
-                self._answer(error.command, "REJECTED", error.why)
-            elif self.work is None:
-                self.panel.show("Bad message", error.why)
+            self._refuse(error)
             return
         known = self._answers.find(command)
         if known:
@@ -54,6 +51,17 @@ class Duties:
                 self._answer(command, "REJECTED", why)
             else:
                 self._begin(command, method, values)
+
+    def _refuse(self, error):
+        """Answer what cannot be read, if it says whose answer that is; a command that is known is answered as before."""
+        if error.command:
+            known = self._answers.find(error.command)
+            if known:
+                self.say(known)
+            else:
+                self._answer(error.command, "REJECTED", error.why)
+        elif self.work is None:
+            self.panel.show("Bad message", error.why)
 
     def _take_key(self, command, key):
         """Keep the key that the server gave; it ends this connection, and the next one begins with it."""

@@ -167,10 +167,10 @@ class Client:
                 self._subscribed.set()
 
     async def _received(self, kind, body, whole):
-        """Hand a message on, with None for a payload that is too long, and answer the broker."""
+        """Hand a message on, of one that is too long the beginning, and answer the broker."""
         topic, payload, number = split_publish(kind, body)
         if self.on_message:
-            self.on_message(topic, payload if whole else None, bool(kind & 1))
+            self.on_message(topic, payload, bool(kind & 1), whole)
         if number:
             self.outbox.to_answer.append(number)
             self._news.set()

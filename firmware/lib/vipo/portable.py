@@ -47,13 +47,14 @@ async def close_stream(writer):
     gc.collect()
 
 
-def forget(name):
-    """Let a module of this package go that is not needed any more: its code takes room on the chip."""
+def forget(*names):
+    """Let modules of this package go that are not needed any more: their code takes room on the chip."""
     import vipo
 
-    if sys.implementation.name == "micropython" and sys.modules.pop("vipo." + name, None):
-        delattr(vipo, name)
-        gc.collect()
+    for name in names:
+        if sys.implementation.name == "micropython" and sys.modules.pop("vipo." + name, None):
+            delattr(vipo, name)
+    gc.collect()
 
 
 def load(*names):

@@ -1,22 +1,16 @@
-# ruff: noqa: PTH123, PTH116, SIM115, RUF005, RET503 - MicroPython, without pathlib
-"""Stands before MicroPython's own `machine`, which has no pins on a computer: records what is done to the hardware.
-
-Each line of the file named by VIPO_RECORD is [microseconds, what, ...]. A byte on I2C takes as long as on the wire.
-"""
-
-import json
+# ruff: noqa: PTH123, PTH116, SIM115, RET503, UP031 - MicroPython, without pathlib; what stands here takes the board's heap
 import os
 import sys
 import time
 
-RECORD = open(os.getenv("VIPO_RECORD"), "a")
-START = time.ticks_us()
-LEVELS = {}
+# Unbuffered, and nothing is kept: a line of microseconds, words and how many bytes follow, then these bytes.
+RECORD = open(os.getenv("VIPO_RECORD"), "ab")
+LEVELS = bytearray(b"\xff" * 40)
 
 
-def note(*what):
-    RECORD.write(json.dumps([time.ticks_diff(time.ticks_us(), START)] + list(what)) + "\n")
-    RECORD.flush()
+def note(words, data=b""):
+    RECORD.write("%d %s %d\n" % (time.ticks_us(), words, len(data)))
+    RECORD.write(data)
 
 
 def unique_id():
@@ -31,50 +25,47 @@ def reset():
 class Pin:
     IN, OUT, PULL_UP = 0, 1, 2
 
-    def __init__(self, number, mode=IN, pull=None, value=None):
-        self.number, self.mode = number, mode
-        self.level = 1 if pull == self.PULL_UP and not (number == 0 and _exists(os.getenv("VIPO_PRESSED"))) else 0
+    def __init__(self, number, mode=0, pull=None, value=None):
+        self.number = number
+        if pull:
+            LEVELS[number] = not exists("VIPO_PRESSED")
         if value is not None:
             self.value(value)
 
     def value(self, level=None):
+        before = LEVELS[self.number]
         if level is None:
-            return self.level
-        if not isinstance(level, (int, bool)):
-            raise TypeError("a pin is high or low")
-        if LEVELS.get(self.number) != int(level):
-            LEVELS[self.number] = int(level)
-            note("pin", self.number, int(level))
-        self.level = int(level)
+            return before
+        LEVELS[self.number] = level
+        if before != level:
+            note("pin %d %d" % (self.number, level))
 
 
 class I2C:
     def __init__(self, bus, scl, sda, freq=400000):
         self.freq = freq
-        note("i2c", bus, scl.number, sda.number, freq)
+        note("i2c %d %d %d %d" % (bus, scl.number, sda.number, freq))
 
     def scan(self):
         return [int(word) for word in (os.getenv("VIPO_I2C") or "").split()]
 
     def writeto(self, address, data):
-        if address not in self.scan() or _exists(os.getenv("VIPO_UNPLUGGED")):
-            raise OSError(19, "ENODEV")
-        note("write", address, self.freq, list(data))
+        if address not in self.scan() or exists("VIPO_UNPLUGGED"):
+            raise OSError(19)
+        note("write %d %d" % (address, self.freq), data)
         time.sleep_us((len(data) + 1) * 9000000 // self.freq)
-        return len(data)
 
 
 class WDT:
-    def __init__(self, id=0, timeout=5000):
-        note("watchdog", timeout)
+    def __init__(self, timeout):
+        note("watchdog %d" % timeout)
 
     def feed(self):
         note("fed")
 
 
-def _exists(path):
+def exists(name):
     try:
-        os.stat(path)
+        return bool(os.stat(os.getenv(name)))
     except (OSError, TypeError):
         return False
-    return True

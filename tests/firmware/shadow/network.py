@@ -1,5 +1,4 @@
-"""A Wi-Fi for a computer: it is there when VIPO_WIFI names it; what is asked of it is recorded."""
-
+# ruff: noqa: UP031 - MicroPython; what stands here takes the board's heap
 import os
 
 from machine import note
@@ -10,22 +9,28 @@ AUTH_WPA2_PSK = 3
 
 class WLAN:
     def __init__(self, interface):
-        self.interface, self.joined = interface, False
+        self.interface = interface
 
     def active(self, on):
-        note("wifi", self.interface, on)
+        note("wifi %d %d" % (self.interface, on))
 
     def connect(self, name, password):
-        note("join", name, password)
+        tell("join", [name, password])
         self.joined = name == os.getenv("VIPO_WIFI")
 
     def isconnected(self):
         return self.joined
 
     def config(self, **settings):
-        note("point", settings)
+        tell("point", [settings])
 
     def ifconfig(self, wanted=None):
         if wanted:
-            note("addresses", wanted)
+            tell("addresses", [wanted])
         return ("127.0.0.1", "255.255.255.0", "127.0.0.1", "127.0.0.1")
+
+
+def tell(word, values):
+    import json
+
+    note(word, json.dumps(values).encode())
