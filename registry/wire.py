@@ -22,6 +22,7 @@ MAX_WHOLE = 2**53
 MAX_METRES = 1e6
 _ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
 _KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([A-Za-z0-9_.-]{1,64})")
+_NO_TEXT = re.compile("[\0\ud800-\udfff]")
 _UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
 
 
@@ -137,7 +138,7 @@ def _whole(text: str) -> int:
 def _check_text(value: Any) -> None:
     """Refuse NUL, which PostgreSQL cannot keep, and lone surrogates, which UTF-8 cannot say."""
     if isinstance(value, str):
-        if "\0" in value or any("\ud800" <= c <= "\udfff" for c in value):
+        if _NO_TEXT.search(value):
             raise BadMessage("The message holds a character that is not text (NUL or half of a surrogate pair).")
     elif isinstance(value, dict):
         for key, inner in value.items():
