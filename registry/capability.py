@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, Literal, get_args
 
@@ -127,14 +127,25 @@ MOST_PARAMETERS = 16
 
 def description_to_json(description: Description) -> dict[str, Any]:
     """Return the canonical description as plain JSON, the form that is kept, compared and exchanged."""
-    body = asdict(description)
-    for key in ("gives", "takes", "properties", "methods"):
-        body[key] = list(body[key])
-    for item in body["properties"]:
-        item["options"] = list(item["options"])
-    for method in body["methods"]:
-        method["parameters"] = [{**p, "options": list(p["options"])} for p in method["parameters"]]
-    return body
+    return {
+        **_fields(description),
+        "pose": _fields(description.pose),
+        "size": _fields(description.size),
+        "gives": list(description.gives),
+        "takes": list(description.takes),
+        "properties": [{**_fields(p), "options": list(p.options)} for p in description.properties],
+        "methods": [_method_to_json(method) for method in description.methods],
+    }
+
+
+def _method_to_json(method: MethodSpec) -> dict[str, Any]:
+    parameters = [{**_fields(p), "options": list(p.options)} for p in method.parameters]
+    return {**_fields(method), "parameters": parameters}
+
+
+def _fields(record: Any) -> dict[str, Any]:
+    """Return a record's own fields by name, in their order; dataclasses.asdict takes ten times as long."""
+    return {name: getattr(record, name) for name in record.__slots__}
 
 
 def description_from_json(body: Mapping[str, Any]) -> Description:
