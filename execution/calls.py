@@ -20,6 +20,7 @@ from execution.claiming import CONTROLS
 from execution.errors import BadArguments, NotFound, NotPossibleNow
 from execution.floor_stepping import site_id
 from execution.models import Command, FloorState, Run
+from execution.reasons import cause_of
 from execution.stops import is_stopped
 from execution.traffic import floor
 from registry import live
@@ -174,7 +175,7 @@ def expire_calls(*, now: datetime) -> int:
 def call_to_json(command: Command) -> dict[str, Any]:
     """Return a call as the API says it."""
     expires_at = command.created_at + timedelta(seconds=command.ttl_s)
-    late = LATE if command.status == Command.Status.TIMED_OUT else ""
+    why = command.why or (LATE if command.status == Command.Status.TIMED_OUT else "")
     return {
         "id": str(command.id),
         "device": command.device,
@@ -183,7 +184,8 @@ def call_to_json(command: Command) -> dict[str, Any]:
         "by": command.by,
         "status": command.status,
         "over": command.status not in Command.OPEN,
-        "why": command.why or late,
+        "why": why,
+        "cause": cause_of(why),
         "result": command.result,
         "created_at": command.created_at.isoformat(),
         "expires_at": expires_at.isoformat(),

@@ -66,6 +66,13 @@ class WaitReason(Schema):
     args: dict[str, Scalar]
 
 
+class Cause(Schema):
+    """Why something ended or was not done, for screens to say in their language (execution/reasons.py)."""
+
+    code: str
+    args: dict[str, str]
+
+
 class RunStepShape(Schema):
     """How far a step of a run is; `wait` and `why` say what it waits for, `count` how often it has begun."""
 
@@ -88,6 +95,7 @@ class RunSummaryShape(Schema):
     version: int
     status: RunStatus
     reason: str
+    cause: Cause | None
     created_at: str
     started_at: str | None
     ended_at: str | None
@@ -114,6 +122,7 @@ class RunEventShape(Schema):
     device: str
     robot: str
     text: str
+    cause: Cause | None
     code: str
     args: dict[str, Any]
 
@@ -185,6 +194,7 @@ class CallShape(Schema):
     status: Literal["pending", "sent", "accepted", "running", "done", "failed", "rejected", "cancelled", "timed_out"]
     over: bool
     why: str
+    cause: Cause | None
     result: dict[str, Scalar | None]
     created_at: str
     expires_at: str

@@ -5,6 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from execution.models import ArmedProgram, Question, Rehearsal, Run, RunEvent
+from execution.reasons import cause_of
+
+WITH_CAUSE = frozenset({"failed", "cancelled", "paused"})
+WELL = frozenset({"step_entered", "step_done"})
 
 
 def run_to_json(run: Run) -> dict[str, Any]:
@@ -17,6 +21,7 @@ def run_to_json(run: Run) -> dict[str, Any]:
         "version": run.version,
         "status": run.status,
         "reason": run.reason,
+        "cause": cause_of(run.reason),
         "created_at": run.created_at.isoformat(),
         "started_at": run.started_at.isoformat() if run.started_at else None,
         "ended_at": run.ended_at.isoformat() if run.ended_at else None,
@@ -37,9 +42,17 @@ def event_to_json(event: RunEvent) -> dict[str, Any]:
         "device": event.device,
         "robot": event.robot,
         "text": event.text,
+        "cause": _cause_of_event(event),
         "code": event.code,
         "args": event.args,
     }
+
+
+def _cause_of_event(event: RunEvent) -> dict[str, Any] | None:
+    """Return why a step was not done, or a run ended or paused, as an event tells it."""
+    if event.kind == "run":
+        return cause_of(event.text.partition(": ")[2]) if event.code in WITH_CAUSE else None
+    return cause_of(event.text) if event.kind == "step" and event.code not in WELL else None
 
 
 def question_to_json(question: Question) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 /** Devices: what they say of themselves, and what becomes of them. */
 
-import type { Scalar } from "./values";
+import type { Cause, Scalar } from "./values";
 
 export type DeviceStatus = "idle" | "busy" | "done" | "waiting" | "warning" | "error" | "offline" | "pending";
 
@@ -77,6 +77,7 @@ export interface MethodCall {
   status: "pending" | "sent" | "accepted" | "running" | "done" | "failed" | "rejected" | "cancelled" | "timed_out";
   over: boolean;
   why: string;
+  cause: Cause | null;
   result: Record<string, Scalar | null>;
   created_at: string;
   expires_at: string;

@@ -1,7 +1,7 @@
 /** Runs and their journals. */
 
 import type { Compiled, ProgramDocument } from "./programs";
-import type { WaitReason } from "./values";
+import type { Cause, WaitReason } from "./values";
 
 export type RunStatus = "pending" | "running" | "paused" | "finished" | "failed" | "cancelled";
 
@@ -26,6 +26,7 @@ export interface RunSummary {
   site: string;
   status: RunStatus;
   reason: string;
+  cause: Cause | null;
   started_at: string | null;
   ended_at: string | null;
   started_by: { name: string; initials: string } | string | null;
@@ -47,6 +48,7 @@ export interface RunEvent {
   device: string;
   robot: string;
   text: string;
+  cause: Cause | null;
   code: string;
   args: Record<string, unknown>;
 }

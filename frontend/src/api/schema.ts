@@ -1553,6 +1553,7 @@ export interface components {
                 [key: string]: unknown;
             };
             by: string;
+            cause: components["schemas"]["Cause"] | null;
             created_at: string;
             device: string;
             ended_at: string | null;
@@ -1567,6 +1568,13 @@ export interface components {
             /** @enum {string} */
             status: "pending" | "sent" | "accepted" | "running" | "done" | "failed" | "rejected" | "cancelled" | "timed_out";
             why: string;
+        };
+        /** @description Why something ended or was not done, for screens to say in their language (execution/reasons.py). */
+        Cause: {
+            args: {
+                [key: string]: string;
+            };
+            code: string;
         };
         /** @description A field of a description that changed: its JSON before and after, empty where it was or is not there. */
         ChangeShape: {
@@ -2192,6 +2200,7 @@ export interface components {
                 [key: string]: unknown;
             };
             at: string;
+            cause: components["schemas"]["Cause"] | null;
             code: string;
             device: string;
             kind: string;
@@ -2208,6 +2217,7 @@ export interface components {
         };
         /** @description A run with the program as it was when it was started. */
         RunShape: {
+            cause: components["schemas"]["Cause"] | null;
             compiled: components["schemas"]["CompiledShape"];
             created_at: string;
             document: components["schemas"]["DocumentShape"];
@@ -2242,6 +2252,7 @@ export interface components {
         };
         /** @description A run as lists and live messages have it; times are ISO 8601. */
         RunSummaryShape: {
+            cause: components["schemas"]["Cause"] | null;
             created_at: string;
             ended_at: string | null;
             id: string;

@@ -10,6 +10,12 @@ export interface WaitReason {
   args: Record<string, Scalar>;
 }
 
+/** Why something ended or was not done; devices are named as people name them. */
+export interface Cause {
+  code: string;
+  args: Record<string, string>;
+}
+
 /** A sentence in each language of the screens. */
 export interface Words {
   en: string;

@@ -11,6 +11,7 @@ import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatAgo, formatSpan } from "@/i18n/format";
+import { reasonWords } from "@/i18n/reasons";
 import styles from "./pages.module.css";
 import { nameOf } from "./people";
 import { isOpen, progressOfRun, secondsOfRun, statusOfRun } from "./runs";
@@ -35,7 +36,7 @@ function Row({ run, now }: { run: RunSummary; now: number }) {
       </td>
       <td>
         <StatusBadge status={statusOfRun(run)}>{t(`pages.runs.status.${run.status}`)}</StatusBadge>
-        {run.reason ? <small className={styles.reason}>{run.reason}</small> : null}
+        {run.reason ? <small className={styles.reason}>{reasonWords(run.cause, run.reason)}</small> : null}
       </td>
       <td className={styles.nowrap}>{all > 0 ? t("pages.runs.steps", { done, all }) : "–"}</td>
       <td className={styles.nowrap}>{run.started_at ? formatAgo(run.started_at, now) : t("pages.runs.notStarted")}</td>

@@ -11,6 +11,7 @@ import { shownQuestions } from "@/app/questions/shown";
 import { Crumb, TopBar } from "@/app/TopBar";
 import { Chip } from "@/design/Chip";
 import { ProgramMap } from "@/editor/ProgramMap";
+import { reasonWords } from "@/i18n/reasons";
 import { liveRobots } from "@/live/robots";
 import { useSiteLive } from "@/live/site";
 import { RunActions, RunPill } from "./RunBar";
@@ -60,7 +61,7 @@ function Notes({ run, problem }: { run: Run; problem: string | null }) {
       )}
       {run.status !== "running" && run.status !== "pending" && (
         <p className={styles.note} data-tone={tone}>
-          <b>{t(`run.status.${run.status}`)}</b> {run.reason}
+          <b>{t(`run.status.${run.status}`)}</b> {reasonWords(run.cause, run.reason)}
         </p>
       )}
     </div>

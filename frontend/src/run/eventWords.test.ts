@@ -1,6 +1,7 @@
 import i18next from "i18next";
 import { beforeAll, expect, test } from "vitest";
 import type { RunEvent } from "@/api/types";
+import reason from "@/i18n/de/reason.json";
 import de from "@/i18n/de/run.json";
 import { waitWords } from "@/i18n/waits";
 import { eventWords } from "./eventWords";
@@ -9,7 +10,7 @@ const nameOf = (id: string) => ({ robot01: "Kiwi", robot02: "Mango", oven: "Ofen
 const event = (more: Partial<RunEvent>) =>
   ({ kind: "run", code: "", text: "as written", args: {}, ...more }) as RunEvent;
 
-beforeAll(() => i18next.init({ lng: "de", resources: { de: { translation: { run: de } } } }));
+beforeAll(() => i18next.init({ lng: "de", resources: { de: { translation: { run: de, reason } } } }));
 
 test("a wait is told in the language of the screen with people's names for things", () => {
   expect(waitWords({ code: "machine_busy", args: { device: "oven", run: "run 7" } }, nameOf)).toBe(
@@ -42,4 +43,14 @@ test("lines of the journal are told by their code, others as they were written",
   );
   expect(eventWords(event({ kind: "notice", code: "told", text: "Boxes: 4" }), nameOf)).toBe("Boxes: 4");
   expect(eventWords(event({ kind: "step", code: "step_failed", text: "Why." }), nameOf)).toBe("Why.");
+});
+
+test("why something was not done is told in the language of the screen, a device's own words in quotes", () => {
+  const offline = { code: "offline", args: { device: "Ofen" } };
+  expect(eventWords(event({ kind: "step", code: "step_offline", cause: offline }), nameOf)).toBe("Ofen ist offline.");
+  expect(eventWords(event({ code: "failed", cause: offline }), nameOf)).toBe(
+    "Der Lauf ist fehlgeschlagen: Ofen ist offline.",
+  );
+  const own = { code: "said", args: { words: "Lid open" } };
+  expect(eventWords(event({ kind: "step", code: "step_failed", cause: own }), nameOf)).toBe("„Lid open“");
 });

@@ -12,6 +12,7 @@ const event = (t_s: number, code: string, more: Partial<RunEvent> = {}): RunEven
   device: "robot01",
   robot: "",
   text: "",
+  cause: null,
   code,
   args: {},
   ...more,

@@ -4,6 +4,7 @@ from editor.language.plan import Call, Constant, Drop, End, Instruction, Move, P
 from execution import services
 from execution.models import Command, InboxEvent, Run, RunEvent
 from execution.run_stepping import advance_run
+from execution.views import run_to_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 SHELF, BOOTH = PlaceRef(device="itemInventory01"), PlaceRef(device="paintMachine01")
@@ -88,6 +89,7 @@ def test_a_cancelled_run_frees_its_robot_and_its_machines(factory):
     services.cancel_run(run_id=run, by="Ada")
     factory.go(lambda: status(run) == "cancelled")
     assert Run.objects.get(id=run).reason == "Ada cancelled it"
+    assert run_to_json(Run.objects.get(id=run))["cause"] == {"code": "cancelled_by", "args": {"by": "Ada"}}
     second = factory.start(CARRY)
     factory.go(lambda: status(second) == "finished")
     assert services.get_run(run_id=second)["roles"] == {"robot": "robot01"}

@@ -3,6 +3,7 @@ import type { MethodCall } from "@/api/types";
 import { StatusBadge } from "@/design/StatusBadge";
 import type { StatusName } from "@/design/StatusGlyph";
 import { formatSpan } from "@/i18n/format";
+import { reasonWords } from "@/i18n/reasons";
 import { useNow } from "../useNow";
 import styles from "./call.module.css";
 
@@ -31,7 +32,7 @@ export function CallProgress({ call }: { call: MethodCall }) {
         <StatusBadge status={SIGNS[call.status]}>{t(`device.try.status.${call.status}`)}</StatusBadge>
         <span aria-hidden={!call.over}>{formatSpan(seconds)}</span>
       </p>
-      {call.why ? <p>{call.why}</p> : null}
+      {call.why ? <p>{reasonWords(call.cause, call.why)}</p> : null}
       {results.length > 0 ? (
         <dl className={styles.result}>
           {results.map(([name, value]) => (

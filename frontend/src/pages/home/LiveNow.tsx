@@ -8,6 +8,7 @@ import { StatusBadge } from "@/design/StatusBadge";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { doingWords } from "@/i18n/doing";
 import { formatClock } from "@/i18n/format";
+import { reasonWords } from "@/i18n/reasons";
 import { isOpen, progressOfRun, secondsOfRun, statusOfRun } from "../runs";
 import { useNow } from "../useNow";
 import styles from "./home.module.css";
@@ -27,7 +28,7 @@ function OpenRun({ run }: { run: RunSummary }) {
       </span>
       <progress value={done} max={Math.max(1, all)} aria-label={t("pages.runs.steps", { done, all })} />
       <span className={styles.liveFoot}>
-        <span>{run.reason || t("pages.runs.steps", { done, all })}</span>
+        <span>{reasonWords(run.cause, run.reason) || t("pages.runs.steps", { done, all })}</span>
         <b>{t("pages.home.openMonitor")}</b>
       </span>
     </Link>

@@ -4,6 +4,7 @@ import type { RunSummary } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { formatAgo, formatSpan } from "@/i18n/format";
+import { reasonWords } from "@/i18n/reasons";
 import { isOpen, progressOfRun, secondsOfRun, statusOfRun } from "../runs";
 import { useNow } from "../useNow";
 import styles from "./home.module.css";
@@ -23,7 +24,11 @@ function RunLine({ run, now }: { run: RunSummary; now: number }) {
         <StatusGlyph status={statusOfRun(run)} size={16} />
         <span>
           <b>{t("pages.runs.numberOf", { number: run.number, program: run.program.name })}</b>
-          <span>{run.status === "failed" && run.reason ? run.reason : facts.filter(Boolean).join(", ")}</span>
+          <span>
+            {run.status === "failed" && run.reason
+              ? reasonWords(run.cause, run.reason)
+              : facts.filter(Boolean).join(", ")}
+          </span>
         </span>
         <small>{isOpen(run) ? t("pages.home.now") : run.ended_at ? formatAgo(run.ended_at, now) : ""}</small>
       </Link>

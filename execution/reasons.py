@@ -1,0 +1,86 @@
+"""Why runs and calls end, wait for people or fail: which sentence it is, for screens in other languages; pure.
+
+Reasons go through the machine, the floor and the database as English sentences, beside the words of devices, which are
+kept as they are. Each of VIPO's own has a code and a pattern here, and is taken apart by it, in old rows, too.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+SAID = "said"
+SENTENCES: Mapping[str, str] = {
+    "paused_by": "{by} paused it",
+    "cancelled_by": "{by} cancelled it",
+    "stopped_by": "{by} stopped all devices of the site",
+    "branch_failed": "Another branch failed.",
+    "program_over": "The program was over.",
+    "condition_late": "The condition did not come true in time.",
+    "unanswered": "Nobody answered in time.",
+    "too_many_branches": "More than {count} branches would run at once.",
+    "too_deep": "“{function}” calls itself more than {count} times deep.",
+    "negative_wait": "It is told to wait {seconds} s; a wait cannot be less than nothing.",
+    "no_quantity": "The quantity is {quantity}; it must be more than nothing.",
+    "blocked_too_long": "{robot} has been blocked by {others} for too long.",
+    "not_done": "{device} did not do it.",
+    "went_offline": "{device} went offline and did not come back.",
+    "took_too_long": "{device} took too long.",
+    "no_answer": "The device did not answer in time. Look whether it is switched on and connected.",
+    "late": "The device took longer than it may. Look what it is doing.",
+    "no_able_robot": "No robot of this site can {methods}. Approve one that can, or change the role.",
+    "no_way": "There is no way for {robot} to {target}.",
+    "no_standing": "No robot can stand at {place}; there is no free side that it can reach.",
+    "no_room": "A robot cannot stand at ({point}); choose a place with more room.",
+    "not_reached": "No robot can reach ({point}).",
+    "no_spot": "There is no device or place called “{name}” on this site.",
+    "nothing_handed": "Nothing can be handed over at {place}; choose a device.",
+    "no_device": "There is no approved device called “{device}” on this site.",
+    "no_method": "{device} cannot {method}; it offers no such method.",
+    "offline": "{device} is offline.",
+    "undone": "The step was not done.",
+    "no_place": "That is not a place: give a device, a place or a point [x, y].",
+    "list_for_value": "A list stands where one value is needed.",
+    "nested": "An expression is nested too deeply.",
+    "no_value": "There is no value called “{name}” here.",
+    "unit_left": "A number still has its unit. Compile the program again.",
+    "no_truth": "The condition gives {value} where yes or no is needed.",
+    "not_reported": "{device} has not reported its {property} yet.",
+    "no_robot_yet": "No robot has the role {role} yet.",
+    "point_for_value": "A point or a zone stands where one value is needed.",
+    "no_thing": "{value} stands where a device or a place is needed.",
+    "where_unknown": "It is not known yet where {thing} is.",
+    "wrong_arguments": "“{name}” cannot be worked out from {count} value(s).",
+    "no_clock": "The time of day is not known yet.",
+    "text_too_long": "A text has more than {count} characters.",
+    "no_zone": "There is no zone {zone}.",
+    "unfit_value": "“{name}” is not something that can be worked out from one value.",
+    "no_operator": "“{name}” is not an operator of this language.",
+    "in_needs_list": "“in” needs a list or a text on its right.",
+    "zero_divisor": "A number is divided by zero.",
+    "no_number": "{value} stands where a number is needed.",
+    "too_large": "A number has grown beyond all measure.",
+}
+
+
+def cause_of(reason: str) -> dict[str, Any] | None:
+    """Return `{code, args}` of a reason; other words, such as a device's own, have the code `said`. None for none."""
+    if not reason:
+        return None
+    for code, pattern in _patterns().items():
+        if found := pattern.fullmatch(reason):
+            return {"code": code, "args": found.groupdict()}
+    return {"code": SAID, "args": {"words": reason}}
+
+
+@cache
+def _patterns() -> Mapping[str, re.Pattern[str]]:
+    return {code: re.compile(_pattern(sentence), re.DOTALL) for code, sentence in SENTENCES.items()}
+
+
+def _pattern(sentence: str) -> str:
+    """Return the regular expression for a sentence with `{names}` in it."""
+    parts = re.split(r"\{(\w+)\}", sentence)
+    return "".join(f"(?P<{part}>.+?)" if index % 2 else re.escape(part) for index, part in enumerate(parts))
