@@ -18,7 +18,7 @@ const STREAMING_MS = 3000;
 
 function shown({ value, type }: DeviceProperty): string {
   if (typeof value === "number") return formatNumber(value, type === "integer" || Number.isInteger(value) ? 0 : 1);
-  return value === null ? "–" : String(value);
+  return value === null || value === "" ? "–" : String(value);
 }
 
 interface PropertyCardProps {
