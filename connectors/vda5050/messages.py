@@ -65,12 +65,13 @@ class ActionState:
 
 @dataclass(frozen=True, slots=True)
 class VehicleError:
-    """Something that a vehicle complains of; FATAL means that it needs a person."""
+    """Something that a vehicle complains of; FATAL means that it needs a person. `hint` came with 2.1."""
 
     type: str
     level: Level
     text: str
     references: tuple[tuple[str, str], ...]
+    hint: str = ""
 
     def names(self, key: str) -> str | None:
         """Return what it refers to under a key, None when it does not."""
@@ -79,7 +80,8 @@ class VehicleError:
     @property
     def sentence(self) -> str:
         """What it says, for people."""
-        return f"{self.type}: {self.text}" if self.text else self.type
+        said = f"{self.type}: {self.text}" if self.text else self.type
+        return f"{said} ({self.hint})" if self.hint else said
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,5 +221,9 @@ def _error(fields: Fields) -> VehicleError:
         fields.refuse("errorLevel", "WARNING or FATAL")
     references = tuple((r.told("referenceKey"), r.told("referenceValue")) for r in fields.each("errorReferences"))
     return VehicleError(
-        fields.text("errorType", needed=True), cast("Level", level), fields.told("errorDescription"), references
+        fields.text("errorType", needed=True),
+        cast("Level", level),
+        fields.told("errorDescription"),
+        references,
+        fields.told("errorHint"),
     )

@@ -10,6 +10,7 @@ import pytest
 
 from registry.describing import read_description
 from tests.bus import Ear
+from tests.integration.connectors.modern_vehicle import VERSION, ModernVehicle
 from tests.integration.connectors.vehicles import (
     Connector,
     Server,
@@ -19,7 +20,7 @@ from tests.integration.connectors.vehicles import (
 )
 from tests.servers import run_mosquitto
 
-SERIALS = ("1", "2", "3", "4", "5", "6", "7")
+SERIALS = ("1", "2", "3", "4", "5", "6", "7", "modern")
 ACCOUNTS = {"server": "secret of the server", "join:hall": "the key of the door"} | {
     f"Acme-{serial}": f"the word of Acme-{serial}" for serial in SERIALS
 }
@@ -231,3 +232,52 @@ def test_a_connector_that_is_killed_goes_on_where_it_was(connector: Connector, j
     assert server.wait_ack("a")["st"] == "DONE"
     assert server.wait_ack("b")["st"] == "DONE"
     server.wait_state(loc=[5.0, 4.0, 0.0, 0.5], done=True)
+
+
+@pytest.fixture
+def modern(connector: Connector) -> Iterator[tuple[ModernVehicle, Server]]:
+    """Give a vehicle that speaks 2.1, once it is a device."""
+    with Ear(connector.vipo.port, ACCOUNTS["server"]) as ear:
+        vehicle, server = ModernVehicle(connector.vehicles_port, "modern"), Server(ear, "Acme-modern")
+        vehicle.start()
+        try:
+            server.wait_presence("online")
+            server.wait_state(done=True)
+            yield vehicle, server
+        finally:
+            vehicle.stop()
+
+
+def test_a_vehicle_of_2_1_drives_carries_pauses_is_cancelled_and_refuses_with_a_hint(
+    modern: tuple[ModernVehicle, Server],
+) -> None:
+    vehicle, server = modern
+    found = read_description(server.ear.wait(lambda h: h.topic == server.up("desc")).payload, device_id="Acme-modern")
+    assert (found.device_class, found.capacity, [m.name for m in found.methods]) == (
+        "carrier",
+        1,
+        ["move", "pick", "drop", "noop"],
+    )
+    server.tell("move", "a", path=[[3.0, 2.0], [5.0, 2.0]], ahead=[[5.0, 9.0]], **{"from": [1.0, 2.0]})
+    server.wait_ack("a", "ACCEPTED")
+    server.tell("move", "b", path=[[5.0, 4.0]], theta=1.57, speed=1.0, **{"from": [5.0, 2.0]})
+    assert [server.wait_ack("a")["st"], server.wait_ack("b")["st"]] == ["DONE", "DONE"]
+    server.wait_state(loc=[5.0, 4.0, 0.0, 1.57], done=True)
+    server.tell("pick", "take", object="EPAL", value=1)
+    assert server.wait_ack("take")["st"] == "DONE"
+    server.wait_state(load="EPAL:1")
+    server.tell("move", "far", path=[[99.0, 4.0]])
+    server.wait_state(driving=True)
+    server.tell("pause", "p", command="far")
+    assert server.wait_ack("p")["st"] == "DONE"
+    server.tell("resume", "r", command="far")
+    assert server.wait_ack("r")["st"] == "DONE"
+    server.tell("cancel", "c", command="far")
+    assert [server.wait_ack("far")["st"], server.wait_ack("c")["st"]] == ["CANCELED", "DONE"]
+    server.tell("move", "wall", path=[[101.0, 2.0]])
+    assert server.wait_ack("wall")["why"] == "noRouteError: there is a wall (drive round it)"
+    kinds = [[action["actionType"] for action in message["actions"]] for message in vehicle.instant]
+    assert [kind for (kind,) in kinds if kind != "factsheetRequest"] == ["startPause", "stopPause", "cancelOrder"]
+    assert {said["version"] for said in (*vehicle.orders, *vehicle.instant)} == {VERSION}
+    assert not any("instantActions" in message for message in vehicle.instant)
+    assert {node["nodePosition"]["mapId"] for order in vehicle.orders for node in order["nodes"]} == {"hall"}
