@@ -15,7 +15,7 @@ from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
 from registry import live
 from registry import services as registry
 from registry.capability import Description, Pose
-from registry.floor import machine_beside
+from registry.floor import FloorPlan, machine_beside
 
 _CHANGES_THAT_MATTER = ("lifecycle", "name", "methods", "gives", "takes", "capacity")
 
@@ -101,7 +101,9 @@ def fingerprint_of(surroundings: Surroundings) -> str:
         for name, facts in sorted(surroundings.devices.items())
     ]
     library = sorted((name, facts.name, sorted(facts.versions.items())) for name, facts in _known(surroundings).items())
-    return hashlib.sha256(repr((devices, sorted(surroundings.places.items()), library)).encode()).hexdigest()
+    floor = surroundings.floor
+    mark = floor.mark if isinstance(floor, FloorPlan) else ""
+    return hashlib.sha256(repr((devices, sorted(surroundings.places.items()), library, mark)).encode()).hexdigest()
 
 
 def _known(surroundings: Surroundings) -> Mapping[str, LibraryFacts]:
@@ -166,7 +168,7 @@ class DeviceWatch:
 
     def changes_programs(self, message: Mapping[str, Any]) -> bool:
         """Tell whether programs may read differently after this message."""
-        if message.get("type") in {"device_removed", "hello", "library"}:
+        if message.get("type") in {"device_removed", "hello", "library", "map"}:
             return True
         if message.get("type") != "device":
             return False

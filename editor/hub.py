@@ -24,7 +24,7 @@ from registry import live
 
 CLOSE_EMPTY_AFTER_S = 5.0
 FLUSH_LIMIT_S = 5.0
-_HEARD = {"device", "device_removed", "members", "programs", "library", "hello"}
+_HEARD = {"device", "device_removed", "map", "members", "programs", "library", "hello"}
 
 
 class Hub:

@@ -32,6 +32,7 @@ from execution.runs import (
     site_of_run,
     start_run,
 )
+from execution.site_maps import change_map
 from execution.stops import StopView, is_stopped, list_stops, press_stop, reset_stop
 from execution.ticking import tick
 
@@ -51,6 +52,7 @@ __all__ = [
     "call_method",
     "cancel_call",
     "cancel_run",
+    "change_map",
     "claim_commands",
     "disarm_program",
     "get_call",

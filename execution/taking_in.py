@@ -148,6 +148,8 @@ class Taker:
             execution.record_ack(
                 device=device, command_id=ack.command, status=ack.status, why=ack.why, result=ack.result, at=at
             )
+        elif kind == "map" and message.payload:
+            registry.ingest_map_part(device_id=device, payload=message.payload, at=at)
         elif message.payload:  # an empty one only takes a retained message away
             view = self._ingest(device, kind, message, at)
             if view is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
 import json
 from dataclasses import asdict
 from pathlib import Path
@@ -24,14 +23,13 @@ from registry.capability import Pose
 from registry.describing import write_description
 from registry.models import User
 from registry.rdf_text import CONTENT_TYPES, DescriptionForm
-from registry.ros_map import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap, write_pgm, write_yaml
+from registry.ros_map import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap
 from registry.shapes import (
     ApprovedDevice,
     DeviceEdit,
     DeviceEventShape,
     DeviceShape,
     Lifecycle,
-    MapShape,
     Me,
     NewCredential,
     SignIn,
@@ -43,7 +41,7 @@ from registry.views import device_to_json, site_to_json
 router = Router(tags=["registry"])
 
 
-def _sends(*content_types: str) -> dict[str, Any]:
+def sends(*content_types: str) -> dict[str, Any]:
     """Say in the OpenAPI file that a call answers with something else than JSON."""
     return {"responses": {200: {"content": {name: {"schema": {"type": "string"}} for name in content_types}}}}
 
@@ -127,59 +125,6 @@ def show_site(request: HttpRequest, slug: str) -> dict[str, Any]:
     return site_to_json(services.get_site(site=slug, role=access.role))
 
 
-@router.get("/sites/{slug}/map", response=MapShape)
-def show_map(request: HttpRequest, slug: str) -> dict[str, Any]:
-    """Show a site's map without its cells."""
-    require(signed_in(request), slug, "viewer")
-    found = services.get_map(site=slug)
-    grid = found.grid
-    return {
-        "version": found.version,
-        "width": grid.width,
-        "height": grid.height,
-        "resolution_m": grid.resolution_m,
-        "origin": {"x": grid.origin_x_m, "y": grid.origin_y_m, "yaw": 0.0},
-        "places": services.list_places(site=slug),
-        "walls": services.get_walls(grid),
-    }
-
-
-@router.get("/sites/{slug}/map/cells", openapi_extra=_sends("application/octet-stream"))
-def show_cells(request: HttpRequest, slug: str) -> HttpResponse:
-    """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown."""
-    require(signed_in(request), slug, "viewer")
-    found = services.get_map(site=slug)
-    tag = f'"{slug}-{found.version}"'
-    if request.headers.get("If-None-Match") == tag:
-        return HttpResponse(status=304)
-    response = HttpResponse(gzip.compress(found.grid.cells, 5, mtime=0), content_type="application/octet-stream")
-    response["Content-Encoding"] = "gzip"
-    response["ETag"] = tag
-    response["Cache-Control"] = "private, no-cache"
-    return response
-
-
-@router.get("/sites/{slug}/map.yaml", openapi_extra=_sends("application/yaml"))
-def download_yaml(request: HttpRequest, slug: str) -> HttpResponse:
-    """Send the map's header in the ROS form."""
-    require(signed_in(request), slug, "viewer")
-    body = write_yaml(services.get_map(site=slug).grid, f"{slug}.pgm")
-    return _download(body, f"{slug}.yaml", "application/yaml")
-
-
-@router.get("/sites/{slug}/map.pgm", openapi_extra=_sends("image/x-portable-graymap"))
-def download_pgm(request: HttpRequest, slug: str) -> HttpResponse:
-    """Send the map's image in the ROS form."""
-    require(signed_in(request), slug, "viewer")
-    return _download(write_pgm(services.get_map(site=slug).grid), f"{slug}.pgm", "image/x-portable-graymap")
-
-
-def _download(body: bytes, name: str, content_type: str) -> HttpResponse:
-    response = HttpResponse(body, content_type=content_type)
-    response["Content-Disposition"] = f'attachment; filename="{name}"'
-    return response
-
-
 @router.get("/sites/{slug}/devices", response=list[DeviceShape])
 def list_devices(request: HttpRequest, slug: str, lifecycle: Lifecycle | None = None) -> list[dict[str, Any]]:
     """List a site's devices, also those that wait for approval; retired ones only when asked for by `lifecycle`."""
@@ -202,7 +147,7 @@ def show_history(request: HttpRequest, slug: str, device_id: str) -> list[dict[s
     return [{**asdict(e), "at": e.at.isoformat()} for e in events]
 
 
-@router.get("/sites/{slug}/devices/{device_id}/rdf", openapi_extra=_sends(*CONTENT_TYPES.values()))
+@router.get("/sites/{slug}/devices/{device_id}/rdf", openapi_extra=sends(*CONTENT_TYPES.values()))
 def show_rdf(request: HttpRequest, slug: str, device_id: str, format: DescriptionForm = "turtle") -> HttpResponse:
     """Send a device's description as `turtle`, `n-triples`, `json-ld`, `td` or the `paper`'s message."""
     require(signed_in(request), slug, "viewer")

@@ -87,6 +87,15 @@ class DeviceLine:
         self._say("presence", self._presence(online=online), retain=True)
         self._last = None
 
+    @property
+    def is_introduced(self) -> bool:
+        """True while the device is connected and has said how it is."""
+        return self._client is not None and self._client.connected and self._last is not None
+
+    def say_map(self, part: bytes) -> None:
+        """Send a part of a robot's map."""
+        self._say("map", part)
+
     def answer(self, ack: AckMessage) -> None:
         """Answer a command."""
         self._say("ack", ack_payload(ack))

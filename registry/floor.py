@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from math import cos, hypot, pi, sin
+from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
@@ -211,6 +212,8 @@ class FloorPlan:
 
     def __init__(self, grid: Grid, devices: Iterable[Description] = ()) -> None:
         self.grid = grid
+        self.mark = f"{grid.width} {grid.origin_x_m} {grid.origin_y_m} {grid.resolution_m} {crc32(grid.cells)}"
+        """What tells this map from others, the same in all processes."""
         self._devices = tuple(devices)
         self.clearance_m = clearance_m(with_devices(grid, self._devices))
         self._regions: dict[float, NDArray[np.int32]] = {}

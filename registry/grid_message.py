@@ -1,21 +1,28 @@
-"""The map that a robot sends on `up/map`: parts in JSON, put together again with suspicion (docs/protocol.md)."""
+"""A robot's map on `up/map`: written as parts in JSON, and put together again with suspicion (docs/protocol.md)."""
 
 from __future__ import annotations
 
 import base64
 import binascii
+import json
 import zlib
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any
 
-from registry.floor import Grid
+from registry.floor import FREE, OCCUPIED, UNKNOWN, Grid
 from registry.wire import MAX_METRES, BadMessage, parse_json
 
 MAX_CELLS = 16_000_000
 MAX_SIDE = 8192
 MAX_PARTS = 400
+PART_BYTES = 9000
 _KNOWN = bytes([*range(101), 255])
+FREE_BELOW, OCCUPIED_ABOVE = 20, 65
+_KINDS = bytes(
+    FREE if cell < FREE_BELOW else OCCUPIED if OCCUPIED_ABOVE < cell <= 100 else UNKNOWN for cell in range(256)
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,33 +40,36 @@ class GridPart:
     packed: bytes
 
 
-@dataclass(slots=True)
-class GridAssembly:
-    """Collects the parts of one robot's newest map; memory stays bounded by the packet limit times MAX_PARTS."""
+def write_grid(grid: Grid, boot: int, number: int) -> Iterator[bytes]:
+    """Write a map as the messages of `up/map`, none of them over the packet limit."""
+    packed = zlib.compress(grid.cells, 9)
+    parts = -(-len(packed) // PART_BYTES)
+    head = {"boot": boot, "map": number, "parts": parts, "size": [grid.width, grid.height]}
+    place = {"resolution": grid.resolution_m, "origin": [grid.origin_x_m, grid.origin_y_m, 0]}
+    for part in range(parts):
+        cells = base64.b64encode(packed[part * PART_BYTES : (part + 1) * PART_BYTES]).decode()
+        yield json.dumps({**head, "part": part, **place, "cells": cells}, separators=(",", ":")).encode()
 
-    _first: GridPart | None = None
-    _packed: dict[int, bytes] = field(default_factory=dict)
 
-    def add(self, part: GridPart) -> Grid | None:
-        """Take in a part and return the map when it was the last that was missing; parts of older maps are ignored.
+def belong_together(first: GridPart, other: GridPart) -> bool:
+    """Tell whether two parts of the same map say the same of its size, place and number of parts."""
+    return _head(first) == _head(other)
 
-        Raises BadMessage when the parts do not fit together.
-        """
-        name = (part.boot, part.number)
-        first = self._first
-        if first is None or name > (first.boot, first.number):
-            self._first = first = part
-            self._packed = {}
-        if name < (first.boot, first.number):
-            return None
-        if _head(first) != _head(part):
-            raise BadMessage("The parts of the map tell of different sizes, places or numbers of parts.")
-        self._packed[part.part] = part.packed
-        if len(self._packed) < part.parts:
-            return None
-        packed = b"".join(self._packed[number] for number in range(part.parts))
-        self._packed = {}
-        return _grid(part, packed)
+
+def join_parts(parts: Iterable[GridPart]) -> Grid:
+    """Put all parts of a map together, in whatever order they are given; cells 0 to 100, or 255. Raises BadMessage."""
+    by_number = {part.part: part for part in parts}
+    first = next(iter(by_number.values()))
+    if not all(belong_together(first, part) for part in by_number.values()):
+        raise BadMessage("The parts of the map tell of different sizes, places or numbers of parts.")
+    if len(by_number) < first.parts:
+        raise BadMessage(f"The map has {len(by_number)} of its {first.parts} parts.")
+    return unpack_grid(first, b"".join(by_number[number].packed for number in range(first.parts)))
+
+
+def plain_grid(grid: Grid) -> Grid:
+    """Return a robot's grid with the three kinds of cells that maps have here, by map_server's usual thresholds."""
+    return replace(grid, cells=grid.cells.translate(_KINDS))
 
 
 def read_grid_part(payload: bytes) -> GridPart:
@@ -86,7 +96,8 @@ def _head(part: GridPart) -> tuple[Any, ...]:
     return part.parts, part.width, part.height, part.resolution_m, part.origin
 
 
-def _grid(part: GridPart, packed: bytes) -> Grid:
+def unpack_grid(part: GridPart, packed: bytes) -> Grid:
+    """Return the map of which one part and all packed cells are given; never unpacks more. Raises BadMessage."""
     if abs(part.origin[2]) > 1e-6:
         raise BadMessage("The map is turned; `origin` must have theta 0.")
     wanted = part.width * part.height
@@ -95,7 +106,7 @@ def _grid(part: GridPart, packed: bytes) -> Grid:
         cells = unpacker.decompress(packed, wanted + 1)
     except zlib.error:
         raise BadMessage("The cells are not packed with zlib.") from None
-    if len(cells) != wanted or not unpacker.eof:
+    if len(cells) != wanted or not unpacker.eof or unpacker.unused_data:
         raise BadMessage(f"The map has not the {wanted} cells that its size says.")
     if cells.translate(None, _KNOWN):
         raise BadMessage("A cell must be 0 to 100, or 255 for unknown.")

@@ -10,6 +10,9 @@ from django.db import models
 from django.db.models.functions import Lower
 
 from registry.alert_rows import DeviceAlert as DeviceAlert  # Django looks for models here
+from registry.robot_map_rows import RobotMap as RobotMap  # Django looks for models here
+from registry.robot_map_rows import RobotMapDraft as RobotMapDraft
+from registry.robot_map_rows import RobotMapPart as RobotMapPart
 from registry.thing_rows import ThingEvent as ThingEvent  # Django looks for models here
 
 
@@ -125,6 +128,7 @@ class SiteMap(models.Model):
     origin_y_m = models.FloatField()
     packed_cells = models.BinaryField()
     source = models.CharField(max_length=200, blank=True)
+    by = models.ForeignKey(User, null=True, on_delete=models.SET_NULL, related_name="+")
     created_at = models.DateTimeField(auto_now_add=True)
 
     class Meta:

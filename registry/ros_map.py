@@ -147,7 +147,7 @@ def _read_image(data: bytes) -> tuple[Shades, Shades | None]:
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             image = Image.open(io.BytesIO(data), formats=["PNG"])
-            _check_size(*image.size)
+            check_size(*image.size)
             return _lightness(image)
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise BadMap("The map's PNG image is damaged. Export it again.") from error
@@ -163,7 +163,8 @@ def _lightness(image: Image.Image) -> tuple[Shades, Shades | None]:
     return lightness, None if opaque else colours[:, :, 3].astype(np.float32) / np.float32(255)
 
 
-def _check_size(width: int, height: int) -> None:
+def check_size(width: int, height: int) -> None:
+    """Raise BadMap when a map has no cells, or more on a side than screens and planning take."""
     if width < 1 or height < 1:
         raise BadMap("The map's image is empty. Save the map again.")
     if width > MAX_SIDE or height > MAX_SIDE:
@@ -175,7 +176,7 @@ def _check_size(width: int, height: int) -> None:
 def _read_pgm(data: bytes) -> Shades:
     tokens, start = _pgm_tokens(data)
     width, height, maximum = tokens
-    _check_size(width, height)
+    check_size(width, height)
     if not 1 <= maximum <= 65535:
         raise BadMap(f"The PGM's largest value is {maximum}. It must lie between 1 and 65535.")
     values = _pgm_text(data[start:]) if data[:2] == b"P2" else _pgm_binary(data[start:], maximum)
@@ -246,7 +247,7 @@ def _upright(cells: Cells, header: Header) -> Grid:
     xs = [x + a * turn_x - b * turn_y for a, b in corners]
     ys = [y + a * turn_y + b * turn_x for a, b in corners]
     new_width, new_height = (int(np.ceil(round((max(v) - min(v)) / side, 6))) for v in (xs, ys))
-    _check_size(new_width, new_height)
+    check_size(new_width, new_height)
     right = min(xs) + (np.arange(new_width)[None, :] + 0.5) * side - x
     up = min(ys) + (np.arange(new_height)[:, None] + 0.5) * side - y
     columns = np.floor((right * turn_x + up * turn_y) / side).astype(np.int64)

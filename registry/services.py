@@ -51,8 +51,12 @@ from registry.joining import (
 )
 from registry.knocking import admit_newcomer
 from registry.people import check_sign_in, create_user
+from registry.robot_map_intake import ingest_map_part
+from registry.robot_maps import NoRobotMap, RobotMapFacts, RobotMapView, get_robot_map, get_robot_map_facts
 from registry.samples import flush_samples, note_samples, prune_samples
+from registry.site_maps import MapVersionView, compare_robot_map, list_map_versions, restore_map, use_robot_map
 from registry.sites import (
+    MapChanged,
     NoMap,
     create_site,
     create_site_from_map,
@@ -91,8 +95,11 @@ __all__ = [
     "DeviceEventView",
     "DeviceView",
     "Login",
+    "MapChanged",
+    "MapVersionView",
     "MapView",
     "NoMap",
+    "NoRobotMap",
     "NoSuchDevice",
     "NotApproved",
     "NotPending",
@@ -102,6 +109,8 @@ __all__ = [
     "Principal",
     "QueryAnswer",
     "Raised",
+    "RobotMapFacts",
+    "RobotMapView",
     "SaidDescription",
     "SaidState",
     "SeriesView",
@@ -112,6 +121,7 @@ __all__ = [
     "approve_device",
     "check_device_password",
     "check_sign_in",
+    "compare_robot_map",
     "count_dropped",
     "create_site",
     "create_site_from_map",
@@ -129,10 +139,13 @@ __all__ = [
     "get_device",
     "get_floor",
     "get_map",
+    "get_robot_map",
+    "get_robot_map_facts",
     "get_site",
     "get_walls",
     "ingest_description",
     "ingest_descriptions",
+    "ingest_map_part",
     "ingest_presence",
     "ingest_state",
     "ingest_states",
@@ -140,6 +153,7 @@ __all__ = [
     "list_broker_hashes",
     "list_device_events",
     "list_devices",
+    "list_map_versions",
     "list_open_alerts",
     "list_places",
     "list_sites",
@@ -161,6 +175,7 @@ __all__ = [
     "reject_device",
     "remove_member",
     "renew_join_key",
+    "restore_map",
     "retire_device",
     "revoke_credential",
     "rotate_credential",
@@ -172,5 +187,6 @@ __all__ = [
     "set_site_stop",
     "site_to_json",
     "update_device",
+    "use_robot_map",
     "watch_devices",
 ]

@@ -20,12 +20,21 @@ from registry.models import Device, Membership, Place, Site, SiteMap, User
 from registry.ros_map import read_map
 from registry.views import MapView, PlaceView, SiteView, StopView, effective_description
 
+MOST_VERSIONS = 50
+
 
 class NoMap(RegistryError):
     """The site has no map yet."""
 
     code = "no_map"
     status = 404
+
+
+class MapChanged(RegistryError):
+    """The map that somebody looked at is not the newest any more."""
+
+    code = "map_changed"
+    status = 409
 
 
 class BadName(RegistryError):
@@ -115,15 +124,24 @@ def create_site_from_map(*, name: str, yaml: bytes, image: bytes | None, admin: 
     grid = read_map(yaml, image)
     with transaction.atomic():
         view = create_site(name=name, admin=admin)
-        save_map(site=view.slug, grid=grid, source="upload")
+        save_map(site=view.slug, grid=grid, source="upload", by=admin)
     return get_site(site=view.slug, role=view.role)
 
 
-def save_map(*, site: str, grid: Grid, source: str = "") -> MapView:
-    """Make a grid the site's map, as a new version."""
+def save_map(
+    *, site: str, grid: Grid, source: str = "", by: User | None = None, replaces: int | None = None
+) -> MapView:
+    """Make a grid the site's map, as a new version, and tell browsers; the oldest beyond 50 versions are forgotten.
+
+    `replaces` is the version (0: none) that the caller has seen. Raises MapChanged when another one holds by now.
+    """
     with transaction.atomic():
         row = Site.objects.select_for_update().get(slug=site)
         latest = SiteMap.objects.filter(site=row).aggregate(models.Max("version"))["version__max"] or 0
+        if replaces is not None and replaces != latest:
+            raise MapChanged(
+                "Somebody has changed the site's map meanwhile. Look at it again, then decide.", {"why": "site"}
+            )
         saved = SiteMap.objects.create(
             site=row,
             version=latest + 1,
@@ -134,7 +152,10 @@ def save_map(*, site: str, grid: Grid, source: str = "") -> MapView:
             origin_y_m=grid.origin_y_m,
             packed_cells=zlib.compress(grid.cells, 6),
             source=source,
+            by=by,
         )
+        SiteMap.objects.filter(site=row, version__lte=saved.version - MOST_VERSIONS).delete()
+        transaction.on_commit(lambda: publish(site, {"type": "map", "version": saved.version}))
     return MapView(site, saved.version, grid)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from registry.capability import DeviceState, Pose, Scalar
@@ -44,6 +44,16 @@ class Face:
     def introduce(self) -> None:
         """Say who the device is and that it is here; its state follows with the next report."""
         self._line.introduce(self._device.source, online=True)
+
+    @property
+    def is_introduced(self) -> bool:
+        """True while the device is connected and has said how it is."""
+        return self._line.is_introduced
+
+    def send_map(self, messages: Iterable[bytes]) -> None:
+        """Send the parts of the robot's map."""
+        for message in messages:
+            self._line.say_map(message)
 
     def answer(self, ack: Ack) -> None:
         """Answer a command."""

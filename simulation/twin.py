@@ -16,7 +16,9 @@ from queue import Empty, SimpleQueue
 
 from registry.capability import Pose
 from registry.device_line import CameIn, Commanded, ConnectionMaker, LineEvent, Stopped
+from registry.floor import with_devices
 from simulation.face import Face, Look
+from simulation.laser import Mapper
 from simulation.services import DriverName, make_world
 from simulation.site_facts import SiteFacts
 from simulation.twin_memory import TwinMemory, read_memory, take_down, write_memory
@@ -61,6 +63,8 @@ class Twin:
             for d in plan.facts.devices
             if d.description.id in plan.voices
         }
+        self._mappers: dict[str, Mapper] = {}
+        self._mappers = self._make_mappers()
         self._lag_s = self._warned_s = 0.0
         self._saved_under_way: Mapping[str, object] = {}
 
@@ -85,6 +89,7 @@ class Twin:
             if now - saved >= SAVE_EVERY_S or self._world.under_way() != self._saved_under_way:
                 saved = now
                 self._save()
+            self._send_maps(now)
             if now - refreshed >= REFRESH_EVERY_S:
                 refreshed = now
                 self._refresh()
@@ -105,6 +110,8 @@ class Twin:
                 self._world.command(device, told.method, told.arguments, told.command)
             case CameIn(device=device):
                 self._faces[device].introduce()
+                if device in self._mappers:
+                    self._mappers[device].repeat()
             case Stopped(active=active) if active != self._held:
                 self._held = active
                 self._world.hold(active=active)
@@ -152,6 +159,21 @@ class Twin:
         if face is not None:
             face.answer(ack)
 
+    def _send_maps(self, now_s: float) -> None:
+        """Let each robot look round and send the map of what it has seen."""
+        robots = self._world.robots()
+        for name, mapper in self._mappers.items():
+            if self._faces[name].is_introduced:
+                self._faces[name].send_map(mapper.next_messages(robots[name].pose, now_s))
+
+    def _make_mappers(self) -> dict[str, Mapper]:
+        """Return a map-maker for each robot; to its laser, machines are obstacles like walls."""
+        described = [device.description for device in self._facts.devices]
+        floor = with_devices(self._facts.grid, described)
+        robots = [d.id for d in described if d.kind == "robot" and d.id in self._faces]
+        sent = {name: mapper.number for name, mapper in self._mappers.items()}
+        return {name: Mapper(floor, self._boots[name], sent.get(name, 0)) for name in robots}
+
     def _looks(self) -> dict[str, Look]:
         robots, readings, busy = self._world.robots(), self._world.readings(), self._world.busy()
         looks = {}
@@ -174,6 +196,7 @@ class Twin:
         self._facts = facts
         self._world = self._make_world(memory)
         self._world.hold(active=self._held)
+        self._mappers = self._make_mappers()
         log.info("The map or the place of a machine has changed; the pretend world was built anew.")
 
     def _make_world(self, memory: TwinMemory) -> World:

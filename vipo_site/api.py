@@ -11,10 +11,12 @@ from ninja.security import django_auth
 
 from editor.api import router as editor_router
 from execution.api import router as execution_router
+from execution.maps_api import router as map_changes_router
 from registry.alerts_api import router as alerts_router
 from registry.api import router as registry_router
 from registry.errors import VipoError
 from registry.history_api import router as history_router
+from registry.maps_api import router as maps_router
 from registry.mtconnect_api import router as mtconnect_router
 from registry.onboarding_api import router as onboarding_router
 from registry.sparql_api import router as sparql_router
@@ -63,8 +65,10 @@ api.add_router("", registry_router)
 api.add_router("", alerts_router)
 api.add_router("", history_router)
 api.add_router("", onboarding_router)
+api.add_router("", maps_router)
 api.add_router("", sparql_router)
 api.add_router("", things_router)
 api.add_router("", mtconnect_router)
 api.add_router("", editor_router)
 api.add_router("", execution_router)
+api.add_router("", map_changes_router)

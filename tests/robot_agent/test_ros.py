@@ -18,7 +18,7 @@ import pytest
 
 from registry.describing import read_description
 from registry.floor import Grid
-from registry.grid_message import GridAssembly, read_grid_part
+from registry.grid_message import join_parts, read_grid_part
 from tests.bus import Ear
 from tests.integration.connectors.vehicles import Server
 from tests.robot_agent.bridge_stand_in import BridgeStandIn
@@ -178,12 +178,10 @@ def test_the_robot_describes_itself_and_sends_its_map(server: Server) -> None:
     assert (found.name, found.kind, found.site, found.capacity) == ('TurtleBot "3"', "robot", "hall", 2)
     assert (found.radius_m, found.speed_m_s, found.pose.x, found.pose.y) == (0.18, 0.5, 1.0, 2.0)
     assert [m.name for m in found.methods] == ["move", "pick", "drop"]
-    assembly, grid = GridAssembly(), None
-    server.ear.wait(lambda h: h.topic == server.up("map") and h.json["part"] == h.json["parts"] - 1, 60)
-    for heard in server.ear.all("/map"):
-        if heard.topic == server.up("map"):
-            assert len(heard.payload) < 16_000
-            grid = assembly.add(read_grid_part(heard.payload)) or grid
+    last = server.ear.wait(lambda h: h.topic == server.up("map") and h.json["part"] == h.json["parts"] - 1, 60).json
+    heard = [h for h in server.ear.all("/map") if h.topic == server.up("map") and h.json["map"] == last["map"]]
+    assert all(len(h.payload) < 16_000 for h in heard)
+    grid = join_parts([read_grid_part(h.payload) for h in heard])
     assert grid == Grid(WIDTH, HEIGHT, 0.05, -1.0, -2.0, bytes(cell & 0xFF for cell in map_cells()))
 
 

@@ -26,6 +26,8 @@ CHANGED_S = 0.2
 PART_EVERY_S = 0.1
 MAP_EVERY_S = 10.0
 """A map that grows is sent at most that often: each is sent whole."""
+MAP_AGAIN_S = 600.0
+"""One that stays as it is is sent that often: what a robot says before it is approved is not kept."""
 
 
 class Navigation(ABC):
@@ -179,7 +181,8 @@ class Agent:
         now = time.monotonic()
         if self._grid is None or not self._link.is_connected or now - self._part_s < PART_EVERY_S:
             return
-        if self._map_due and not self._parts and (not self._map_s or now - self._map_s >= MAP_EVERY_S):
+        since_s = now - self._map_s if self._map_s else MAP_AGAIN_S
+        if not self._parts and since_s >= (MAP_EVERY_S if self._map_due else MAP_AGAIN_S):
             self._map_due, self._map_s = False, now
             self._map_number += 1
             self._parts = list(write_grid(self._grid, self._boot, self._map_number))

@@ -59,12 +59,16 @@ async function getMe(): Promise<Me> {
   return me;
 }
 
-async function getMap(slug: string): Promise<SiteMap> {
-  const [info, cells] = await Promise.all([
-    api.get<SiteMapInfo>(`/sites/${slug}/map`),
-    api.bytes(`/sites/${slug}/map/cells`),
-  ]);
-  return { ...info, cells };
+/** The cells of a version never change: those that are known are not fetched again, and stay the same array. */
+async function getMap(slug: string, known: SiteMap | undefined): Promise<SiteMap> {
+  const getInfo = () => api.get<SiteMapInfo>(`/sites/${slug}/map`);
+  const getCells = () => api.bytes(`/sites/${slug}/map/cells`);
+  if (!known) {
+    const [info, cells] = await Promise.all([getInfo(), getCells()]);
+    return { ...info, cells };
+  }
+  const info = await getInfo();
+  return { ...info, cells: info.version === known.version ? known.cells : await getCells() };
 }
 
 /** A query that waits until its subject is known. */
@@ -83,7 +87,11 @@ export const useSite = (slug: Maybe) =>
     at(slug, (s) => `/sites/${s}`),
   );
 export const useSiteMap = (slug: Maybe) =>
-  useQuery({ queryKey: keys.map(slug ?? ""), queryFn: slug ? () => getMap(slug) : skipToken, staleTime: Infinity });
+  useQuery({
+    queryKey: keys.map(slug ?? ""),
+    queryFn: slug ? ({ client, queryKey }) => getMap(slug, client.getQueryData<SiteMap>(queryKey)) : skipToken,
+    staleTime: Infinity,
+  });
 export const useDevices = (slug: Maybe) =>
   useGet<Device[]>(
     keys.devices(slug ?? ""),

@@ -760,26 +760,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/sites/{slug}/describe": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Look At Description
-         * @description Say what VIPO would make of a description, and what is wrong with it; nothing is kept.
-         */
-        post: operations["registry_onboarding_api_look_at_description"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/sites/{slug}/devices": {
         parameters: {
             query?: never;
@@ -792,26 +772,6 @@ export interface paths {
          * @description List a site's devices, also those that wait for approval; retired ones only when asked for by `lifecycle`.
          */
         get: operations["registry_api_list_devices"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{slug}/devices.ttl": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Export Devices
-         * @description Give the descriptions of all devices of a site as one Turtle file.
-         */
-        get: operations["registry_onboarding_api_export_devices"];
         put?: never;
         post?: never;
         delete?: never;
@@ -928,6 +888,106 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/devices/{device_id}/map": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Robot Map
+         * @description Show the newest map that a robot has sent, without its cells.
+         */
+        get: operations["registry_maps_api_show_robot_map"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices/{device_id}/map.pgm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Robot Pgm
+         * @description Send the image of a robot's map in the ROS form.
+         */
+        get: operations["registry_maps_api_download_robot_pgm"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices/{device_id}/map.yaml": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Robot Yaml
+         * @description Send the header of a robot's map in the ROS form.
+         */
+        get: operations["registry_maps_api_download_robot_yaml"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices/{device_id}/map/cells": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Robot Cells
+         * @description Send the cells of a robot's map: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown.
+         */
+        get: operations["registry_maps_api_show_robot_cells"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices/{device_id}/map/difference": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Difference
+         * @description Show what would change at the site if the robot's map became its own.
+         */
+        get: operations["registry_maps_api_show_difference"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/devices/{device_id}/rdf": {
         parameters: {
             query?: never;
@@ -1008,66 +1068,6 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/sites/{slug}/devices/{device_id}/topics/confirm": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Confirm
-         * @description Let an approved device be told a method on the topic outside of `vipo/` that it asks for.
-         */
-        post: operations["registry_api_confirm"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{slug}/devices/{device_id}/topics/withdraw": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Withdraw
-         * @description Take the confirmation of a topic back; the device asks for it again.
-         */
-        post: operations["registry_api_withdraw"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{slug}/join-key": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Renew Join Key
-         * @description Make a new join key for a site's newcomers, and tell it this once; the old one ends.
-         */
-        post: operations["registry_onboarding_api_renew_join_key"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
     "/api/sites/{slug}/library": {
         parameters: {
             query?: never;
@@ -1099,7 +1099,7 @@ export interface paths {
          * Show Map
          * @description Show a site's map without its cells.
          */
-        get: operations["registry_api_show_map"];
+        get: operations["registry_maps_api_show_map"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1119,7 +1119,7 @@ export interface paths {
          * Download Pgm
          * @description Send the map's image in the ROS form.
          */
-        get: operations["registry_api_download_pgm"];
+        get: operations["registry_maps_api_download_pgm"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1139,7 +1139,7 @@ export interface paths {
          * Download Yaml
          * @description Send the map's header in the ROS form.
          */
-        get: operations["registry_api_download_yaml"];
+        get: operations["registry_maps_api_download_yaml"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1159,7 +1159,67 @@ export interface paths {
          * Show Cells
          * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown.
          */
-        get: operations["registry_api_show_cells"];
+        get: operations["registry_maps_api_show_cells"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/map/from-device": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Use Robot Map
+         * @description Make a robot's map the site's, as a new version; places and devices stay. Refused while anything is under way.
+         */
+        post: operations["execution_maps_api_use_robot_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/map/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Map
+         * @description Use an older version of the site's map again, as a new version. Refused while anything is under way.
+         */
+        post: operations["execution_maps_api_restore_map"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/map/versions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Versions
+         * @description List the versions of a site's map, the one that holds first; the newest 50 are kept.
+         */
+        get: operations["registry_maps_api_list_versions"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1282,26 +1342,6 @@ export interface paths {
         get: operations["registry_mtconnect_api_sample_of_device"];
         put?: never;
         post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/sites/{slug}/newcomers": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Add Newcomer
-         * @description Reserve an id for a device that will come, and tell its key this once; it still waits for approval then.
-         */
-        post: operations["registry_onboarding_api_add_newcomer"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1474,7 +1514,6 @@ export interface components {
         /** @description A device that was let in; `credential` is its new key, told this once, null where it keeps the one it has. */
         ApprovedDevice: {
             activity: components["schemas"]["Activity"] | null;
-            asks: components["schemas"]["MethodShape"][];
             capacity: number;
             carrying: {
                 [key: string]: number;
@@ -1582,6 +1621,10 @@ export interface components {
             before: string;
             path: string;
         };
+        /** @description The version that holds now. */
+        ChangedMap: {
+            version: number;
+        };
         /** @description A compiled program; `lines` has the step of each line of the script, or an empty text. */
         CompiledShape: {
             added_moves: string[];
@@ -1624,10 +1667,6 @@ export interface components {
             /** @enum {string} */
             role: "viewer" | "operator" | "author" | "admin";
         };
-        /** @description A description in any form. */
-        DescriptionText: {
-            text: string;
-        };
         /** @description What people may say of a device; fields that are left out stay. */
         DeviceEdit: {
             location?: components["schemas"]["PoseShape"] | null;
@@ -1652,7 +1691,6 @@ export interface components {
         /** @description A device as it is now. */
         DeviceShape: {
             activity: components["schemas"]["Activity"] | null;
-            asks: components["schemas"]["MethodShape"][];
             capacity: number;
             carrying: {
                 [key: string]: number;
@@ -1727,12 +1765,6 @@ export interface components {
                 [key: string]: components["schemas"]["ZoneShape"];
             };
         };
-        /** @description A site's new join key, told this once; the one before has ended. */
-        Door: {
-            broker: string;
-            join_key: string;
-            site: string;
-        };
         /**
          * @description What a script came to: `document` is what the program would be, null while the script is not valid or stale.
          *
@@ -1755,13 +1787,6 @@ export interface components {
             x: number;
             y: number;
         };
-        /** @description What a device is set up with; `credential` is its key, told this once, `broker` may be empty. */
-        ExpectedDevice: {
-            broker: string;
-            credential: string;
-            id: string;
-            site: string;
-        };
         /** @description A Value and the line for it, with its type and unit as far as they are known. */
         ExpressionShape: {
             names: components["schemas"]["LineName"][];
@@ -1779,13 +1804,6 @@ export interface components {
             step: string;
             text?: string | null;
             value?: unknown;
-        };
-        /** @description One thing that is wrong: a sentence, and where: a line and column from 1 (0: none), or a path into JSON. */
-        FaultShape: {
-            column: number;
-            line: number;
-            path: string;
-            text: string;
         };
         /** @description A field of the request that does not fit, and why. */
         FieldProblem: {
@@ -1875,19 +1893,19 @@ export interface components {
             t: number;
             text: string;
         };
-        /** @description What VIPO makes of a description; with `faults` the rest is null or empty. */
-        LookShape: {
-            description: {
-                [key: string]: unknown;
-            } | null;
-            faults: components["schemas"]["FaultShape"][];
-            form: ("turtle" | "n-triples" | "json-ld" | "td" | "paper") | null;
-            notes: string[];
-            turtle: string;
-        };
         /** @description What a machine did. */
         MachineFigures: {
             busy_s: number;
+        };
+        /** @description What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres. */
+        MapDifferenceShape: {
+            floor_gained_m2: number;
+            floor_lost_m2: number;
+            replaces: number;
+            troubles: components["schemas"]["MapTroubleShape"][];
+            version: number;
+            walls_gained_m2: number;
+            walls_lost_m2: number;
         };
         /** @description A site's map without its cells. */
         MapShape: {
@@ -1902,6 +1920,25 @@ export interface components {
                 number,
                 number
             ][];
+            width: number;
+        };
+        /** @description A machine or place that a map does not suit, and whether it is so only with that map. */
+        MapTroubleShape: {
+            id: string;
+            is_new: boolean;
+            kind: string;
+            name: string;
+            /** @enum {string} */
+            why: "outside" | "walled" | "unreachable";
+        };
+        /** @description One version of a site's map; `source` is `upload`, `demo`, `robot:<id>`, `version:<number>` or empty. */
+        MapVersionShape: {
+            at: string;
+            by: string;
+            height: number;
+            resolution_m: number;
+            source: string;
+            version: number;
             width: number;
         };
         /** @description Who asks, and what their next request needs. */
@@ -1926,10 +1963,6 @@ export interface components {
         NewCredential: {
             credential: string;
             taken: boolean;
-        };
-        /** @description The id of a device that will come. */
-        NewDevice: {
-            id: string;
         };
         /** @description Where the grid's bottom left corner is, in metres and radians. */
         Origin: {
@@ -2045,7 +2078,6 @@ export interface components {
         };
         /** @description A program as lists show it. */
         ProgramShape: {
-            devices: string[];
             /** Format: date-time */
             edited_at: string;
             edited_by: components["schemas"]["Author"] | null;
@@ -2165,6 +2197,11 @@ export interface components {
             status: "waiting" | "running" | "done" | "failed" | "skipped";
             step: string;
         };
+        /** @description Which version of the site's map is to hold again, and which one held when that was decided. */
+        RestoreMap: {
+            replaces: number;
+            version: number;
+        };
         /** @description What a function gives back. */
         ResultShape: {
             type: string;
@@ -2177,6 +2214,18 @@ export interface components {
             busy_s: number;
             distance_m: number;
             wait_s: number;
+        };
+        /** @description A robot's newest map without its cells; `known` is a share from 0 to 1. */
+        RobotMapShape: {
+            at: string;
+            changed_at: string;
+            device: string;
+            height: number;
+            known: number;
+            origin: components["schemas"]["Origin"];
+            resolution_m: number;
+            version: number;
+            width: number;
         };
         /** @description A role: bound to a robot, or to any that can do what is named. */
         RoleShape: {
@@ -2381,9 +2430,11 @@ export interface components {
             at: string | null;
             by: string;
         };
-        /** @description A topic that a device asks for, exactly as it names it. */
-        Topic: {
-            topic: string;
+        /** @description Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none). */
+        UseRobotMap: {
+            device: string;
+            replaces: number;
+            version: number;
         };
         /** @description What a version is about. */
         VersionMessage: {
@@ -3768,41 +3819,6 @@ export interface operations {
             };
         };
     };
-    registry_onboarding_api_look_at_description: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                slug: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["DescriptionText"];
-            };
-        };
-        responses: {
-            /** @description OK */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["LookShape"];
-                };
-            };
-            /** @description A refusal */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
     registry_api_list_devices: {
         parameters: {
             query?: {
@@ -3823,37 +3839,6 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DeviceShape"][];
-                };
-            };
-            /** @description A refusal */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    registry_onboarding_api_export_devices: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                slug: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description OK */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "text/turtle": string;
                 };
             };
             /** @description A refusal */
@@ -4099,6 +4084,166 @@ export interface operations {
             };
         };
     };
+    registry_maps_api_show_robot_map: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RobotMapShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_maps_api_download_robot_pgm: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/x-portable-graymap": string;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_maps_api_download_robot_yaml: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/yaml": string;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_maps_api_show_robot_cells: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": string;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_maps_api_show_difference: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapDifferenceShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     registry_api_show_rdf: {
         parameters: {
             query?: {
@@ -4233,109 +4378,6 @@ export interface operations {
             };
         };
     };
-    registry_api_confirm: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                slug: string;
-                device_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["Topic"];
-            };
-        };
-        responses: {
-            /** @description OK */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["DeviceShape"];
-                };
-            };
-            /** @description A refusal */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    registry_api_withdraw: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                slug: string;
-                device_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["Topic"];
-            };
-        };
-        responses: {
-            /** @description OK */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["DeviceShape"];
-                };
-            };
-            /** @description A refusal */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    registry_onboarding_api_renew_join_key: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                slug: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description OK */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["Door"];
-                };
-            };
-            /** @description A refusal */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
     editor_api_save_function: {
         parameters: {
             query?: never;
@@ -4371,7 +4413,7 @@ export interface operations {
             };
         };
     };
-    registry_api_show_map: {
+    registry_maps_api_show_map: {
         parameters: {
             query?: never;
             header?: never;
@@ -4402,7 +4444,7 @@ export interface operations {
             };
         };
     };
-    registry_api_download_pgm: {
+    registry_maps_api_download_pgm: {
         parameters: {
             query?: never;
             header?: never;
@@ -4433,7 +4475,7 @@ export interface operations {
             };
         };
     };
-    registry_api_download_yaml: {
+    registry_maps_api_download_yaml: {
         parameters: {
             query?: never;
             header?: never;
@@ -4464,7 +4506,7 @@ export interface operations {
             };
         };
     };
-    registry_api_show_cells: {
+    registry_maps_api_show_cells: {
         parameters: {
             query?: never;
             header?: never;
@@ -4482,6 +4524,107 @@ export interface operations {
                 };
                 content: {
                     "application/octet-stream": string;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    execution_maps_api_use_robot_map: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["UseRobotMap"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChangedMap"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    execution_maps_api_restore_map: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RestoreMap"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChangedMap"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_maps_api_list_versions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapVersionShape"][];
                 };
             };
             /** @description A refusal */
@@ -4695,41 +4838,6 @@ export interface operations {
                 content: {
                     "application/xml": string;
                     "multipart/x-mixed-replace": string;
-                };
-            };
-            /** @description A refusal */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    registry_onboarding_api_add_newcomer: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                slug: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["NewDevice"];
-            };
-        };
-        responses: {
-            /** @description Created */
-            201: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["ExpectedDevice"];
                 };
             };
             /** @description A refusal */

@@ -1,6 +1,7 @@
 /** Writes what a site's socket says into the query caches and the live store. */
 import type { QueryClient } from "@tanstack/react-query";
 import { keys } from "@/api/queries";
+import { forgetSiteMap, mapKeys } from "@/api/robotMaps";
 import type { ArmedProgram, Device, Question, Rehearsal, Run, RunEvent, RunSummary, Site, SiteStop } from "@/api/types";
 import { applyChanges, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
 import type { DeviceChange, LiveMessage } from "./messages";
@@ -29,6 +30,10 @@ export class SiteFeed {
         return this.#device(message.device);
       case "device_removed":
         return this.#removed(message.id);
+      case "map":
+        return forgetSiteMap(this.queries, this.slug);
+      case "robot_map":
+        return this.#robotMap(message.device);
       case "compiled":
         return this.#compiled(message);
       case "run":
@@ -64,10 +69,12 @@ export class SiteFeed {
 
   /** After each (new) greeting the state is fetched anew: what happened meanwhile was missed. */
   #refresh(): void {
-    const stale = [keys.devices, keys.site, keys.runs, keys.programs, keys.questions, keys.armed].map(
+    const stale = [keys.devices, keys.site, keys.map, keys.runs, keys.programs, keys.questions, keys.armed].map(
       (key) => key(this.slug) as readonly string[],
     );
-    const open = ["run", "run-events", "rehearsal", "compiled"].map((name) => [name]);
+    const open = ["run", "run-events", "rehearsal", "compiled", "robot-map", "map-difference", "map-versions"].map(
+      (name) => [name],
+    );
     for (const queryKey of [...stale, ...open]) void this.queries.invalidateQueries({ queryKey });
   }
 
@@ -105,6 +112,11 @@ export class SiteFeed {
   #removed(id: string): void {
     this.queries.setQueryData<Device[]>(keys.devices(this.slug), (all) => all?.filter((each) => each.id !== id));
     this.#siteChanged();
+  }
+
+  #robotMap(device: string): void {
+    const stale = [mapKeys.robot(this.slug, device), mapKeys.difference(this.slug, device)];
+    for (const queryKey of stale) void this.queries.invalidateQueries({ queryKey });
   }
 
   #compiled({ type: _, program, ...compiled }: Extract<LiveMessage, { type: "compiled" }>): void {

@@ -17,6 +17,8 @@ export type LiveMessage =
   | { type: "hello"; site: string }
   | { type: "device"; device: DeviceChange }
   | { type: "device_removed"; id: string }
+  | { type: "map"; version: number }
+  | { type: "robot_map"; device: string; version: number }
   | ({ type: "compiled"; program: string } & Compiled)
   | { type: "run"; run: RunSummary }
   | { type: "run_event"; run: string; event: RunEvent }

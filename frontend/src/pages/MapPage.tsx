@@ -15,6 +15,7 @@ import { formatNumber, withUnit } from "@/i18n/format";
 import { StaticMap } from "@/map/StaticMap";
 import { MovableMachine } from "./devices/MovableMachine";
 import { freeArea, knownShare } from "./mapFacts";
+import { MapVersions } from "./MapVersions";
 import styles from "./MapPage.module.css";
 
 function Facts({ map }: { map: SiteMap }) {
@@ -120,6 +121,7 @@ function MapView({ site, map, moving }: { site: Site; map: SiteMap; moving: bool
         <h2>{t("pages.map.about")}</h2>
         <Facts map={map} />
         <Places map={map} />
+        <MapVersions site={site} />
       </Panel>
     </div>
   );

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from registry.floor import Grid
-from registry.grid_message import GridAssembly, read_grid_part
+from registry.grid_message import join_parts, plain_grid, read_grid_part
 from registry.wire import BadMessage
 from tests.servers import ROOT
 
@@ -34,27 +34,32 @@ def parts(content: bytes = CELLS, count: int = 1, **changes: Any) -> list[bytes]
     ]
 
 
-def put_together(messages: list[bytes]) -> list[Grid | None]:
-    assembly = GridAssembly()
-    return [assembly.add(read_grid_part(message)) for message in messages]
+def put_together(messages: list[bytes]) -> Grid:
+    return join_parts([read_grid_part(message) for message in messages])
 
 
 def test_the_protocols_example_is_read() -> None:
     text = (ROOT / "docs" / "protocol.md").read_text()
     example = text.split("vipo/v1/dev/robot01/up/map ", 1)[1].split("\n", 1)[0]
-    assert put_together([example.strip().encode()]) == [Grid(3, 2, 0.05, -1.0, 2.5, CELLS)]
+    assert put_together([example.strip().encode()]) == Grid(3, 2, 0.05, -1.0, 2.5, CELLS)
 
 
 @given(st.permutations(range(4)))
 def test_parts_may_come_in_any_order(order: list[int]) -> None:
     said = parts(count=4)
-    assert put_together([said[n] for n in order]) == [None, None, None, Grid(3, 2, 0.05, -1.0, 2.5, CELLS)]
+    assert put_together([said[n] for n in order]) == Grid(3, 2, 0.05, -1.0, 2.5, CELLS)
 
 
-def test_a_newer_map_takes_the_place_of_one_that_is_not_whole_and_older_parts_are_ignored() -> None:
-    old, new = parts(count=2), parts(count=2, map=2)
-    found = put_together([old[0], new[0], old[1], new[1]])
-    assert found == [None, None, None, Grid(3, 2, 0.05, -1.0, 2.5, CELLS)]
+def test_a_part_that_came_twice_counts_once_and_one_that_is_missing_is_missed() -> None:
+    said = parts(count=3)
+    assert put_together([*said, said[1]]) == Grid(3, 2, 0.05, -1.0, 2.5, CELLS)
+    with pytest.raises(BadMessage, match="The map has 2 of its 3 parts"):
+        put_together([said[0], said[2], said[0]])
+
+
+def test_shades_become_the_three_kinds_of_cells_that_maps_have() -> None:
+    shades = Grid(6, 1, 0.05, 0.0, 0.0, bytes([0, 19, 20, 65, 66, 255]))
+    assert plain_grid(shades).cells == bytes([0, 0, 255, 255, 100, 255])
 
 
 @pytest.mark.parametrize(
@@ -88,6 +93,12 @@ def test_cells_that_mean_nothing_are_refused() -> None:
 def test_what_unpacks_to_more_than_its_size_is_not_unpacked() -> None:
     with pytest.raises(BadMessage, match="The map has not the 6 cells"):
         put_together(parts(b"\0" * 10_000_000))
+
+
+def test_what_stands_behind_the_cells_is_refused() -> None:
+    packed = base64.b64encode(zlib.compress(CELLS) + b"more").decode()
+    with pytest.raises(BadMessage, match="The map has not the 6 cells"):
+        put_together(parts(cells=packed))
 
 
 def test_parts_that_do_not_fit_together_are_refused() -> None:

@@ -6,9 +6,27 @@ from tests.servers import ROOT
 
 sys.path.insert(0, str(ROOT / "firmware" / "robot_agent"))
 
-from vipo_agent.config import BadConfig, make_config
+from vipo_agent.agent import Agent, Navigation
+from vipo_agent.config import BadConfig, Config, make_config
 from vipo_agent.core import Core, Facts, Go, Halt
 from vipo_agent.description import describe
 from vipo_agent.messages import Grid, Told, write_grid
 
-__all__ = ["BadConfig", "Core", "Facts", "Go", "Grid", "Halt", "Told", "describe", "make_config", "write_grid"]
+RobotGrid = Grid
+
+__all__ = [
+    "Agent",
+    "BadConfig",
+    "Config",
+    "Core",
+    "Facts",
+    "Go",
+    "Grid",
+    "Halt",
+    "Navigation",
+    "RobotGrid",
+    "Told",
+    "describe",
+    "make_config",
+    "write_grid",
+]

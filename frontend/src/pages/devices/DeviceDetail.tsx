@@ -21,6 +21,7 @@ import { LiveProperties } from "./LiveProperties";
 import { Methods } from "./Methods";
 import { RdfSource } from "./RdfSource";
 import { RenameDevice } from "./RenameDevice";
+import { RobotMapCard } from "./RobotMapCard";
 import { UsedIn, useUsedIn } from "./UsedIn";
 import styles from "./detail.module.css";
 
@@ -83,6 +84,7 @@ function Overview({ site, device }: { site: Site; device: Device }) {
       {device.description ? <p>{device.description}</p> : null}
       <KeyTrouble device={device} />
       <LiveProperties site={site} device={device} />
+      {device.kind === "robot" && device.lifecycle === "approved" ? <RobotMapCard site={site} device={device} /> : null}
       <Methods site={site} device={device} />
       <div className={styles.pair}>
         <RdfSource slug={site.slug} device={device.id} />

@@ -1,0 +1,112 @@
+/** The maps that robots send, the versions of a site's map, and what changes from one to another. */
+import { skipToken, useMutation, useQuery, useQueryClient, type QueryClient } from "@tanstack/react-query";
+import { api, ApiProblem } from "./client";
+import { keys } from "./queries";
+
+export interface RobotMapInfo {
+  device: string;
+  version: number;
+  width: number;
+  height: number;
+  resolution_m: number;
+  origin: { x: number; y: number; yaw: number };
+  /** 0 to 1: how much of it is known. */
+  known: number;
+  at: string;
+  changed_at: string;
+}
+
+/** With its cells: row by row from the bottom row, 0 free, 100 wall, 255 unknown. */
+export interface RobotMap extends RobotMapInfo {
+  cells: Uint8Array;
+}
+
+export interface MapTrouble {
+  id: string;
+  name: string;
+  kind: string;
+  why: "outside" | "walled" | "unreachable";
+  is_new: boolean;
+}
+
+/** Square metres; `version` is of the robot's map, `replaces` of the site's (0: it has none). */
+export interface MapDifference {
+  version: number;
+  replaces: number;
+  floor_gained_m2: number;
+  floor_lost_m2: number;
+  walls_gained_m2: number;
+  walls_lost_m2: number;
+  troubles: MapTrouble[];
+}
+
+/** `source`: `upload`, `demo`, `robot:<id>`, `version:<number>` or empty. */
+export interface MapVersion {
+  version: number;
+  width: number;
+  height: number;
+  resolution_m: number;
+  source: string;
+  by: string;
+  at: string;
+}
+
+export type MapChange =
+  | { do: "use"; device: string; version: number; replaces: number }
+  | { do: "restore"; version: number; replaces: number };
+
+export const mapKeys = {
+  robot: (slug: string, device: string) => ["robot-map", slug, device] as const,
+  difference: (slug: string, device: string) => ["map-difference", slug, device] as const,
+  differences: (slug: string) => ["map-difference", slug] as const,
+  versions: (slug: string) => ["map-versions", slug] as const,
+};
+
+const pathOf = (slug: string, device: string) => `/sites/${slug}/devices/${encodeURIComponent(device)}/map`;
+
+export const robotMapFile = (slug: string, device: string, form: "yaml" | "pgm") =>
+  `/api${pathOf(slug, device)}.${form}`;
+
+async function getRobotMap(slug: string, device: string): Promise<RobotMap | null> {
+  const path = pathOf(slug, device);
+  try {
+    const [info, cells] = await Promise.all([api.get<RobotMapInfo>(path), api.bytes(`${path}/cells`)]);
+    return { ...info, cells };
+  } catch (error) {
+    if (error instanceof ApiProblem && error.code === "no_robot_map") return null;
+    throw error;
+  }
+}
+
+/** The newest map of a robot; null when it has sent none. */
+export const useRobotMap = (slug: string, device: string) =>
+  useQuery({ queryKey: mapKeys.robot(slug, device), queryFn: () => getRobotMap(slug, device) });
+
+export const useMapDifference = (slug: string, device: string) =>
+  useQuery({
+    queryKey: mapKeys.difference(slug, device),
+    queryFn: () => api.get<MapDifference>(`${pathOf(slug, device)}/difference`),
+    staleTime: 0,
+  });
+
+export const useMapVersions = (slug: string, wanted: boolean) =>
+  useQuery({
+    queryKey: mapKeys.versions(slug),
+    queryFn: wanted ? () => api.get<MapVersion[]>(`/sites/${slug}/map/versions`) : skipToken,
+  });
+
+/** Fetch anew what depends on the site's map. */
+export function forgetSiteMap(queries: QueryClient, slug: string): void {
+  const stale = [keys.map(slug), keys.site(slug), keys.sites, mapKeys.versions(slug), mapKeys.differences(slug)];
+  for (const queryKey of stale) void queries.invalidateQueries({ queryKey });
+}
+
+/** Change the site's map; whatever comes of it, what is shown of it is fetched anew. */
+export function useChangeMap(slug: string) {
+  const queries = useQueryClient();
+  return useMutation({
+    mutationFn: ({ do: act, ...body }: MapChange) =>
+      api.post<{ version: number }>(`/sites/${slug}/map/${act === "use" ? "from-device" : "restore"}`, body),
+    onSettled: () => forgetSiteMap(queries, slug),
+  });
+}

@@ -1,0 +1,221 @@
+"""A site's map is changed by what a robot has sent, and back: only at rest, in versions, and programs go on."""
+
+import json
+from datetime import UTC, datetime, timedelta
+
+import pytest
+from django.test import Client
+
+from editor import services as editor
+from editor.language.plan import End, Instruction, Move, PlaceRef, Plan
+from execution import services
+from execution.models import Command, FloorState, Run
+from registry import live
+from registry import services as registry
+from registry.floor import Grid
+from registry.models import Device, SiteMap
+from tests.integration.execution.test_api import ERRAND, ROLES, SITE, member, send
+from tests.integration.execution.test_runs import ANY, CARRY, status
+from tests.unit.execution import demo_floor
+from tests.unit.robot_agent.agent import RobotGrid, write_grid
+
+pytestmark = pytest.mark.django_db(transaction=True)
+AT = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
+PLAN = demo_floor.grid()
+MARGIN = 8
+
+
+def widened(grid=PLAN, cells=None):
+    """Return the grid with unknown cells all round, as a robot's map has them: every cell gets another number."""
+    rows = [grid.cells[row * grid.width : (row + 1) * grid.width] for row in range(grid.height)]
+    side, width = b"\xff" * MARGIN, grid.width + 2 * MARGIN
+    empty = [b"\xff" * width] * MARGIN
+    origin = (grid.origin_x_m - MARGIN * grid.resolution_m, grid.origin_y_m - MARGIN * grid.resolution_m)
+    whole = b"".join([*empty, *(side + row + side for row in rows), *empty])
+    return Grid(width, grid.height + 2 * MARGIN, grid.resolution_m, *origin, whole)
+
+
+def say_map(grid, number=1, robot="robot01"):
+    said = RobotGrid(grid.width, grid.height, grid.resolution_m, (grid.origin_x_m, grid.origin_y_m, 0.0), grid.cells)
+    at = AT + timedelta(seconds=20 * number)
+    for message in write_grid(said, 1, number):
+        registry.ingest_map_part(device_id=robot, payload=message, at=at)
+
+
+def use(client, version=1, replaces=1, robot="robot01"):
+    return send(client, f"/sites/{SITE}/map/from-device", {"device": robot, "version": version, "replaces": replaces})
+
+
+def walled(x1, y1, x2, y2):
+    """Return the plan with a block of wall; metres."""
+    cells = bytearray(PLAN.cells)
+    (row1, column1), (row2, column2) = PLAN.cell_of(x1, y1), PLAN.cell_of(x2, y2)
+    for row in range(row1, row2):
+        cells[row * PLAN.width + column1 : row * PLAN.width + column2] = b"\x64" * (column2 - column1)
+    return Grid(PLAN.width, PLAN.height, PLAN.resolution_m, PLAN.origin_x_m, PLAN.origin_y_m, bytes(cells))
+
+
+def test_a_robots_map_becomes_the_sites_and_the_one_before_can_be_chosen_again(factory):
+    say_map(widened())
+    client, news = member("admin"), []
+    before = client.get(f"/api/sites/{SITE}/map").json()
+    devices = client.get(f"/api/sites/{SITE}/devices").json()
+    stop = live.listen(lambda _, message: news.append(message))
+    assert use(client).json() == {"version": 2}
+    after = client.get(f"/api/sites/{SITE}/map").json()
+    assert (after["version"], after["width"]) == (2, PLAN.width + 2 * MARGIN)
+    assert after["places"] == before["places"]
+    assert after["walls"] == before["walls"]
+    assert client.get(f"/api/sites/{SITE}/devices").json() == devices
+    assert registry.get_map(site=SITE).grid == widened()
+    body = {"version": 1, "replaces": 2}
+    assert send(client, f"/sites/{SITE}/map/restore", body).json() == {"version": 3}
+    stop()
+    assert registry.get_map(site=SITE).grid == PLAN
+    assert [m for m in news if m["type"] == "map"] == [{"type": "map", "version": 2}, {"type": "map", "version": 3}]
+    listed = client.get(f"/api/sites/{SITE}/map/versions").json()
+    assert [(v["version"], v["source"], v["by"]) for v in listed] == [
+        (3, "version:1", "Admin"),
+        (2, "robot:robot01", "Admin"),
+        (1, "test", ""),
+    ]
+
+
+def test_runs_go_on_over_the_new_map(factory):
+    first = factory.start(drive_to("itemInventory01"))
+    factory.go(lambda: status(first) == "finished")
+    factory.go(lambda: not Command.objects.filter(status__in=Command.OPEN).exists())
+    commands = set(Command.objects.values_list("id", flat=True))
+    say_map(widened())
+    assert use(member("admin")).json() == {"version": 2}
+    second = factory.start(drive_to("paintInventory01"))
+    factory.go(lambda: status(second) == "finished")
+    assert Command.objects.exclude(id__in=commands).exists()
+
+
+def drive_to(device):
+    return Plan((Instruction(Move("robot", PlaceRef(device=device)), "s1", 1), Instruction(End())), ANY)
+
+
+def test_a_stop_goes_on_over_the_new_map(factory):
+    services.press_stop(site=SITE, by="Ada")
+    factory.work()
+    say_map(widened())
+    assert use(member("admin")).status_code == 200
+    factory.work()
+    state = FloorState.objects.get(site__slug=SITE).state
+    assert (state["stopped"], services.is_stopped(site=SITE)) == (True, True)
+
+
+def test_nothing_changes_while_a_run_is_open_or_a_device_is_at_work(factory):
+    say_map(widened())
+    client = member("admin")
+    run = factory.start(CARRY)
+    refused = use(client)
+    assert (refused.status_code, refused.json()["code"]) == (409, "not_possible_now")
+    assert refused.json()["args"] == {"why": "map_runs", "runs": "1", "count": 1}
+    Run.objects.filter(id=run).update(status="cancelled")
+    factory.offline.add("paintMixer02")
+    call = services.call_method(site=SITE, device_id="paintMixer02", method="mixPaint", arguments={"time": 1}, by="A")
+    refused = send(client, f"/sites/{SITE}/map/restore", {"version": 1, "replaces": 1})
+    assert refused.json()["args"] == {"why": "map_busy", "device": "paintMixer02"}
+    assert SiteMap.objects.count() == 1
+    Command.objects.filter(id=call["id"]).update(status="done")
+    assert use(client).status_code == 200
+
+
+def test_what_was_not_looked_at_is_not_taken(factory):
+    say_map(widened())
+    say_map(widened(), 2)
+    client = member("admin")
+    for answer in (use(client, version=1), use(client, version=2, replaces=0)):
+        assert (answer.status_code, answer.json()["code"]) == (409, "map_changed")
+    assert use(client, version=2, replaces=7).json()["detail"].startswith("Somebody has changed the site's map")
+    assert (use(client, robot="robot02").status_code, use(client, robot="no\0body").status_code) == (404, 404)
+    lost = send(client, f"/sites/{SITE}/map/restore", {"version": 9, "replaces": 1})
+    assert (lost.status_code, lost.json()["code"]) == (404, "no_map")
+    assert use(client, version=10**30).status_code == 422
+    assert SiteMap.objects.count() == 1
+
+
+def test_a_map_that_is_too_long_for_planning_is_refused(factory):
+    say_map(Grid(5000, 2, 0.05, 0.0, 0.0, bytes(10_000)))
+    answer = use(member("admin"))
+    assert (answer.status_code, answer.json()["code"]) == (422, "bad_map")
+    assert SiteMap.objects.count() == 1
+
+
+def test_programs_are_checked_anew_on_the_new_map(factory):
+    program = editor.create_program(site=SITE, name="Errand", document=ERRAND).id
+    client = member("admin")
+    assert errors(client, program) == 0
+    x, y = next((d.pose.x, d.pose.y) for d in demo_floor.devices() if d.id == "paintMachine01")
+    say_map(walled(x - 3.0, y - 3.0, x + 3.0, y + 3.0))
+    assert use(client).status_code == 200
+    assert errors(client, program) > 0
+    assert send(client, f"/sites/{SITE}/map/restore", {"version": 1, "replaces": 2}).status_code == 200
+    assert errors(client, program) == 0
+
+
+def errors(client, program):
+    listed = client.get(f"/api/sites/{SITE}/programs").json()
+    return next(p["errors"] for p in listed if p["id"] == str(program))
+
+
+def test_the_difference_says_what_would_change_and_whom_it_would_trouble(factory):
+    x, y = next((d.pose.x, d.pose.y) for d in demo_floor.devices() if d.id == "paintMachine01")
+    say_map(walled(x - 1.0, y - 1.0, x + 1.0, y + 1.0))
+    told = member("viewer").get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
+    assert (told["version"], told["replaces"]) == (1, 1)
+    assert told["floor_lost_m2"] == told["walls_gained_m2"] > 3
+    assert (told["floor_gained_m2"], told["walls_lost_m2"]) == (0, 0)
+    assert {"id": "paintMachine01", "name": "Painting Booth", "kind": "machine", "why": "walled", "is_new": True} in [
+        {**trouble, "name": "Painting Booth"} for trouble in told["troubles"]
+    ]
+
+
+@pytest.mark.parametrize("role", ["nobody", "stranger", *ROLES])
+def test_each_call_is_open_to_its_role_and_above(factory, role):
+    say_map(PLAN)
+    client = Client() if role == "nobody" else member(role)
+    robot = f"/api/sites/{SITE}/devices/robot01/map"
+    shown = [robot, f"{robot}/cells", f"{robot}.yaml", f"{robot}.pgm", f"{robot}/difference"]
+    seen = [client.get(path).status_code for path in (*shown, f"/api/sites/{SITE}/map/versions")]
+    assert set(seen) == {{"nobody": 401, "stranger": 404}.get(role, 200)}
+    changed = [use(client), send(client, f"/sites/{SITE}/map/restore", {"version": 1, "replaces": 2})]
+    wanted = {"nobody": 401, "stranger": 404, "admin": 200}.get(role, 403)
+    assert [answer.status_code for answer in changed] == [wanted] * 2
+    assert SiteMap.objects.count() == (3 if role == "admin" else 1)
+
+
+def test_a_robots_map_is_shown_as_the_sites_is(factory):
+    say_map(PLAN)
+    client = member("viewer")
+    robot = f"/api/sites/{SITE}/devices/robot01/map"
+    told = client.get(robot).json()
+    assert (told["device"], told["version"], told["width"], told["resolution_m"]) == ("robot01", 1, PLAN.width, 0.05)
+    assert told["origin"] == {"x": PLAN.origin_x_m, "y": PLAN.origin_y_m, "yaw": 0.0}
+    cells = client.get(f"{robot}/cells")
+    again = client.get(f"{robot}/cells", headers={"If-None-Match": cells["ETag"]})
+    assert (cells["Content-Encoding"], again.status_code) == ("gzip", 304)
+    for form in ("yaml", "pgm"):
+        of_robot, of_site = client.get(f"{robot}.{form}"), client.get(f"/api/sites/{SITE}/map.{form}")
+        assert of_robot["Content-Disposition"] == f'attachment; filename="robot01.{form}"'
+        assert of_robot.content.replace(b"robot01", SITE.encode()) == of_site.content
+    Device.objects.filter(pk="robot02").update(lifecycle="retired")
+    for other in ("robot02", "robot03", "paintMachine01"):
+        assert client.get(f"/api/sites/{SITE}/devices/{other}/map").status_code == 404
+
+
+def test_only_the_newest_fifty_versions_are_kept(factory, monkeypatch):
+    monkeypatch.setattr("registry.sites.MOST_VERSIONS", 3)
+    for _ in range(4):
+        registry.save_map(site=SITE, grid=PLAN)
+    assert list(SiteMap.objects.order_by("version").values_list("version", flat=True)) == [3, 4, 5]
+
+
+def test_the_body_of_a_change_is_checked(factory):
+    client = member("admin")
+    for body in ({}, {"device": 3}, {"device": "x" * 65, "version": 1, "replaces": 0}):
+        assert send(client, f"/sites/{SITE}/map/from-device", body).status_code == 422
+    assert json.loads(use(client).content)["code"] == "no_robot_map"
