@@ -760,6 +760,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/describe": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Look At Description
+         * @description Say what VIPO would make of a description, and what is wrong with it; nothing is kept.
+         */
+        post: operations["registry_onboarding_api_look_at_description"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/devices": {
         parameters: {
             query?: never;
@@ -772,6 +792,26 @@ export interface paths {
          * @description List a site's devices, also those that wait for approval; retired ones only when asked for by `lifecycle`.
          */
         get: operations["registry_api_list_devices"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices.ttl": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Devices
+         * @description Give the descriptions of all devices of a site as one Turtle file.
+         */
+        get: operations["registry_onboarding_api_export_devices"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1068,6 +1108,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/devices/{device_id}/topics/confirm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Confirm
+         * @description Let an approved device be told a method on the topic outside of `vipo/` that it asks for.
+         */
+        post: operations["registry_api_confirm"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices/{device_id}/topics/withdraw": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Withdraw
+         * @description Take the confirmation of a topic back; the device asks for it again.
+         */
+        post: operations["registry_api_withdraw"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/join-key": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Renew Join Key
+         * @description Make a new join key for a site's newcomers, and tell it this once; the old one ends.
+         */
+        post: operations["registry_onboarding_api_renew_join_key"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/library": {
         parameters: {
             query?: never;
@@ -1348,6 +1448,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/newcomers": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Add Newcomer
+         * @description Reserve an id for a device that will come, and tell its key this once; it still waits for approval then.
+         */
+        post: operations["registry_onboarding_api_add_newcomer"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/programs": {
         parameters: {
             query?: never;
@@ -1514,6 +1634,7 @@ export interface components {
         /** @description A device that was let in; `credential` is its new key, told this once, null where it keeps the one it has. */
         ApprovedDevice: {
             activity: components["schemas"]["Activity"] | null;
+            asks: components["schemas"]["MethodShape"][];
             capacity: number;
             carrying: {
                 [key: string]: number;
@@ -1667,6 +1788,10 @@ export interface components {
             /** @enum {string} */
             role: "viewer" | "operator" | "author" | "admin";
         };
+        /** @description A description in any form. */
+        DescriptionText: {
+            text: string;
+        };
         /** @description What people may say of a device; fields that are left out stay. */
         DeviceEdit: {
             location?: components["schemas"]["PoseShape"] | null;
@@ -1691,6 +1816,7 @@ export interface components {
         /** @description A device as it is now. */
         DeviceShape: {
             activity: components["schemas"]["Activity"] | null;
+            asks: components["schemas"]["MethodShape"][];
             capacity: number;
             carrying: {
                 [key: string]: number;
@@ -1765,6 +1891,12 @@ export interface components {
                 [key: string]: components["schemas"]["ZoneShape"];
             };
         };
+        /** @description A site's new join key, told this once; the one before has ended. */
+        Door: {
+            broker: string;
+            join_key: string;
+            site: string;
+        };
         /**
          * @description What a script came to: `document` is what the program would be, null while the script is not valid or stale.
          *
@@ -1787,6 +1919,13 @@ export interface components {
             x: number;
             y: number;
         };
+        /** @description What a device is set up with; `credential` is its key, told this once, `broker` may be empty. */
+        ExpectedDevice: {
+            broker: string;
+            credential: string;
+            id: string;
+            site: string;
+        };
         /** @description A Value and the line for it, with its type and unit as far as they are known. */
         ExpressionShape: {
             names: components["schemas"]["LineName"][];
@@ -1804,6 +1943,13 @@ export interface components {
             step: string;
             text?: string | null;
             value?: unknown;
+        };
+        /** @description One thing that is wrong: a sentence, and where: a line and column from 1 (0: none), or a path into JSON. */
+        FaultShape: {
+            column: number;
+            line: number;
+            path: string;
+            text: string;
         };
         /** @description A field of the request that does not fit, and why. */
         FieldProblem: {
@@ -1893,6 +2039,16 @@ export interface components {
             t: number;
             text: string;
         };
+        /** @description What VIPO makes of a description; with `faults` the rest is null or empty. */
+        LookShape: {
+            description: {
+                [key: string]: unknown;
+            } | null;
+            faults: components["schemas"]["FaultShape"][];
+            form: ("turtle" | "n-triples" | "json-ld" | "td" | "paper") | null;
+            notes: string[];
+            turtle: string;
+        };
         /** @description What a machine did. */
         MachineFigures: {
             busy_s: number;
@@ -1963,6 +2119,10 @@ export interface components {
         NewCredential: {
             credential: string;
             taken: boolean;
+        };
+        /** @description The id of a device that will come. */
+        NewDevice: {
+            id: string;
         };
         /** @description Where the grid's bottom left corner is, in metres and radians. */
         Origin: {
@@ -2078,6 +2238,7 @@ export interface components {
         };
         /** @description A program as lists show it. */
         ProgramShape: {
+            devices: string[];
             /** Format: date-time */
             edited_at: string;
             edited_by: components["schemas"]["Author"] | null;
@@ -2429,6 +2590,10 @@ export interface components {
             active: boolean;
             at: string | null;
             by: string;
+        };
+        /** @description A topic that a device asks for, exactly as it names it. */
+        Topic: {
+            topic: string;
         };
         /** @description Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none). */
         UseRobotMap: {
@@ -3819,6 +3984,41 @@ export interface operations {
             };
         };
     };
+    registry_onboarding_api_look_at_description: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DescriptionText"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LookShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     registry_api_list_devices: {
         parameters: {
             query?: {
@@ -3839,6 +4039,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["DeviceShape"][];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_onboarding_api_export_devices: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/turtle": string;
                 };
             };
             /** @description A refusal */
@@ -4378,6 +4609,109 @@ export interface operations {
             };
         };
     };
+    registry_api_confirm: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Topic"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_api_withdraw: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Topic"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_onboarding_api_renew_join_key: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Door"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     editor_api_save_function: {
         parameters: {
             query?: never;
@@ -4838,6 +5172,41 @@ export interface operations {
                 content: {
                     "application/xml": string;
                     "multipart/x-mixed-replace": string;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_onboarding_api_add_newcomer: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewDevice"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExpectedDevice"];
                 };
             };
             /** @description A refusal */
