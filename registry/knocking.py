@@ -36,7 +36,7 @@ def admit_newcomer(*, site: str, device_id: str, payload: bytes, at: datetime) -
         device = Device.objects.select_for_update(of=("self",)).filter(pk=device_id).first()
         is_known = device is not None and hmac.compare_digest(device.credential_hash, secret_hash(key))
         if not is_known:
-            device = device or _make_row(device_id, row.pk, at)
+            device = device or make_row(device_id, row.pk, at)
             _require_keyless(device, row.pk)
             device.credential_hash, device.broker_hash = secret_hash(key), broker_hash(key)
             device.save(update_fields=["credential_hash", "broker_hash"])
@@ -45,7 +45,8 @@ def admit_newcomer(*, site: str, device_id: str, payload: bytes, at: datetime) -
     return not is_known
 
 
-def _make_row(device_id: str, site_id: int, at: datetime) -> Device:
+def make_row(device_id: str, site_id: int, at: datetime) -> Device:
+    """Return a newcomer's locked row, made where there is room for it. Raises BadDevice, BrokerAway."""
     _make_room(site_id, at)
     device, _ = Device.objects.select_for_update(of=("self",)).get_or_create(
         pk=device_id, defaults={"site_id": site_id, "first_seen_at": at}
