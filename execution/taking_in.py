@@ -101,6 +101,8 @@ class Taker:
                     self._note(entry.device, f"{kind}: {outcome.detail}")
                 elif outcome is not None:
                     self._pass_on(outcome, at)
+                    if kind == "desc":
+                        registry.note_mended(devices=[entry.device], code="description_refused")
         except (DatabaseError, InterfaceError):
             return False  # each is tried by itself then, and waits for a database that is away
         except Exception:  # the edge of the process: one device's message must not end all the others'

@@ -16,7 +16,7 @@ from tests.e2e.screens import ERRAND, SITE, ask, chip, draw_errand, make_program
 pytestmark = pytest.mark.browser
 
 AXE = Path(__file__).resolve().parents[2] / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
-RAW_KEY = re.compile(r"\b(?:shell|pages|map|editor|run|simulation)\.[a-z]\w+")
+RAW_KEY = re.compile(r"\b(?:alerts|shell|pages|map|editor|run|simulation)\.[a-z]\w+")
 SERIOUS = {"serious", "critical"}
 
 
@@ -60,6 +60,17 @@ def test_the_list_of_steps_is_walked_by_arrows(sign_in: SignIn) -> None:
     page.keyboard.press("ArrowDown")
     expect(rows.nth(1)).to_be_focused()
     expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Step 2")
+
+
+def test_the_bell_is_opened_and_closed_by_keyboard(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    bell = page.get_by_role("button", name=re.compile("^Alerts: nothing new|alerts? that nobody has seen"))
+    bell.focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("dialog", name="Alerts")).to_be_visible()
+    assert violations(page) == []
+    page.keyboard.press("Escape")
+    expect(bell).to_be_focused()
 
 
 @pytest.fixture(scope="package")

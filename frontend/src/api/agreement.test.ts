@@ -11,6 +11,7 @@ test("answers of the server can be read as the frontend's types", () => {
   expectTypeOf<Server["SiteShape"]>().toExtend<ours.Site>();
   expectTypeOf<Server["MapShape"]>().toExtend<ours.SiteMapInfo>();
   expectTypeOf<Server["DeviceShape"]>().toExtend<ours.Device>();
+  expectTypeOf<Server["AlertShape"]>().toExtend<ours.Alert>();
   expectTypeOf<Server["DeviceEventShape"]>().toExtend<ours.DeviceEvent>();
   expectTypeOf<Server["CallShape"]>().toExtend<ours.MethodCall>();
   expectTypeOf<Server["SeriesShape"]>().toExtend<ours.Series>();

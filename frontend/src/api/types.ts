@@ -1,5 +1,6 @@
 /** The shapes that cross the border to the server, as docs/architecture.md names them. */
 
+export type * from "./alerts";
 export type * from "./devices";
 export type * from "./maps";
 export type * from "./programs";

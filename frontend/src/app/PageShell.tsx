@@ -1,6 +1,7 @@
 /** The frame of the management pages: side bar, title bar with Stop all, page, and a pane for details. */
 import { useEffect, type ReactNode } from "react";
 import { useSiteLive } from "@/live/site";
+import { AlertsBell } from "./alerts/AlertsBell";
 import { ConnectionStrip } from "./ConnectionStrip";
 import { useCurrentSite } from "./currentSite";
 import { QuestionsBell } from "./questions/QuestionsBell";
@@ -34,6 +35,7 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
           <div className={styles.spring} />
           {actions}
           {slug ? <QuestionsBell slug={slug} /> : null}
+          {slug ? <AlertsBell slug={slug} /> : null}
           {slug ? <StopAllButton slug={slug} /> : null}
         </div>
         {slug ? <ConnectionStrip slug={slug} /> : null}

@@ -4,6 +4,7 @@ import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { Logo } from "@/design/Logo";
 import { ConnectionStrip } from "./ConnectionStrip";
+import { AlertsBell } from "./alerts/AlertsBell";
 import { QuestionsBell } from "./questions/QuestionsBell";
 import { StopAllButton } from "./StopAllButton";
 import styles from "./shell.module.css";
@@ -41,6 +42,7 @@ export function TopBar({ site, crumbs, chips, children, presence, actions }: Top
         {presence ? <div className={styles.presence}>{presence}</div> : null}
         {actions ? <div className={styles.group}>{actions}</div> : null}
         {site ? <QuestionsBell slug={site} /> : null}
+        {site ? <AlertsBell slug={site} /> : null}
         {site ? <StopAllButton slug={site} /> : null}
       </div>
       {site ? <ConnectionStrip slug={site} /> : null}

@@ -2,7 +2,19 @@
 import type { QueryClient } from "@tanstack/react-query";
 import { keys } from "@/api/queries";
 import { forgetSiteMap, mapKeys } from "@/api/robotMaps";
-import type { ArmedProgram, Device, Question, Rehearsal, Run, RunEvent, RunSummary, Site, SiteStop } from "@/api/types";
+import type {
+  Alert,
+  ArmedProgram,
+  Device,
+  Question,
+  Rehearsal,
+  Run,
+  RunEvent,
+  RunSummary,
+  Site,
+  SiteStop,
+} from "@/api/types";
+import { applyAlert } from "./alerts";
 import { applyChanges, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
 import type { DeviceChange, LiveMessage } from "./messages";
 import { recordDevice } from "./readings";
@@ -48,6 +60,11 @@ export class SiteFeed {
         return this.#question(message.question);
       case "notice":
         return this.#notice(message);
+      case "alert":
+        return this.#alert(message.alert);
+      case "alerts":
+        void this.queries.invalidateQueries({ queryKey: keys.alerts(this.slug) });
+        return;
       case "armed":
         this.queries.setQueryData<ArmedProgram[]>(keys.armed(this.slug), message.programs);
         return;
@@ -69,9 +86,16 @@ export class SiteFeed {
 
   /** After each (new) greeting the state is fetched anew: what happened meanwhile was missed. */
   #refresh(): void {
-    const stale = [keys.devices, keys.site, keys.map, keys.runs, keys.programs, keys.questions, keys.armed].map(
-      (key) => key(this.slug) as readonly string[],
-    );
+    const stale = [
+      keys.devices,
+      keys.site,
+      keys.map,
+      keys.runs,
+      keys.programs,
+      keys.questions,
+      keys.armed,
+      keys.alerts,
+    ].map((key) => key(this.slug) as readonly string[]);
     const open = ["run", "run-events", "rehearsal", "compiled", "robot-map", "map-difference", "map-versions"].map(
       (name) => [name],
     );
@@ -130,6 +154,11 @@ export class SiteFeed {
 
   #question(question: Question): void {
     this.queries.setQueryData<Question[]>(keys.questions(this.slug), (all) => applyQuestion(all ?? [], question));
+  }
+
+  #alert(alert: Alert): void {
+    this.queries.setQueryData<Alert[]>(keys.alerts(this.slug), (all) => all && applyAlert(all, alert));
+    if (alert.state === "over") void this.queries.invalidateQueries({ queryKey: keys.overAlerts(this.slug) });
   }
 
   #notice({ run, text, level }: Extract<LiveMessage, { type: "notice" }>): void {

@@ -1,5 +1,6 @@
 /** What `/ws/site/<slug>` says, and how a device changes by it; pure. */
 import type {
+  Alert,
   ArmedProgram,
   Compiled,
   Device,
@@ -24,6 +25,8 @@ export type LiveMessage =
   | { type: "run_event"; run: string; event: RunEvent }
   | { type: "question"; question: Question }
   | { type: "notice"; run: string; text: string; level: "info" | "warning" }
+  | { type: "alert"; alert: Alert }
+  | { type: "alerts" }
   | { type: "armed"; programs: ArmedProgram[] }
   | { type: "rehearsal"; id: string; status: RehearsalStatus; progress: number }
   | ({ type: "stop" } & SiteStop)

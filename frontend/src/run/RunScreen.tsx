@@ -14,6 +14,7 @@ import { ProgramMap } from "@/editor/ProgramMap";
 import { reasonWords } from "@/i18n/reasons";
 import { liveRobots } from "@/live/robots";
 import { useSiteLive } from "@/live/site";
+import { RunAlerts } from "./RunAlerts";
 import { RunActions, RunPill } from "./RunBar";
 import styles from "./RunScreen.module.css";
 import { ScriptLines } from "./ScriptLines";
@@ -64,6 +65,7 @@ function Notes({ run, problem }: { run: Run; problem: string | null }) {
           <b>{t(`run.status.${run.status}`)}</b> {reasonWords(run.cause, run.reason)}
         </p>
       )}
+      {OVER.includes(run.status) ? null : <RunAlerts run={run} />}
     </div>
   );
 }

@@ -5,6 +5,7 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate } from "react-router-dom";
 import type { Device, Site } from "@/api/types";
+import { DeviceAlerts } from "@/app/alerts/DeviceAlerts";
 import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
 import { StatusBadge } from "@/design/StatusBadge";
@@ -81,6 +82,7 @@ function Heading({ device }: { device: Device }) {
 function Overview({ site, device }: { site: Site; device: Device }) {
   return (
     <div className={styles.overview}>
+      <DeviceAlerts slug={site.slug} devices={[device.id]} />
       {device.description ? <p>{device.description}</p> : null}
       <KeyTrouble device={device} />
       <LiveProperties site={site} device={device} />

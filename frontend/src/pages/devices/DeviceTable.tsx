@@ -2,6 +2,7 @@ import { BatteryLow, BatteryMedium, BatteryFull } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import type { Device } from "@/api/types";
+import { AlertMark } from "@/app/alerts/DeviceAlerts";
 import { StatusBadge } from "@/design/StatusBadge";
 import { doingWords } from "@/i18n/doing";
 import { formatAge, formatNumber, withUnit } from "@/i18n/format";
@@ -41,6 +42,7 @@ function Row({ device, slug, chosen, now }: { device: Device; slug: string; chos
       </td>
       <td>
         <StatusBadge status={device.status}>{t(`shell.status.${device.status}`)}</StatusBadge>
+        <AlertMark slug={slug} device={device.id} />
       </td>
       <td className={styles.doing} title={doingWords(device)}>
         {device.status === "pending" ? t("pages.devices.notTrusted") : doingWords(device) || "–"}
