@@ -19,7 +19,7 @@ from registry.capability import (
     ValueType,
 )
 from registry.rdf_text import NAMESPACES, BadDescription
-from registry.triples import BLANK, FIRST, NIL, REST, Node, Text, Triples
+from registry.triples import BLANK, FIRST, NIL, RDF, REST, Node, Text, Triples
 from registry.wire import down_topic
 
 MOST_ITEMS = 256
@@ -30,6 +30,8 @@ def describe(triples: Triples) -> Description:
     """Return what the triples say of their one device. Raises BadDescription."""
     device, kind = _the_device(triples)
     own_id, radius = device.text("dct:identifier"), device.number("vipo:radius", 0.0)
+    if not own_id:
+        raise BadDescription('The description needs the device\'s id: dct:identifier "lamp01".')
     return Description(
         id=own_id,
         name=device.text("dct:title") or own_id,
@@ -146,8 +148,18 @@ def _the_device(triples: Triples) -> tuple[_Thing, DeviceKind]:
     found = [(node, kind) for short, kind in _KINDS.items() for node in triples.subjects_of(_full(short))]
     if len(found) != 1:
         count = "no" if not found else "more than one"
-        raise BadDescription(f"The description names {count} vipo:Machine or vipo:Robot. It needs exactly one.")
+        raise BadDescription(
+            f"The description names {count} vipo:Machine or vipo:Robot. It needs exactly one, such as "
+            f"'<urn:vipo:device:lamp01> a vipo:Machine', where vipo: is {NAMESPACES['vipo']}.{_kinds_said(triples)}"
+        )
     return _Thing(triples, found[0][0]), found[0][1]
+
+
+def _kinds_said(triples: Triples) -> str:
+    """Return what kinds of things are spoken of instead: a misspelt one is seen at once."""
+    kinds = {str(kind)[:100] for _, predicate, kind in triples if predicate == RDF + "type"}
+    said = sorted(kinds - {_full(short) for short in _KINDS})
+    return f" It speaks of {', '.join(said[:3])}." if said else ""
 
 
 def _pose(device: _Thing) -> Pose:

@@ -6,6 +6,7 @@ Nothing is ever fetched: JSON-LD contexts are the pinned ones or written out, an
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -16,6 +17,7 @@ from registry.triples import BLANK, RDF, Node, Text, Triple, Triples
 
 NOWHERE = "relative:/"
 """What an address that is not complete is completed with: a description has no address of its own."""
+_UNKNOWN_PREFIX = re.compile(r"The prefix (\S*:) has not been declared")
 _PLAIN = frozenset({"http://www.w3.org/2001/XMLSchema#string", RDF + "langString", RDF + "dirLangString"})
 
 
@@ -23,11 +25,11 @@ def read_turtle(text: str) -> Triples:
     """Return the triples of a text. Raises BadDescription."""
     check_turtle(text)
     says = "The description is not RDF (Turtle, N-Triples or JSON-LD)"
-    hint = "Look just before it for a missing dot, quote, bracket or prefix."
     try:
         return Triples(_plain(parse(text, RdfFormat.TURTLE, base_iri=NOWHERE)))
     except SyntaxError as error:
-        fault = Fault(f"{says}: {_reason(error)}. {hint}", error.lineno or 0, error.offset or 0)
+        reason = _reason(error)
+        fault = Fault(f"{says}: {reason}. {_remedy(reason)}", error.lineno or 0, error.offset or 0)
         raise BadDescription(fault) from error
 
 
@@ -64,3 +66,13 @@ def _reason(error: SyntaxError) -> str:
     """Return the parser's reason, without the place that it begins with."""
     place, _, reason = error.msg.partition(": ")
     return (reason if place.startswith("Parser error at") else error.msg).rstrip(".")[:120]
+
+
+def _remedy(reason: str) -> str:
+    """Return what mends what the parser complains of, as far as that can be told from its words."""
+    if reason.startswith(", "):
+        return "The members of a list, ( 1 2 3 ), have blanks between them and no commas."
+    if prefix := _UNKNOWN_PREFIX.match(reason):
+        said = f"@prefix {prefix[1]} <…> ."
+        return f"Begin the text with {said!r}; docs/protocol.md and registry/demo/devices/ have those that VIPO knows."
+    return "Look just before it for a missing dot, semicolon, quote, bracket or prefix."

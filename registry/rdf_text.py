@@ -106,6 +106,8 @@ def plain_text(payload: bytes) -> str:
         raise BadDescription("The description is not UTF-8.") from error
     if "\0" in text or "\\u0000" in text or "\\U00000000" in text:
         raise BadDescription("The description holds the character NUL. Remove it.")
+    if not text.strip():
+        raise BadDescription("The description is empty.")
     return text
 
 

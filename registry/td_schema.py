@@ -18,6 +18,13 @@ from registry.rdf_text import BadDescription, Fault
 
 SCHEMA = Path(__file__).parent / "schemas" / "thing-description-1.1.json"
 MOST_FAULTS = 5
+REMEDIES = {
+    "security": ' Such as "security": ["device_key"].',
+    "securityDefinitions": ' Such as "securityDefinitions": {"device_key": {"scheme": "basic"}}.',
+    "forms": ' Such as "forms": [{"href": "vipo/v1/dev/<id>/down/<action>"}].',
+    "title": ' Such as "title": "Lamp".',
+}
+"""What people leave out, and how it is said."""
 
 
 @cache
@@ -47,4 +54,5 @@ def check_thing(body: Any) -> None:
 def _fault(error: Any) -> Fault:
     path = "".join(f"/{str(part).replace('~', '~0').replace('/', '~1')}" for part in error.absolute_path)
     message = error.message if len(error.message) <= 200 else f"{error.message[:60]}…{error.message[-100:]}"
-    return Fault(f"The TD schema says: {message.rstrip('.')}.", path=path)
+    remedy = next((text for name, text in REMEDIES.items() if message == f"{name!r} is a required property"), "")
+    return Fault(f"The TD schema says: {message.rstrip('.')}.{remedy}", path=path)

@@ -134,7 +134,7 @@ BOMB = (
         (b"  <rdf:RDF xmlns:rdf='x'/>", "RDF/XML"),
         (b"\xff\xfe", "not UTF-8"),
         (b"hello there", "is not RDF"),
-        (b"", "no vipo:Machine"),
+        (b"", "is empty"),
         (b"{}", "no vipo:Machine"),
         (b"{", "not JSON"),
         (b'{"a":1,"a":2}', "twice"),

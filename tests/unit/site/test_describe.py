@@ -55,9 +55,15 @@ def test_describe_says_what_it_mended(capsys: pytest.CaptureFixture[str]) -> Non
         ('{"id": "m1",\n "size" 3}', ":2:9", "is not JSON"),
         ('{"id": 3}', ": /id", "needs text in quotes for id"),
         ('id: "m1"\nlocation: x\n', ":2:11", "needs a list of numbers for location"),
-        ('{"@context": "https://www.w3.org/2022/wot/td/v1.1"}', "", "'security' is a required property"),
+        ('{"@context": "https://www.w3.org/2022/wot/td/v1.1"}', "", "'security' is a required property. Such as"),
         ("<?xml version='1.0'?><rdf:RDF/>", "", "RDF/XML"),
-        ("", "", "no vipo:Machine"),
+        ("", "", "is empty"),
+        ("<urn:a> a <urn:vipo:ns#Maschine> .", "", "no vipo:Machine or vipo:Robot. It needs exactly one"),
+        ("<urn:a> a <urn:vipo:ns#Maschine> .", "", "It speaks of urn:vipo:ns#Maschine."),
+        ("<urn:a> a <urn:vipo:ns#Machine> .", "", 'needs the device\'s id: dct:identifier "lamp01".'),
+        ("<urn:a> <urn:b> ( 1, 2 ) .", ":1:20", "have blanks between them and no commas."),
+        ("<urn:a> td:name 1 .", ":1:9", "Begin the text with '@prefix td: <…> .'"),
+        ("<urn:a> <urn:b> 1\n<urn:c> 2 .", ":2:1", "missing dot, semicolon, quote"),
     ],
 )
 def test_a_broken_file_gives_code_1_and_sentences_with_places(
