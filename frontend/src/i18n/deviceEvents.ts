@@ -1,7 +1,7 @@
 /** A line of a device's history in the language of the screen; older lines are shown as they were written. */
 import i18next from "i18next";
 import type { DeviceEvent } from "@/api/devices";
-import { formatNumber } from "./format";
+import { formatPoint } from "./format";
 
 type Args = Readonly<Record<string, unknown>>;
 
@@ -21,6 +21,6 @@ function describedWords(parts: readonly Args[]): string {
 function wordsOf(key: string, args: Args): string | null {
   if (key.endsWith(".") || !i18next.exists(key)) return null;
   const { x, y } = args;
-  const place = typeof x === "number" && typeof y === "number" ? `${formatNumber(x, 2)} / ${formatNumber(y, 2)}` : "";
+  const place = typeof x === "number" && typeof y === "number" ? formatPoint(x, y) : "";
   return i18next.t(key, { ...args, place });
 }

@@ -1,6 +1,6 @@
 import i18next from "i18next";
 import { beforeEach, expect, test } from "vitest";
-import { formatAge, formatAgo, formatClock, formatNumber, formatSpan, withUnit } from "./format";
+import { formatAge, formatAgo, formatClock, formatNumber, formatPoint, formatSpan, withUnit } from "./format";
 import { unitSign } from "./units";
 
 const NOW = Date.parse("2026-01-10T12:00:00Z");
@@ -16,6 +16,12 @@ test("numbers follow the language", async () => {
   expect(formatNumber(1234.5, 1)).toBe("1,234.5");
   await i18next.changeLanguage("de");
   expect(formatNumber(1234.5, 1)).toBe("1.234,5");
+});
+
+test("the numbers of a place can be told apart in every language", async () => {
+  expect(formatPoint(2.2, -1.95)).toBe("2.20, -1.95");
+  await i18next.changeLanguage("de");
+  expect(formatPoint(2.2, -1.95)).toBe("2,20 / -1,95");
 });
 
 test("a unit stands behind a thin space, no unit behind nothing", () => {

@@ -19,6 +19,12 @@ export function formatNumber(value: number, digits = 0): string {
   }).format(value);
 }
 
+/** `2.20, -1.95`; with a stroke between them where the comma is the decimal sign. */
+export function formatPoint(x: number, y: number): string {
+  const [first, second] = [formatNumber(x, 2), formatNumber(y, 2)];
+  return `${first}${first.includes(",") ? " / " : ", "}${second}`;
+}
+
 /** `62 °C`. */
 export function withUnit(value: string, unit: string): string {
   return unit ? `${value}${THIN}${unit}` : value;

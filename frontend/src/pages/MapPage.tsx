@@ -1,5 +1,5 @@
 /** The site's map, large, with what there is to know about it and its ROS files. */
-import { Button, Skeleton } from "@mantine/core";
+import { Button, Menu, Skeleton } from "@mantine/core";
 import { Check, Download, MapPinned, Move } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
@@ -11,7 +11,7 @@ import type { Site, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
-import { formatNumber, withUnit } from "@/i18n/format";
+import { formatNumber, formatPoint, withUnit } from "@/i18n/format";
 import { StaticMap } from "@/map/StaticMap";
 import { MovableMachine } from "./devices/MovableMachine";
 import { freeArea, knownShare } from "./mapFacts";
@@ -27,7 +27,7 @@ function Facts({ map }: { map: SiteMap }) {
     ["known", withUnit(formatNumber(knownShare(map) * 100), "%")],
     ["resolution", withUnit(formatNumber(map.resolution_m * 100, 1), t("pages.map.perCell"))],
     ["cells", `${formatNumber(map.width)} × ${formatNumber(map.height)}`],
-    ["origin", `${formatNumber(map.origin.x, 2)}, ${formatNumber(map.origin.y, 2)}`],
+    ["origin", formatPoint(map.origin.x, map.origin.y)],
   ];
   return (
     <dl className={styles.facts}>
@@ -52,7 +52,7 @@ function Places({ map }: { map: SiteMap }) {
           <li key={place.id}>
             <span>{place.name}</span>
             <Chip>{t(`pages.map.kind.${place.kind}`, { defaultValue: place.kind })}</Chip>
-            <code>{`${formatNumber(place.x, 2)}, ${formatNumber(place.y, 2)}`}</code>
+            <code>{formatPoint(place.x, place.y)}</code>
           </li>
         ))}
       </ul>
@@ -63,20 +63,24 @@ function Places({ map }: { map: SiteMap }) {
 function Downloads({ slug }: { slug: string }) {
   const { t } = useTranslation();
   return (
-    <>
-      {(["yaml", "pgm"] as const).map((form) => (
+    <Menu position="bottom-end">
+      <Menu.Target>
         <Button
-          key={form}
-          component="a"
-          href={`/api/sites/${slug}/map.${form}`}
-          download
           variant="default"
-          leftSection={<Download size={16} />}
+          classNames={{ label: styles.actionLabel ?? "", section: styles.actionIcon ?? "" }}
+          leftSection={<Download size={16} aria-hidden="true" />}
         >
-          {t(`pages.map.download.${form}`)}
+          {t("pages.map.download.title")}
         </Button>
-      ))}
-    </>
+      </Menu.Target>
+      <Menu.Dropdown>
+        {(["yaml", "pgm"] as const).map((form) => (
+          <Menu.Item key={form} component="a" href={`/api/sites/${slug}/map.${form}`} download>
+            {t(`pages.map.download.${form}`)}
+          </Menu.Item>
+        ))}
+      </Menu.Dropdown>
+    </Menu>
   );
 }
 

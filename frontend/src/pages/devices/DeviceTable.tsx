@@ -5,7 +5,7 @@ import type { Device } from "@/api/types";
 import { AlertMark } from "@/app/alerts/DeviceAlerts";
 import { StatusBadge } from "@/design/StatusBadge";
 import { doingWords } from "@/i18n/doing";
-import { formatAge, formatNumber, withUnit } from "@/i18n/format";
+import { formatAge, formatNumber, formatPoint, withUnit } from "@/i18n/format";
 import { DeviceIcon } from "@/map/DeviceIcon";
 import pages from "../pages.module.css";
 import { useNow } from "../useNow";
@@ -48,7 +48,7 @@ function Row({ device, slug, chosen, now }: { device: Device; slug: string; chos
         {device.status === "pending" ? t("pages.devices.notTrusted") : doingWords(device) || "–"}
       </td>
       <td>
-        <code className={styles.position}>{`${formatNumber(x, 2)}, ${formatNumber(y, 2)}`}</code>
+        <code className={styles.position}>{formatPoint(x, y)}</code>
       </td>
       <td>{device.last_seen_at ? formatAge(device.last_seen_at, now) : t("pages.devices.never")}</td>
       <td className={styles.right}>

@@ -1,6 +1,6 @@
 import { Button, Tooltip } from "@mantine/core";
 import { Play } from "lucide-react";
-import { useState } from "react";
+import { Fragment, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, DeviceMethod, MethodParameter, Site } from "@/api/types";
 import { Chip } from "@/design/Chip";
@@ -14,7 +14,11 @@ function Parameter({ parameter }: { parameter: MethodParameter }) {
   const { t } = useTranslation();
   const { minimum, maximum, unit, options } = parameter;
   const range = minimum !== null && maximum !== null ? t("pages.devices.range", { minimum, maximum }) : "";
-  const facts = [unitSign(unit) || (options?.length ? "" : parameter.type), range, options?.join(", ")]
+  const facts = [
+    unitSign(unit) || (options?.length ? "" : t(`device.facts.type.${parameter.type}`)),
+    range,
+    options?.join(", "),
+  ]
     .filter(Boolean)
     .join(", ");
   return (
@@ -62,6 +66,20 @@ function TryButton({ site, device, method }: { site: Site; device: Device; metho
   );
 }
 
+/** A topic that goes on in the next line behind a stroke only. */
+function Topic({ topic }: { topic: string }) {
+  return (
+    <code className={styles.topic}>
+      {topic.split(/(?<=\/)/).map((level, index) => (
+        <Fragment key={index}>
+          {level}
+          <wbr />
+        </Fragment>
+      ))}
+    </code>
+  );
+}
+
 /** What a device can be told to do, with which values, under which topic. */
 export function Methods({ site, device }: { site: Site; device: Device }) {
   const { t } = useTranslation();
@@ -94,7 +112,7 @@ export function Methods({ site, device }: { site: Site; device: Device }) {
                   ))}
                 </td>
                 <td>
-                  <code className={styles.topic}>{method.topic}</code>
+                  <Topic topic={method.topic} />
                 </td>
                 {device.lifecycle === "approved" ? (
                   <td>
