@@ -26,6 +26,7 @@ SENTENCES: Mapping[str, str] = {
     "mended": "{text}",
     "renamed": "Renamed from {before} to {after}",
     "moved": "Moved to {x:.2f}, {y:.2f}",
+    "map": "Sent its map: {width} by {height} m",
     "described_first": "Described itself for the first time: {name}, {class}",
 }
 """The English of each code that is one sentence; a changed description is put together of `PARTS`."""

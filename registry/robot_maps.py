@@ -10,6 +10,7 @@ from django.db import transaction
 
 from registry.device_rows import write_event
 from registry.errors import RegistryError
+from registry.event_words import said
 from registry.floor import UNKNOWN, Grid
 from registry.grid_message import plain_grid
 from registry.joining import get_device
@@ -80,8 +81,8 @@ def _plain(value: object) -> object:
 def _note(device: Device, grid: Grid, at: datetime) -> None:
     """Write into the history that a map came, at most once an hour: a robot that explores sends one every 10 s."""
     if not DeviceEvent.objects.filter(device=device, kind="map", at__gt=at - EVENT_EVERY).exists():
-        width_m, height_m = grid.width * grid.resolution_m, grid.height * grid.resolution_m
-        write_event(device, at, "map", f"Sent its map: {width_m:.1f} by {height_m:.1f} m")
+        width_m, height_m = (round(cells * grid.resolution_m, 1) for cells in (grid.width, grid.height))
+        write_event(device, at, "map", said("map", width=width_m, height=height_m))
 
 
 def get_robot_map_facts(*, site: str, device_id: str) -> RobotMapFacts:

@@ -39,6 +39,7 @@ test("a device's own words stay as they are, in quotes; an unknown code leaves t
 });
 
 test("a line of a device's history is said in the language of the screen", () => {
+  expect(deviceEventWords(event("map", { width: 25, height: 14.4 }))).toBe("Hat seine Karte geschickt: 25 mal 14,4 m");
   expect(deviceEventWords(event("moved", { x: 1.5, y: -2 }))).toBe("Versetzt nach 1,50 / -2,00");
   const parts = [
     { code: "added_method", name: "mix" },
