@@ -11,7 +11,7 @@ from typing import Any
 from channels.db import database_sync_to_async
 from channels.generic.websocket import AsyncWebsocketConsumer
 
-from registry.access import find_access
+from registry.access import Access, find_access
 from registry.live import Message, subscribe
 
 SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_SLOW = 4401, 4403, 4404, 4503
@@ -26,6 +26,7 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
     browser reads too slowly); always after accepting, since a browser learns no code otherwise.
     """
 
+    _access: Access | None = None
     _reader: asyncio.Task[None] | None = None
     _writer: asyncio.Task[None] | None = None
 
@@ -58,7 +59,8 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         user = self.scope["user"]
         if not user.is_authenticated:
             return SIGNED_OUT
-        return 0 if find_access(user, self.site) else NOT_FOUND
+        self._access = find_access(user, self.site)
+        return 0 if self._access else NOT_FOUND
 
     async def _read(self) -> None:
         async with subscribe(self.site, limit=10 * MOST_WAITING) as messages:
@@ -69,9 +71,13 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
                     if await self._refusal():
                         await self.close(NOT_ALLOWED)
                         return
-                elif not self._put(message):
+                elif self._concerns(message) and not self._put(message):
                     await self.close(TOO_SLOW)
                     return
+
+    def _concerns(self, message: Message) -> bool:
+        """Tell whether whoever watches may know; some alerts are for admins alone."""
+        return message["type"] != "alert" or bool(self._access and self._access.allows(message["alert"]["role"]))
 
     def _put(self, message: Message) -> bool:
         """Keep a message for the writer; a device's changes are put on top of those that still wait."""

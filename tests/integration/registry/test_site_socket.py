@@ -47,6 +47,17 @@ async def test_members_hear_their_site_and_no_other(person: Callable[[str], User
         assert await socket.receive_json_from(5) == {"type": "run", "run": {"id": 1}}
 
 
+@pytest.mark.parametrize("role", ROLES)
+async def test_what_only_concerns_admins_is_told_to_admins_alone(person: Callable[[str], User], role: str) -> None:
+    told = [{"type": "alert", "alert": {"id": n, "role": least}} for n, least in enumerate(("admin", "viewer"))]
+    async with opened(await database_sync_to_async(person)(role)) as socket:
+        await socket.receive_json_from(5)
+        for message in told:
+            live.publish("hall", message)
+        expected = told if role == "admin" else told[1:]
+        assert [await socket.receive_json_from(5) for _ in expected] == expected
+
+
 async def test_strangers_and_the_signed_out_are_closed_with_a_code(person: Callable[[str], User]) -> None:
     stranger, admin = await database_sync_to_async(person)("stranger"), await database_sync_to_async(person)("admin")
     for user, site, code in ((AnonymousUser(), "hall", 4401), (stranger, "hall", 4404), (admin, "missing", 4404)):

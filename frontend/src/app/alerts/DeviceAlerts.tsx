@@ -2,6 +2,7 @@
 import { useRef } from "react";
 import { useTranslation } from "react-i18next";
 import { useDevices } from "@/api/queries";
+import type { Alert } from "@/api/types";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { AlertItem } from "./AlertItem";
 import { inState, sortAlerts, worstOf } from "./alerts";
@@ -56,9 +57,9 @@ export function DeviceAlerts({ slug, devices, brief }: DeviceAlertsProps) {
 }
 
 /** The sign that a device in a list has alerts. */
-export function AlertMark({ slug, device }: { slug: string; device: string }) {
+export function AlertMark({ own }: { own: readonly Alert[] | undefined }) {
   const { t } = useTranslation();
-  const own = useAlerts(slug).alerts.filter((alert) => alert.device === device);
+  if (!own) return null;
   const worst = worstOf(own);
   if (!worst) return null;
   const words = t("alerts.ofDevice", { count: own.length });

@@ -1,8 +1,11 @@
 import { BatteryLow, BatteryMedium, BatteryFull } from "lucide-react";
+import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import type { Device } from "@/api/types";
+import type { Alert, Device } from "@/api/types";
+import { byDevice } from "@/app/alerts/alerts";
 import { AlertMark } from "@/app/alerts/DeviceAlerts";
+import { useAlerts } from "@/app/alerts/useAlerts";
 import { StatusBadge } from "@/design/StatusBadge";
 import { doingWords } from "@/i18n/doing";
 import { formatAge, formatNumber, formatPoint, withUnit } from "@/i18n/format";
@@ -24,7 +27,15 @@ function Battery({ device }: { device: Device }) {
   );
 }
 
-function Row({ device, slug, chosen, now }: { device: Device; slug: string; chosen: boolean; now: number }) {
+interface RowProps {
+  device: Device;
+  alerts: readonly Alert[] | undefined;
+  slug: string;
+  chosen: boolean;
+  now: number;
+}
+
+function Row({ device, alerts, slug, chosen, now }: RowProps) {
   const { t } = useTranslation();
   const { x, y } = device.location;
   return (
@@ -42,7 +53,7 @@ function Row({ device, slug, chosen, now }: { device: Device; slug: string; chos
       </td>
       <td>
         <StatusBadge status={device.status}>{t(`shell.status.${device.status}`)}</StatusBadge>
-        <AlertMark slug={slug} device={device.id} />
+        <AlertMark own={alerts} />
       </td>
       <td className={styles.doing} title={doingWords(device)}>
         {device.status === "pending" ? t("pages.devices.notTrusted") : doingWords(device) || "–"}
@@ -69,6 +80,8 @@ export function DeviceTable({
 }) {
   const { t } = useTranslation();
   const now = useNow(1000);
+  const { alerts } = useAlerts(slug);
+  const alertsOf = useMemo(() => byDevice(alerts), [alerts]);
   return (
     <div className={pages.scroll}>
       <table className={`${pages.table} ${styles.compact}`}>
@@ -83,7 +96,14 @@ export function DeviceTable({
         </thead>
         <tbody>
           {devices.map((device) => (
-            <Row key={device.id} device={device} slug={slug} chosen={device.id === chosen} now={now} />
+            <Row
+              key={device.id}
+              device={device}
+              alerts={alertsOf.get(device.id)}
+              slug={slug}
+              chosen={device.id === chosen}
+              now={now}
+            />
           ))}
         </tbody>
       </table>
