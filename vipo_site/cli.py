@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -50,6 +51,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         sys.stderr.close()
         return CLEAN
+    except _database_error() as error:
+        folder = os.environ.get("VIPO_STATE_DIR", "var")
+        _complain(
+            f"VIPO's database cannot be used: {error}. Run this with the settings of the VIPO that is running (of the "
+            f"demo VIPO_STATE_DIR, which is {folder!r} now), and start that once after an update."
+        )
+        return UNUSABLE
+
+
+def _database_error() -> type[Exception]:
+    """Return what database errors are; looked up only when something went wrong, for that takes time."""
+    from django.db import DatabaseError
+
+    return DatabaseError
 
 
 def _run_on_program(options: argparse.Namespace) -> int:
