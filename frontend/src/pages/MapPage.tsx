@@ -1,6 +1,6 @@
 /** The site's map, large, with what there is to know about it and its ROS files. */
-import { Button, Menu, Skeleton } from "@mantine/core";
-import { Check, Download, MapPinned, Move } from "lucide-react";
+import { Button, Skeleton } from "@mantine/core";
+import { Check, MapPinned, Move } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
@@ -15,6 +15,7 @@ import { formatNumber, formatPoint, withUnit } from "@/i18n/format";
 import { StaticMap } from "@/map/StaticMap";
 import { MovableMachine } from "./devices/MovableMachine";
 import { freeArea, knownShare } from "./mapFacts";
+import { MapDownloads } from "./MapDownloads";
 import { MapVersions } from "./MapVersions";
 import styles from "./MapPage.module.css";
 
@@ -57,30 +58,6 @@ function Places({ map }: { map: SiteMap }) {
         ))}
       </ul>
     </section>
-  );
-}
-
-function Downloads({ slug }: { slug: string }) {
-  const { t } = useTranslation();
-  return (
-    <Menu position="bottom-end">
-      <Menu.Target>
-        <Button
-          variant="default"
-          classNames={{ label: styles.actionLabel ?? "", section: styles.actionIcon ?? "" }}
-          leftSection={<Download size={16} aria-hidden="true" />}
-        >
-          {t("pages.map.download.title")}
-        </Button>
-      </Menu.Target>
-      <Menu.Dropdown>
-        {(["yaml", "pgm"] as const).map((form) => (
-          <Menu.Item key={form} component="a" href={`/api/sites/${slug}/map.${form}`} download>
-            {t(`pages.map.download.${form}`)}
-          </Menu.Item>
-        ))}
-      </Menu.Dropdown>
-    </Menu>
   );
 }
 
@@ -146,7 +123,7 @@ export function MapPage() {
         map.data ? (
           <>
             {site.data?.role === "admin" ? <MoveMachines moving={moving} change={setMoving} /> : null}
-            <Downloads slug={slug} />
+            <MapDownloads fileOf={(form) => `/api/sites/${slug}/map.${form}`} />
           </>
         ) : null
       }

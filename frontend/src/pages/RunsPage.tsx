@@ -41,7 +41,7 @@ function Row({ run, now }: { run: RunSummary; now: number }) {
       <td className={styles.nowrap}>{all > 0 ? t("pages.runs.steps", { done, all }) : "–"}</td>
       <td className={styles.nowrap}>{run.started_at ? formatAgo(run.started_at, now) : t("pages.runs.notStarted")}</td>
       <td className={styles.nowrap}>{seconds === null ? "–" : formatSpan(seconds)}</td>
-      <td className={styles.nowrap}>{nameOf(run.started_by) || "–"}</td>
+      <td className={`${styles.nowrap} ${styles.optional}`}>{nameOf(run.started_by) || "–"}</td>
     </tr>
   );
 }
@@ -55,7 +55,7 @@ function RunTable({ runs }: { runs: RunSummary[] }) {
         <thead>
           <tr>
             {["run", "program", "status", "steps", "started", "took", "by"].map((column) => (
-              <th key={column} scope="col">
+              <th key={column} scope="col" className={column === "by" ? styles.optional : undefined}>
                 {t(`pages.runs.column.${column}`)}
               </th>
             ))}

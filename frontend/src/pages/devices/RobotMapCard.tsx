@@ -1,6 +1,6 @@
 /** The map that a robot has made, as it is now, and what can be done with it. */
 import { Button, Skeleton } from "@mantine/core";
-import { Download, MapPinned } from "lucide-react";
+import { MapPinned } from "lucide-react";
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { robotMapFile, useRobotMap, type RobotMap } from "@/api/robotMaps";
@@ -9,6 +9,7 @@ import { problemText } from "@/app/LoadProblem";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatAge, formatAgo, formatNumber, withUnit } from "@/i18n/format";
 import { StaticMap } from "@/map/StaticMap";
+import { MapDownloads } from "../MapDownloads";
 import { useNow } from "../useNow";
 import { planOf } from "./robotPlan";
 import { UseRobotMap } from "./UseRobotMap";
@@ -67,18 +68,7 @@ function Picture({ site, device, map }: { site: Site; device: Device; map: Robot
             {t("robotMap.use")}
           </Button>
         ) : null}
-        {(["yaml", "pgm"] as const).map((form) => (
-          <Button
-            key={form}
-            component="a"
-            href={robotMapFile(site.slug, device.id, form)}
-            download
-            variant="default"
-            leftSection={<Download size={16} aria-hidden="true" />}
-          >
-            {t(`pages.map.download.${form}`)}
-          </Button>
-        ))}
+        <MapDownloads fileOf={(form) => robotMapFile(site.slug, device.id, form)} />
       </div>
       {using ? <UseRobotMap site={site} device={device} map={map} onClose={() => setUsing(false)} /> : null}
     </>
