@@ -156,15 +156,16 @@ class Gateway:
         """Publish what waits; True when there may be more."""
         if self._greeting_due.is_set():
             self._greet()
-        if live.wait_wake(STOPS_CHANNEL, 0) or time.monotonic() - self._stops_at >= STOPS_EVERY_S:
+        if live.wait_wake(STOPS_CHANNEL, 0):
             self._publish_stops()
-            self._stops_at = time.monotonic()
         commands = execution.claim_commands(limit=CLAIM_LIMIT)
         self._outage.end()
         for command in commands:
             self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
         if commands:
             execution.mark_commands_sent(ids=[command.id for command in commands])
+        if time.monotonic() - self._stops_at >= STOPS_EVERY_S:
+            self._publish_stops()
         return len(commands) == CLAIM_LIMIT
 
     def _greet(self) -> None:
@@ -187,6 +188,7 @@ class Gateway:
             if self._stops.get(stop.site) != payload:
                 self._client.publish(f"vipo/v1/site/{stop.site}/stop", payload, retain=True)
                 self._stops[stop.site] = payload
+        self._stops_at = time.monotonic()
 
 
 def _reconcile_accounts() -> None:
