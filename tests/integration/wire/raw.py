@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 from vipo_site.broker import EmbeddedBroker
+from vipo_site.doorkeeping import PasswordDoorkeeper
 
 
 def field(data: bytes | str) -> bytes:
@@ -109,19 +110,13 @@ def raw(broker: EmbeddedBroker, hello: bytes, answer: bytes = b"\x00\x00") -> It
         yield made
 
 
-class Notebook:
+class Notebook(PasswordDoorkeeper):
     """A doorkeeper that lets in whoever knows the word, and keeps what is noted."""
 
     def __init__(self, word: str) -> None:
-        self._word = word
+        super().__init__(lambda _username, password: password == word)
         self.dropped: Counter[str] = Counter()
         self.lines: list[tuple[str, str]] = []
-
-    def admit(self, _username: str, password: str) -> str | None:
-        return "" if password == self._word else None
-
-    def find_ended(self, _logins: Mapping[str, object]) -> frozenset[str]:
-        return frozenset()
 
     def wait(self) -> None:
         time.sleep(0.05)
