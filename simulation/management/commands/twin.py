@@ -22,7 +22,7 @@ from simulation.site_facts import SiteFacts, read_site_facts
 from simulation.twin import Twin, TwinPlan
 
 log = logging.getLogger(__name__)
-STOP_LIMIT_S = 8
+STOP_LIMIT_S = 20
 
 
 class Command(BaseCommand):
