@@ -68,7 +68,10 @@ UPDATE execution_command SET tries = tries + 1, send_after = CASE
     WHEN tries = 0 THEN %(first)s WHEN tries = 1 THEN %(second)s WHEN tries = 2 THEN %(third)s
     ELSE %(last)s END
 FROM taken WHERE id = taken_id
-RETURNING site_id, position, id, device, method, arguments, ttl_s
+RETURNING site_id, position, id, device, method, arguments, ttl_s, (
+    SELECT topic FROM ({registry.CONFIRMED_TOPICS_SQL}) AS told
+    WHERE told.device_id = execution_command.device AND told.method = execution_command.method
+)
 """  # noqa: S608 - made of this product's own constants only
 _MARK = "UPDATE execution_command SET status = 'sent', sent_at = %s WHERE status = 'pending' AND id IN (<ids>)"
 _LOCKS = {"postgresql": "FOR UPDATE SKIP LOCKED", "sqlite": ""}
@@ -127,10 +130,12 @@ def _parameters(now: datetime, limit: int) -> dict[str, Any]:
     return {"limit": limit} | {name: when(now + timedelta(seconds=wait)) for name, wait in waits_s.items()}
 
 
-def _outgoing(key: UUID | str, device: str, method: str, arguments: str, ttl_s: float) -> OutgoingCommand:
+def _outgoing(
+    key: UUID | str, device: str, method: str, arguments: str, ttl_s: float, legacy_topic: str | None
+) -> OutgoingCommand:
     command = str(UUID(str(key)))  # SQLite keeps it without dashes
     payload = wire.command_payload(command, json.loads(arguments), ttl_s)
-    return OutgoingCommand(command, device, wire.down_topic(device, method), payload, ttl_s)
+    return OutgoingCommand(command, device, legacy_topic or wire.down_topic(device, method), payload, ttl_s)
 
 
 def mark_commands_sent(*, ids: Iterable[str]) -> None:

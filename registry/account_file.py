@@ -6,7 +6,7 @@ The plugin of Mosquitto 2.0 puts no user's name into a topic, so each account ha
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 Acl = dict[str, object]
@@ -16,10 +16,13 @@ HEARD_BY_ALL = ("vipo/v1/site/+/stop", "vipo/v1/srv/status")
 DEFAULTS = {"publishClientSend": False, "publishClientReceive": False, "subscribe": False, "unsubscribe": True}
 
 
-def device_role(device_id: str) -> Role:
-    """Return what a device may do: speak for itself, hear its own commands, the sites' stops and the server."""
+def device_role(device_id: str, topics: Sequence[str] = ()) -> Role:
+    """Return what a device may do: speak for itself, hear its own commands, the sites' stops and the server.
+
+    `topics` are legacy ones that an admin has confirmed for it.
+    """
     own = f"vipo/v1/dev/{device_id}"
-    heard = (f"{own}/down/#", *HEARD_BY_ALL)
+    heard = (f"{own}/down/#", *HEARD_BY_ALL, *topics)
     acls = [_allow("publishClientSend", f"{own}/up/#")]
     acls += [_allow(act, topic) for topic in heard for act in ("publishClientReceive", "subscribePattern")]
     return {"rolename": f"device {device_id}", "acls": acls}
@@ -32,27 +35,37 @@ def door_role(name: str) -> Role:
 
 
 def server_role() -> Role:
-    """Return what VIPO's own processes may do: everything below `vipo/`, and keep the accounts."""
+    """Return what VIPO's own processes may do: say everything, hear what is below `vipo/`, and keep the accounts.
+
+    To give it each confirmed legacy topic by itself would end all its connections every time.
+    """
     acls = [
         _allow(act, topic)
         for topic in ("vipo/#", "$CONTROL/dynamic-security/#")
         for act in ("publishClientSend", "publishClientReceive", "subscribePattern")
     ]
-    return {"rolename": "server", "acls": [*acls, _allow("subscribePattern", "$share/#")]}
+    more = [_allow("publishClientSend", "#"), _allow("subscribePattern", "$share/#")]
+    return {"rolename": "server", "acls": [*acls, *more]}
 
 
 def _allow(act: str, topic: str) -> Acl:
     return {"acltype": act, "topic": topic, "priority": 0, "allow": True}
 
 
-def account_file(hashes: Mapping[str, str], *, server: str) -> str:
-    """Return the plugin's file for {name: `$7$rounds$salt$hash`}; `server` is the name of VIPO's own account."""
-    roles = [
-        server_role() if name == server else door_role(name) if name.startswith(DOOR) else device_role(name)
-        for name in sorted(hashes)
-    ]
+def account_file(hashes: Mapping[str, str], topics: Mapping[str, Sequence[str]] | None = None, *, server: str) -> str:
+    """Return the plugin's file for {name: `$7$rounds$salt$hash`} and {device: its confirmed legacy topics}.
+
+    `server` is the name of VIPO's own account.
+    """
+    granted = topics or {}
+    roles = [server_role() if name == server else role_of(name, granted.get(name, ())) for name in sorted(hashes)]
     clients = [_client(name, role, hashes[name]) for name, role in zip(sorted(hashes), roles, strict=True)]
     return json.dumps({"defaultACLAccess": DEFAULTS, "roles": roles, "clients": clients}, indent=1)
+
+
+def role_of(name: str, topics: Sequence[str] = ()) -> Role:
+    """Return the role of a device's or a door's account by its name."""
+    return door_role(name) if name.startswith(DOOR) else device_role(name, topics)
 
 
 def _client(name: str, role: Role, hashed: str) -> dict[str, object]:

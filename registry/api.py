@@ -34,6 +34,7 @@ from registry.shapes import (
     NewCredential,
     SignIn,
     SiteShape,
+    Topic,
 )
 from registry.thing_log import call_listeners
 from registry.views import device_to_json, site_to_json
@@ -152,7 +153,7 @@ def show_rdf(request: HttpRequest, slug: str, device_id: str, format: Descriptio
     """Send a device's description as `turtle`, `n-triples`, `json-ld`, `td` or the `paper`'s message."""
     require(signed_in(request), slug, "viewer")
     device = services.get_device(site=slug, device_id=device_id)
-    text = write_description(device.canonical, format, broker=settings.VIPO_BROKER_URL)
+    text = write_description(device.whole, format, broker=settings.VIPO_BROKER_URL)
     return HttpResponse(text, content_type=f"{CONTENT_TYPES[format]}; charset=utf-8")
 
 
@@ -206,6 +207,26 @@ def revoke(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
     user = signed_in(request)
     require(user, slug, "admin")
     return device_to_json(services.revoke_credential(site=slug, device_id=device_id, by=user, at=timezone.now()))
+
+
+@router.post("/sites/{slug}/devices/{device_id}/topics/confirm", response=DeviceShape)
+def confirm(request: HttpRequest, slug: str, device_id: str, body: Topic) -> dict[str, Any]:
+    """Let an approved device be told a method on the topic outside of `vipo/` that it asks for."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return device_to_json(
+        services.confirm_topic(site=slug, device_id=device_id, topic=body.topic, by=user, at=timezone.now())
+    )
+
+
+@router.post("/sites/{slug}/devices/{device_id}/topics/withdraw", response=DeviceShape)
+def withdraw(request: HttpRequest, slug: str, device_id: str, body: Topic) -> dict[str, Any]:
+    """Take the confirmation of a topic back; the device asks for it again."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return device_to_json(
+        services.withdraw_topic(site=slug, device_id=device_id, topic=body.topic, by=user, at=timezone.now())
+    )
 
 
 @router.patch("/sites/{slug}/devices/{device_id}", response=DeviceShape)

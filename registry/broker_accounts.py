@@ -18,7 +18,7 @@ from django.conf import settings
 from django.db import transaction
 from django.utils.module_loading import import_string
 
-from registry.account_file import device_role, door_role
+from registry.account_file import role_of
 from registry.errors import RegistryError
 from registry.live import wake
 from registry.mqtt import MqttClient
@@ -39,10 +39,11 @@ class BrokerAway(RegistryError):
 
 @dataclass(frozen=True, slots=True)
 class Account:
-    """Who may come in: a device's id or a site's door (`join:<site>`), and the key."""
+    """Who may come in: a device's id or a site's door (`join:<site>`), the key, and a device's legacy topics."""
 
     name: str
     key: str
+    topics: tuple[str, ...] = ()
 
 
 class BrokerAccounts(Protocol):
@@ -50,6 +51,9 @@ class BrokerAccounts(Protocol):
 
     def put(self, account: Account) -> None:
         """Let somebody in with this key and no other; ends their connections. Raises BrokerAway."""
+
+    def allow(self, name: str, topics: tuple[str, ...]) -> None:
+        """Let a device hear these legacy topics and no others; ends its connections. Raises BrokerAway."""
 
     def remove(self, name: str) -> None:
         """Let somebody in no more; ends their connections. Raises BrokerAway."""
@@ -65,6 +69,10 @@ class AskedAccounts:
         """See BrokerAccounts."""
         self.remove(account.name)
 
+    def allow(self, name: str, _topics: tuple[str, ...]) -> None:
+        """See BrokerAccounts."""
+        self.remove(name)
+
     def remove(self, _name: str) -> None:
         """See BrokerAccounts."""
         transaction.on_commit(lambda: wake(BROKER_CHANNEL))
@@ -79,12 +87,21 @@ class DynamicSecurity:
 
     def put(self, account: Account) -> None:
         """See BrokerAccounts."""
-        role = role_of(account.name)
+        role = role_of(account.name, account.topics)
         name = str(role["rolename"])
         self._tell(
             ("createRole", role, "already exists"),
             ("createClient", {"username": account.name, "roles": [{"rolename": name}]}, "already exists"),
             ("setClientPassword", {"username": account.name, "password": account.key}, ""),
+        )
+
+    def allow(self, name: str, topics: tuple[str, ...]) -> None:
+        """See BrokerAccounts."""
+        self._tell(
+            ("modifyRole", role_of(name, topics), ""),
+            # a changed role leaves connections alone: this ends them, so that the device asks for its topics anew
+            ("disableClient", {"username": name}, ""),
+            ("enableClient", {"username": name}, ""),
         )
 
     def remove(self, name: str) -> None:
@@ -145,11 +162,6 @@ def _ask(commands: Sequence[Command]) -> Sequence[Mapping[str, Any]]:
         return [answers[mark] for mark in marks]
     finally:
         client.stop()
-
-
-def role_of(name: str) -> Mapping[str, Any]:
-    """Return the role of an account by its name."""
-    return door_role(name) if name.startswith("join:") else device_role(name)
 
 
 @lru_cache(maxsize=1)

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, Literal, get_args
 
+from registry.topic_rules import find_topic_fault, find_twice, list_asked
+
 ValueType = Literal["number", "text", "boolean", "object", "device", "place", "location"]
 DeviceKind = Literal["machine", "robot"]
 Scalar = float | int | str | bool | None
@@ -216,6 +218,8 @@ def _faults_of_properties(d: Description) -> Iterator[str]:
         yield f"It has more than {MOST_PROPERTIES} properties or {MOST_METHODS} methods."
     yield from _faults_of_names([p.name for p in d.properties], "property")
     yield from _faults_of_names([m.name for m in d.methods], "method")
+    if twice := find_twice([m.topic for m in list_asked(d)]):
+        yield f"Two of its methods name the topic {twice[:80]}; a device could not tell them apart."
     for spec in d.properties:
         yield from _faults_of_value(spec)
         if len(spec.title) > 100:
@@ -225,9 +229,10 @@ def _faults_of_properties(d: Description) -> Iterator[str]:
 def _faults_of_method(device_id: str, method: MethodSpec) -> Iterator[str]:
     if len(method.parameters) > MOST_PARAMETERS:
         yield f"Its method {method.name[:64]!r} has more than {MOST_PARAMETERS} parameters."
-    below = f"vipo/v1/dev/{device_id}/down/"
-    if not method.topic.startswith(below) or not _NAME.fullmatch(method.topic.removeprefix(below)):
-        yield f"Its method {method.name[:64]!r} names a topic that is not its own; use {below}{method.name[:64]}."
+    if method.name == "credential":
+        yield "It has a method called credential, by which VIPO tells a device its new key; give it another name."
+    if fault := find_topic_fault(device_id, method.name, method.topic):
+        yield f"Its method {method.name[:64]!r} {fault}."
     if len(method.title) > 100 or not _WORD.fullmatch(method.message_type):
         yield f"Its method {method.name[:64]!r} has a title or message type that is too long."
     yield from _faults_of_names([p.name for p in method.parameters], "parameter")

@@ -24,6 +24,7 @@ from registry.live import publish
 from registry.models import Device, User
 from registry.sites import find_site, set_join_key
 from registry.thing_log import record_thing
+from registry.topic_claims import claim_again, release_topics
 from registry.views import DeviceView, view_of
 
 Lifecycle = Device.Lifecycle
@@ -104,6 +105,7 @@ def readmit_device(*, site: str, device_id: str, by: User | None, at: datetime) 
         device.lifecycle, device.ends_before = Lifecycle.PENDING, None
         device.save(update_fields=["lifecycle", "ends_before"])
         write_event(device, at, "readmitted", said("readmitted"), by)
+        claim_again(device, at)
         after = view_of(device, site)
         announce(None, after)
     return after
@@ -213,7 +215,7 @@ def _replace_key(site: str, device_id: str, credential: str, by: User | None, at
 
 def _give_key(device: Device, credential: str) -> None:
     device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
-    accounts().put(Account(device.id, credential))
+    accounts().put(Account(device.id, credential, tuple(sorted(device.granted.values()))))
 
 
 def _lock_out(device: Device, at: datetime) -> None:
@@ -232,6 +234,7 @@ def _take_out(
         device.lifecycle = Lifecycle.RETIRED
         _lock_out(device, at)
         device.save(update_fields=["lifecycle", "credential_hash", "broker_hash", "ends_before", "online"])
+        release_topics(device, at)
         write_event(device, at, "retired", said(word), by)
         transaction.on_commit(lambda: publish(site, {"type": "device_removed", "id": device_id}))
         after = view_of(device, site)

@@ -32,6 +32,9 @@ from registry.event_words import described
 from registry.event_words import said as in_words
 from registry.models import Device, DeviceEvent, Site
 from registry.rdf_text import CONTENT_TYPES
+from registry.topic_claims import claim_topics
+from registry.topic_rows import TopicClaim
+from registry.topic_rules import list_asked
 from registry.views import DeviceView, view_of
 
 MOST_LINES = 8
@@ -87,8 +90,21 @@ def ingest_descriptions(*, descriptions: Sequence[SaidDescription]) -> tuple[Fat
             fates[each.device_id] = error
     sites = _find_sites(found)
     homeless = _make_rows(found, sites)
-    fates |= _take([news for news in found if news.said.device_id not in homeless], sites)
-    return tuple((fates | homeless)[said.device_id] for said in descriptions)
+    together, alone = _part([news for news in found if news.said.device_id not in homeless])
+    for some in (together, *([news] for news in alone)):
+        fates |= _take(some, sites)
+    return tuple((fates | homeless)[each.device_id] for each in descriptions)
+
+
+def _part(found: Sequence[_News]) -> tuple[list[_News], list[_News]]:
+    """Set aside those who ask for topics that are not theirs yet, which others may have."""
+    asking = {news.said.device_id: {m.topic for m in list_asked(news.reading.description)} for news in found}
+    who = [device for device, topics in asking.items() if topics]
+    claims = TopicClaim.objects.filter(device__in=who).values_list("device", "topic") if who else ()
+    for device, topic in claims:
+        asking[device].discard(topic)
+    alone = [news for news in found if asking[news.said.device_id]]
+    return [news for news in found if not asking[news.said.device_id]], alone
 
 
 def _find_sites(found: Sequence[_News]) -> dict[str, Site]:
@@ -163,6 +179,7 @@ def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[De
         device.site = _site_for(description.site, sites)
     before, after = device.description, description_to_json(description)
     old = description_from_json(before) if before else None
+    claim_topics(device, old, description, at)
     if form == "paper" and before and before.get("done") != after.get("done"):
         device.done = description.done
     device.description, device.description_hash = after, hash_of_json(after)

@@ -27,6 +27,9 @@ SENTENCES: Mapping[str, str] = {
     "renamed": "Renamed from {before} to {after}",
     "moved": "Moved to {x:.2f}, {y:.2f}",
     "map": "Sent its map: {width} by {height} m",
+    "topic_asked": "Asks for the topic {topic} for {method}",
+    "topic_confirmed": "The topic {topic} was confirmed for {method}",
+    "topic_withdrawn": "The topic {topic} for {method} was withdrawn",
     "described_first": "Described itself for the first time: {name}, {class}",
 }
 """The English of each code that is one sentence; a changed description is put together of `PARTS`."""

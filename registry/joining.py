@@ -46,19 +46,24 @@ DOOR = "join:"
 
 @dataclass(frozen=True, slots=True)
 class Principal:
-    """Who a connection is: `is_newcomer` when it came in with the site's join key only; `key` is its key's hash."""
+    """Who a connection is: `is_newcomer` when it came in with the site's join key only; `key` is its key's hash.
+
+    `topics` are the legacy ones that an admin has confirmed for it.
+    """
 
     device_id: str
     is_newcomer: bool
     key: str = ""
+    topics: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
 class Login:
-    """A connection that was let in: the hash of the own key it had (empty with a join key), and when."""
+    """A connection that was let in: the hash of the own key it had (empty with a join key), when, with which topics."""
 
     key: str
     at: datetime
+    topics: frozenset[str] = frozenset()
 
 
 def _lock_or_make(device_id: str, said_site: str, at: datetime) -> Device:
@@ -179,7 +184,7 @@ def check_device_password(*, username: str, password: str) -> Principal | None:
         is_its_key = hmac.compare_digest(device.credential_hash, offered)
         if not is_its_key:
             note_alert(device_id=username, code="wrong_key")
-        return Principal(username, False, offered) if is_its_key else None
+        return Principal(username, False, offered, frozenset(device.granted.values())) if is_its_key else None
     if device and device.lifecycle != Device.Lifecycle.PENDING:
         return None
     return Principal(username, True) if Site.objects.filter(join_key_hash=offered).exists() else None
@@ -200,16 +205,17 @@ def list_broker_hashes() -> dict[str, str]:
 
 
 def find_ended(*, logins: Mapping[str, Login]) -> frozenset[str]:
-    """Return which of these connections, by user name, must end: taken out, without a key, or with another one."""
-    rows = Device.objects.filter(pk__in=list(logins)).values_list("pk", "lifecycle", "credential_hash", "ends_before")
+    """Return which of these connections, by user name, must end: taken out, with another key, or other topics."""
+    facts = ("pk", "lifecycle", "credential_hash", "ends_before", "granted")
+    rows = Device.objects.filter(pk__in=list(logins)).values_list(*facts)
     doors = Site.objects.filter(slug__in=[n.removeprefix(DOOR) for n in logins if n.startswith(DOOR)])
     keys = {DOOR + slug: key for slug, key in doors.values_list("slug", "join_key_hash")}
     ended = {name for name, login in logins.items() if name.startswith(DOOR) and keys.get(name) != login.key}
-    for name, lifecycle, key, ends_before in rows:
+    for name, lifecycle, key, ends_before, granted in rows:
         login = logins[name]
         is_out = lifecycle == Device.Lifecycle.RETIRED or (lifecycle == Device.Lifecycle.APPROVED and not key)
         is_old = bool(login.key and login.key != key) or bool(ends_before and login.at < ends_before)
-        if is_out or is_old:
+        if is_out or is_old or login.topics != frozenset(granted.values()):
             ended.add(name)
     return frozenset(ended)
 

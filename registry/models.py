@@ -14,6 +14,7 @@ from registry.robot_map_rows import RobotMap as RobotMap  # Django looks for mod
 from registry.robot_map_rows import RobotMapDraft as RobotMapDraft
 from registry.robot_map_rows import RobotMapPart as RobotMapPart
 from registry.thing_rows import ThingEvent as ThingEvent  # Django looks for models here
+from registry.topic_rows import TopicClaim as TopicClaim  # Django looks for models here
 
 
 class UserManager(BaseUserManager["User"]):
@@ -196,6 +197,8 @@ class Device(models.Model):
     source = models.BinaryField(default=b"")
     source_type = models.CharField(max_length=40, blank=True)
     source_hash = models.CharField(max_length=64, blank=True)
+
+    granted = models.JSONField(default=dict)
 
     name_override = models.CharField(max_length=100, blank=True)
     pose_override = models.JSONField(null=True)

@@ -75,6 +75,14 @@ from registry.sites import (
     set_site_stop,
 )
 from registry.sparql import QueryAnswer, run_query
+from registry.topic_claims import (
+    CONFIRMED_TOPICS_SQL,
+    TopicNotAsked,
+    TopicTaken,
+    confirm_topic,
+    list_granted_topics,
+    withdraw_topic,
+)
 from registry.views import (
     DeviceEventView,
     DeviceView,
@@ -87,6 +95,7 @@ from registry.views import (
 )
 
 __all__ = [
+    "CONFIRMED_TOPICS_SQL",
     "DONE_FLAG_ONLY_SQL",
     "AlertCode",
     "AlertView",
@@ -116,12 +125,15 @@ __all__ = [
     "SeriesView",
     "SiteView",
     "StopView",
+    "TopicNotAsked",
+    "TopicTaken",
     "admit_newcomer",
     "alert_to_json",
     "approve_device",
     "check_device_password",
     "check_sign_in",
     "compare_robot_map",
+    "confirm_topic",
     "count_dropped",
     "create_site",
     "create_site_from_map",
@@ -153,6 +165,7 @@ __all__ = [
     "list_broker_hashes",
     "list_device_events",
     "list_devices",
+    "list_granted_topics",
     "list_map_versions",
     "list_open_alerts",
     "list_places",
@@ -189,4 +202,5 @@ __all__ = [
     "update_device",
     "use_robot_map",
     "watch_devices",
+    "withdraw_topic",
 ]

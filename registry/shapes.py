@@ -178,6 +178,7 @@ class DeviceShape(Schema):
     radius_m: float
     properties: list[PropertyShape]
     methods: list[MethodShape]
+    asks: list[MethodShape]
     gives: list[str]
     takes: list[str]
     capacity: int
@@ -223,6 +224,12 @@ class DeviceEventShape(Schema):
     args: dict[str, Any]
     by: str
     changes: list[ChangeShape]
+
+
+class Topic(Schema):
+    """A topic that a device asks for, exactly as it names it."""
+
+    topic: str = Field(max_length=200)
 
 
 class DeviceEdit(Schema):

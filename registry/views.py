@@ -14,6 +14,7 @@ from registry.doing import NOT_TRUSTED, NOTHING, Doing, Seen, doing_of
 from registry.floor import Grid
 from registry.models import Device
 from registry.rdf_text import CONTENT_TYPES
+from registry.topic_rules import part_methods
 
 Status = Literal["idle", "busy", "done", "waiting", "warning", "error", "offline", "pending"]
 LOW_BATTERY_PERCENT = 15.0
@@ -75,7 +76,8 @@ class DeviceView:
     """A device as it is now: `canonical` has the name and place that hold, `readings` its properties' values.
 
     `has_key` tells whether it can come in with a key of its own, `dropped` how many of its messages were not taken,
-    `only_done_flag` that it describes itself by the paper's message and so may answer no command but by `done`.
+    `only_done_flag` that it describes itself by the paper's message and so may answer no command but by `done`;
+    `asks` are the methods that nobody may call before an admin has confirmed their topics.
     """
 
     id: str
@@ -94,6 +96,12 @@ class DeviceView:
     has_key: bool = False
     dropped: int = 0
     only_done_flag: bool = False
+    asks: tuple[MethodSpec, ...] = ()
+
+    @property
+    def whole(self) -> Description:
+        """What the device says of itself, with the methods that may not be called yet."""
+        return replace(self.canonical, methods=(*self.canonical.methods, *self.asks)) if self.asks else self.canonical
 
     @property
     def name(self) -> str:
@@ -129,7 +137,9 @@ class DeviceEventView:
 
 def view_of(device: Device, site: str) -> DeviceView:
     """Return the view of a device's row, which has been described."""
-    canonical = effective_description(device)
+    said = effective_description(device)
+    callable_methods, asks = part_methods(said, device.granted)
+    canonical = replace(said, methods=callable_methods) if asks else said
     readings: dict[str, Scalar] = dict(device.properties)
     view = DeviceView(
         id=device.id,
@@ -146,6 +156,7 @@ def view_of(device: Device, site: str) -> DeviceView:
         has_key=bool(device.credential_hash),
         dropped=device.dropped,
         only_done_flag=device.source_type == CONTENT_TYPES["paper"],
+        asks=asks,
     )
     return replace(view, status=status_of(view), doing=_doing(view))
 
@@ -218,6 +229,7 @@ def device_to_json(view: DeviceView) -> dict[str, Any]:
         "radius_m": said.radius_m,
         "properties": [_property_to_json(p, view.readings.get(p.name)) for p in said.properties],
         "methods": [_method_to_json(m) for m in said.methods],
+        "asks": [_method_to_json(m) for m in view.asks],
         "gives": list(said.gives),
         "takes": list(said.takes),
         "capacity": said.capacity,

@@ -27,7 +27,7 @@ from vipo_site.broker_connect import PROTOCOL_LEVEL, UNREADABLE, notice_dead_pee
 from vipo_site.broker_connection import Connection, until
 from vipo_site.broker_outbox import DEVICE_ROOM, SERVER_ROOM, Outbox
 from vipo_site.broker_spread import SERVER, SpreadingBroker
-from vipo_site.doorkeeping import Doorkeeper, may_publish
+from vipo_site.doorkeeping import Admitted, Doorkeeper, may_publish
 
 if TYPE_CHECKING:
     from registry.services import Login
@@ -145,10 +145,11 @@ class VipoBroker(SpreadingBroker):
         if self._sessions.get(username, (session, None))[0].username == SERVER:
             return "the server itself uses this name"
         at = datetime.now(UTC)
-        key = await asyncio.to_thread(self._doorkeeper.admit, username, password)
-        if key is None:
+        admitted = await asyncio.to_thread(self._doorkeeper.admit, username, password)
+        if admitted is None:
             return "wrong password, or nobody of this name"
-        self._logins[username] = _login(key, at)
+        session.attributes["topics"] = admitted.topics
+        self._logins[username] = _login(admitted, at)
         return ""
 
     async def end_whoever_must_go(self) -> None:
@@ -179,7 +180,7 @@ class VipoBroker(SpreadingBroker):
         if old is not None and old.transitions.state == "connected":
             await handler.end()
             await until(lambda: old.transitions.state != "connected", 2.0)
-        if session.clean_session or old is None or old.clean_session:
+        if session.clean_session or old is None or old.clean_session or _topics(old) != _topics(session):
             await self._delete_session(session.client_id)
             session.parent = 0
             return session
@@ -225,7 +226,12 @@ class VipoBroker(SpreadingBroker):
             await self._cleanup_session(name)
 
 
-def _login(key: str, at: datetime) -> Login:
+def _topics(session: Any) -> frozenset[str]:
+    topics: frozenset[str] = session.attributes.get("topics", frozenset())
+    return topics
+
+
+def _login(admitted: Admitted, at: datetime) -> Login:
     from registry.services import Login  # the apps' models load only after Django is set up
 
-    return Login(key, at)
+    return Login(admitted.key, at, admitted.topics)

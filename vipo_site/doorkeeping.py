@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from django.db import close_old_connections
 
@@ -22,11 +22,18 @@ _KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
 _STOP = re.compile(r"vipo/v1/site/[^/#]+/stop")
 
 
+class Admitted(NamedTuple):
+    """Somebody who may come in: the hash of their own key (empty with the join key), and their legacy topics."""
+
+    key: str = ""
+    topics: frozenset[str] = frozenset()
+
+
 class Doorkeeper(Protocol):
     """What the broker asks; every method may block and is called from a thread."""
 
-    def admit(self, username: str, password: str) -> str | None:
-        """Return the hash of the own key that somebody comes in with (empty with the join key), None to refuse."""
+    def admit(self, username: str, password: str) -> Admitted | None:
+        """Return as whom somebody comes in, None to refuse."""
 
     def find_ended(self, logins: Mapping[str, Login]) -> frozenset[str]:
         """Return which connections, by user name, must end now."""
@@ -44,9 +51,9 @@ class PasswordDoorkeeper:
     def __init__(self, check_password: CheckPassword) -> None:
         self._check_password = check_password
 
-    def admit(self, username: str, password: str) -> str | None:
+    def admit(self, username: str, password: str) -> Admitted | None:
         """See Doorkeeper."""
-        return "" if self._check_password(username, password) else None
+        return Admitted() if self._check_password(username, password) else None
 
     def find_ended(self, _logins: Mapping[str, Login]) -> frozenset[str]:
         """See Doorkeeper."""
@@ -63,14 +70,14 @@ class PasswordDoorkeeper:
 class RegistryDoorkeeper:
     """Asks the registry's database."""
 
-    def admit(self, username: str, password: str) -> str | None:
+    def admit(self, username: str, password: str) -> Admitted | None:
         """See Doorkeeper."""
         from registry import services
 
         close_old_connections()
         try:
             found = services.check_device_password(username=username, password=password)
-            return found.key if found else None
+            return Admitted(found.key, found.topics) if found else None
         finally:
             close_old_connections()
 
@@ -112,10 +119,13 @@ def may_publish(username: str, topic: str) -> bool:
     return topic.startswith(f"vipo/v1/dev/{username}/up/") and not {"+", "#"} & set(topic)
 
 
-def may_subscribe(username: str, topic_filter: str) -> bool:
-    """Say whether somebody may ask for a filter: a device its own `down/`, sites' stops and the server's births."""
+def may_subscribe(username: str, topic_filter: str, topics: Collection[str] = ()) -> bool:
+    """Say whether somebody may ask for a filter: a device its own `down/`, sites' stops and the server's births.
+
+    `topics` are the legacy ones that an admin has confirmed for it.
+    """
     if username.startswith(DOOR):
         return False
-    if topic_filter.startswith(f"vipo/v1/dev/{username}/down/"):
+    if topic_filter.startswith(f"vipo/v1/dev/{username}/down/") or topic_filter in topics:
         return True
     return _STOP.fullmatch(topic_filter) is not None or topic_filter == "vipo/v1/srv/status"

@@ -54,6 +54,8 @@ export interface Device {
   radius_m: number | null;
   properties: DeviceProperty[];
   methods: DeviceMethod[];
+  /** Methods that nobody may call before an admin has confirmed their topics. */
+  asks: DeviceMethod[];
   gives: string[];
   takes: string[];
   capacity: number;

@@ -1108,6 +1108,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{slug}/devices/{device_id}/topics/confirm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Confirm
+         * @description Let an approved device be told a method on the topic outside of `vipo/` that it asks for.
+         */
+        post: operations["registry_api_confirm"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/devices/{device_id}/topics/withdraw": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Withdraw
+         * @description Take the confirmation of a topic back; the device asks for it again.
+         */
+        post: operations["registry_api_withdraw"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/join-key": {
         parameters: {
             query?: never;
@@ -1594,6 +1634,7 @@ export interface components {
         /** @description A device that was let in; `credential` is its new key, told this once, null where it keeps the one it has. */
         ApprovedDevice: {
             activity: components["schemas"]["Activity"] | null;
+            asks: components["schemas"]["MethodShape"][];
             capacity: number;
             carrying: {
                 [key: string]: number;
@@ -1775,6 +1816,7 @@ export interface components {
         /** @description A device as it is now. */
         DeviceShape: {
             activity: components["schemas"]["Activity"] | null;
+            asks: components["schemas"]["MethodShape"][];
             capacity: number;
             carrying: {
                 [key: string]: number;
@@ -2548,6 +2590,10 @@ export interface components {
             active: boolean;
             at: string | null;
             by: string;
+        };
+        /** @description A topic that a device asks for, exactly as it names it. */
+        Topic: {
+            topic: string;
         };
         /** @description Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none). */
         UseRobotMap: {
@@ -4542,6 +4588,78 @@ export interface operations {
             cookie?: never;
         };
         requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_api_confirm: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Topic"];
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DeviceShape"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    registry_api_withdraw: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                device_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Topic"];
+            };
+        };
         responses: {
             /** @description OK */
             200: {

@@ -219,7 +219,7 @@ def test_a_device_is_shown_as_the_contract_says(browser: Callable[[str], Client]
     contract = {
         *("id", "name", "kind", "device_class", "icon", "lifecycle", "status", "doing", "location", "size", "radius_m"),
         *("properties", "methods", "gives", "takes", "capacity", "carrying", "last_seen_at", "done", "simulated"),
-        *("image", "description", "has_key", "dropped", "activity"),
+        *("image", "description", "has_key", "dropped", "activity", "asks"),
     }
     assert set(body) == contract
 

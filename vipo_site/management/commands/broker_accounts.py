@@ -32,6 +32,6 @@ class Command(BaseCommand):
         part = path.with_name(path.name + ".part")
         part.unlink(missing_ok=True)
         with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
-            file.write(account_file(hashes, server=server))
+            file.write(account_file(hashes, services.list_granted_topics(), server=server))
         part.replace(path)
         self.stdout.write(f"{len(hashes)} accounts written to {path}.")

@@ -1,0 +1,59 @@
+"""A legacy topic on both brokers: only the device that it was confirmed for hears it, and only while that holds."""
+
+from __future__ import annotations
+
+import itertools
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from registry import services
+from registry.describing import read_description, write_description
+from registry.mqtt import MqttClient
+from registry.wire import down_topic
+from tests.integration.wire.bus import SERVER_WORD, SITE, Bus, wait
+
+pytestmark = pytest.mark.servers
+TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_text()
+TOPIC = "plant/mixer01/start"
+
+
+def test_a_confirmed_topic_is_heard_by_its_device_alone(bus: Bus) -> None:
+    now = datetime.now(UTC)
+    heard: dict[str, list[bytes]] = {"mixer01": [], "mixer02": []}
+    clients, numbers = {}, itertools.count()
+    for name in heard:
+        text = write_description(read_description(TEXT.replace("paintMixer03", name).encode()))
+        if name == "mixer01":
+            text = text.replace("vipo/v1/dev/mixer01/down/mixPaint", TOPIC)
+        services.ingest_description(device_id=name, payload=text.encode(), at=now)
+        key = str(services.approve_device(site=SITE, device_id=name, by=None, at=now).credential)
+        clients[name] = bus.client(name, key)
+        clients[name].subscribe(TOPIC, 1, lambda _t, payload, _r, name=name: heard[name].append(payload))
+        clients[name].subscribe(down_topic("mixer01", "mark"), 1, lambda _t, p, _r, name=name: heard[name].append(p))
+        clients[name].publish(TOPIC, b"a device says nothing there")
+        clients[name].start()
+        assert clients[name].wait_subscribed(20)
+    server = MqttClient(
+        host="127.0.0.1", port=bus.server_port, username="server", password=SERVER_WORD, client_id="a-server"
+    )
+    server.start()
+
+    def reaches(text: bytes) -> bool:
+        """Say something on the legacy topic, and then a mark on the device's own, which it hears in any case."""
+        mark = b"mark %d" % next(numbers)
+        server.publish(TOPIC, text)
+        server.publish("vipo/v1/dev/mixer01/down/mark", mark)
+        wait("the mark", lambda: mark in heard["mixer01"] or not clients["mixer01"].connected)
+        return text in heard["mixer01"]
+
+    assert not reaches(b"too early")
+    services.confirm_topic(site=SITE, device_id="mixer01", topic=TOPIC, by=None, at=now)
+    wait("the confirmed device", lambda: reaches(b"now"))
+    services.withdraw_topic(site=SITE, device_id="mixer01", topic=TOPIC, by=None, at=now)
+    wait("the end of it", lambda: not reaches(b"late %d" % next(numbers)) and clients["mixer01"].connected)
+    assert heard["mixer02"] == []
+    assert not {b"too early", b"a device says nothing there"} & {*heard["mixer01"], *heard["mixer02"]}
+    for client in (*clients.values(), server):
+        client.stop()
