@@ -18,6 +18,8 @@ import pytest
 
 from registry.capability import Pose
 from registry.describing import read_description
+from registry.floor import FREE, UNKNOWN
+from registry.grid_message import join_parts, read_grid_part
 from registry.mqtt import MqttClient, Will
 from registry.wire import parse_presence, parse_state
 from simulation.site_facts import demo_facts
@@ -106,6 +108,17 @@ def test_devices_introduce_themselves_with_their_own_bytes(bus: Mosquitto, ear: 
     assert state.pose == Pose(9.8, -11.4)
     assert state.properties == {"jobStatus": 0, "temperature": 22.0, "quality": "ok"}
     assert {h.topic.split("/")[3] for h in ear.heard} == VOICES
+
+
+def test_a_robot_sends_the_map_of_what_its_laser_sees(bus: Mosquitto, ear: Ear, tmp_path: Path) -> None:
+    with running_twin(bus, tmp_path / "memory.json"):
+        sent = ear.wait(lambda h: h.topic == up("robot01", "map"), 30)
+    grid = join_parts([read_grid_part(sent.payload)])
+    assert (grid.width, grid.height, sent.retained) == (FACTS.grid.width, FACTS.grid.height, False)
+    robot = next(d.description.pose for d in FACTS.devices if d.description.id == "robot01")
+    row, column = grid.cell_of(robot.x, robot.y) or (0, 0)
+    assert grid.cells[row * grid.width + column] == FREE
+    assert len(grid.cells) > grid.cells.count(UNKNOWN) > len(grid.cells) / 2
 
 
 def test_goodbye_says_offline(bus: Mosquitto, ear: Ear, tmp_path: Path) -> None:
