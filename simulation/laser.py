@@ -17,8 +17,8 @@ RAYS = 720
 STEP_CELLS = 0.7
 MOVED_M = 0.1
 SEND_EVERY_S = 10.0
-SEND_AGAIN_S = 600.0
-"""What a robot says before it is approved is not kept."""
+SEND_AGAIN_S = 60.0
+"""What a robot says before it is approved, or before there is a gateway, is not kept."""
 
 
 class LaserMap:

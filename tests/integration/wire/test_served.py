@@ -61,6 +61,15 @@ def test_devices_join_over_mosquitto_and_both_web_processes_show_them(served: Se
             assert devices(client)["paintMixer03"]["status"] == "pending"
 
 
+def test_the_map_of_a_robot_comes_into_postgresql(served: Served) -> None:
+    with served.signed_in("author") as client:
+        path = f"{SITE}/devices/robot01/map"
+        told = served.wait("the map", lambda: (found := client.get(path)).status_code == 200 and found.json(), 120)
+        site = client.get(f"{SITE}/map").json()
+        assert (told["width"], told["origin"]) == (site["width"], site["origin"])
+        assert len(client.get(f"{path}/cells").content) == told["width"] * told["height"]
+
+
 def test_messages_that_cannot_be_read_are_noted_and_harm_nobody(served: Served) -> None:
     client = MqttClient(
         host="localhost",

@@ -59,12 +59,12 @@ def test_a_map_is_sent_when_it_has_grown_and_no_sooner_than_after_ten_seconds() 
     parts = [read_grid_part(message) for message in first]
     assert (parts[0].boot, parts[0].number) == (7, 1)
     assert np.count_nonzero(cells_array(join_parts(parts)) == OCCUPIED) > 50
-    assert mapper.next_messages(Pose(1.05, 1.0), 60.0) == []
+    assert mapper.next_messages(Pose(1.05, 1.0), 50.0) == []
     assert mapper.next_messages(Pose(3.5, 2.5), 5.0) == []
     assert mapper.next_messages(Pose(3.5, 2.5), 11.0) != []
     mapper.repeat()
     assert mapper.next_messages(Pose(3.5, 2.5), 20.0) == []
     (again,) = mapper.next_messages(Pose(3.5, 2.5), 30.0)
     assert read_grid_part(again).number == mapper.number == 3
-    assert mapper.next_messages(Pose(3.5, 2.5), 600.0) == []
-    assert mapper.next_messages(Pose(3.5, 2.5), 640.0) != []
+    assert mapper.next_messages(Pose(3.5, 2.5), 80.0) == []
+    assert mapper.next_messages(Pose(3.5, 2.5), 95.0) != []
