@@ -40,6 +40,7 @@ def _add_listing_arguments(sub: argparse.ArgumentParser) -> None:
 def add_approve_arguments(sub: argparse.ArgumentParser) -> None:
     """Describe what stands behind `vipo approve`."""
     sub.add_argument("device", help="the device's id")
+    sub.add_argument("--topic", help="confirm this legacy topic, which an approved device asks for, and nothing else")
     sub.add_argument("--json", action="store_true", help="write JSON for machines")
     sub.set_defaults(run=approve)
 
@@ -115,6 +116,12 @@ def approve(options: argparse.Namespace) -> int:
         device = services.find_device(device_id=options.device)
         if device is None:
             return _complain(f"No device {options.device!r} has described itself. Try: vipo devices")
+        if options.topic:
+            services.confirm_topic(
+                site=device.site, device_id=device.id, topic=options.topic, by=None, at=timezone.now()
+            )
+            _write(f"{device.name} ({device.id}) is told on {options.topic} from now on.")
+            return CLEAN
         decided = services.approve_device(site=device.site, device_id=device.id, by=None, at=timezone.now())
     except VipoError as error:
         return _complain(error.detail)

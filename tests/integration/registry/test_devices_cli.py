@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pytest
 
 from registry import services
+from registry.capability import MethodSpec
 from vipo_site.cli import main
 
-from .conftest import NOW, ROBOT, come, describe
+from .conftest import MIXER, NOW, ROBOT, come, describe
 
 
 def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
@@ -66,3 +68,15 @@ def test_a_new_join_key_ends_the_old_one(hall: str, capsys: pytest.CaptureFixtur
     assert services.check_device_password(username="join:hall", password=out.strip())
     assert services.check_device_password(username="join:hall", password="j" * 32) is None
     assert told(capsys, "join-key", "nowhere") == (2, "", "There is no site 'nowhere'.\n")
+
+
+def test_a_legacy_topic_is_confirmed_by_its_name(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    describe(replace(MIXER, methods=(MethodSpec("mix", "plant/mix"),)))
+    assert told(capsys, "approve", "mixer1", "--topic", "plant/mix")[0] == 2
+    told(capsys, "approve", "mixer1")
+    assert told(capsys, "approve", "mixer1", "--topic", "plant/mix") == (
+        0,
+        "Mixer One (mixer1) is told on plant/mix from now on.\n",
+        "",
+    )
+    assert services.list_granted_topics() == {"mixer1": ("plant/mix",)}
