@@ -62,7 +62,7 @@ export function AlertsBell({ slug }: { slug: string }) {
             <Bell size={17} aria-hidden="true" />
             {worst ? (
               <span className={styles.count}>
-                <StatusGlyph status={signOf(worst)} size={13} />
+                <StatusGlyph status={signOf(worst)} size={12} />
                 {open.length > MOST_SHOWN ? `${MOST_SHOWN}+` : open.length}
               </span>
             ) : null}

@@ -1,12 +1,14 @@
 import { Button, Tooltip } from "@mantine/core";
 import { Play } from "lucide-react";
-import { Fragment, useState } from "react";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, DeviceMethod, MethodParameter, Site } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { Panel } from "@/design/Panel";
 import { unitSign } from "@/i18n/units";
 import pages from "../pages.module.css";
+import { LegacyTopic } from "./LegacyTopic";
+import { Topic } from "./Topic";
 import { TryMethod } from "./TryMethod";
 import styles from "./detail.module.css";
 
@@ -66,17 +68,31 @@ function TryButton({ site, device, method }: { site: Site; device: Device; metho
   );
 }
 
-/** A topic that goes on in the next line behind a stroke only. */
-function Topic({ topic }: { topic: string }) {
+interface RowProps {
+  site: Site;
+  device: Device;
+  method: DeviceMethod;
+}
+
+function Row({ site, device, method, asking }: RowProps & { asking: boolean }) {
   return (
-    <code className={styles.topic}>
-      {topic.split(/(?<=\/)/).map((level, index) => (
-        <Fragment key={index}>
-          {level}
-          <wbr />
-        </Fragment>
-      ))}
-    </code>
+    <tr>
+      <td>
+        <code className={styles.method}>{method.name}</code>
+      </td>
+      <td>
+        {method.parameters.map((parameter) => (
+          <Parameter key={parameter.name} parameter={parameter} />
+        ))}
+      </td>
+      <td>
+        <Topic topic={method.topic} />
+        <LegacyTopic site={site} device={device} topic={method.topic} asking={asking} />
+      </td>
+      {device.lifecycle === "approved" ? (
+        <td>{asking ? null : <TryButton site={site} device={device} method={method} />}</td>
+      ) : null}
+    </tr>
   );
 }
 
@@ -88,43 +104,40 @@ export function Methods({ site, device }: { site: Site; device: Device }) {
       <div className={styles.sectionHead}>
         <h3 id="methods">{t("pages.devices.methods")}</h3>
       </div>
-      <Panel className={pages.scroll}>
-        <table className={pages.table}>
-          <thead>
-            <tr>
-              {["method", "parameter", "topic"].map((column) => (
-                <th key={column} scope="col">
-                  {t(`pages.devices.column.${column}`)}
-                </th>
-              ))}
-              {device.lifecycle === "approved" ? <th scope="col">{t("device.try.open")}</th> : null}
-            </tr>
-          </thead>
-          <tbody>
-            {device.methods.map((method) => (
-              <tr key={method.name}>
-                <td>
-                  <code className={styles.method}>{method.name}</code>
-                </td>
-                <td>
-                  {method.parameters.map((parameter) => (
-                    <Parameter key={parameter.name} parameter={parameter} />
-                  ))}
-                </td>
-                <td>
-                  <Topic topic={method.topic} />
-                </td>
-                {device.lifecycle === "approved" ? (
-                  <td>
-                    <TryButton site={site} device={device} method={method} />
-                  </td>
-                ) : null}
-              </tr>
-            ))}
-          </tbody>
-        </table>
-      </Panel>
+      {device.methods.length + device.asks.length === 0 ? (
+        <p className={styles.none}>{t("device.noMethods")}</p>
+      ) : (
+        <MethodTable site={site} device={device} />
+      )}
       {site.role === "viewer" ? <p className={styles.none}>{t("device.try.onlyOperators")}</p> : null}
     </section>
+  );
+}
+
+function MethodTable({ site, device }: { site: Site; device: Device }) {
+  const { t } = useTranslation();
+  return (
+    <Panel className={pages.scroll}>
+      <table className={pages.table}>
+        <thead>
+          <tr>
+            {["method", "parameter", "topic"].map((column) => (
+              <th key={column} scope="col">
+                {t(`pages.devices.column.${column}`)}
+              </th>
+            ))}
+            {device.lifecycle === "approved" ? <th scope="col">{t("device.try.open")}</th> : null}
+          </tr>
+        </thead>
+        <tbody>
+          {device.methods.map((method) => (
+            <Row key={method.name} site={site} device={device} method={method} asking={false} />
+          ))}
+          {device.asks.map((method) => (
+            <Row key={method.name} site={site} device={device} method={method} asking />
+          ))}
+        </tbody>
+      </table>
+    </Panel>
   );
 }

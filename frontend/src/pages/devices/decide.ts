@@ -11,6 +11,7 @@ import { useShownKey } from "./shownKey";
 
 export type Decision =
   | { do: "approve" | "reject" | "retire" | "readmit" | "rotate" | "revoke"; device: Device }
+  | { do: "confirmTopic" | "withdrawTopic"; device: Device; topic: string }
   | { do: "rename"; device: Device; name: string }
   | { do: "move"; device: Device; to: readonly [number, number] };
 
@@ -29,6 +30,10 @@ function send(slug: string, decision: Decision): Promise<Told> {
       const [x, y] = decision.to;
       return api.patch<Told>(path, { location: { ...decision.device.location, x, y } });
     }
+    case "confirmTopic":
+      return api.post<Told>(`${path}/topics/confirm`, { topic: decision.topic });
+    case "withdrawTopic":
+      return api.post<Told>(`${path}/topics/withdraw`, { topic: decision.topic });
     case "rotate":
       return api.post<Told>(`${path}/credential`);
     case "revoke":
@@ -65,6 +70,9 @@ function doneText(t: ReturnType<typeof useTranslation>["t"], decision: Decision)
       return t(`pages.devices.done.${decision.do}`, { name });
     case "move":
       return t("keys.done.move", { name, x: formatNumber(decision.to[0], 2), y: formatNumber(decision.to[1], 2) });
+    case "confirmTopic":
+    case "withdrawTopic":
+      return t(`device.topic.done.${decision.do}`, { name, topic: decision.topic });
     default:
       return t(`keys.done.${decision.do}`, { name });
   }
