@@ -13,6 +13,8 @@ from tests.e2e.screens import SITE, tell
 from tests.e2e.test_keyboard_and_axe import violations
 
 TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_text().replace("paintMixer03", "mixer-7")
+LEGACY = "hall/old-mixer/mix"
+ASKING = TEXT.replace("vipo/v1/dev/mixer-7/down/mixPaint", LEGACY)
 
 
 def come_in(setup: dict[str, str | int]) -> mqtt.Client:
@@ -24,7 +26,7 @@ def come_in(setup: dict[str, str | int]) -> mqtt.Client:
     client.connect(str(setup["host"]), int(setup["port"]))
     client.loop_start()
     said = [
-        ("desc", TEXT),
+        ("desc", ASKING),
         ("presence", '{"s": "online", "boot": 1}'),
         ("state", '{"boot": 1, "seq": 1, "done": true}'),
     ]
@@ -65,6 +67,12 @@ def test_a_device_is_added_comes_in_and_is_approved(sign_in: SignIn) -> None:
         expect(row).to_contain_text("Waiting for approval")
         tell(page, f"{SITE}/devices/mixer-7/approve")
         expect(row).to_contain_text("Idle")
+
+        page.get_by_role("button", name=f"Confirm the topic {LEGACY}").click()
+        assert violations(page) == []
+        page.get_by_role("dialog").get_by_role("button", name="Confirm", exact=True).click()
+        expect(page.get_by_role("button", name=f"Withdraw the topic {LEGACY}")).to_be_visible()
+        expect(page.get_by_role("button", name="Try mixPaint")).to_be_visible()
         page.get_by_role("tab", name="Used in").click()
         expect(page.get_by_text("No program uses it yet.")).to_be_visible()
     finally:
