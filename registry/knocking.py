@@ -27,13 +27,16 @@ FORGOTTEN_AFTER = timedelta(days=1)
 def admit_newcomer(*, site: str, device_id: str, payload: bytes, at: datetime) -> bool:
     """Remember the key that a newcomer brings, and let it in as pending; False when it was known with this key.
 
-    Raises BadMessage, BadDevice, NotAMember, BrokerAway.
+    A device that was taken out may knock until it is let come back; nothing is made of that. Raises BadMessage,
+    BadDevice, NotAMember, BrokerAway.
     """
     check_id(device_id)
     key = _read_key(payload)
     with transaction.atomic():
         row = find_site(site)
         device = Device.objects.select_for_update(of=("self",)).filter(pk=device_id).first()
+        if device is not None and device.lifecycle == Device.Lifecycle.RETIRED:
+            return False
         is_known = device is not None and hmac.compare_digest(device.credential_hash, secret_hash(key))
         if not is_known:
             device = device or make_row(device_id, row.pk, at)
@@ -76,6 +79,10 @@ def _make_room(site_id: int, at: datetime) -> None:
 
 
 def _require_keyless(device: Device, site_id: int) -> None:
+    if not device.credential_hash and device.lifecycle == Device.Lifecycle.APPROVED and device.site_id == site_id:
+        raise BadDevice(
+            f"{device.pk} knocked, whose key was revoked. Give it a new key, or retire it and let it come back."
+        )
     if device.lifecycle != Device.Lifecycle.PENDING or device.credential_hash or device.site_id != site_id:
         note_alert(device_id=device.pk, code="foreign_knock")
         raise BadDevice(

@@ -101,6 +101,7 @@ class MqttClient:
         self._version: ProtocolVersion = "5" if protocol == "auto" else protocol
         self._subscriptions: list[_Subscription] = []
         self._connected_callbacks: list[Callable[[], None]] = []
+        self._refused_callbacks: list[Callable[[], None]] = []
         self._early: deque[tuple[str, bytes, int, bool, float | None]] = deque(maxlen=EARLY_LIMIT)
         self._guard = threading.RLock()
         self._answered = threading.Condition(self._guard)
@@ -151,6 +152,10 @@ class MqttClient:
     def on_connected(self, callback: Callable[[], None]) -> None:
         """Call back after every connection, once the subscriptions were asked for again."""
         self._connected_callbacks.append(callback)
+
+    def on_refused(self, callback: Callable[[], None]) -> None:
+        """Call back each time that the broker does not let this client in; a new password counts from the next try."""
+        self._refused_callbacks.append(callback)
 
     def subscribe(self, topic: str, qos: int, callback: MessageCallback) -> None:
         """Hear a topic filter, now and after every reconnect; acknowledged when the callback returns."""
@@ -255,6 +260,8 @@ class MqttClient:
         log.log(
             logging.WARNING if is_new else logging.DEBUG, "The MQTT broker refused %s: %s.", self._client_id, reason
         )
+        for callback in list(self._refused_callbacks):
+            callback()
 
     def _disconnected(self, client: paho.Client, _data: Any, _flags: Any, reason: ReasonCode, _properties: Any) -> None:
         if client is not self._paho:

@@ -7,6 +7,7 @@ import logging
 import os
 import threading
 from pathlib import Path
+from typing import Protocol
 
 from registry.credentials import is_strong
 from registry.mqtt import MqttClient
@@ -14,6 +15,13 @@ from registry.told import read_command
 from registry.wire import AckMessage, ack_payload, down_topic, up_topic
 
 log = logging.getLogger(__name__)
+
+
+class Keeper(Protocol):
+    """What keeps the new keys of devices."""
+
+    def keep(self, device: str, key: str) -> None:
+        """Keep a device's new key. Raises OSError, ValueError."""
 
 
 class KeyFile:
@@ -26,15 +34,26 @@ class KeyFile:
     def keep(self, device: str, key: str) -> None:
         """Replace a device's key; the file is written whole or not at all. Raises OSError."""
         with self._guard:
-            keys: dict[str, str] = json.loads(self._path.read_text()) if self._path.exists() else {}
+            keys = self._read()
             part = self._path.with_name(self._path.name + ".new")
             part.unlink(missing_ok=True)
             with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
                 json.dump({**keys, device: key}, file, indent=1)
             part.replace(self._path)
 
+    def find(self, device: str) -> str:
+        """Return a device's key, empty where there is none. Raises OSError, ValueError."""
+        with self._guard:
+            return str(self._read().get(device, ""))
 
-def take_new_keys(device: str, client: MqttClient, key_file: KeyFile) -> None:
+    def _read(self) -> dict[str, str]:
+        keys: object = json.loads(self._path.read_text()) if self._path.exists() else {}
+        if not isinstance(keys, dict):
+            raise ValueError(f"{self._path.name} is no JSON object of keys by device.")  # noqa: TRY004 - a bad text
+        return keys
+
+
+def take_new_keys(device: str, client: MqttClient, keeper: Keeper) -> None:
     """Let a device's connection hear `down/credential`, keep what comes, and answer."""
 
     def hear(_topic: str, payload: bytes, retained: bool) -> None:
@@ -44,7 +63,7 @@ def take_new_keys(device: str, client: MqttClient, key_file: KeyFile) -> None:
             log.warning("%s: a message on down/credential brings no key; it was ignored.", device)
             return
         try:
-            key_file.keep(device, key)
+            keeper.keep(device, key)
         except (OSError, ValueError) as error:
             _answer(client, device, AckMessage(told.command, "FAILED", f"The key cannot be kept: {error}"[:256]))
             return

@@ -20,7 +20,7 @@ from registry.floor import with_devices
 from simulation.face import Face, Look
 from simulation.laser import Mapper
 from simulation.services import DriverName, make_world
-from simulation.site_facts import SiteFacts
+from simulation.site_facts import NothingToSimulate, SiteFacts
 from simulation.twin_memory import TwinMemory, read_memory, take_down, write_memory
 from simulation.world import Ack, Scene, World
 
@@ -148,8 +148,8 @@ class Twin:
         for ack in begun:
             self._answer(ack)
         looks = self._looks()
-        for name, face in self._faces.items():
-            face.report(looks[name], now_s, at_once=is_over)
+        for name, look in looks.items():
+            self._faces[name].report(look, now_s, at_once=is_over)
         for ack in acks:
             if ack not in begun:
                 self._answer(ack)
@@ -188,7 +188,10 @@ class Twin:
         """Take over a new map or machines that people moved, as soon as nobody is busy."""
         if self._plan.refresh is None or any(self._world.busy().values()):
             return
-        facts = self._plan.refresh()
+        try:
+            facts = self._plan.refresh()
+        except NothingToSimulate:  # all are taken out; the world stays as it is until one comes back
+            return
         if facts == self._facts:
             return
         memory = take_down(self._world, self._boots)

@@ -237,6 +237,7 @@ def find_firmware(state: Path, speed: float) -> list[str]:
             "port": settings.VIPO_MQTT["port"],
             "id": "paintMixer02",
             "password": credentials["paintMixer02"],
+            "join_key": (state / "secrets" / "join").read_text().strip(),
             "speed": speed,
         },
     )

@@ -17,6 +17,7 @@ from django.core.management.base import BaseCommand, CommandError
 from registry.device_line import ConnectionMaker
 from registry.errors import RegistryError
 from registry.mqtt import MqttClient, Will, tls_context
+from simulation.entrance import Door, Entrance
 from simulation.new_keys import KeyFile, take_new_keys
 from simulation.site_facts import SiteFacts, read_site_facts
 from simulation.twin import Twin, TwinPlan
@@ -78,8 +79,7 @@ def make_twin(options: dict[str, Any]) -> Twin:
         driver=options["driver"],
         refresh=lambda: read_site_facts(site),
     )
-    keys = {name: passwords.get(name, join_key) for name in voices}
-    return Twin(plan, connections(keys, KeyFile(folder / "secrets" / "devices.json")))
+    return Twin(plan, connections(site, passwords, join_key, folder / "secrets"))
 
 
 def choose_devices(facts: SiteFacts, only: str, left_out: str) -> frozenset[str]:
@@ -105,22 +105,31 @@ def read_credentials(folder: Path) -> tuple[dict[str, str], str]:
     return passwords, join.read_text().strip() if join.exists() else ""
 
 
-def connections(passwords: dict[str, str], key_file: KeyFile) -> ConnectionMaker:
-    """Return what makes a device's connection to the broker of the settings; new keys are taken and kept."""
-    broker: dict[str, Any] = settings.VIPO_MQTT
-    tls = tls_context(broker["ca"]) if broker["tls"] else None
+def connections(site: str, passwords: dict[str, str], join_key: str, secrets: Path) -> ConnectionMaker:
+    """Return what makes a device's connection to the broker of the settings; new keys are taken and kept in `secrets`.
+
+    Who is refused with every key that it has knocks at the site's door, if there is a join key.
+    """
+    keys, spares = KeyFile(secrets / "devices.json"), KeyFile(secrets / "devices-spare.json")
+    door = Door(site, lambda: connection(f"join:{site}", join_key)) if join_key else None
 
     def connect(device: str, will: Will) -> MqttClient:
-        client = MqttClient(
-            host=broker["host"],
-            port=broker["port"],
-            username=device,
-            password=passwords[device],
-            client_id=device,
-            tls=tls,
-            will=will,
-        )
-        take_new_keys(device, client, key_file)
+        client = connection(device, passwords.get(device, join_key), will)
+        take_new_keys(device, client, Entrance(device, client, keys, spares, door))
         return client
 
     return connect
+
+
+def connection(name: str, password: str, will: Will | None = None) -> MqttClient:
+    """Return a connection to the broker of the settings."""
+    broker: dict[str, Any] = settings.VIPO_MQTT
+    return MqttClient(
+        host=broker["host"],
+        port=broker["port"],
+        username=name,
+        password=password,
+        client_id=name,
+        tls=tls_context(broker["ca"]) if broker["tls"] else None,
+        will=will,
+    )
