@@ -25,9 +25,7 @@ function Version({ version, words, choose }: { version: MapVersion; words: strin
   const by = version.by ? `${version.by}, ` : "";
   return (
     <li>
-      <span>
-        {t("robotMap.version", { version: version.version, words })}
-      </span>
+      <span>{t("robotMap.version", { version: version.version, words })}</span>
       {choose ? (
         <Button
           size="xs"
