@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import itertools
+import json
 from datetime import UTC, datetime
 from pathlib import Path
+from uuid import UUID
 
 import pytest
 
+from execution import services as execution
+from execution.errors import BadArguments
+from execution.gateway import Gateway
 from registry import services
 from registry.describing import read_description, write_description
 from registry.mqtt import MqttClient
-from registry.wire import down_topic
+from registry.wire import down_topic, up_topic
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus, wait
 
 pytestmark = pytest.mark.servers
@@ -57,3 +62,39 @@ def test_a_confirmed_topic_is_heard_by_its_device_alone(bus: Bus) -> None:
     assert not {b"too early", b"a device says nothing there"} & {*heard["mixer01"], *heard["mixer02"]}
     for client in (*clients.values(), server):
         client.stop()
+
+
+def test_a_command_reaches_its_device_on_the_confirmed_topic_and_is_refused_afterwards(
+    bus: Bus, gateway: Gateway
+) -> None:
+    now = datetime.now(UTC)
+    text = write_description(read_description(TEXT.replace("paintMixer03", "mixer01").encode()))
+    text = text.replace(down_topic("mixer01", "mixPaint"), TOPIC)
+    services.ingest_description(device_id="mixer01", payload=text.encode(), at=now)
+    key = str(services.approve_device(site=SITE, device_id="mixer01", by=None, at=now).credential)
+    device, told = bus.client("mixer01", key), []
+
+    def hear(topic: str, payload: bytes, _retained: bool) -> None:
+        told.append((topic, json.loads(payload)))
+        device.publish(up_topic("mixer01", "ack"), json.dumps({"id": told[-1][1]["id"], "st": "DONE"}).encode())
+
+    for topic in (TOPIC, down_topic("mixer01", "#")):
+        device.subscribe(topic, 1, hear)
+    device.publish(up_topic("mixer01", "presence"), b'{"s": "online", "boot": 1}', retain=True)
+    device.start()
+
+    def call() -> UUID:
+        made = execution.call_method(site=SITE, device_id="mixer01", method="mixPaint", arguments={"time": 5}, by="Ada")
+        return UUID(made["id"])
+
+    wait("the device", lambda: services.get_device(site=SITE, device_id="mixer01").online)
+    with pytest.raises(BadArguments):
+        call()
+    services.confirm_topic(site=SITE, device_id="mixer01", topic=TOPIC, by=None, at=now)
+    command = call()
+    wait("the answer", lambda: execution.get_call(site=SITE, call_id=command)["status"] == "done")
+    assert {(topic, body["id"], body["v"]["time"]) for topic, body in told} == {(TOPIC, str(command), 5)}
+    services.withdraw_topic(site=SITE, device_id="mixer01", topic=TOPIC, by=None, at=now)
+    with pytest.raises(BadArguments):
+        call()
+    device.stop()
