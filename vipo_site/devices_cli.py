@@ -7,9 +7,12 @@ import json
 import os
 import sys
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import django
+
+if TYPE_CHECKING:
+    from registry.services import DeviceView
 
 CLEAN, UNUSABLE = 0, 2
 DEVICES = "List the devices of a site, or of all sites, with their state."
@@ -40,7 +43,9 @@ def _add_listing_arguments(sub: argparse.ArgumentParser) -> None:
 def add_approve_arguments(sub: argparse.ArgumentParser) -> None:
     """Describe what stands behind `vipo approve`."""
     sub.add_argument("device", help="the device's id")
-    sub.add_argument("--topic", help="confirm this legacy topic, which an approved device asks for, and nothing else")
+    topic = sub.add_mutually_exclusive_group()
+    topic.add_argument("--topic", help="confirm this legacy topic, which an approved device asks for, and nothing else")
+    topic.add_argument("--withdraw-topic", help="take the confirmation of this legacy topic back, and nothing else")
     sub.add_argument("--json", action="store_true", help="write JSON for machines")
     sub.set_defaults(run=approve)
 
@@ -116,12 +121,8 @@ def approve(options: argparse.Namespace) -> int:
         device = services.find_device(device_id=options.device)
         if device is None:
             return _complain(f"No device {options.device!r} has described itself. Try: vipo devices")
-        if options.topic:
-            services.confirm_topic(
-                site=device.site, device_id=device.id, topic=options.topic, by=None, at=timezone.now()
-            )
-            _write(f"{device.name} ({device.id}) is told on {options.topic} from now on.")
-            return CLEAN
+        if options.topic or options.withdraw_topic:
+            return _decide_topic(device, options)
         decided = services.approve_device(site=device.site, device_id=device.id, by=None, at=timezone.now())
     except VipoError as error:
         return _complain(error.detail)
@@ -134,6 +135,22 @@ def approve(options: argparse.Namespace) -> int:
         return CLEAN
     _write(f"Its key, shown this once: {decided.credential}")
     _write("The device has taken it by itself." if decided.taken else "Type it into the device, as its password.")
+    return CLEAN
+
+
+def _decide_topic(device: DeviceView, options: argparse.Namespace) -> int:
+    """Confirm a legacy topic, or take that back. Raises VipoError."""
+    from django.utils import timezone
+
+    from registry import services
+
+    topic: str = options.topic or options.withdraw_topic
+    decide = services.confirm_topic if options.topic else services.withdraw_topic
+    decide(site=device.site, device_id=device.id, topic=topic, by=None, at=timezone.now())
+    if options.json:
+        _write(json.dumps({"device": device.id, "topic": topic, "confirmed": bool(options.topic)}))
+    else:
+        _write(f"{device.name} ({device.id}) is {'' if options.topic else 'not '}told on {topic} from now on.")
     return CLEAN
 
 

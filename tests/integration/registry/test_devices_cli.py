@@ -80,3 +80,12 @@ def test_a_legacy_topic_is_confirmed_by_its_name(hall: str, capsys: pytest.Captu
         "",
     )
     assert services.list_granted_topics() == {"mixer1": ("plant/mix",)}
+    withdraw = ("approve", "mixer1", "--withdraw-topic", "plant/mix")
+    assert told(capsys, *withdraw, "--json") == (
+        0,
+        '{"device": "mixer1", "topic": "plant/mix", "confirmed": false}\n',
+        "",
+    )
+    assert services.list_granted_topics() == {}
+    code, _, complaint = told(capsys, *withdraw)
+    assert (code, "nothing is to be done" in complaint) == (2, True)
