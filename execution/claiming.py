@@ -63,7 +63,7 @@ WITH due AS MATERIALIZED (
     <lock>
 )
 UPDATE execution_command SET tries = tries + 1, send_after = CASE
-    WHEN device IN ({registry.DONE_FLAG_ONLY_SQL}) THEN %(never)s
+    WHEN ({registry.DONE_FLAG_ONLY_SQL.format(device="execution_command.device")}) THEN %(never)s
     WHEN status NOT IN ({_words(UNANSWERED)}) THEN %(last)s
     WHEN tries = 0 THEN %(first)s WHEN tries = 1 THEN %(second)s WHEN tries = 2 THEN %(third)s
     ELSE %(last)s END
