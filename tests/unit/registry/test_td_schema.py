@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from copy import deepcopy
 from typing import Any
 
 import pytest
@@ -33,7 +34,9 @@ VALUES = st.one_of(
     st.integers(-(2**53), 2**53),
     st.floats(allow_nan=False, allow_infinity=False),
     st.sampled_from(WORDS) | st.text(max_size=5),
-    st.sampled_from([[], {}, [1], ["a", "a"], {"scheme": "nosec"}, {"type": "integer", "minimum": 1.0}, [{}]]),
+    st.sampled_from([[], {}, [1], ["a", "a"], {"scheme": "nosec"}, {"type": "integer", "minimum": 1.0}, [{}]]).map(
+        deepcopy
+    ),
 )
 KEYS = st.sampled_from(
     ["@context", "@type", "title", "titles", "forms", "op", "version", "created", "security", "links"]
