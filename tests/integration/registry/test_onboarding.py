@@ -67,6 +67,14 @@ def test_an_added_device_comes_in_with_its_key_and_waits_for_approval(hall: str)
     assert told["credential"] not in json.dumps(list(Device.objects.values("credential_hash", "broker_hash")))
 
 
+def test_an_added_device_stays_at_the_site_whose_admin_added_it(hall: str) -> None:
+    services.create_site(name="Yard", slug="yard")
+    assert send("admin", "newcomers").status_code == 201
+    describe(replace(MIXER, site="yard"))
+    assert services.list_devices(site="yard") == ()
+    assert [device.id for device in services.list_devices(site="hall")] == ["mixer1"]
+
+
 def test_a_second_key_ends_the_first_until_the_device_has_come(hall: str) -> None:
     first, second = (send("admin", "newcomers").json()["credential"] for _ in range(2))
     assert (may_come_in("mixer1", first), may_come_in("mixer1", second)) == (False, True)
