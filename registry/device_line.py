@@ -136,8 +136,8 @@ class DeviceLine:
     def _hear_stop(self, _topic: str, payload: bytes, _retained: bool) -> None:
         self._hear(Stopped(self.id, read_stop(payload)))
 
-    def _hear_server(self, _topic: str, payload: bytes, _retained: bool) -> None:
+    def _hear_server(self, _topic: str, payload: bytes, retained: bool) -> None:
         """A server that was born anew may not know this device; the one that was there when it came in does."""
-        if self._server and payload != self._server:
+        if not retained or (self._server and payload != self._server):
             self._hear(CameIn(self.id))
         self._server = payload

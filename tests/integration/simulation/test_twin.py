@@ -184,8 +184,11 @@ def test_the_sites_stop_holds_everything_until_it_is_reset(bus: Mosquitto, ear: 
         wait_done(ear, "go")
 
 
-def test_a_new_server_is_told_who_is_here(bus: Mosquitto, ear: Ear, tmp_path: Path) -> None:
-    ear.say("vipo/v1/srv/status", {"s": "online", "at": "1"}, retain=True)
+@pytest.mark.parametrize("before", [{"s": "online", "at": "1"}, b""])
+def test_a_new_server_is_told_who_is_here_also_the_first_of_all(
+    bus: Mosquitto, ear: Ear, tmp_path: Path, before: dict[str, str] | bytes
+) -> None:
+    ear.say("vipo/v1/srv/status", before, retain=True)
     with running_twin(bus, tmp_path / "memory.json"):
         ear.wait(lambda h: h.topic == up("robot01", "state"))
         time.sleep(0.3)
