@@ -4,7 +4,7 @@ BIN := .venv/bin
 SOURCES := vipo_site registry editor simulation execution connectors firmware/robot_agent tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
-.PHONY: demo test check bench mutation checks-page openapi format frontend setup setup-dev servers clean
+.PHONY: demo test check check-frontend check-units bench mutation checks-page openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
 	@exec $(BIN)/python -m vipo_site.demo
@@ -52,7 +52,12 @@ check: setup-dev
 	$(BIN)/ruff check $(SOURCES)
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check-frontend check-units
+
+check-frontend: setup-dev
 	cd frontend && npm run --silent check && npm run --silent test
+
+check-units: setup-dev
 	$(BIN)/python -m pytest -q tests/unit
 
 test: setup-dev servers frontend
