@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import math
 import os
-import signal
-import threading
 from argparse import ArgumentParser
 from datetime import UTC, datetime
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 from django.conf import settings
@@ -21,6 +18,7 @@ from connectors.mtconnect.portrait import Stand
 from connectors.vipo_side import device_connections
 from registry.capability import Pose, Size
 from registry.errors import RegistryError
+from registry.stopping import stop_on_signals
 from registry.wire import is_device_id
 
 STOP_LIMIT_S = 8
@@ -49,15 +47,7 @@ class Command(BaseCommand):
 
     def handle(self, *_args: Any, **options: Any) -> None:
         """Run the connector."""
-        stopping = threading.Event()
-
-        def stop(_signal: int, _frame: FrameType | None) -> None:
-            stopping.set()
-            # A goodbye that hangs is not worth waiting for: the last wills say the same.
-            signal.alarm(STOP_LIMIT_S)
-
-        signal.signal(signal.SIGTERM, stop)
-        signal.signal(signal.SIGINT, stop)
+        stopping = stop_on_signals(STOP_LIMIT_S)
         try:
             make_plant(options).run(stopping)
         except RegistryError as error:

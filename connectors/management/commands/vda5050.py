@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import os
-import signal
-import threading
 import uuid
 from argparse import ArgumentParser
 from datetime import UTC, datetime
 from pathlib import Path
-from types import FrameType
 from typing import Any
 from urllib.parse import unquote, urlsplit
 
@@ -22,6 +19,7 @@ from connectors.vda5050.member import Setting
 from connectors.vipo_side import device_connections
 from registry.errors import RegistryError
 from registry.mqtt import MqttClient, tls_context
+from registry.stopping import stop_on_signals
 from registry.wire import is_device_id
 
 STOP_LIMIT_S = 8
@@ -48,15 +46,7 @@ class Command(BaseCommand):
 
     def handle(self, *_args: Any, **options: Any) -> None:
         """Run the connector."""
-        stopping = threading.Event()
-
-        def stop(_signal: int, _frame: FrameType | None) -> None:
-            stopping.set()
-            # What counts was saved before it was sent; a goodbye that hangs is not worth waiting for.
-            signal.alarm(STOP_LIMIT_S)
-
-        signal.signal(signal.SIGTERM, stop)
-        signal.signal(signal.SIGINT, stop)
+        stopping = stop_on_signals(STOP_LIMIT_S)
         try:
             make_fleet(options).run(stopping)
         except RegistryError as error:

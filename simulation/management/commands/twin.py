@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import json
 import logging
-import signal
-import threading
 from argparse import ArgumentParser
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 from django.conf import settings
@@ -17,6 +14,7 @@ from django.core.management.base import BaseCommand, CommandError
 from registry.device_line import ConnectionMaker
 from registry.errors import RegistryError
 from registry.mqtt import MqttClient, Will, tls_context
+from registry.stopping import stop_on_signals
 from simulation.entrance import Door, Entrance
 from simulation.new_keys import KeyFile, take_new_keys
 from simulation.site_facts import SiteFacts, read_site_facts
@@ -45,15 +43,7 @@ class Command(BaseCommand):
         """Run the twin."""
         if not 0.1 <= options["speed"] <= 100:
             raise CommandError(f"--speed {options['speed']:g} is outside 0.1 to 100; 1 is real time.")
-        stopping = threading.Event()
-
-        def stop(_signal: int, _frame: FrameType | None) -> None:
-            stopping.set()
-            # What counts was saved before it was said; a goodbye that hangs is not worth waiting for.
-            signal.alarm(STOP_LIMIT_S)
-
-        signal.signal(signal.SIGTERM, stop)
-        signal.signal(signal.SIGINT, stop)
+        stopping = stop_on_signals(STOP_LIMIT_S)
         try:
             make_twin(options).run(stopping)
         except RegistryError as error:
