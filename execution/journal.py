@@ -154,8 +154,4 @@ class Journal:
         messages = [{"type": "run_event", "run": str(run.id), "event": event_to_json(row)} for row in rows]
         messages.append({"type": "run", "run": run_to_json(run)})
 
-        def publish() -> None:
-            for message in messages:
-                live.publish(slug, message)
-
-        transaction.on_commit(publish)
+        transaction.on_commit(lambda: live.publish_all([(slug, message) for message in messages]))

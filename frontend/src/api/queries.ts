@@ -45,6 +45,8 @@ export const keys = {
   rehearsal: (id: string) => ["rehearsal", id] as const,
 };
 
+const EVENTS_AT_ONCE = 1000;
+
 /** A refusal is an answer: only silence and a busy server are worth another try. */
 function retry(failures: number, error: Error): boolean {
   const again = error instanceof ApiProblem && (error.status === 0 || error.status >= 502);
@@ -71,6 +73,17 @@ async function getMap(slug: string, known: SiteMap | undefined): Promise<SiteMap
   }
   const info = await getInfo();
   return { ...info, cells: info.version === known.version ? known.cells : await getCells() };
+}
+
+/** The whole journal of a run; the server gives a thousand lines at once. */
+async function getRunEvents(run: string): Promise<RunEvent[]> {
+  const all: RunEvent[] = [];
+  for (;;) {
+    const page = await api.get<RunEvent[]>(`/runs/${run}/events?after=${all.at(-1)?.seq ?? 0}`);
+    if (page.length === 0) return all;
+    all.push(...page);
+    if (page.length < EVENTS_AT_ONCE) return all;
+  }
 }
 
 /** A query that waits until its subject is known. */
@@ -145,10 +158,7 @@ export const useRun = (id: Maybe) =>
     at(id, (r) => `/runs/${r}`),
   );
 export const useRunEvents = (id: Maybe) =>
-  useGet<RunEvent[]>(
-    keys.runEvents(id ?? ""),
-    at(id, (r) => `/runs/${r}/events`),
-  );
+  useQuery({ queryKey: keys.runEvents(id ?? ""), queryFn: id ? () => getRunEvents(id) : skipToken });
 export const useLibrary = (q: string) =>
   useGet<LibraryFunction[]>(keys.library(q), `/library?q=${encodeURIComponent(q)}`);
 export const useLibraryFunction = (id: Maybe) =>

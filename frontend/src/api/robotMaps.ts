@@ -1,5 +1,5 @@
 /** The maps that robots send, the versions of a site's map, and what changes from one to another. */
-import { skipToken, useMutation, useQuery, useQueryClient, type QueryClient } from "@tanstack/react-query";
+import { skipToken, useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { api, ApiProblem } from "./client";
 import { keys } from "./queries";
 
@@ -95,11 +95,14 @@ export const useMapVersions = (slug: string, wanted: boolean) =>
     queryFn: wanted ? () => api.get<MapVersion[]>(`/sites/${slug}/map/versions`) : skipToken,
   });
 
-/** Fetch anew what depends on the site's map. */
-export function forgetSiteMap(queries: QueryClient, slug: string): void {
-  const stale = [keys.map(slug), keys.site(slug), keys.sites, mapKeys.versions(slug), mapKeys.differences(slug)];
-  for (const queryKey of stale) void queries.invalidateQueries({ queryKey });
-}
+/** The caches of what depends on a site's map. */
+export const staleWithSiteMap = (slug: string) => [
+  keys.map(slug),
+  keys.site(slug),
+  keys.sites,
+  mapKeys.versions(slug),
+  mapKeys.differences(slug),
+];
 
 /** Change the site's map; whatever comes of it, what is shown of it is fetched anew. */
 export function useChangeMap(slug: string) {
@@ -107,6 +110,8 @@ export function useChangeMap(slug: string) {
   return useMutation({
     mutationFn: ({ do: act, ...body }: MapChange) =>
       api.post<{ version: number }>(`/sites/${slug}/map/${act === "use" ? "from-device" : "restore"}`, body),
-    onSettled: () => forgetSiteMap(queries, slug),
+    onSettled: () => {
+      for (const queryKey of staleWithSiteMap(slug)) void queries.invalidateQueries({ queryKey });
+    },
   });
 }

@@ -1,10 +1,11 @@
 /** Writes what a site's socket says into the query caches and the live store. */
-import type { QueryClient } from "@tanstack/react-query";
+import type { QueryClient, QueryKey } from "@tanstack/react-query";
 import { keys } from "@/api/queries";
-import { forgetSiteMap, mapKeys } from "@/api/robotMaps";
+import { mapKeys, staleWithSiteMap } from "@/api/robotMaps";
 import type {
   Alert,
   ArmedProgram,
+  Compiled,
   Device,
   Question,
   Rehearsal,
@@ -15,6 +16,7 @@ import type {
   SiteStop,
 } from "@/api/types";
 import { applyAlert } from "./alerts";
+import { LiveCaches } from "./caches";
 import { applyChanges, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
 import type { DeviceChange, LiveMessage } from "./messages";
 import { recordDevice } from "./readings";
@@ -28,11 +30,14 @@ export class SiteFeed {
   readonly #changes = new Map<string, DeviceChange>();
   #timer: ReturnType<typeof setTimeout> | undefined;
   #dueAt = Infinity;
+  readonly #caches: LiveCaches;
 
   constructor(
     private readonly slug: string,
     private readonly queries: QueryClient,
-  ) {}
+  ) {
+    this.#caches = new LiveCaches(queries);
+  }
 
   take(message: LiveMessage): void {
     switch (message.type) {
@@ -43,7 +48,7 @@ export class SiteFeed {
       case "device_removed":
         return this.#removed(message.id);
       case "map":
-        return forgetSiteMap(this.queries, this.slug);
+        return this.#refreshAll(staleWithSiteMap(this.slug));
       case "robot_map":
         return this.#robotMap(message.device);
       case "compiled":
@@ -51,11 +56,9 @@ export class SiteFeed {
       case "run":
         return this.#run(message.run);
       case "run_event":
-        this.queries.setQueryData<readonly RunEvent[]>(
-          keys.runEvents(message.run),
-          (events) => events && applyRunEvent(events, message.event),
+        return this.#caches.write<readonly RunEvent[]>(keys.runEvents(message.run), (events) =>
+          applyRunEvent(events, message.event),
         );
-        return;
       case "question":
         return this.#question(message.question);
       case "notice":
@@ -63,11 +66,9 @@ export class SiteFeed {
       case "alert":
         return this.#alert(message.alert);
       case "alerts":
-        void this.queries.invalidateQueries({ queryKey: keys.alerts(this.slug) });
-        return;
+        return this.#caches.refresh(keys.alerts(this.slug));
       case "armed":
-        this.queries.setQueryData<ArmedProgram[]>(keys.armed(this.slug), message.programs);
-        return;
+        return this.#caches.write<ArmedProgram[]>(keys.armed(this.slug), () => message.programs);
       case "rehearsal":
         return this.#rehearsal(message);
       case "stop":
@@ -76,12 +77,13 @@ export class SiteFeed {
         useLiveStore.setState((state) => ({ traffic: { ...state.traffic, ...message.robots } }));
         return;
       case "programs":
-        void this.queries.invalidateQueries({ queryKey: keys.programs(this.slug) });
+        return this.#caches.refresh(keys.programs(this.slug));
     }
   }
 
   end(): void {
     clearTimeout(this.#timer);
+    this.#caches.end();
   }
 
   /** After each (new) greeting the state is fetched anew: what happened meanwhile was missed. */
@@ -99,7 +101,7 @@ export class SiteFeed {
     const open = ["run", "run-events", "rehearsal", "compiled", "robot-map", "map-difference", "map-versions"].map(
       (name) => [name],
     );
-    for (const queryKey of [...stale, ...open]) void this.queries.invalidateQueries({ queryKey });
+    this.#refreshAll([...stale, ...open]);
   }
 
   #device(change: DeviceChange): void {
@@ -120,45 +122,48 @@ export class SiteFeed {
   #flush(): void {
     this.#dueAt = Infinity;
     const key = keys.devices(this.slug);
-    const applied = applyChanges(this.queries.getQueryData<Device[]>(key) ?? [], this.#changes);
-    const news = [...this.#changes.values()].some((change) => "lifecycle" in change || "status" in change);
+    const changes = new Map(this.#changes);
     this.#changes.clear();
-    if (applied.devices.length > 0) this.queries.setQueryData(key, applied.devices);
-    if (applied.strangers.length > 0) void this.queries.invalidateQueries({ queryKey: key });
-    if (applied.strangers.length > 0 || news) this.#siteChanged();
+    const { strangers } = applyChanges(this.queries.getQueryData<Device[]>(key) ?? [], changes);
+    const news = [...changes.values()].some((change) => "lifecycle" in change || "status" in change);
+    this.#caches.write<Device[]>(key, (devices) => applyChanges(devices, changes).devices);
+    if (strangers.length > 0) this.#caches.refresh(key);
+    if (strangers.length > 0 || news) this.#siteChanged();
   }
 
   #siteChanged(): void {
-    void this.queries.invalidateQueries({ queryKey: keys.site(this.slug) });
-    void this.queries.invalidateQueries({ queryKey: keys.sites });
+    this.#refreshAll([keys.site(this.slug), keys.sites]);
+  }
+
+  #refreshAll(stale: readonly QueryKey[]): void {
+    for (const queryKey of stale) this.#caches.refresh(queryKey);
   }
 
   #removed(id: string): void {
-    this.queries.setQueryData<Device[]>(keys.devices(this.slug), (all) => all?.filter((each) => each.id !== id));
+    this.#caches.write<Device[]>(keys.devices(this.slug), (all) => all.filter((each) => each.id !== id));
     this.#siteChanged();
   }
 
   #robotMap(device: string): void {
-    const stale = [mapKeys.robot(this.slug, device), mapKeys.difference(this.slug, device)];
-    for (const queryKey of stale) void this.queries.invalidateQueries({ queryKey });
+    this.#refreshAll([mapKeys.robot(this.slug, device), mapKeys.difference(this.slug, device)]);
   }
 
   #compiled({ type: _, program, ...compiled }: Extract<LiveMessage, { type: "compiled" }>): void {
-    this.queries.setQueryData(keys.compiled(program), compiled);
+    this.#caches.write<Compiled>(keys.compiled(program), () => compiled);
   }
 
   #run(run: RunSummary): void {
-    this.queries.setQueryData<RunSummary[]>(keys.runs(this.slug), (runs) => runs && applyRun(runs, run));
-    this.queries.setQueryData<Run>(keys.run(run.id), (full) => full && { ...full, ...run });
+    this.#caches.write<RunSummary[]>(keys.runs(this.slug), (runs) => applyRun(runs, run));
+    this.#caches.write<Run>(keys.run(run.id), (full) => ({ ...full, ...run }));
   }
 
   #question(question: Question): void {
-    this.queries.setQueryData<Question[]>(keys.questions(this.slug), (all) => applyQuestion(all ?? [], question));
+    this.#caches.write<Question[]>(keys.questions(this.slug), (all) => applyQuestion(all, question));
   }
 
   #alert(alert: Alert): void {
-    this.queries.setQueryData<Alert[]>(keys.alerts(this.slug), (all) => all && applyAlert(all, alert));
-    if (alert.state === "over") void this.queries.invalidateQueries({ queryKey: keys.overAlerts(this.slug) });
+    this.#caches.write<Alert[]>(keys.alerts(this.slug), (all) => applyAlert(all, alert));
+    if (alert.state === "over") this.#caches.refresh(keys.overAlerts(this.slug));
   }
 
   #notice({ run, text, level }: Extract<LiveMessage, { type: "notice" }>): void {
@@ -171,12 +176,12 @@ export class SiteFeed {
   #rehearsal(message: Extract<LiveMessage, { type: "rehearsal" }>): void {
     const key = keys.rehearsal(message.id);
     const { status, progress } = message;
-    this.queries.setQueryData<Rehearsal>(key, (old) => old && { ...old, status, progress });
-    if (status === "done" || status === "failed") void this.queries.invalidateQueries({ queryKey: key });
+    this.#caches.write<Rehearsal>(key, (old) => ({ ...old, status, progress }));
+    if (status === "done" || status === "failed") this.#caches.refresh(key);
   }
 
   #stop(stop: SiteStop): void {
     useLiveStore.setState({ stop });
-    this.queries.setQueryData<Site>(keys.site(this.slug), (site) => site && { ...site, stop });
+    this.#caches.write<Site>(keys.site(this.slug), (site) => ({ ...site, stop }));
   }
 }
