@@ -40,6 +40,15 @@ ASKING = """class Task(object):
     def run(self, ctx):
         self.new_task()
 """
+LATE_JOURNAL = """
+const { fetch } = window;
+window.fetch = async (...request) => {
+  const answer = await fetch(...request);
+  if (String(request[0]).includes("/events")) await new Promise((done) => setTimeout(done, 3000));
+  return answer;
+};
+"""
+"""An answer with a run's journal arrives when the run has long gone on."""
 RESTOCKING = """class Task(object):
     def new_task(self):
         self.wait(1)
@@ -74,6 +83,7 @@ def wait_until_no_run_is_under_way(page: Page) -> None:
 
 def test_a_run_asks_and_somebody_else_answers(sign_in: SignIn) -> None:
     author, admin = sign_in("author"), sign_in("admin")
+    author.add_init_script(LATE_JOURNAL)
     write_program(author, "Asking", ASKING)
     expect(author.get_by_role("tab", name="Problems")).to_be_visible()
     start_run(author)
