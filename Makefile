@@ -4,7 +4,7 @@ BIN := .venv/bin
 SOURCES := vipo_site registry editor simulation execution connectors firmware/robot_agent tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
-.PHONY: demo test check check-frontend check-units bench mutation checks-page openapi format frontend setup setup-dev servers clean
+.PHONY: demo test check check-static check-frontend check-units bench mutation checks-page openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
 	@exec $(BIN)/python -m vipo_site.demo
@@ -47,12 +47,14 @@ format: setup-dev
 	$(BIN)/ruff check --fix --quiet $(SOURCES) ; $(BIN)/ruff format --quiet $(SOURCES)
 	cd frontend && npx prettier --log-level warn --write src
 
-check: setup-dev
-	$(BIN)/ruff format --check $(SOURCES)
-	$(BIN)/ruff check $(SOURCES)
+check: check-static
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check-frontend check-units
+
+check-static: setup-dev
+	$(BIN)/ruff format --check --quiet $(SOURCES)
+	$(BIN)/ruff check --quiet $(SOURCES)
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check-frontend check-units
 
 check-frontend: setup-dev
 	cd frontend && npm run --silent check && npm run --silent test
@@ -61,10 +63,9 @@ check-units: setup-dev
 	$(BIN)/python -m pytest -q tests/unit
 
 test: setup-dev servers frontend
-	cd frontend && npm run --silent check && npm run --silent test
-	$(BIN)/ruff format --check --quiet $(SOURCES) && $(BIN)/ruff check --quiet $(SOURCES) && $(BIN)/mypy && $(BIN)/lint-imports
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check-frontend check-static
 	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native tests/e2e
-	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --ignore=tests/e2e tests
+	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --numprocesses=2 --dist=loadfile --ignore=tests/e2e tests
 
 openapi: setup-dev
 	$(BIN)/python manage.py openapi

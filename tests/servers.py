@@ -7,8 +7,10 @@ with run_mosquitto(folder, {"server": "secret"}) as mosquitto: ...   mosquitto.p
 
 from __future__ import annotations
 
+import itertools
 import os
 import pwd
+import secrets
 import shutil
 import socket
 import subprocess
@@ -23,6 +25,7 @@ from registry.credentials import broker_hash
 
 ROOT = Path(__file__).resolve().parent.parent
 START_LIMIT_S = 30
+FIRST_PORT, PORTS_EACH = 16_000, 2_000
 
 
 class ServerMissing(AssertionError):
@@ -132,10 +135,28 @@ def find_plugin() -> str:
 
 
 def free_port() -> int:
-    """Return a port that nothing listens on."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    """Return a port that nothing listens on, and that neither a connection nor another runner of tests takes meanwhile.
+
+    Servers stop and start again on their port. So ports lie below those that the system gives to connections, and each
+    of the processes that run tests side by side has a range of its own.
+    """
+    for port in itertools.islice(_PORTS, PORTS_EACH):
+        with socket.socket() as probe, suppress(OSError):
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind(("127.0.0.1", port))
+            return port
+    raise AssertionError("All ports for tests are in use.")
+
+
+def _own_ports() -> Iterator[int]:
+    """Yield the ports of this process, round and round, beginning somewhere: others may run tests on this machine."""
+    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+    own = range(FIRST_PORT + worker * PORTS_EACH, FIRST_PORT + (worker + 1) * PORTS_EACH)
+    start = secrets.randbelow(PORTS_EACH)
+    return itertools.cycle([*own[start:], *own[:start]])
+
+
+_PORTS = _own_ports()
 
 
 def answers(port: int) -> bool:

@@ -117,7 +117,9 @@ def test_a_newcomer_that_waits_long_is_told_to_admins(mixer: str) -> None:
     watch(3700)
     assert alerts() == [("newcomer_waits", "", 1)]
     assert services.list_alerts(site="hall", role="author") == ()
+    come("robot1", online=False)  # who is there would be told its key over MQTT
     services.approve_device(site="hall", device_id="robot1", by=None, at=NOW)
+    come("robot1", boot=2)
     watch(3720)
     assert alerts() == []
 

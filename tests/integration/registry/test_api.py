@@ -126,7 +126,6 @@ def test_a_refusal_says_which_role_is_needed(browser: Callable[[str], Client]) -
 
 def test_a_member_sees_their_sites_with_counts(browser: Callable[[str], Client]) -> None:
     describe()
-    come()
     services.create_site(name="Other")
     expected = {
         "slug": "hall",
@@ -143,6 +142,7 @@ def test_a_member_sees_their_sites_with_counts(browser: Callable[[str], Client])
     assert browser("author").get("/api/sites").json() == [expected]
     assert browser("stranger").get("/api/sites").json() == []
     services.approve_device(site="hall", device_id="mixer1", by=None, at=NOW)
+    come()
     services.set_site_stop(site="hall", active=True, by="Ada", at=NOW)
     now = browser("author").get("/api/sites/hall").json()
     assert (now["machines"], now["online"], now["pending"], now["simulated"]) == (1, 1, 0, True)
