@@ -7,13 +7,15 @@ connector that was killed, and a vehicle that started anew come to the same end.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass
 from typing import Any, Literal
 
-from connectors.commands import Answers
+from connectors.vda5050.cancelling import Cancel, is_orphan, stands_idle
 from connectors.vda5050.frame import Point
-from connectors.vda5050.messages import DRIVING_MODES, ENDED, Located, VehicleError, VehicleState
+from connectors.vda5050.messages import ENDED, Located, VehicleError, VehicleState
+from connectors.vda5050.open_tasks import OpenTasks
 from connectors.vda5050.orders import (
+    OURS,
     Body,
     Order,
     action,
@@ -24,26 +26,16 @@ from connectors.vda5050.orders import (
     order_to_json,
 )
 from connectors.vda5050.pausing import Pausing, pausing_from_json
+from connectors.vda5050.readiness import why_not
 from connectors.vda5050.shown import shown
-from connectors.vda5050.tasks import (
-    Task,
-    Vehicle,
-    action_parameters,
-    drives_in_front,
-    read_task,
-    task_from_json,
-    task_to_json,
-)
+from connectors.vda5050.tasks import Task, Vehicle, action_parameters, drives_in_front, read_task
 from registry.capability import DeviceState, Pose
 from registry.told import Told
-from registry.wire import AckMessage, AckStatus
+from registry.wire import AckMessage
 
 CONTROLS = ("pause", "resume", "cancel")
-OURS = "vipo-"
 PATIENCE_S = 3.0
-CANCEL_AGAIN_S = 5.0
 TRIES = 4
-BEFORE = "The way before it failed."
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,16 +44,6 @@ class Send:
 
     topic: Literal["order", "instantActions"]
     body: Body
-
-
-@dataclass(slots=True)
-class Cancel:
-    """An order that is being cancelled: the commands that end with it, and the cancel commands to be answered."""
-
-    action_id: str
-    targets: list[str] = field(default_factory=list)
-    controls: list[str] = field(default_factory=list)
-    sent_s: float | None = None
 
 
 class VehicleControl:
@@ -75,11 +57,10 @@ class VehicleControl:
         self.online = False
         self._new_id = new_id
         self._held = False
-        self._tasks: list[Task] = []
+        self._tasks = OpenTasks(lambda ack: self.out.append(ack))
         self._order: Order | None = None
         self._cancel: Cancel | None = None
         self._pausing = Pausing()
-        self._answers = Answers()
         self._sent_s: float | None = None
         self._tries = 0
         self._errors_before: frozenset[VehicleError] = frozenset()
@@ -93,12 +74,12 @@ class VehicleControl:
         """Take in that the site's stop was pressed or reset."""
         self._held = active
         if active and not self.vehicle.can_pause:
-            self._cancel_tasks([t.command for t in self._tasks], "", "The site was stopped; it cannot pause.")
+            self._cancel_tasks(self._tasks.commands, "", "The site was stopped; it cannot pause.")
         self.settle(now_s)
 
     def command(self, told: Told, now_s: float) -> None:
         """Take in a command; one that is known is answered again, or will be."""
-        known = self._answers.find(told.command)
+        known = self._tasks.find(told.command)
         if known is not None:
             self.out.append(known)
             return
@@ -107,14 +88,15 @@ class VehicleControl:
         if told.method in CONTROLS:
             self._control(told, now_s)
         elif why := self._take_on(told):
-            self._say(told.command, "REJECTED", why)
+            self._tasks.say(told.command, "REJECTED", why)
         self.settle(now_s)
 
     def look(self, boot: int, seq: int) -> DeviceState:
         """Return the device's state as VIPO hears it."""
         pose = self.vehicle.frame.to_site(self.located.pose) if self.located else None
-        command = self._tasks[0].command if self._tasks else ""
-        return DeviceState(boot, seq, not self._tasks, pose, command, shown(self.state, self.vehicle.sheet))
+        head = self._tasks.head
+        command = head.command if head else ""
+        return DeviceState(boot, seq, head is None, pose, command, shown(self.state, self.vehicle.sheet))
 
     def settle(self, now_s: float) -> None:
         """Judge everything that is open by the newest state, and do what is due."""
@@ -127,33 +109,27 @@ class VehicleControl:
         self._follow_cancel(state, now_s)
         self._steer_pause(state, now_s)
         self._hand_over(state, now_s)
-        head = self._tasks[0] if self._tasks else None
-        if head and head.is_handed_over and self._order and self._order.taken >= 0 and not self._said(head, "RUNNING"):
-            self._say(head.command, "RUNNING")
+        self._say_running()
 
     def to_json(self) -> dict[str, Any]:
         """Return what has to outlive a restart of the connector."""
         return {
-            "tasks": [task_to_json(task) for task in self._tasks],
+            **self._tasks.to_json(),
             "order": order_to_json(self._order) if self._order else None,
-            "cancel": {**asdict(self._cancel), "sent_s": None} if self._cancel else None,
+            "cancel": self._cancel.to_json() if self._cancel else None,
             "pausing": self._pausing.to_json(),
-            "over": [asdict(ack) for ack in self._answers.over()],
-            "under_way": [asdict(ack) for ack in self._answers.under_way()],
         }
 
     def recall(self, body: Mapping[str, Any]) -> None:
         """Take up what to_json wrote; an order that was perhaps not sent is sent again, which the vehicle ignores."""
-        self._tasks = [task_from_json(task) for task in body["tasks"]]
+        self._tasks.recall(body)
         self._order = order_from_json(body["order"]) if body["order"] else None
         self._cancel = Cancel(**body["cancel"]) if body["cancel"] else None
         self._pausing = pausing_from_json(body["pausing"])
-        over, under_way = (tuple(AckMessage(**ack) for ack in body[name]) for name in ("over", "under_way"))
-        self._answers = Answers(over, under_way)
 
     def _is_open(self, command: str) -> bool:
         controls = [asked.command for asked in self._pausing.asked] + (self._cancel.controls if self._cancel else [])
-        return command in controls or any(task.command == command for task in self._tasks)
+        return command in controls or command in self._tasks.commands
 
     def _take_on(self, told: Told) -> str:
         """Queue a command; return why not, or an empty text."""
@@ -162,22 +138,19 @@ class VehicleControl:
         task = read_task(self.vehicle, told, self._way_begins())
         if isinstance(task, str):
             return task
-        if self._tasks and not (task.way and self._tasks[-1].way):
-            self._say(task.command, "ACCEPTED")  # it waits here, unknown to the vehicle, until all before it is done
-        self._tasks.append(task)
+        tail = self._tasks.tail
+        if tail and not (task.way and tail.way):
+            self._tasks.say(
+                task.command, "ACCEPTED"
+            )  # it waits here, unknown to the vehicle, until all before it is done
+        self._tasks.add(task)
         return ""
 
     def _refusal(self) -> str:
         name, state = self.vehicle.description.name, self.state
         if state is None or not self.online:
             return f"{name} is not connected."
-        if self._held:
-            return "The site is stopped."
-        if state.fatal is not None:
-            return f"{name} needs a person: {state.fatal.sentence}"
-        if state.mode not in DRIVING_MODES:
-            return f"{name} is in the mode {state.mode[:40]}; switch it to AUTOMATIC."
-        return "" if self.located else f"{name} does not know where it is; set its position."
+        return "The site is stopped." if self._held else why_not(name, state, is_located=self.located is not None)
 
     def _way_begins(self) -> Point | None:
         """Return where the next piece of way has to begin: at the end of the last one, or where the vehicle is."""
@@ -194,35 +167,34 @@ class VehicleControl:
         if told.method == "cancel":
             self._cancel_named(told.command, target)
         elif not self.vehicle.can_pause:
-            self._say(told.command, "REJECTED", f"{self.vehicle.description.name} cannot pause.")
+            self._tasks.say(told.command, "REJECTED", f"{self.vehicle.description.name} cannot pause.")
         else:
             self._pausing.ask(told.command, target, now_s, pause=told.method == "pause")
 
     def _cancel_named(self, control: str, target: str) -> None:
-        open_ids = [task.command for task in self._tasks]
-        if not target or target in open_ids:
-            at = open_ids.index(target) if target else 0
-            later = [t.command for t in self._tasks[at + 1 :] if t.way and (self._tasks[at].way or not target)]
-            self._cancel_tasks([*open_ids[at : at + 1], *(later if target else open_ids[1:])], control)
+        tasks = list(self._tasks)
+        at = next((at for at, task in enumerate(tasks) if task.command == target), None)
+        if not target:
+            self._cancel_tasks(self._tasks.commands, control)
+        elif at is not None:
+            behind = [t.command for t in tasks[at + 1 :] if t.way and tasks[at].way]
+            self._cancel_tasks([target, *behind], control)
         else:
-            if self._answers.find(target) is None:
+            if self._tasks.find(target) is None:
                 # It may still be on its way here, and must not be carried out when it comes.
-                self._say(target, "CANCELED", "It was cancelled before it arrived.")
-            self._say(control, "DONE")
+                self._tasks.say(target, "CANCELED", "It was cancelled before it arrived.")
+            self._tasks.say(control, "DONE")
 
     def _cancel_tasks(self, commands: list[str], control: str, why: str = "") -> None:
         """End commands: at once those that the vehicle does not know of, the others when it has stopped."""
-        ended = [task for task in self._tasks if task.command in commands]
-        for task in [t for t in ended if not t.is_handed_over]:
-            self._end(task, "CANCELED", why or f"{task.method} was cancelled.")
-        known = [task.command for task in ended if task.is_handed_over]
-        if not known:
-            if control:
-                self._say(control, "DONE")
-            return
-        self._cancel = self._cancel or Cancel(self._new_id())
-        self._cancel.targets += [command for command in known if command not in self._cancel.targets]
-        self._cancel.controls += [control] if control else []
+        for task in [t for t in self._tasks.waiting if t.command in commands]:
+            self._tasks.end(task, "CANCELED", why or f"{task.method} was cancelled.")
+        known = [task.command for task in self._tasks.handed_over if task.command in commands]
+        if known:
+            self._cancel = self._cancel or Cancel(self._new_id())
+            self._cancel.include(known, control)
+        elif control:
+            self._tasks.say(control, "DONE")
 
     def _follow_order(self, state: VehicleState, now_s: float) -> None:
         order = self._order
@@ -230,9 +202,9 @@ class VehicleControl:
             return
         if not order.is_taken and state.order == order.id and state.update >= order.update:
             self._order, self._tries = order.with_taken(), 0
-            for task in self._handed_over():
-                if self._answers.find(task.command) is None:
-                    self._say(task.command, "ACCEPTED")
+            for task in self._tasks.handed_over:
+                if self._tasks.find(task.command) is None:
+                    self._tasks.say(task.command, "ACCEPTED")
         elif order.taken >= 0 and state.order != order.id:
             self._end_handed_over("The vehicle no longer has the order; it was started anew, or given another one.")
         elif not order.is_taken:
@@ -240,7 +212,7 @@ class VehicleControl:
 
     def _press_for(self, order: Order, state: VehicleState, now_s: float) -> None:
         """Look for a refusal of what was sent last, or send it again."""
-        if not self._handed_over() and not order.takes_horizon_away:
+        if not self._tasks.handed_over and not order.takes_horizon_away:
             self._order_refused(order, "")
         elif error := state.refusal(order.id, order.update, self._errors_before):
             self._order_refused(order, error.sentence)
@@ -252,31 +224,28 @@ class VehicleControl:
 
     def _order_refused(self, order: Order, why: str) -> None:
         kept = int(order.taken_end["sequenceId"]) if order.taken_end else -1
-        refused = [t for t in self._handed_over() if t.last > kept or t.actions]
+        refused = [t for t in self._tasks.handed_over if t.last > kept or t.actions]
         for task in refused:
-            self._end(task, "FAILED" if self._answers.find(task.command) else "REJECTED", why)
-        if order.takes_horizon_away and self._tasks:
-            self._end(self._tasks[0], "FAILED" if self._answers.find(self._tasks[0].command) else "REJECTED", why)
-        self._drop_drives_behind(bool(refused))
+            self._tasks.end_refused(task, why)
+        if order.takes_horizon_away and self._tasks.head:
+            self._tasks.end_refused(self._tasks.head, why)
+        if refused:
+            self._tasks.drop_drives()
         self._order, self._tries = (order.without_newest() if order.taken_end else None), 0
 
     def _end_handed_over(self, why: str) -> None:
-        for task in self._handed_over():
+        for task in self._tasks.handed_over:
             cancelled = self._cancel is not None and task.command in self._cancel.targets
-            self._end(task, "CANCELED" if cancelled else "FAILED", why)
-        self._drop_drives_behind(True)
+            self._tasks.end(task, "CANCELED" if cancelled else "FAILED", why)
+        self._tasks.drop_drives()
         self._order = None
-
-    def _drop_drives_behind(self, failed: bool) -> None:
-        for task in [t for t in self._tasks if failed and t.way and not t.is_handed_over]:
-            self._end(task, "CANCELED", BEFORE)
 
     def _give_up_on_fatal(self, state: VehicleState) -> None:
         """End everything when the vehicle needs a person, so that it does not drive on once it was helped."""
         if state.fatal is None or not self._tasks:
             return
-        for task in list(self._tasks):
-            self._end(task, "FAILED", state.fatal.sentence)
+        for task in self._tasks:
+            self._tasks.end(task, "FAILED", state.fatal.sentence)
         if self._order is not None:
             self._cancel = self._cancel or Cancel(self._new_id())
 
@@ -287,72 +256,60 @@ class VehicleControl:
         if order.kind == "act":
             self._finish_actions(state)
             return
-        for task in self._handed_over():
+        for task in self._tasks.handed_over:
             if state.last_sequence < task.last or any(s.sequence <= task.last for s in state.ahead):
                 break
-            self._end(task, "DONE")
-        if order.is_taken and self._cancel is None and self._handed_over() and not state.has_way_left:
+            self._tasks.end(task, "DONE")
+        if order.is_taken and self._cancel is None and self._tasks.handed_over and not state.has_way_left:
             self._end_handed_over("The vehicle ended its order before the end of the way.")
 
     def _finish_actions(self, state: VehicleState) -> None:
-        for task in self._handed_over():
+        for task in self._tasks.handed_over:
             told = [state.action(action_id) for action_id in task.actions]
             failed = next((a for a in told if a and a.status == "FAILED"), None)
             if all(a and a.status == "FINISHED" for a in told):
-                self._end(task, "DONE")
+                self._tasks.end(task, "DONE")
             elif failed and not (self._cancel and task.command in self._cancel.targets):
-                self._end(task, "FAILED", state.reason(failed.id) or failed.result or f"{task.method} failed.")
+                self._tasks.end(task, "FAILED", state.reason(failed.id) or failed.result or f"{task.method} failed.")
                 if not all(a and a.status in ENDED for a in told):
                     self._cancel = self._cancel or Cancel(self._new_id())
 
     def _follow_cancel(self, state: VehicleState, now_s: float) -> None:
         """Have the order cancelled: ours when it is wanted, and one of ours that nobody knows of any more."""
-        if self._cancel is None and self._is_orphan(state):
+        if self._cancel is None and is_orphan(state, self._order.id if self._order else ""):
             self._cancel = Cancel(self._new_id())
         cancel = self._cancel
         if cancel is None or (self._order is not None and not self._order.is_taken):
             return
-        said = state.action(cancel.action_id)
-        if (said is not None and said.status in ENDED) or self._stands_idle(state):
+        actions = [action_id for task in self._tasks.handed_over for action_id in task.actions]
+        if cancel.is_confirmed(state) or stands_idle(state, actions):
             self._cancelled(cancel, state)
-        elif cancel.sent_s is None or now_s - cancel.sent_s > CANCEL_AGAIN_S:
-            cancel.sent_s = now_s
-            self.out.append(Send("instantActions", action(cancel.action_id, "cancelOrder", {})))
-
-    def _is_orphan(self, state: VehicleState) -> bool:
-        known = self._order is not None and self._order.id == state.order
-        return state.order.startswith(OURS) and not known and bool(state.ahead)
-
-    def _stands_idle(self, state: VehicleState) -> bool:
-        """Tell whether the vehicle has nothing left to do of the order."""
-        ours = [action_id for task in self._handed_over() for action_id in task.actions]
-        told = [state.action(action_id) for action_id in ours]
-        return not state.ahead and all(a is None or a.status in ENDED for a in told)
+        elif due := cancel.due(now_s):
+            self.out.append(Send("instantActions", due))
 
     def _cancelled(self, cancel: Cancel, state: VehicleState) -> None:
         """Answer what ended with the order; what was not meant goes on from here, in an order of its own."""
         self._cancel = None
-        for task in self._handed_over():
+        for task in self._tasks.handed_over:
             if task.command in cancel.targets:
-                self._end(task, "CANCELED", f"{task.method} was cancelled.")
+                self._tasks.end(task, "CANCELED", f"{task.method} was cancelled.")
             else:
                 task.go_on_from(state.last_sequence)
         self._order = None
         for control in cancel.controls:
-            self._say(control, "DONE")
+            self._tasks.say(control, "DONE")
 
     def _steer_pause(self, state: VehicleState, now_s: float) -> None:
-        wanted = self._pausing.wants([task.command for task in self._tasks], held=self._held)
+        wanted = self._pausing.wants(self._tasks.commands, held=self._held)
         due = self._pausing.steer(state, now_s, self._new_id, wanted=wanted) if self.vehicle.can_pause else None
         if due is not None:
             self.out.append(Send("instantActions", due))
         for command, why in self._pausing.answered(state, now_s, wanted=wanted):
-            self._say(command, "REJECTED" if why else "DONE", why)
+            self._tasks.say(command, "REJECTED" if why else "DONE", why)
 
     def _hand_over(self, state: VehicleState, now_s: float) -> None:
         """Order what waits: moves in one order that grows, anything else when all before it is done."""
-        waiting = [task for task in self._tasks if not task.is_handed_over]
-        order, under_way = self._order, self._handed_over()
+        order, waiting, under_way = self._order, self._tasks.waiting, self._tasks.handed_over
         if not waiting or self._cancel or (order is not None and not order.is_taken) or self.located is None:
             return
         drives = drives_in_front(waiting)
@@ -385,18 +342,10 @@ class VehicleControl:
         self._tries += 1
         self.out.append(Send("order", order.body))
 
-    def _handed_over(self) -> list[Task]:
-        return [task for task in self._tasks if task.is_handed_over]
-
-    def _end(self, task: Task, status: AckStatus, why: str = "") -> None:
-        self._tasks.remove(task)
-        self._say(task.command, status, why)
-
-    def _said(self, task: Task, status: AckStatus) -> bool:
-        said = self._answers.find(task.command)
-        return said is not None and said.status == status
-
-    def _say(self, command: str, status: AckStatus, why: str = "") -> None:
-        ack = AckMessage(command, status, why[:256])
-        self._answers.note(ack)
-        self.out.append(ack)
+    def _say_running(self) -> None:
+        head = self._tasks.head
+        if head is None or not head.is_handed_over or self._order is None or self._order.taken < 0:
+            return
+        said = self._tasks.find(head.command)
+        if said is None or said.status != "RUNNING":
+            self._tasks.say(head.command, "RUNNING")

@@ -10,6 +10,8 @@ from connectors.vda5050.frame import Point
 
 Body = Mapping[str, Any]
 OrderKind = Literal["drive", "act"]
+OURS = "vipo-"
+"""How the ids of VIPO's orders begin, and of the actions in them."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,14 @@
+"""Whether a vehicle can be told to do something now, and why not."""
+
+from __future__ import annotations
+
+from connectors.vda5050.messages import DRIVING_MODES, VehicleState
+
+
+def why_not(name: str, state: VehicleState, *, is_located: bool) -> str:
+    """Return why a vehicle takes no command now, for people; empty when it does."""
+    if state.fatal is not None:
+        return f"{name} needs a person: {state.fatal.sentence}"
+    if state.mode not in DRIVING_MODES:
+        return f"{name} is in the mode {state.mode[:40]}; switch it to AUTOMATIC."
+    return "" if is_located else f"{name} does not know where it is; set its position."
