@@ -7,7 +7,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from queue import Queue
 from threading import Event
 from typing import Any
@@ -34,7 +34,8 @@ from registry.wire import down_topic, up_topic  # noqa: E402
 SITE = "hall"
 NEWCOMERS = 5000
 AT_ONCE = 200
-TRIES = range(30)
+TRIES = range(100)
+MILLISECOND = timedelta(milliseconds=1)
 
 
 def describe(number: int, name: str = "") -> Description:
@@ -105,7 +106,7 @@ def find_unchanged(said: dict[str, bytes], rounds: int) -> None:
 
 
 def measure_delays(port: int, password: str) -> Iterator[dict[str, object]]:
-    """Time a stranger's description until browsers are told, and a command's row until its device hears it."""
+    """Time a stranger's description until browsers are told, and a command's row until it is out and is heard."""
     client = MqttClient(host="127.0.0.1", port=port, username="server", password=password, client_id="bench")
     heard: Queue[tuple[str, float]] = Queue()
     client.subscribe("vipo/v1/dev/+/down/#", 1, lambda topic, _p, _r: heard.put((topic, time.perf_counter())))
@@ -115,7 +116,10 @@ def measure_delays(port: int, password: str) -> Iterator[dict[str, object]]:
     time.sleep(1)
     newcomers = [_newcomer(client, heard, number) for number in TRIES]
     yield {"what": "from a new device's description to the browsers", "ms": newcomers}
-    yield {"what": "from a command to its device", "ms": [_command(heard, n) for n in TRIES]}
+    site = Device.objects.values_list("site_id", flat=True)[0]
+    yield {"what": "from a command to its device", "ms": [_command(heard, site, n) for n in TRIES]}
+    sent = Command.objects.exclude(sent_at=None).values_list("created_at", "sent_at")
+    yield {"what": "from a command to its going out", "ms": [(out - asked) / MILLISECOND for asked, out in sent]}
     client.stop()
 
 
@@ -131,10 +135,10 @@ def _newcomer(client: MqttClient, heard: Queue[tuple[str, float]], number: int) 
     return _wait_for(heard, description.id, began)
 
 
-def _command(heard: Queue[tuple[str, float]], number: int) -> float:
+def _command(heard: Queue[tuple[str, float]], site: int, number: int) -> float:
     device, now = device_name(number), datetime.now(UTC)
     row = Command(
-        id=uuid4(), site_id=Device.objects.values_list("site_id", flat=True)[0], device=device, method="pick",
+        id=uuid4(), site_id=site, device=device, method="pick",
         arguments={"value": 1}, ttl_s=60, position=number, send_after=now, created_at=now,
     )  # fmt: skip
     began = time.perf_counter()

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
+from functools import reduce
 from typing import Any
 from uuid import UUID
 
@@ -31,6 +32,7 @@ def _words(values: Iterable[str]) -> str:
     return ", ".join(f"'{value}'" for value in values)
 
 
+_DONE_FLAG_ONLY = registry.DONE_FLAG_ONLY_SQL.format(device="execution_command.device")
 # `IS TRUE` makes PostgreSQL look devices up in a hash: a join, planned when little was open, takes seconds in a rush.
 _CLAIM = f"""
 WITH due AS MATERIALIZED (
@@ -61,20 +63,30 @@ WITH due AS MATERIALIZED (
     SELECT id AS taken_id FROM execution_command
     WHERE id IN (SELECT id FROM chosen) AND status IN ({_words(Command.OPEN)}) AND send_after <= %(now)s
     <lock>
-)
+)<haste>
 UPDATE execution_command SET tries = tries + 1, send_after = CASE
-    WHEN ({registry.DONE_FLAG_ONLY_SQL.format(device="execution_command.device")}) THEN %(never)s
+    WHEN ({_DONE_FLAG_ONLY}) THEN %(never)s
     WHEN status NOT IN ({_words(UNANSWERED)}) THEN %(last)s
     WHEN tries = 0 THEN %(first)s WHEN tries = 1 THEN %(second)s WHEN tries = 2 THEN %(third)s
     ELSE %(last)s END
-FROM taken WHERE id = taken_id
+FROM taken <hasty> WHERE id = taken_id
 RETURNING site_id, position, id, device, method, arguments, ttl_s, (
     SELECT topic FROM ({registry.CONFIRMED_TOPICS_SQL}) AS told
     WHERE told.device_id = execution_command.device AND told.method = execution_command.method
 )
 """  # noqa: S608 - made of this product's own constants only
 _MARK = "UPDATE execution_command SET status = 'sent', sent_at = %s WHERE status = 'pending' AND id IN (<ids>)"
-_LOCKS = {"postgresql": "FOR UPDATE SKIP LOCKED", "sqlite": ""}
+_HASTE = f""", haste AS MATERIALIZED (
+    SELECT set_config('synchronous_commit', 'off', true) WHERE NOT EXISTS (
+        SELECT 1 FROM execution_command JOIN taken ON id = taken_id WHERE ({_DONE_FLAG_ONLY})
+    )
+)"""  # noqa: S608 - made of this product's own constants only
+"""A claim does not wait for the disk. One that a crash of the database forgets is made again, with the same ids, which
+devices know; so it waits where a device knows none."""
+_DIALECTS = {
+    "postgresql": {"<lock>": "FOR UPDATE SKIP LOCKED", "<haste>": _HASTE, "<hasty>": "LEFT JOIN haste ON true"},
+    "sqlite": {"<lock>": "", "<haste>": "", "<hasty>": ""},
+}
 """SQLite lets one write at a time: two that claim at once come one after the other."""
 
 
@@ -99,9 +111,13 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     All that is one statement: a command waits for this, and each question more is a millisecond.
     """
     with _preparing_cursor() as cursor:
-        cursor.execute(_CLAIM.replace("<lock>", _LOCKS[connection.vendor]), _parameters(datetime.now(UTC), limit))
+        cursor.execute(_statement(connection.vendor), _parameters(datetime.now(UTC), limit))
         rows = cursor.fetchall()
     return tuple(_outgoing(*row[2:]) for row in sorted(rows, key=lambda row: row[:2]))
+
+
+def _statement(vendor: str) -> str:
+    return reduce(lambda text, part: text.replace(*part), _DIALECTS[vendor].items(), _CLAIM)
 
 
 @contextmanager

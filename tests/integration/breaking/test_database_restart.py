@@ -18,7 +18,7 @@ from uuid import UUID, uuid4
 import psycopg
 import pytest
 from django.core.management import call_command
-from django.db import connection, connections
+from django.db import connection, connections, transaction
 from pytest_django import DjangoDbBlocker
 
 from execution import services as execution
@@ -280,6 +280,17 @@ def test_each_command_goes_to_one_of_three_that_claim_at_the_same_time(plant: Pl
     assert claimed() == sorted(ids)
     assert set(Command.objects.filter(id__in=ids).values_list("tries", flat=True)) == {1}
     Command.objects.filter(id__in=ids).update(status="done")
+    Device.objects.filter(pk__in=NAMES).update(source_type="text/turtle")
+
+
+@pytest.mark.parametrize(("form", "waits"), [("text/turtle", "off"), ("text/plain", "on")])
+def test_a_claim_waits_for_the_disk_only_where_a_device_would_do_it_twice(plant: Plant, form: str, waits: str) -> None:
+    Device.objects.filter(pk__in=NAMES).update(source_type=form)
+    with transaction.atomic(), connection.cursor() as cursor:
+        ids = {str(add_command(name, due_in_s=0)) for name in NAMES}  # which the gateway does not see
+        assert {command.id for command in execution.claim_commands(limit=100)} == ids
+        assert cursor.execute("SHOW synchronous_commit").fetchone() == (waits,)
+        transaction.set_rollback(True)
     Device.objects.filter(pk__in=NAMES).update(source_type="text/turtle")
 
 
