@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from connectors.vda5050.messages import ENDED, VehicleState
+from connectors.vda5050.messages import VehicleState
 from connectors.vda5050.orders import OURS, Body, action
 
 AGAIN_S = 5.0
@@ -26,15 +26,19 @@ class Cancel:
         self.targets += [command for command in commands if command not in self.targets]
         self.controls += [control] if control else []
 
-    def is_confirmed(self, state: VehicleState) -> bool:
-        """Tell whether the vehicle has answered."""
+    def is_over(self, state: VehicleState) -> bool:
+        """Tell whether the vehicle has cancelled, or does nothing of ours any more; one that refuses drives on."""
         said = state.action(self.action_id)
-        return said is not None and said.status in ENDED
+        has_ours = state.order.startswith(OURS) and state.works_on(state.order)
+        return not has_ours or (said is not None and said.status == "FINISHED")
 
-    def due(self, now_s: float) -> Body | None:
-        """Return the instant action when it is time to send it, or to send it again."""
+    def due(self, state: VehicleState, now_s: float, new_id: Callable[[], str]) -> Body | None:
+        """Return the instant action when it is time to send it, or to send it again; anew where it was refused."""
         if self.sent_s is not None and now_s - self.sent_s <= AGAIN_S:
             return None
+        said = state.action(self.action_id)
+        if said is not None and said.status == "FAILED":
+            self.action_id = new_id()
         self.sent_s = now_s
         return action(self.action_id, "cancelOrder", {})
 
@@ -45,10 +49,4 @@ class Cancel:
 
 def is_orphan(state: VehicleState, known_order: str) -> bool:
     """Tell whether the vehicle carries out an order of ours that is not the one that is known."""
-    return state.order.startswith(OURS) and state.order != known_order and bool(state.ahead)
-
-
-def stands_idle(state: VehicleState, actions: Iterable[str]) -> bool:
-    """Tell whether the vehicle has nothing left to do: no way, and none of these actions."""
-    told = [state.action(action_id) for action_id in actions]
-    return not state.ahead and all(a is None or a.status in ENDED for a in told)
+    return state.order.startswith(OURS) and state.order != known_order and state.works_on(state.order)

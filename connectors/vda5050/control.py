@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from connectors.vda5050.cancelling import Cancel, is_orphan, stands_idle
+from connectors.vda5050.cancelling import Cancel, is_orphan
 from connectors.vda5050.frame import Point
 from connectors.vda5050.messages import ENDED, Located, VehicleError, VehicleState
 from connectors.vda5050.open_tasks import OpenTasks
@@ -28,7 +28,7 @@ from connectors.vda5050.orders import (
 from connectors.vda5050.pausing import Pausing, pausing_from_json
 from connectors.vda5050.readiness import why_not
 from connectors.vda5050.shown import shown
-from connectors.vda5050.tasks import Task, Vehicle, action_parameters, drives_in_front, read_task
+from connectors.vda5050.tasks import Task, Vehicle, action_parameters, drives_in_front, read_task, why_astray
 from registry.capability import DeviceState, Pose
 from registry.told import Told
 from registry.wire import AckMessage
@@ -36,6 +36,7 @@ from registry.wire import AckMessage
 CONTROLS = ("pause", "resume", "cancel")
 PATIENCE_S = 3.0
 TRIES = 4
+NOT_TAKEN = "The vehicle did not take the order."
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +57,7 @@ class VehicleControl:
         self.located: Located | None = None
         self.online = False
         self._new_id = new_id
-        self._held = False
+        self.held = False
         self._tasks = OpenTasks(lambda ack: self.out.append(ack))
         self._order: Order | None = None
         self._cancel: Cancel | None = None
@@ -64,6 +65,7 @@ class VehicleControl:
         self._sent_s: float | None = None
         self._tries = 0
         self._errors_before: frozenset[VehicleError] = frozenset()
+        self._cancelled_s: float | None = None
 
     def hear_state(self, state: VehicleState, now_s: float) -> None:
         """Take in a state of the vehicle."""
@@ -72,7 +74,7 @@ class VehicleControl:
 
     def hold(self, now_s: float, *, active: bool) -> None:
         """Take in that the site's stop was pressed or reset."""
-        self._held = active
+        self.held = active
         if active and not self.vehicle.can_pause:
             self._cancel_tasks(self._tasks.commands, "", "The site was stopped; it cannot pause.")
         self.settle(now_s)
@@ -118,6 +120,7 @@ class VehicleControl:
             "order": order_to_json(self._order) if self._order else None,
             "cancel": self._cancel.to_json() if self._cancel else None,
             "pausing": self._pausing.to_json(),
+            "held": self.held,
         }
 
     def recall(self, body: Mapping[str, Any]) -> None:
@@ -126,6 +129,7 @@ class VehicleControl:
         self._order = order_from_json(body["order"]) if body["order"] else None
         self._cancel = Cancel(**body["cancel"]) if body["cancel"] else None
         self._pausing = pausing_from_json(body["pausing"])
+        self.held = bool(body.get("held"))
 
     def _is_open(self, command: str) -> bool:
         controls = [asked.command for asked in self._pausing.asked] + (self._cancel.controls if self._cancel else [])
@@ -140,9 +144,8 @@ class VehicleControl:
             return task
         tail = self._tasks.tail
         if tail and not (task.way and tail.way):
-            self._tasks.say(
-                task.command, "ACCEPTED"
-            )  # it waits here, unknown to the vehicle, until all before it is done
+            # It waits here, unknown to the vehicle, until all before it is done.
+            self._tasks.say(task.command, "ACCEPTED")
         self._tasks.add(task)
         return ""
 
@@ -150,15 +153,17 @@ class VehicleControl:
         name, state = self.vehicle.description.name, self.state
         if state is None or not self.online:
             return f"{name} is not connected."
-        return "The site is stopped." if self._held else why_not(name, state, is_located=self.located is not None)
+        return "The site is stopped." if self.held else why_not(name, state, is_located=self.located is not None)
 
     def _way_begins(self) -> Point | None:
         """Return where the next piece of way has to begin: at the end of the last one, or where the vehicle is."""
         ends = [task.way[-1].point for task in self._tasks if task.way]
         if not ends and self.located is None:
             return None
-        here = Pose(*ends[-1]) if ends else (self.located.pose if self.located else Pose(0, 0))
-        site = self.vehicle.frame.to_site(here)
+        return self._in_site(Pose(*ends[-1]) if ends else (self.located.pose if self.located else Pose(0, 0)))
+
+    def _in_site(self, pose: Pose) -> Point:
+        site = self.vehicle.frame.to_site(pose)
         return site.x, site.y
 
     def _control(self, told: Told, now_s: float) -> None:
@@ -216,9 +221,12 @@ class VehicleControl:
             self._order_refused(order, "")
         elif error := state.refusal(order.id, order.update, self._errors_before):
             self._order_refused(order, error.sentence)
+        elif self._cancel is not None and self._sent_s is None:
+            self._sent_s = now_s
         elif self._sent_s is None or now_s - self._sent_s > PATIENCE_S:
-            if self._tries >= TRIES:
-                self._order_refused(order, "The vehicle did not take the order.")
+            # What is to be cancelled is not sent again; if it comes to be taken all the same, it is nobody's.
+            if self._tries >= TRIES or self._cancel is not None:
+                self._order_refused(order, NOT_TAKEN)
             else:
                 self._send_order(order, now_s)
 
@@ -226,7 +234,10 @@ class VehicleControl:
         kept = int(order.taken_end["sequenceId"]) if order.taken_end else -1
         refused = [t for t in self._tasks.handed_over if t.last > kept or t.actions]
         for task in refused:
-            self._tasks.end_refused(task, why)
+            if self._is_cancelled(task):
+                self._tasks.end(task, "CANCELED", f"{task.method} was cancelled.")
+            else:
+                self._tasks.end_refused(task, why)
         if order.takes_horizon_away and self._tasks.head:
             self._tasks.end_refused(self._tasks.head, why)
         if refused:
@@ -235,8 +246,7 @@ class VehicleControl:
 
     def _end_handed_over(self, why: str) -> None:
         for task in self._tasks.handed_over:
-            cancelled = self._cancel is not None and task.command in self._cancel.targets
-            self._tasks.end(task, "CANCELED" if cancelled else "FAILED", why)
+            self._tasks.end(task, "CANCELED" if self._is_cancelled(task) else "FAILED", why)
         self._tasks.drop_drives()
         self._order = None
 
@@ -269,7 +279,7 @@ class VehicleControl:
             failed = next((a for a in told if a and a.status == "FAILED"), None)
             if all(a and a.status == "FINISHED" for a in told):
                 self._tasks.end(task, "DONE")
-            elif failed and not (self._cancel and task.command in self._cancel.targets):
+            elif failed and not self._is_cancelled(task):
                 self._tasks.end(task, "FAILED", state.reason(failed.id) or failed.result or f"{task.method} failed.")
                 if not all(a and a.status in ENDED for a in told):
                     self._cancel = self._cancel or Cancel(self._new_id())
@@ -277,19 +287,18 @@ class VehicleControl:
     def _follow_cancel(self, state: VehicleState, now_s: float) -> None:
         """Have the order cancelled: ours when it is wanted, and one of ours that nobody knows of any more."""
         if self._cancel is None and is_orphan(state, self._order.id if self._order else ""):
-            self._cancel = Cancel(self._new_id())
+            self._cancel = Cancel(self._new_id(), sent_s=self._cancelled_s)
         cancel = self._cancel
         if cancel is None or (self._order is not None and not self._order.is_taken):
             return
-        actions = [action_id for task in self._tasks.handed_over for action_id in task.actions]
-        if cancel.is_confirmed(state) or stands_idle(state, actions):
+        if cancel.is_over(state):
             self._cancelled(cancel, state)
-        elif due := cancel.due(now_s):
+        elif due := cancel.due(state, now_s, self._new_id):
             self.out.append(Send("instantActions", due))
 
     def _cancelled(self, cancel: Cancel, state: VehicleState) -> None:
         """Answer what ended with the order; what was not meant goes on from here, in an order of its own."""
-        self._cancel = None
+        self._cancel, self._cancelled_s = None, cancel.sent_s
         for task in self._tasks.handed_over:
             if task.command in cancel.targets:
                 self._tasks.end(task, "CANCELED", f"{task.method} was cancelled.")
@@ -299,8 +308,11 @@ class VehicleControl:
         for control in cancel.controls:
             self._tasks.say(control, "DONE")
 
+    def _is_cancelled(self, task: Task) -> bool:
+        return self._cancel is not None and task.command in self._cancel.targets
+
     def _steer_pause(self, state: VehicleState, now_s: float) -> None:
-        wanted = self._pausing.wants(self._tasks.commands, held=self._held)
+        wanted = self._pausing.wants(self._tasks.commands, held=self.held)
         due = self._pausing.steer(state, now_s, self._new_id, wanted=wanted) if self.vehicle.can_pause else None
         if due is not None:
             self.out.append(Send("instantActions", due))
@@ -310,20 +322,32 @@ class VehicleControl:
     def _hand_over(self, state: VehicleState, now_s: float) -> None:
         """Order what waits: moves in one order that grows, anything else when all before it is done."""
         order, waiting, under_way = self._order, self._tasks.waiting, self._tasks.handed_over
-        if not waiting or self._cancel or (order is not None and not order.is_taken) or self.located is None:
+        if not waiting or self._cancel or (order is not None and not order.is_taken) or self._refusal():
             return
         drives = drives_in_front(waiting)
         is_joined = order is not None and order.kind == "drive" and (bool(under_way) or state.has_horizon)
         if (under_way and not (drives and is_joined)) or (state.has_way_left and not under_way):
             return
-        if order is not None and is_joined and not drives:
-            order = extend_drive(order, (), ())
-        else:
-            order = self._order_for(drives, waiting[0], order if is_joined else None, self.located)
-        self._order, self._tries, self._errors_before = order, 0, frozenset(state.errors)
-        self._send_order(order, now_s)
+        grown = order if is_joined else None
+        if drives and (why := self._why_astray(drives[0], grown)):
+            self._tasks.end_refused(drives[0], why)
+            self._tasks.drop_drives()
+            return
+        self._order = (
+            extend_drive(grown, (), ()) if grown and not drives else self._order_for(drives, waiting[0], grown)
+        )
+        self._tries, self._errors_before = 0, frozenset(state.errors)
+        self._send_order(self._order, now_s)
 
-    def _order_for(self, drives: list[Task], head: Task, order: Order | None, located: Located) -> Order:
+    def _why_astray(self, task: Task, order: Order | None) -> str:
+        """Return why a move is not handed over: while it waited, people may have driven the vehicle elsewhere."""
+        assert self.located is not None
+        here = Pose(*order.end_point) if order else self.located.pose
+        return why_astray(self.vehicle, task.begin, self._in_site(here))
+
+    def _order_for(self, drives: list[Task], head: Task, order: Order | None) -> Order:
+        assert self.located is not None
+        located = self.located
         here, name = (located.pose.x, located.pose.y), OURS + self._new_id()
         if not drives:
             parameters = action_parameters(self.vehicle, head)

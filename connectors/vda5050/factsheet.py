@@ -29,7 +29,8 @@ PROPERTIES = (
     PropertySpec("driving", "boolean", title="Driving"),
     PropertySpec("charging", "boolean", title="Charging"),
     PropertySpec("mode", "text", title="Operating mode"),
-    PropertySpec("problem", "text", title="Problem"),
+    PropertySpec("error", "text", title="Faults"),
+    PropertySpec("warning", "text", title="Warnings"),
 )
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 _UNFIT = re.compile(r"[^A-Za-z0-9_.-]")

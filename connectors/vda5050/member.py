@@ -73,7 +73,7 @@ class Member:
         self._description = b""
         self._version = "2.0.0"
         self._told_facts = (b"", "")
-        self._connected = self._held = False
+        self._connected = False
         self._newest: dict[str, Header] = {}
         self._state: VehicleState | None = None
         self._located: Located | None = None
@@ -111,8 +111,7 @@ class Member:
 
     def hold(self, now_s: float, *, active: bool) -> None:
         """Take in the site's stop."""
-        if self.control is not None and active != self._held:
-            self._held = active
+        if self.control is not None and active != self.control.held:
             self.control.hold(now_s, active=active)
             self.speak(now_s)
 

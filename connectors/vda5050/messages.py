@@ -86,7 +86,7 @@ class VehicleError:
 
 @dataclass(frozen=True, slots=True)
 class VehicleState:
-    """A vehicle's state; `paused`, `loads` and `located` are None where it does not tell."""
+    """A vehicle's state; None stands for what it does not tell. `is_lost`: it says that it does not know its place."""
 
     header: Header
     order: str
@@ -97,10 +97,12 @@ class VehicleState:
     driving: bool
     paused: bool | None
     located: Located | None
-    battery_percent: float
+    is_lost: bool
+    battery_percent: float | None
     charging: bool
     mode: str
     e_stop: str
+    field_violated: bool
     loads: tuple[str, ...] | None
     errors: tuple[VehicleError, ...]
 
@@ -112,12 +114,17 @@ class VehicleState:
         """Return the error with which the vehicle refuses an update of an order; `before` are older errors."""
         for error in self.errors:
             named, number = error.names("orderId"), error.names("orderUpdateId")
-            if named == order and number in {None, str(update)}:
+            if named == order and (number == str(update) or (number is None and update == 0)):
                 return error
             about_order = error.type in ORDER_ERRORS and error.names("topic") != "instantActions"
-            if named is None and about_order and error not in before:
+            if named in {None, order} and number is None and about_order and error not in before:
                 return error
         return None
+
+    def works_on(self, order: str) -> bool:
+        """Tell whether something of an order of ours is still to be driven, or one of its actions to be ended."""
+        acting = any(a.id.startswith(f"{order}-") and a.status not in ENDED for a in self.actions)
+        return self.order == order and (bool(self.ahead) or acting)
 
     def reason(self, action_id: str) -> str:
         """Return what the vehicle says about an action that failed, empty when it says nothing."""
@@ -157,7 +164,8 @@ def read_visualization(payload: bytes, name: VehicleName) -> tuple[Header, Locat
 def read_state(payload: bytes, name: VehicleName) -> VehicleState:
     """Read a vehicle's state. Raises BadMessage."""
     fields = read_fields(payload, "state")
-    battery, safety = fields.inner("batteryState"), fields.inner("safetyState")
+    battery, safety, position = (fields.inner(name) for name in ("batteryState", "safetyState", "agvPosition"))
+    charge = battery.number("batteryCharge") if battery else None
     stretches = (*fields.each("nodeStates", needed=True), *fields.each("edgeStates", needed=True))
     return VehicleState(
         header=read_header(fields, name),
@@ -168,11 +176,13 @@ def read_state(payload: bytes, name: VehicleName) -> VehicleState:
         actions=tuple(_action(a) for a in fields.each("actionStates", needed=True)),
         driving=fields.truth("driving") is True,
         paused=fields.truth("paused"),
-        located=_located(fields.inner("agvPosition")),
-        battery_percent=min(100.0, max(0.0, (battery.number("batteryCharge") if battery else None) or 0.0)),
+        located=_located(position),
+        is_lost=position is not None and position.truth("positionInitialized") is False,
+        battery_percent=None if charge is None else min(100.0, max(0.0, charge)),
         charging=battery is not None and battery.truth("charging") is True,
         mode=fields.text("operatingMode", needed=True),
         e_stop=(safety.text("eStop") if safety else "") or "NONE",
+        field_violated=safety is not None and safety.truth("fieldViolation") is True,
         loads=tuple(load.told("loadType") or "load" for load in fields.each("loads"))
         if "loads" in fields.body
         else None,
@@ -219,7 +229,7 @@ def _error(fields: Fields) -> VehicleError:
     level = fields.text("errorLevel", needed=True)
     if level not in {"WARNING", "FATAL"}:
         fields.refuse("errorLevel", "WARNING or FATAL")
-    references = tuple((r.told("referenceKey"), r.told("referenceValue")) for r in fields.each("errorReferences"))
+    references = tuple((r.told("referenceKey"), _reference(r)) for r in fields.each("errorReferences"))
     return VehicleError(
         fields.text("errorType", needed=True),
         cast("Level", level),
@@ -227,3 +237,9 @@ def _error(fields: Fields) -> VehicleError:
         references,
         fields.told("errorHint"),
     )
+
+
+def _reference(fields: Fields) -> str:
+    """Return what an error refers to; the standard wants texts, and some vehicles write an update's number as such."""
+    value = fields.body.get("referenceValue")
+    return str(value) if isinstance(value, int) else fields.told("referenceValue")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from connectors.vda5050.messages import DRIVING_MODES, VehicleState
+from connectors.vda5050.orders import OURS
 
 
 def why_not(name: str, state: VehicleState, *, is_located: bool) -> str:
@@ -11,4 +12,6 @@ def why_not(name: str, state: VehicleState, *, is_located: bool) -> str:
         return f"{name} needs a person: {state.fatal.sentence}"
     if state.mode not in DRIVING_MODES:
         return f"{name} is in the mode {state.mode[:40]}; switch it to AUTOMATIC."
-    return "" if is_located else f"{name} does not know where it is; set its position."
+    if state.has_way_left and not state.order.startswith(OURS):
+        return f"{name} carries out an order of somebody else's ({state.order[:60]})."
+    return "" if is_located and not state.is_lost else f"{name} does not know where it is; set its position."

@@ -13,22 +13,27 @@ def shown(state: VehicleState | None, sheet: Factsheet) -> dict[str, Scalar]:
     if state is None:
         return {}
     found: dict[str, Scalar] = {
-        "battery": round(state.battery_percent),
         "driving": state.driving,
         "charging": state.charging,
         "mode": state.mode[:MAX_TEXT],
-        "problem": _problem(state),
+        "error": _error(state),
+        "warning": _warning(state),
     }
+    if state.battery_percent is not None:
+        found["battery"] = round(state.battery_percent)
     if state.loads is not None and capacity(sheet):
         found["load"] = _counted(state.loads)
     return found
 
 
-def _problem(state: VehicleState) -> str:
-    told = [error.sentence for error in state.errors]
-    if state.e_stop != "NONE":
-        told.insert(0, f"Emergency stop ({state.e_stop})")
-    return "; ".join(told)[:MAX_TEXT]
+def _error(state: VehicleState) -> str:
+    stop = [] if state.e_stop == "NONE" else [f"Emergency stop ({state.e_stop})"]
+    return "; ".join([*stop, *(e.sentence for e in state.errors if e.level == "FATAL")])[:MAX_TEXT]
+
+
+def _warning(state: VehicleState) -> str:
+    field = ["Something is in its protective field"] if state.field_violated else []
+    return "; ".join([*field, *(e.sentence for e in state.errors if e.level == "WARNING")])[:MAX_TEXT]
 
 
 def _counted(loads: tuple[str, ...]) -> str:

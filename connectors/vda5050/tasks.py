@@ -21,7 +21,10 @@ ASTRAY_M = 0.6
 
 @dataclass(slots=True)
 class Task:
-    """A command that is open. Once it is handed over, `last` is its last node's sequence id, or `actions` their ids."""
+    """A command that is open. Once it is handed over, `last` is its last node's sequence id, or `actions` their ids.
+
+    `begin` is where a move has to begin (site frame, metres), None where it does not say so.
+    """
 
     command: str
     method: str
@@ -30,6 +33,7 @@ class Task:
     ahead: tuple[Point, ...] = ()
     last: int = -1
     actions: tuple[str, ...] = ()
+    begin: Point | None = None
 
     @property
     def is_handed_over(self) -> bool:
@@ -40,7 +44,7 @@ class Task:
         """Take it back from an order that is over: what is left of its way has to be driven anew."""
         first = self.last - 2 * (len(self.way) - 1)
         left = tuple(w for at, w in enumerate(self.way) if first + 2 * at > sequence)
-        self.way, self.last, self.actions = left or self.way[-1:], -1, ()
+        self.way, self.last, self.actions, self.begin = left or self.way[-1:], -1, (), None
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,13 +93,17 @@ def _read_move(vehicle: Vehicle, told: Told, way_begins: Point | None) -> Task |
         return "theta must be a number in radians."
     if speed is not None and not (is_number(speed) and float(str(speed)) > 0):
         return "speed must be a number above 0, in metres a second."
-    if why := _strays(vehicle, told.arguments.get("from"), way_begins):
+    begin = told.arguments.get("from")
+    if begin is not None and not _is_point(begin):
+        return "from must be a point [x, y] in metres."
+    if why := why_astray(vehicle, _point(begin), way_begins):
         return why
     limit = float(str(speed)) if speed is not None else None
     points = [vehicle.frame.to_vehicle((p[0], p[1])) for p in path]
     heading = vehicle.frame.heading_to_vehicle(float(str(theta))) if theta is not None else None
     way = [Waypoint(p, speed_m_s=limit) for p in points[:-1]] + [Waypoint(points[-1], heading, limit)]
-    return Task(told.command, "move", {}, tuple(way), tuple(_ahead(vehicle, told.arguments.get("ahead"))))
+    ahead = tuple(_ahead(vehicle, told.arguments.get("ahead")))
+    return Task(told.command, "move", {}, tuple(way), ahead, begin=_point(told.arguments.get("from")))
 
 
 def _ahead(vehicle: Vehicle, value: object) -> list[Point]:
@@ -105,13 +113,10 @@ def _ahead(vehicle: Vehicle, value: object) -> list[Point]:
     return [vehicle.frame.to_vehicle((p[0], p[1])) for p in value[:MOST_POINTS]]
 
 
-def _strays(vehicle: Vehicle, begin: object, here: Point | None) -> str:
+def why_astray(vehicle: Vehicle, begin: Point | None, here: Point | None) -> str:
     """Return why a way that begins elsewhere is not driven: to get there straight on may lead through walls."""
     if begin is None:
         return ""
-    if not _is_point(begin):
-        return "from must be a point [x, y] in metres."
-    assert isinstance(begin, list)
     if here is None:
         return f"{vehicle.description.name} does not know where it is."
     away_m = hypot(begin[0] - here[0], begin[1] - here[1])
@@ -120,6 +125,10 @@ def _strays(vehicle: Vehicle, begin: object, here: Point | None) -> str:
 
 def _is_point(value: object) -> bool:
     return isinstance(value, list) and len(value) == 2 and all(is_number(c) and abs(c) <= 1e6 for c in value)
+
+
+def _point(value: object) -> Point | None:
+    return (float(value[0]), float(value[1])) if isinstance(value, list) and _is_point(value) else None
 
 
 def _misfit(vehicle: Vehicle, told: Told) -> str:
@@ -160,7 +169,8 @@ def task_from_json(body: Mapping[str, Any]) -> Task:
     """Return a task that was kept."""
     way = tuple(Waypoint((w["point"][0], w["point"][1]), w["theta"], w["speed_m_s"]) for w in body["way"])
     ahead = tuple((p[0], p[1]) for p in body["ahead"])
-    return Task(**{**body, "way": way, "ahead": ahead, "actions": tuple(body["actions"])})
+    begin = _point(body.get("begin"))
+    return Task(**{**body, "way": way, "ahead": ahead, "actions": tuple(body["actions"]), "begin": begin})
 
 
 def drives_in_front(tasks: Sequence[Task]) -> list[Task]:

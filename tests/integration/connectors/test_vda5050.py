@@ -71,7 +71,7 @@ def test_a_vehicle_appears_with_what_its_factsheet_says(join: Join) -> None:
     state = server.wait_state(done=True)
     assert state["loc"] == [1.0, 2.0, 0.0, 0.0]
     assert state["props"]["battery"] == 88
-    assert (state["props"]["mode"], state["props"]["problem"], state["cmd"]) == ("AUTOMATIC", "", "")
+    assert (state["props"]["mode"], state["props"]["error"], state["cmd"]) == ("AUTOMATIC", "", "")
 
 
 def test_a_newcomer_makes_a_key_of_its_own_and_knocks_with_it(connector: Connector) -> None:
@@ -200,11 +200,11 @@ def test_a_vehicle_that_needs_a_person_is_not_sent_on(join: Join) -> None:
     server.wait_state(driving=True)
     vehicle.tell("complain", error=fault)
     assert server.wait_ack("go")["why"] == "bumper: hit a box"
-    server.wait_state(problem="bumper: hit a box", driving=False)
+    server.wait_state(error="bumper: hit a box", driving=False)
     server.tell("move", "new", path=[[1.0, 2.0]])
     assert server.wait_ack("new")["why"] == "Acme 6 needs a person: bumper: hit a box"
     vehicle.tell("recover", error=fault)
-    server.wait_state(problem="", done=True)
+    server.wait_state(error="", done=True)
     vehicle.tell("mode", mode="MANUAL")
     server.wait_state(mode="MANUAL")
     server.tell("move", "hand", path=[[1.0, 2.0]])

@@ -317,7 +317,7 @@ def test_a_fatal_error_ends_everything_and_the_order_is_cancelled() -> None:
     bench.hear(orderId=ORDER, lastNodeSequenceId=2, errors=[fault], **ahead(3, 4))
     assert bench.said() == ["a FAILED batteryLowError: empty"]
     assert [a["actionType"] for a in bench.sent()] == ["cancelOrder"]
-    assert bench.control.look(1, 1).properties["problem"] == "batteryLowError: empty"
+    assert bench.control.look(1, 1).properties["error"] == "batteryLowError: empty"
 
 
 def test_what_is_open_is_taken_up_by_the_next_start_without_being_done_again() -> None:
