@@ -16,6 +16,8 @@ from registry.live import Message, subscribe
 
 SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_SLOW = 4401, 4403, 4404, 4503
 BREATH_S = 0.1
+BEAT_S = 5.0
+BEAT = json.dumps({"type": "beat"})
 MOST_WAITING = 1000
 
 
@@ -94,9 +96,16 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         return len(self._waiting) <= MOST_WAITING
 
     async def _write(self) -> None:
-        """Send what waits, then take a breath: so no device is sent more than ten times a second."""
+        """Send what waits, then take a breath: so no device is sent more than ten times a second.
+
+        When nothing has waited for 5 s a beat is sent: a browser that hears nothing for long knows its line is dead.
+        """
         while True:
-            await self._something.wait()
+            try:
+                await asyncio.wait_for(self._something.wait(), BEAT_S)
+            except TimeoutError:
+                await self.send(text_data=BEAT)
+                continue
             self._something.clear()
             while self._waiting:
                 await self.send(text_data=json.dumps(self._waiting.popleft()))

@@ -9,6 +9,8 @@ export interface ConnectionEvents {
 
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 8_000;
+/** The server says something every 5 s; a line that is silent for longer is dead, though no browser says so. */
+export const SILENCE_MS = 15_000;
 
 /** Milliseconds before the next attempt; `chance` from 0 to 1 keeps browsers from coming all at once. */
 export function backOff(attempt: number, chance: number): number {
@@ -19,28 +21,37 @@ export function backOff(attempt: number, chance: number): number {
 export class LiveConnection {
   #socket: WebSocket | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
+  #silence: ReturnType<typeof setTimeout> | undefined;
   #attempt = 0;
-  #closed = false;
 
   constructor(
     private readonly url: string,
     private readonly events: ConnectionEvents,
   ) {
     events.onState("connecting");
+    window.addEventListener("offline", this.#dead);
+    window.addEventListener("online", this.#back);
     this.#open();
   }
 
   close(): void {
-    this.#closed = true;
+    this.#end();
+    this.#drop();
+  }
+
+  #end(): void {
     clearTimeout(this.#timer);
-    this.#socket?.close();
+    clearTimeout(this.#silence);
+    window.removeEventListener("offline", this.#dead);
+    window.removeEventListener("online", this.#back);
   }
 
   #open(): void {
     const socket = new WebSocket(this.url);
     this.#socket = socket;
+    this.#listen();
     socket.onmessage = (event: MessageEvent<string>) => {
-      if (this.#closed) return;
+      this.#listen();
       this.#attempt = 0;
       this.events.onState("live");
       this.events.onMessage(JSON.parse(event.data));
@@ -48,13 +59,44 @@ export class LiveConnection {
     socket.onclose = (event) => this.#lost(event.code);
   }
 
+  #listen(): void {
+    clearTimeout(this.#silence);
+    this.#silence = setTimeout(this.#dead, SILENCE_MS);
+  }
+
+  /** Leave the socket to itself: on a dead line its close may take minutes. */
+  #drop(): void {
+    const socket = this.#socket;
+    this.#socket = null;
+    if (!socket) return;
+    socket.onmessage = socket.onclose = null;
+    socket.close();
+  }
+
+  readonly #dead = (): void => {
+    if (!this.#socket) return;
+    this.#drop();
+    this.#again();
+  };
+
+  readonly #back = (): void => {
+    if (this.#socket) return;
+    clearTimeout(this.#timer);
+    this.#open();
+  };
+
   #lost(code: number): void {
-    if (this.#closed) return;
+    this.#socket = null;
     if (code >= 4400 && code < 4500) {
-      this.#closed = true;
+      this.#end();
       this.events.onRefused(code);
       return;
     }
+    this.#again();
+  }
+
+  #again(): void {
+    clearTimeout(this.#silence);
     this.events.onState("reconnecting");
     this.#timer = setTimeout(() => this.#open(), backOff(this.#attempt, Math.random()));
     this.#attempt += 1;

@@ -43,6 +43,8 @@ export class SiteFeed {
     switch (message.type) {
       case "hello":
         return this.#refresh();
+      case "beat":
+        return;
       case "device":
         return this.#device(message.device);
       case "device_removed":

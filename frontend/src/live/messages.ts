@@ -16,6 +16,7 @@ export type DeviceChange = Partial<Device> & { id: string };
 
 export type LiveMessage =
   | { type: "hello"; site: string }
+  | { type: "beat" }
   | { type: "device"; device: DeviceChange }
   | { type: "device_removed"; id: string }
   | { type: "map"; version: number }

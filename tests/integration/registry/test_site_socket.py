@@ -122,3 +122,10 @@ async def test_what_a_browser_sends_is_not_listened_to(person: Callable[[str], U
         await socket.send_to(bytes_data=b"\xff" * 1000)
         live.publish("hall", {"type": "programs"})
         assert await socket.receive_json_from(5) == {"type": "programs"}
+
+
+async def test_a_quiet_site_still_sends_a_beat(person: Callable[[str], User], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sockets, "BEAT_S", 0.05)
+    async with opened(await database_sync_to_async(person)("viewer")) as socket:
+        await socket.receive_json_from(5)
+        assert [await socket.receive_json_from(5) for _ in range(2)] == [{"type": "beat"}, {"type": "beat"}]
