@@ -1,6 +1,6 @@
 /** Planned routes, asked for together, kept for as long as the map stays the same. */
 import { useEffect, useMemo, useSyncExternalStore } from "react";
-import { api } from "@/api/client";
+import { api, ApiProblem } from "@/api/client";
 import { endsOfWay, type RouteLookup } from "../scene/routing";
 
 type Path = readonly (readonly [number, number])[];
@@ -11,6 +11,7 @@ const asked = new Set<string>();
 const listeners = new Set<() => void>();
 let answered = 0;
 const GATHER_MS = 30;
+const AGAIN_MS = 2000;
 
 /** A lookup that gets better: undefined for ways whose answer is still to come. */
 export function useRoutes(
@@ -49,7 +50,8 @@ function prefixOf(site: string | undefined, mapVersion: number | undefined): str
   return `${site ?? ""}@${mapVersion ?? ""}:`;
 }
 
-async function askFor(site: string, mapVersion: number | undefined, keys: readonly string[]): Promise<void> {
+/** Ask for the ways that are not known and not asked for; while the server does not answer, again and again. */
+export async function askFor(site: string, mapVersion: number | undefined, keys: readonly string[]): Promise<void> {
   const prefix = prefixOf(site, mapVersion);
   const fresh = keys.filter((key) => !known.has(prefix + key) && !asked.has(prefix + key));
   if (fresh.length === 0) return;
@@ -59,9 +61,14 @@ async function askFor(site: string, mapVersion: number | undefined, keys: readon
     fresh.forEach((key, index) => known.set(prefix + key, answers[index] ?? null));
     answered += 1;
     for (const listener of listeners) listener();
-  } catch {
-    // Without an answer the straight sketch stays; the next change of the drawing asks again.
+  } catch (error) {
+    if (isPassing(error)) setTimeout(() => void askFor(site, mapVersion, fresh), AGAIN_MS);
   } finally {
     for (const key of fresh) asked.delete(prefix + key);
   }
+}
+
+/** Silence, or a server that is busy or broken; a refusal is an answer, and the straight sketch stays. */
+function isPassing(error: unknown): boolean {
+  return error instanceof ApiProblem && (error.status === 0 || error.status === 429 || error.status >= 500);
 }
