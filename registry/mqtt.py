@@ -32,6 +32,8 @@ MessageCallback = Callable[[str, bytes, bool], None]
 EARLY_LIMIT = 10_000
 KEEPALIVE_S = 15
 SESSION_EXPIRY_S = 10
+MISSES_TOLD = 3
+"""After so many attempts in a row that reach no broker the log says so, once."""
 
 
 class MqttError(RegistryError):
@@ -109,6 +111,7 @@ class MqttClient:
         self._online = threading.Event()
         self._stopping = False
         self._refusal = ""
+        self._misses = 0
         self._paho = self._make_client()
 
     @classmethod
@@ -219,6 +222,7 @@ class MqttClient:
             topic, payload, qos, retain = self._will
             client.will_set(topic, payload, qos, retain)
         client.on_connect = self._connected
+        client.on_connect_fail = self._missed
         client.on_disconnect = self._disconnected
         client.on_message = self._received
         client.on_subscribe = self._subscribed
@@ -240,7 +244,7 @@ class MqttClient:
             self._refused(client, str(reason))
             return
         with self._guard:
-            self._settled, self._refusal = True, ""
+            self._settled, self._refusal, self._misses = True, "", 0
             self._unanswered.clear()
             for subscription in self._subscriptions:
                 self._ask(subscription)
@@ -251,6 +255,12 @@ class MqttClient:
             self._answered.notify_all()
         for callback in list(self._connected_callbacks):
             callback()
+
+    def _missed(self, _client: paho.Client, _data: Any) -> None:
+        self._misses += 1
+        if self._misses == MISSES_TOLD:
+            where = f"{self._host}:{self._port}"
+            log.warning("%s does not reach the MQTT broker at %s; it goes on trying.", self._client_id, where)
 
     def _refused(self, client: paho.Client, reason: str) -> None:
         is_new, self._refusal = reason != self._refusal, reason

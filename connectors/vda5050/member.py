@@ -36,6 +36,8 @@ SILENT_LIMIT_S = 75.0
 """A vehicle says its state at least every 30 s; one that misses two counts as gone, whatever its connection says."""
 ASK_S = 1.0
 ASK_AGAIN_S = 30.0
+PATIENCE_S = 10.0
+"""So long a vehicle may take to become a device before the log says what is missing."""
 
 
 Publish = Callable[[VehicleName, str, bytes], None]
@@ -79,6 +81,7 @@ class Member:
         self._located: Located | None = None
         self._heard_s = 0.0
         self._ask_at_s: dict[str, float] = {}
+        self._missing_at_s, self._missed = 0.0, ""
 
     def hear(self, subtopic: str, payload: bytes, now_s: float) -> None:
         """Take in a message of the vehicle. Raises BadMessage."""
@@ -123,6 +126,7 @@ class Member:
     def tick(self, now_s: float) -> None:
         """Let time pass: ask the vehicle for what is missing, send again what it did not answer."""
         self._ask(now_s)
+        self._say_what_is_missing(now_s)
         if self.control is not None:
             self._be_present(now_s)
             self.control.settle(now_s)
@@ -155,11 +159,21 @@ class Member:
             line.answer(ack)
 
     def _hear_connection(self, payload: bytes, now_s: float) -> None:
-        """Take in that the vehicle came or went; a will is older than what it ends, so its number says nothing."""
+        """Take in that the vehicle came or went; a will is older than what it ends, so its number says nothing.
+
+        A vehicle that comes may count from 0 again, with a clock that is not set yet. Some say every few seconds that
+        they are connected, which changes nothing.
+        """
+        was_connected = self._connected
         header, self._connected = read_connection(payload, self.name)
         self._version = header.version
+        if self._connected:
+            self._newest.clear()
+        if was_connected and self._connected:
+            return
         self._heard_s = 0.0
         self._ask_at_s = {"stateRequest": now_s + ASK_S, "factsheetRequest": now_s + ASK_S}
+        self._missing_at_s = now_s + PATIENCE_S
         self._be_present(now_s)
 
     def _is_news(self, subtopic: str, header: Header) -> bool:
@@ -219,6 +233,20 @@ class Member:
                 self._ask_at_s[what] = now_s + ASK_AGAIN_S
                 self._memory.headers["instantActions"] = self._memory.headers.get("instantActions", -1) + 1
                 self._send("instantActions", action(self._setting.new_id(), what, {}))
+
+    def _say_what_is_missing(self, now_s: float) -> None:
+        """Tell in the log, once, why a vehicle that is connected is not on the map."""
+        if self.control is not None or not self._connected or now_s < self._missing_at_s:
+            return
+        told = {
+            "has not told its factsheet": self._sheet is not None,
+            "has not told its state": self._state is not None,
+            "does not know where it is": self._located is not None,
+        }
+        missing = next((what for what, is_there in told.items() if not is_there), "")
+        if missing and missing != self._missed:
+            self._missed = missing
+            log.warning("%s is connected, but not on the map yet: it %s.", self.id, missing)
 
     def _save(self, control: Mapping[str, Any]) -> None:
         if control != self._memory.control:

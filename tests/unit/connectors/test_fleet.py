@@ -17,7 +17,7 @@ from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS
 from connectors.vda5050.frame import Frame
 from connectors.vda5050.member import Setting
 from connectors.vda5050.messages import VehicleName
-from registry.mqtt import MqttClient
+from registry.mqtt import MISSES_TOLD, MqttClient
 from tests.unit.connectors.vehicle import HEADER, NAME, payload
 
 
@@ -89,3 +89,10 @@ def test_a_key_is_made_once_and_one_that_people_wrote_goes_first(tmp_path: Path)
     assert ring.key("Acme-1") == "by hand"
     own.write_text("not JSON")
     assert ring.key("Acme-2") != made
+
+
+def test_the_log_says_once_that_a_broker_is_not_reached(caplog: pytest.LogCaptureFixture) -> None:
+    client = vehicle_client("mqtt://127.0.0.1:9", "", "vipo-hall")
+    for _ in range(MISSES_TOLD + 2):
+        client._missed(client._paho, None)
+    assert caplog.messages == ["vipo-hall does not reach the MQTT broker at 127.0.0.1:9; it goes on trying."]

@@ -1,0 +1,79 @@
+"""One vehicle as it comes, goes and comes back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from connectors.vda5050.frame import Frame
+from connectors.vda5050.member import PATIENCE_S, Member, Setting
+from registry.device_line import Will
+from registry.mqtt import MqttClient
+from tests.integration.connectors.factsheet import FACTSHEET
+from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
+
+
+def away(device: str, will: Will) -> MqttClient:
+    """Return a connection to a broker that is not there."""
+    return MqttClient(host="127.0.0.1", port=1, username=device, password="", client_id=device, will=will)
+
+
+@pytest.fixture
+def member(tmp_path: Path) -> Iterator[Member]:
+    at = datetime(2026, 1, 1, tzinfo=UTC)
+    setting = Setting("hall", Frame(), "floor", tmp_path, away, lambda: "id", lambda: at)
+    member = Member(NAME, setting, lambda *_: None, lambda _: None)
+    yield member
+    member.leave()
+
+
+def say(member: Member, subtopic: str, now_s: float, **body: Any) -> None:
+    member.hear(subtopic, payload(HEADER, **body), now_s)
+
+
+def come(member: Member, now_s: float) -> None:
+    say(member, "connection", now_s, connectionState="ONLINE")
+    say(member, "factsheet", now_s, **FACTSHEET)
+    say(member, "state", now_s, **STATE)
+    assert member.control is not None
+
+
+def test_a_vehicle_that_says_again_and_again_that_it_is_connected_stays_online(member: Member) -> None:
+    come(member, 100.0)
+    say(member, "connection", 101.0, connectionState="ONLINE")
+    assert member.control is not None
+    assert member.control.online
+    say(member, "connection", 102.0, connectionState="CONNECTIONBROKEN")
+    assert not member.control.online
+
+
+def test_a_vehicle_that_starts_anew_with_a_clock_that_is_not_set_is_heard(member: Member) -> None:
+    come(member, 100.0)
+    early = {"headerId": 0, "timestamp": "1970-01-01T00:00:05.00Z"}
+    say(member, "state", 101.0, **{**STATE, **early, "operatingMode": "MANUAL"})
+    assert member.control is not None
+    assert member.control.state is not None
+    assert member.control.state.mode == "AUTOMATIC", "what was overtaken is ignored"
+    say(member, "connection", 102.0, connectionState="CONNECTIONBROKEN")
+    say(member, "connection", 103.0, connectionState="ONLINE")
+    say(member, "state", 104.0, **{**STATE, **early, "operatingMode": "MANUAL"})
+    assert (member.control.state.mode, member.control.online) == ("MANUAL", True)
+
+
+def test_the_log_says_why_a_vehicle_is_not_on_the_map(member: Member, caplog: pytest.LogCaptureFixture) -> None:
+    say(member, "connection", 100.0, connectionState="ONLINE")
+    member.tick(100.1)
+    assert caplog.messages == []
+    member.tick(101.0 + PATIENCE_S)
+    member.tick(102.0 + PATIENCE_S)
+    say(member, "factsheet", 103.0 + PATIENCE_S, **FACTSHEET)
+    say(member, "state", 103.0 + PATIENCE_S, **{**STATE, "agvPosition": None})
+    member.tick(104.0 + PATIENCE_S)
+    assert caplog.messages == [
+        "Acme-1 is connected, but not on the map yet: it has not told its factsheet.",
+        "Acme-1 is connected, but not on the map yet: it does not know where it is.",
+    ]
