@@ -38,6 +38,6 @@ urlpatterns = [
     path("api/", api.urls),
     path("health", health),
     *directory_urls(),
-    re_path(r"^(api|ws)/.*$", no_such_call),
+    re_path(r"^(?:api|ws)/.*$", no_such_call),
     re_path(r"^(?!static/|assets/).*$", page),
 ]

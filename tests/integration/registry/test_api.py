@@ -291,3 +291,10 @@ def test_characters_that_no_name_has_are_refused(browser: Callable[[str], Client
     assert (named.status_code, named.json()["code"]) == (422, "bad_device")
     files = {"yaml": SimpleUploadedFile("m.yaml", YAML), "image": SimpleUploadedFile("a.pgm", IMAGE)}
     assert client.post("/api/sites", {"name": "a\0b", **files}).json()["code"] == "bad_name"
+
+
+@pytest.mark.parametrize("path", ["/api/nothing", "/api/runs/x/events", "/ws/nothing"])
+def test_a_call_that_does_not_exist_is_told_as_a_problem(browser: Callable[[str], Client], path: str) -> None:
+    answer = browser("viewer").get(path)
+    assert (answer.status_code, answer.headers["Content-Type"]) == (404, "application/problem+json")
+    assert answer.json()["detail"] == "There is no such call. See docs/api.md."
