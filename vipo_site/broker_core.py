@@ -23,6 +23,7 @@ from amqtt.errors import MQTTError
 from amqtt.mqtt.connack import NOT_AUTHORIZED, UNACCEPTABLE_PROTOCOL_VERSION
 from django.db import DatabaseError
 
+from registry.printing import printable
 from vipo_site.broker_connect import PROTOCOL_LEVEL, UNREADABLE, notice_dead_peers, protocol_level, read_connect, refuse
 from vipo_site.broker_connection import Connection, until
 from vipo_site.broker_outbox import DEVICE_ROOM, SERVER_ROOM, Outbox
@@ -38,6 +39,7 @@ CONNECT_TIMEOUT_S = 10.0
 END_TIMEOUT_S = 2.0
 COMPLAINT_EVERY_S = 60.0
 MOST_COMPLAINTS = 1000
+MOST_SHOWN = 80
 MOST_CONNECTIONS = 800
 MOST_NOT_ADMITTED = 100
 MOST_ABSENT = 1000
@@ -130,7 +132,7 @@ class VipoBroker(SpreadingBroker):
             if len(self._refused_at) >= MOST_COMPLAINTS:
                 self._refused_at.clear()
             self._refused_at[client] = now
-            log.warning("MQTT: refused %s (user %s): %s.", client, session.username, fault)
+            log.warning("MQTT: refused %s (user %s): %s.", _shown(client), _shown(session.username), fault)
 
     async def _find_fault(self, session: Any) -> str:
         """Return why somebody may not come in, empty when they may."""
@@ -229,6 +231,10 @@ class VipoBroker(SpreadingBroker):
 def _topics(session: Any) -> frozenset[str]:
     topics: frozenset[str] = session.attributes.get("topics", frozenset())
     return topics
+
+
+def _shown(name: str | None) -> str:
+    return printable((name or "")[:MOST_SHOWN])
 
 
 def _login(admitted: Admitted, at: datetime) -> Login:

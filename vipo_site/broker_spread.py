@@ -15,6 +15,7 @@ from amqtt.broker import Broker
 from amqtt.contexts import Action
 
 from execution.intake import Complaints
+from registry.printing import printable
 from vipo_site.broker_connection import Publication
 from vipo_site.broker_outbox import Letter
 from vipo_site.broker_topics import MOST_FILTERS, MOST_KEPT, MOST_KEPT_IN_ALL, MOST_LEVELS, KeptTopics, Subscriptions
@@ -77,7 +78,7 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
     async def _receive(self, session: Any, said: Publication) -> None:
         """Take a message in: refuse it, or spread it, and keep it when it is to be retained."""
         if said.topic.count("/") >= MOST_LEVELS or not await self._topic_filtering(session, said.topic, Action.PUBLISH):
-            self._drop(session, f"not its own topic: {said.topic[:100]}")
+            self._drop(session, f"not its own topic: {printable(said.topic[:100])}")
             return
         await self._broadcast_message(session, said.topic, said.payload)
         if said.retain:

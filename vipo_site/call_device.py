@@ -14,6 +14,8 @@ from uuid import UUID
 
 import django
 
+from registry.printing import printable
+
 POLL_S = 0.2
 DONE, NOT_DONE, UNUSABLE = 0, 1, 2
 WHAT = "Tell a device to carry out one of its methods, and wait until it is done."
@@ -111,7 +113,7 @@ def _value(name: str, text: str, type_name: str) -> Any:
 def _in_words(call: Mapping[str, Any]) -> str:
     result = "".join(f", {name} {value}" for name, value in call["result"].items())
     why = f": {call['why']}" if call["why"] else ""
-    return f"{call['device']}: {call['method']} is {call['status'].replace('_', ' ')}{result}{why}"
+    return printable(f"{call['device']}: {call['method']} is {call['status'].replace('_', ' ')}{result}{why}")
 
 
 def _write(line: str) -> None:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import django
 
+from registry.printing import printable
+
 if TYPE_CHECKING:
     from registry.services import DeviceView
 
@@ -173,7 +175,8 @@ def _set_up() -> None:
 
 
 def _table(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Return the rows with their columns under each other."""
+    """Return the rows with their columns under each other, without what a terminal would obey."""
+    rows = [[printable(cell) for cell in row] for row in rows]
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
 

@@ -54,6 +54,14 @@ def test_a_device_is_approved_and_its_key_is_printed_once(hall: str, capsys: pyt
     assert told(capsys, "approve", "nothing") == (2, "", unknown)
 
 
+def test_a_devices_own_words_do_not_move_the_terminal(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    describe()
+    services.raise_alert(device_id="mixer1", code="error", at=NOW, args={"why": "hot\n\x1b[2Jerror  hall"})
+    code, out, _ = told(capsys, "alerts")
+    assert (code, len(out.splitlines())) == (0, 2)
+    assert out.endswith("It reports an error: hot\ufffd\ufffd[2Jerror  hall\n")
+
+
 def test_one_with_a_key_of_its_own_keeps_it(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
     services.expect_device(site="hall", device_id="mixer1", credential="k" * 32, approved=False)
     describe()

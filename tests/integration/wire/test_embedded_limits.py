@@ -225,6 +225,10 @@ def test_a_message_of_qos_2_is_heard_once(broker: EmbeddedBroker, ear: Ear) -> N
         (connect("a", WORD, will=("vipo/x", "")), "a (user a): its last will is not on a topic of its own."),
         (connect("a", "wrong"), "a (user a): wrong password, or nobody of this name."),
         (connect("a", "wrong", user="server"), "a (user server): wrong password."),
+        (
+            connect("a\n\x1b[2J" + "b" * 99, "wrong"),
+            f"a\ufffd\ufffd[2J{'b' * 74} (user a\ufffd\ufffd[2J{'b' * 74}): wrong password, or nobody of this name.",
+        ),
     ],
 )
 def test_who_is_refused_is_told_to_the_log_with_the_reason(
@@ -253,9 +257,9 @@ def test_a_client_that_reads_nothing_is_ended(
 
 def test_a_message_on_a_foreign_topic_is_noted(broker: EmbeddedBroker, notebook: Notebook) -> None:
     with raw(broker, connect("loud01", WORD)) as loud:
-        loud.send(publish("vipo/v1/dev/other/up/state", b"x"))
+        loud.send(publish("vipo/v1/dev/other/up/st\n\x1bate", b"x"))
         wait(lambda: notebook.lines)
-    assert notebook.lines == [("loud01", "not its own topic: vipo/v1/dev/other/up/state")]
+    assert notebook.lines == [("loud01", "not its own topic: vipo/v1/dev/other/up/st\ufffd\ufffdate")]
 
 
 @pytest.mark.django_db(transaction=True)
