@@ -15,7 +15,15 @@ from django.db import transaction
 
 from registry.broker_accounts import Account, accounts
 from registry.credentials import broker_hash, make_credential, secret_hash
-from registry.device_rows import BadDevice, announce, check_id, lock_device, write_event
+from registry.device_rows import (
+    STARTS,
+    BadDevice,
+    announce,
+    check_id,
+    forget_starts,
+    lock_device,
+    write_event,
+)
 from registry.errors import RegistryError
 from registry.event_words import said
 from registry.handing_over import hand_over
@@ -51,6 +59,13 @@ class NotRetired(RegistryError):
     status = 409
 
 
+class KeyChanged(RegistryError):
+    """A key that somebody else replaced or took away while it was being replaced."""
+
+    code = "key_changed"
+    status = 409
+
+
 @dataclass(frozen=True, slots=True)
 class Decided:
     """A device after a decision; `credential` is its new key, told this once, `taken` whether it has it already."""
@@ -81,7 +96,8 @@ def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) 
         announce(before, after)
     taken = after.online and hand_over(device_id=device_id, credential=credential)
     if had_own_key:
-        after = _replace_key(site, device_id, credential, by, at) if taken else after
+        key = device.credential_hash
+        after = _replace_key(site, device_id, credential, by, at, key) if taken else after
         return Decided(after, credential if taken else None, taken)
     return Decided(after, credential, taken)
 
@@ -103,7 +119,8 @@ def readmit_device(*, site: str, device_id: str, by: User | None, at: datetime) 
         if device.lifecycle != Lifecycle.RETIRED:
             raise NotRetired(f"{device_id} was not taken out; it is {device.lifecycle}.")
         device.lifecycle, device.ends_before = Lifecycle.PENDING, None
-        device.save(update_fields=["lifecycle", "ends_before"])
+        forget_starts(device)
+        device.save(update_fields=["lifecycle", "ends_before", *STARTS])
         write_event(device, at, "readmitted", said("readmitted"), by)
         claim_again(device, at)
         after = view_of(device, site)
@@ -114,15 +131,14 @@ def readmit_device(*, site: str, device_id: str, by: User | None, at: datetime) 
 def rotate_credential(*, site: str, device_id: str, by: User | None, at: datetime) -> Decided:
     """Give an approved device a new key; the old one ends when the device has taken it, after 10 s at the latest.
 
-    Raises NoSuchDevice, NotApproved, BrokerAway.
+    Of two admins at once one does so. Raises NoSuchDevice, NotApproved, KeyChanged, BrokerAway.
     """
     with transaction.atomic():
         device = lock_device(site, device_id)
         _require_approved(device)
-        online = device.online
     credential = make_credential()
-    taken = online and hand_over(device_id=device_id, credential=credential)
-    return Decided(_replace_key(site, device_id, credential, by, at), credential, taken)
+    taken = device.online and hand_over(device_id=device_id, credential=credential)
+    return Decided(_replace_key(site, device_id, credential, by, at, device.credential_hash), credential, taken)
 
 
 def revoke_credential(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
@@ -199,14 +215,24 @@ def _remove_unknown(name: str) -> bool:
     return True
 
 
-def _replace_key(site: str, device_id: str, credential: str, by: User | None, at: datetime) -> DeviceView:
+def _replace_key(
+    site: str, device_id: str, credential: str, by: User | None, at: datetime, replaces: str
+) -> DeviceView:
+    """Put a key in the place of the one with the hash `replaces`. Raises NotApproved, KeyChanged, BrokerAway."""
     with transaction.atomic():
         device = lock_device(site, device_id)
         _require_approved(device)
+        if device.credential_hash != replaces:
+            raise KeyChanged(
+                f"Somebody else has given {device_id} another key meanwhile, or has taken its key away. "
+                "Look at it again, then decide."
+            )
         before = view_of(device, site)
         _give_key(device, credential)
         device.ends_before = at
-        device.save(update_fields=["credential_hash", "broker_hash", "ends_before"])
+        if not device.online:
+            forget_starts(device)
+        device.save(update_fields=["credential_hash", "broker_hash", "ends_before", *STARTS])
         write_event(device, at, "credential", said("credential"), by)
         after = view_of(device, site)
         announce(before, after)

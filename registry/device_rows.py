@@ -15,15 +15,18 @@ from registry.event_words import Said
 from registry.live import publish_all
 from registry.models import Device, DeviceEvent, User
 from registry.rdf_text import CONTENT_TYPES
+from registry.robot_map_rows import RobotMapDraft
 from registry.thing_log import record_things
 from registry.views import DeviceView, changed_fields
 from registry.wire import is_device_id
 
+STARTS = ("boot", "seq", "presence_boot")
 MOST_EVENTS = 200
 EVENTS_TO_SPARE = 20
 """How many more a history may have before it is cut, where many devices speak at once."""
 MOST_CHARACTERS = 300
-RESERVED_IDS = frozenset({"server"})
+RESERVED_IDS = frozenset({"server", ".", ".."})
+"""The server's own name, and those that are no part of an address: no page and no call would reach such a device."""
 DONE_FLAG_ONLY_SQL = f"SELECT source_type = '{CONTENT_TYPES['paper']}' FROM registry_device WHERE id = {{device}}"  # noqa: S608 - a constant
 """Whether a device (a column's name) describes itself by the paper's message, and so may answer by `done` alone.
 
@@ -48,7 +51,9 @@ class BadDevice(RegistryError):
 def check_id(device_id: str) -> None:
     """Raise BadDevice for an id that no device can have."""
     if not is_device_id(device_id) or device_id in RESERVED_IDS:
-        raise BadDevice("A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server'.")
+        raise BadDevice(
+            "A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server', '.' or '..'."
+        )
 
 
 def lock_device(site: str, device_id: str) -> Device:
@@ -58,6 +63,12 @@ def lock_device(site: str, device_id: str) -> Device:
     if device is None:
         raise NoSuchDevice(f"This site has no device {device_id[:64]!r}.")
     return device
+
+
+def forget_starts(device: Device) -> None:
+    """Let a device count its starts anew, in the fields STARTS: another board may come in by its id from now on."""
+    device.boot = device.seq = device.presence_boot = -1
+    RobotMapDraft.objects.filter(pk=device.pk).update(boot=-1, number=-1)
 
 
 def line_of_history(

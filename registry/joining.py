@@ -66,22 +66,20 @@ class Login:
     topics: frozenset[str] = frozenset()
 
 
-def _lock_or_make(device_id: str, said_site: str, at: datetime) -> Device:
-    """Return the device's locked row; a new one stands at the site it names, else at the default one."""
+def _lock_or_make(device_id: str, at: datetime) -> Device:
+    """Return the device's locked row; a new one stands at the default site until it describes itself."""
     check_id(device_id)
     device = Device.objects.select_for_update(of=("self",)).select_related("site").filter(pk=device_id).first()
     if device is None:
-        Device.objects.get_or_create(pk=device_id, defaults={"site": _site_for(said_site), "first_seen_at": at})
+        Device.objects.get_or_create(pk=device_id, defaults={"site": _default_site(), "first_seen_at": at})
         device = Device.objects.select_for_update(of=("self",)).select_related("site").get(pk=device_id)
-    elif device.lifecycle == Device.Lifecycle.PENDING and not device.description and said_site != device.site.slug:
-        device.site = _site_for(said_site)
     return device
 
 
-def _site_for(slug: str) -> Site:
-    site = Site.objects.filter(slug=slug).first() or Site.objects.filter(slug=settings.VIPO_DEFAULT_SITE).first()
+def _default_site() -> Site:
+    site = Site.objects.filter(slug=settings.VIPO_DEFAULT_SITE).first()
     if site is None:
-        raise BadDevice(f"There is no site {slug[:64]!r} that the device could join, and no default site.")
+        raise BadDevice("The device has named no site that it could join, and there is no default site.")
     return site
 
 
@@ -89,13 +87,13 @@ def ingest_presence(*, device_id: str, payload: bytes, at: datetime) -> DeviceVi
     """Take in that a device came or went; None when it changed nothing (a stale will) or nobody described it yet."""
     said = parse_presence(payload)
     with transaction.atomic():
-        device = _lock_or_make(device_id, "", at)
+        device = _lock_or_make(device_id, at)
         if said.boot < device.presence_boot or (said.online and device.is_locked_out):
             return None
         before = view_of(device, device.site.slug) if device.description else None
         came_or_went = device.online != said.online
         device.online, device.presence_boot, device.last_seen_at = said.online, said.boot, at
-        device.save(update_fields=["site", "online", "presence_boot", "last_seen_at"])
+        device.save(update_fields=["online", "presence_boot", "last_seen_at"])
         if came_or_went:
             _tell_coming_and_going(device, said.online, at)
         if before is None:

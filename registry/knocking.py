@@ -14,7 +14,7 @@ from django.db import transaction
 from registry.alert_notes import note_alert
 from registry.broker_accounts import Account, accounts
 from registry.credentials import LEAST_CHARACTERS, MOST_CHARACTERS, broker_hash, is_strong, secret_hash
-from registry.device_rows import BadDevice, check_id, write_event
+from registry.device_rows import STARTS, BadDevice, check_id, forget_starts, write_event
 from registry.event_words import said
 from registry.models import Device
 from registry.sites import find_site
@@ -42,7 +42,8 @@ def admit_newcomer(*, site: str, device_id: str, payload: bytes, at: datetime) -
             device = device or make_row(device_id, row.pk, at)
             _require_keyless(device, row.pk)
             device.credential_hash, device.broker_hash = secret_hash(key), broker_hash(key)
-            device.save(update_fields=["credential_hash", "broker_hash"])
+            forget_starts(device)
+            device.save(update_fields=["credential_hash", "broker_hash", *STARTS])
             write_event(device, at, "knocked", said("knocked"))
     accounts().put(Account(device_id, key))
     return not is_known

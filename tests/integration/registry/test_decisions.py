@@ -102,6 +102,26 @@ def test_a_retired_device_stays_out_until_an_admin_lets_it_come_back(hall: str) 
     ]
 
 
+@pytest.mark.parametrize("again", ["let back", "new key by hand"])
+def test_another_board_of_the_same_id_counts_its_starts_anew(hall: str, again: str) -> None:
+    approve()
+    come(boot=57)
+    say(boot=57, seq=900)
+    come(boot=57, online=False)
+    if again == "let back":
+        services.retire_device(**WHO)
+        services.readmit_device(**WHO)
+        say(boot=57, seq=900, retained=True)
+        assert knock(OTHER)
+        services.approve_device(**WHO)
+    else:
+        services.rotate_credential(**WHO)
+    assert come(boot=1).online is True
+    assert say(boot=1, seq=1, done=False).done is False
+    assert come(boot=0) is None
+    assert say(boot=1, seq=1) is None
+
+
 def knock(key: str, device_id: str = "mixer1") -> bool:
     body = json.dumps({"key": key}).encode()
     return services.admit_newcomer(site="hall", device_id=device_id, payload=body, at=NOW)

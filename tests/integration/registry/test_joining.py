@@ -278,6 +278,15 @@ def test_the_join_key_is_for_newcomers_until_they_are_approved(hall: str) -> Non
     assert check(username="mixer1", password=JOIN) is None
 
 
+@pytest.mark.parametrize("device_id", ["server", ".", ".."])
+def test_an_id_that_no_address_can_name_is_refused(hall: str, device_id: str) -> None:
+    with pytest.raises(BadDevice, match=r"not 'server', '\.' or '\.\.'"):
+        come(device_id)
+    with pytest.raises(BadDevice, match=r"not 'server', '\.' or '\.\.'"):
+        describe(replace(MIXER, id=device_id, methods=()))
+    assert not Device.objects.exists()
+
+
 def test_short_keys_and_bad_ids_are_refused(hall: str) -> None:
     for device_id, key in (("mixer1", "short"), ("a/b", KEY), ("server", KEY)):
         with pytest.raises(BadDevice):

@@ -18,7 +18,7 @@ from registry.knocking import FORGOTTEN_AFTER, MOST_NEWCOMERS
 from registry.models import Device, User
 from registry.services import BadDevice
 
-from .conftest import MIXER, NOW, ROBOT, ROLES, describe
+from .conftest import MIXER, NOW, ROBOT, ROLES, come, describe
 
 SITE = "/api/sites/hall"
 CALLS = {
@@ -73,6 +73,14 @@ def test_an_added_device_stays_at_the_site_whose_admin_added_it(hall: str) -> No
     describe(replace(MIXER, site="yard"))
     assert services.list_devices(site="yard") == ()
     assert [device.id for device in services.list_devices(site="hall")] == ["mixer1"]
+
+
+def test_an_added_device_that_comes_before_it_describes_itself_stays_there_too(hall: str, settings: Any) -> None:
+    services.create_site(name="Yard", slug="yard")
+    settings.VIPO_DEFAULT_SITE = "yard"
+    assert send("admin", "newcomers").status_code == 201
+    assert come() is None
+    assert describe().site == "hall"
 
 
 def test_a_second_key_ends_the_first_until_the_device_has_come(hall: str) -> None:
