@@ -14,14 +14,13 @@ import { formatAgo, formatSpan } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
 import styles from "./pages.module.css";
 import { nameOf } from "./people";
-import { isOpen, progressOfRun, secondsOfRun, statusOfRun } from "./runs";
+import { isOpen, secondsOfRun, statusOfRun, stepsDone } from "./runs";
 import { TableSkeleton } from "./TableSkeleton";
 import { useNow } from "./useNow";
 
 function Row({ run, now }: { run: RunSummary; now: number }) {
   const { t } = useTranslation();
   const seconds = secondsOfRun(run, now);
-  const { done, all } = progressOfRun(run);
   return (
     <tr>
       <td>
@@ -38,7 +37,7 @@ function Row({ run, now }: { run: RunSummary; now: number }) {
         <StatusBadge status={statusOfRun(run)}>{t(`pages.runs.status.${run.status}`)}</StatusBadge>
         {run.reason ? <small className={styles.reason}>{reasonWords(run.cause, run.reason)}</small> : null}
       </td>
-      <td className={styles.nowrap}>{all > 0 ? t("pages.runs.steps", { done, all }) : "–"}</td>
+      <td className={styles.nowrap}>{run.started_at ? stepsDone(run) : "–"}</td>
       <td className={styles.nowrap}>{run.started_at ? formatAgo(run.started_at, now) : t("pages.runs.notStarted")}</td>
       <td className={styles.nowrap}>{seconds === null ? "–" : formatSpan(seconds)}</td>
       <td className={`${styles.nowrap} ${styles.optional}`}>{nameOf(run.started_by) || "–"}</td>

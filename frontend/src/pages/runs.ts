@@ -19,13 +19,9 @@ export function isOpen(run: RunSummary): boolean {
   return run.status === "pending" || run.status === "running" || run.status === "paused";
 }
 
-/** Steps that have ended, and all that are known. */
-export function progressOfRun(run: RunSummary): { done: number; all: number } {
-  const steps = Object.values(run.steps ?? {});
-  return {
-    done: steps.filter((step) => step.status === "done" || step.status === "skipped").length,
-    all: steps.length,
-  };
+/** How many steps are done; a list knows only of those that have begun, so not of how many. */
+export function stepsDone(run: RunSummary): number {
+  return Object.values(run.steps).filter((step) => step.status === "done").length;
 }
 
 /** Seconds from the start to the end, or to `now` (milliseconds since 1970); null before the start. */

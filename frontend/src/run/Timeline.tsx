@@ -53,7 +53,7 @@ export function Timeline(props: TimelineProps) {
   const span_s = Math.max(10, elapsed_s * (over ? 1.02 : 1.15));
   const every = tickEvery(span_s);
   const ticks = Array.from({ length: Math.floor(span_s / every) + 1 }, (_, index) => index * every);
-  if (rows.length === 0) return <p className={styles.empty}>{t("run.noWorkYet")}</p>;
+  if (rows.length === 0) return <p className={styles.empty}>{t(over ? "run.noWork" : "run.noWorkYet")}</p>;
   return (
     <div className={styles.timeline}>
       <div className={styles.scale} aria-hidden="true">

@@ -1,7 +1,7 @@
 /** What is going on at the site at this moment. */
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import { useDevices, useRuns } from "@/api/queries";
+import { useDevices, useRun, useRuns } from "@/api/queries";
 import type { Device, RunSummary } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
@@ -9,7 +9,8 @@ import { StatusGlyph } from "@/design/StatusGlyph";
 import { doingWords } from "@/i18n/doing";
 import { formatClock } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
-import { isOpen, progressOfRun, secondsOfRun, statusOfRun } from "../runs";
+import { outerProgress, stepLines } from "@/run/stepList";
+import { isOpen, secondsOfRun, statusOfRun } from "../runs";
 import { useNow } from "../useNow";
 import styles from "./home.module.css";
 
@@ -18,7 +19,9 @@ const TELLING: readonly string[] = ["pending", "error", "warning", "busy", "wait
 function OpenRun({ run }: { run: RunSummary }) {
   const { t } = useTranslation();
   const seconds = secondsOfRun(run, useNow(1000));
-  const { done, all } = progressOfRun(run);
+  const compiled = useRun(run.id).data?.compiled;
+  const { done, all } = outerProgress(compiled ? stepLines(compiled, run.steps) : []);
+  const steps = all > 0 ? t("pages.runs.steps", { done, all }) : "";
   return (
     <Link to={`/runs/${run.id}`} className={styles.liveRun} data-status={run.status}>
       <span className={styles.liveTitle}>
@@ -26,9 +29,9 @@ function OpenRun({ run }: { run: RunSummary }) {
         <b>{t("pages.runs.numberOf", { number: run.number, program: run.program.name })}</b>
         <code>{seconds === null ? "" : formatClock(seconds)}</code>
       </span>
-      <progress value={done} max={Math.max(1, all)} aria-label={t("pages.runs.steps", { done, all })} />
+      <progress value={done} max={Math.max(1, all)} aria-label={steps || t("pages.runs.column.steps")} />
       <span className={styles.liveFoot}>
-        <span>{reasonWords(run.cause, run.reason) || t("pages.runs.steps", { done, all })}</span>
+        <span>{reasonWords(run.cause, run.reason) || steps}</span>
         <b>{t("pages.home.openMonitor")}</b>
       </span>
     </Link>

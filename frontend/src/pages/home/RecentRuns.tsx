@@ -5,18 +5,17 @@ import { Panel } from "@/design/Panel";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { formatAgo, formatSpan } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
-import { isOpen, progressOfRun, secondsOfRun, statusOfRun } from "../runs";
+import { isOpen, secondsOfRun, statusOfRun, stepsDone } from "../runs";
 import { useNow } from "../useNow";
 import styles from "./home.module.css";
 
 function RunLine({ run, now }: { run: RunSummary; now: number }) {
   const { t } = useTranslation();
   const seconds = secondsOfRun(run, now);
-  const { done, all } = progressOfRun(run);
   const facts = [
     t(`pages.runs.status.${run.status}`),
     seconds === null ? "" : formatSpan(seconds),
-    all > 0 ? t("pages.runs.steps", { done, all }) : "",
+    run.started_at ? t("pages.runs.stepsDone", { count: stepsDone(run) }) : "",
   ];
   return (
     <li>
