@@ -30,6 +30,10 @@ MAP_AGAIN_S = 600.0
 """One that stays as it is is sent that often: what a robot says before it is approved is not kept."""
 
 
+class CannotStart(Exception):
+    """The agent lacks something of the robot or of this machine; the message says what to mend."""
+
+
 class Navigation(ABC):
     """What a robot's shell does; results go to the agent's `reached` and `failed` with the goal's number."""
 
@@ -37,7 +41,7 @@ class Navigation(ABC):
 
     @abstractmethod
     def start(self, agent: Agent) -> None:
-        """Connect to the robot and report its pose, battery and map from now on."""
+        """Connect to the robot and report its pose, battery and map from now on. Raises CannotStart."""
 
     @abstractmethod
     def go(self, goal: Go) -> None:
@@ -79,19 +83,20 @@ class Agent:
         self._parts: list[bytes] = []
 
     def run(self, stopping: threading.Event) -> None:
-        """Serve until `stopping` is set; then halt the robot and say goodbye."""
+        """Serve until `stopping` is set; then halt the robot and say goodbye. Raises CannotStart."""
         self._link.told = lambda told: self._put(lambda: self.core.command(told, time.monotonic()))
         self._link.stopped = lambda active: self._put(lambda: self.core.hold(active, time.monotonic()))
         self._link.came_in = lambda: self._put(self._introduce)
+        self._save()
         self._navigation.start(self)
         self._navigation.halt()  # whatever an agent that was killed has left
-        self._save()
         self._link.start()
         try:
             while not stopping.is_set():
                 self._take()
                 self.core.settle(time.monotonic())
                 self._speak()
+                self._link.watch(time.monotonic())
                 if self._link.is_refused and self._config.join_key:
                     self._door.knock_again()
         finally:
@@ -194,10 +199,10 @@ class Agent:
         kept = {"boot": self._boot, "key": self._own_key, **self.core.keep()}
         if kept != self._kept:
             self._kept = json.loads(json.dumps(kept))
-            draft = self._path.with_suffix(".new")
-            draft.touch(mode=0o600)
-            draft.write_text(json.dumps(kept), encoding="utf-8")
-            os.replace(str(draft), str(self._path))  # noqa: PTH105 - the atomic rename is what matters here
+            try:
+                write_kept(self._path, kept)
+            except OSError as error:
+                raise CannotStart(f"state: {self._path} cannot be written: {error.strerror}.") from None
 
     def _read_kept(self) -> dict[str, Any]:
         try:
@@ -208,3 +213,15 @@ class Agent:
             log.warning("%s cannot be read (%s); the robot begins without a load.", self._path, error)
             return {}
         return kept if isinstance(kept, dict) else {}
+
+
+def write_kept(path: Path, kept: dict[str, Any]) -> None:
+    """Write the file in one piece, and onto the disk: robots are switched off without warning."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    draft = path.with_suffix(".new")
+    draft.touch(mode=0o600)
+    with draft.open("w", encoding="utf-8") as file:
+        json.dump(kept, file)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(str(draft), str(path))  # noqa: PTH105 - the atomic rename is what matters here

@@ -11,6 +11,7 @@ from typing import Any
 from vipo_agent.messages import is_number
 
 ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
+TOPICS = ("pose_topic", "battery_topic", "map_topic", "speed_topic")
 
 
 class BadConfig(Exception):
@@ -39,7 +40,6 @@ class Config:
     handling_s: float = 2.0
     state: str = "vipo-agent.json"
     frame: str = "map"
-    base: str = ""
     action: str = ""
     pose_topic: str = "/amcl_pose"
     battery_topic: str = "/battery_state"
@@ -73,6 +73,7 @@ def make_config(body: dict[str, Any]) -> Config:
         raise BadConfig(f"{missing[0]} is missing.")
     config = Config(**body)
     _check(config)
+    _check_places(config)
     _check_keys(config)
     config.name = config.name or config.id
     config.action = config.action or ("move_base" if config.ros == 1 else "/navigate_to_pose")
@@ -86,6 +87,8 @@ def _check(config: Config) -> None:
     for name in ("radius_m", "speed_m_s", "height_m"):
         if not is_number(getattr(config, name)) or getattr(config, name) <= 0:
             raise BadConfig(f"{name} must be a number above 0.")
+    if not is_number(config.handling_s) or config.handling_s < 0:
+        raise BadConfig("handling_s must be a number of seconds from 0.")
     if config.ros not in (1, 2):
         raise BadConfig("ros must be 1 or 2.")
     if not (isinstance(config.home, list) and len(config.home) == 3 and all(is_number(v) for v in config.home)):
@@ -94,6 +97,17 @@ def _check(config: Config) -> None:
         raise BadConfig("capacity must be a whole number from 0 to 1000.")
     if not isinstance(config.name, str) or not config.name.isprintable() or len(config.name) > 100:
         raise BadConfig("name must be printable text of at most 100 characters.")
+
+
+def _check_places(config: Config) -> None:
+    for name in ("host", "ca", "state", "frame", "action", "bridge_host", *TOPICS):
+        if not isinstance(getattr(config, name), str):
+            raise BadConfig(f"{name} must be text.")
+    for name in ("port", "bridge_port"):
+        if type(getattr(config, name)) is not int or not 0 < getattr(config, name) < 65536:
+            raise BadConfig(f"{name} must be a whole number from 1 to 65535, without quotes.")
+    if config.ca and not Path(config.ca).is_file():
+        raise BadConfig(f"ca: there is no file {config.ca}.")
 
 
 def _check_keys(config: Config) -> None:

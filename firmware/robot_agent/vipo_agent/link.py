@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import ssl
 import time
 from typing import Any, Callable
@@ -11,7 +12,10 @@ import paho.mqtt.client as mqtt
 from vipo_agent.config import Config
 from vipo_agent.messages import Told, read_command, read_stop, write
 
+log = logging.getLogger("vipo_agent")
 KEEPALIVE_S = 15
+PATIENCE_S = 10.0
+"""So long the broker may be away before the log says so."""
 GOODBYE_S = 5.0
 SERVER_STATUS = "vipo/v1/srv/status"
 
@@ -26,6 +30,8 @@ class Link:
         self._config, self._boot = config, boot
         self._server = b""
         self.is_refused = False
+        self._refusal = self._complaint = ""
+        self._away_s = time.monotonic()
         self._client = make_client(config, config.id, config.password)
         self._client.will_set(self._up("presence"), self._presence("offline"), 1, True)
         self._client.reconnect_delay_set(1, 10)
@@ -44,6 +50,17 @@ class Link:
             wait_until(said.is_published, GOODBYE_S)
         self._client.disconnect()
         self._client.loop_stop()
+
+    def watch(self, now_s: float) -> None:
+        """Tell in the log, once for each outage and reason, that the broker is away or lets the robot not in."""
+        if self._client.is_connected():
+            self._away_s, self._complaint, self._refusal = now_s, "", ""
+        elif now_s - self._away_s > PATIENCE_S:
+            where = f"The broker at {self._config.host}:{self._config.port}"
+            why = f"does not let {self._config.id} in ({self._refusal})" if self._refusal else "is not reached"
+            if why != self._complaint:
+                self._complaint = why
+                log.warning("%s %s; the robot goes on trying.", where, why)
 
     def say_online(self, description: bytes) -> None:
         """Say who the robot is and that it is here."""
@@ -68,6 +85,7 @@ class Link:
     def _connected(self, client: Any, _data: Any, _flags: Any, reason: Any, _properties: Any | None = None) -> None:
         self.is_refused = bool(getattr(reason, "is_failure", reason != 0))
         if self.is_refused:
+            self._refusal = str(reason) if version_of_callbacks() else mqtt.connack_string(reason)
             return
         topics = [f"vipo/v1/dev/{self._config.id}/down/#", f"vipo/v1/site/{self._config.site}/stop", SERVER_STATUS]
         client.subscribe([(topic, 1) for topic in topics])
@@ -77,7 +95,8 @@ class Link:
         if message.topic.endswith("/stop"):
             self.stopped(read_stop(message.payload))
         elif message.topic == SERVER_STATUS:
-            if self._server and message.payload != self._server:
+            # A birth that is heard as it happens counts also when it is the first one.
+            if not message.retain or (self._server and message.payload != self._server):
                 self.came_in()
             self._server = message.payload
         elif not message.retain:
@@ -88,12 +107,17 @@ class Link:
 
 def make_client(config: Config, name: str, key: str) -> Any:
     """Return a client for MQTT 3.1.1 of whichever paho there is."""
-    version = getattr(mqtt, "CallbackAPIVersion", None)
+    version = version_of_callbacks()
     client = mqtt.Client(version.VERSION2, client_id=name) if version else mqtt.Client(client_id=name)
     client.username_pw_set(name, key)
     if config.ca:
         client.tls_set_context(ssl.create_default_context(cafile=config.ca))
     return client
+
+
+def version_of_callbacks() -> Any:
+    """Return paho's choice of callbacks; None before version 2, which has but one."""
+    return getattr(mqtt, "CallbackAPIVersion", None)
 
 
 def wait_until(is_so: Callable[[], bool], limit_s: float) -> bool:

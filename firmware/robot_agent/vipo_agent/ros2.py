@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import roslibpy
+from roslibpy.core import RosTimeoutError
 
-from vipo_agent.agent import Agent, Navigation
+from vipo_agent.agent import Agent, CannotStart, Navigation
 from vipo_agent.config import Config
 from vipo_agent.core import Go
 from vipo_agent.geometry import quaternion, yaw
@@ -35,7 +36,12 @@ class NavigateToPose(Navigation):
     def start(self, agent: Agent) -> None:
         """Connect to the bridge, and listen to the robot's pose, battery and map."""
         self._agent = agent
-        self._ros.run(CONNECT_S)
+        try:
+            self._ros.run(CONNECT_S)
+        except RosTimeoutError:
+            self._ros.close()
+            where = f"{self._config.bridge_host}:{self._config.bridge_port}"
+            raise CannotStart(f"rosbridge does not answer at {where}; is rosbridge_server running?") from None
         self._ros.on("close", self._lost)
         hear = {
             (self._config.pose_topic, "geometry_msgs/msg/PoseWithCovarianceStamped"): self._hear_pose,

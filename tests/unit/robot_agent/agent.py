@@ -6,10 +6,11 @@ from tests.servers import ROOT
 
 sys.path.insert(0, str(ROOT / "firmware" / "robot_agent"))
 
-from vipo_agent.agent import Agent, Navigation
+from vipo_agent.agent import Agent, CannotStart, Navigation
 from vipo_agent.config import BadConfig, Config, make_config
 from vipo_agent.core import Core, Facts, Go, Halt
 from vipo_agent.description import describe
+from vipo_agent.link import Link
 from vipo_agent.messages import Grid, Told, write_grid
 
 RobotGrid = Grid
@@ -17,12 +18,14 @@ RobotGrid = Grid
 __all__ = [
     "Agent",
     "BadConfig",
+    "CannotStart",
     "Config",
     "Core",
     "Facts",
     "Go",
     "Grid",
     "Halt",
+    "Link",
     "Navigation",
     "RobotGrid",
     "Told",
