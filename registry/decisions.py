@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import datetime, timedelta
 
 from django.conf import settings
 from django.db import transaction
@@ -26,7 +26,7 @@ from registry.device_rows import (
 )
 from registry.errors import RegistryError
 from registry.event_words import said
-from registry.handing_over import hand_over
+from registry.handing_over import ANSWER_LIMIT_S, CONNECT_LIMIT_S, hand_over
 from registry.joining import DOOR, list_broker_hashes
 from registry.live import publish
 from registry.models import Device, User
@@ -36,6 +36,8 @@ from registry.topic_claims import claim_again, release_topics
 from registry.views import DeviceView, view_of
 
 Lifecycle = Device.Lifecycle
+TELLING_LIMIT = timedelta(seconds=CONNECT_LIMIT_S + ANSWER_LIMIT_S + 5)
+"""Whoever tells a device a key and has not come back after so long has died over it."""
 
 
 class NotPending(RegistryError):
@@ -60,7 +62,7 @@ class NotRetired(RegistryError):
 
 
 class KeyChanged(RegistryError):
-    """A key that somebody else replaced or took away while it was being replaced."""
+    """A key that somebody else replaces, or has replaced or taken away while it was being replaced."""
 
     code = "key_changed"
     status = 409
@@ -90,16 +92,17 @@ def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) 
         device.lifecycle = Lifecycle.APPROVED
         if not had_own_key:
             _give_key(device, credential)
-        device.save(update_fields=["lifecycle", "credential_hash", "broker_hash"])
+        device.key_told_at = at if device.online else None
+        device.save(update_fields=["lifecycle", "credential_hash", "broker_hash", "key_told_at"])
         write_event(device, at, "approved", said("approved"), by)
         after = view_of(device, site)
         announce(before, after)
     taken = after.online and hand_over(device_id=device_id, credential=credential)
-    if had_own_key:
-        key = device.credential_hash
-        after = _replace_key(site, device_id, credential, by, at, key) if taken else after
-        return Decided(after, credential if taken else None, taken)
-    return Decided(after, credential, taken)
+    if had_own_key and taken:
+        after = _replace_key(site, device_id, credential, by, at, device.credential_hash)
+    else:
+        Device.objects.filter(pk=device_id, key_told_at=at).update(key_told_at=None)
+    return Decided(after, None if had_own_key and not taken else credential, taken)
 
 
 def reject_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
@@ -136,6 +139,7 @@ def rotate_credential(*, site: str, device_id: str, by: User | None, at: datetim
     with transaction.atomic():
         device = lock_device(site, device_id)
         _require_approved(device)
+        _begin_telling(device, at)
     credential = make_credential()
     taken = device.online and hand_over(device_id=device_id, credential=credential)
     return Decided(_replace_key(site, device_id, credential, by, at, device.credential_hash), credential, taken)
@@ -215,6 +219,16 @@ def _remove_unknown(name: str) -> bool:
     return True
 
 
+def _begin_telling(device: Device, at: datetime) -> None:
+    """Be the only one who gives the device a key: of two that it is told in turn it would keep the later one."""
+    if device.key_told_at is not None and at - device.key_told_at < TELLING_LIMIT:
+        raise KeyChanged(
+            f"Somebody else is giving {device.id} a new key just now. Look at it again in half a minute, then decide."
+        )
+    device.key_told_at = at
+    device.save(update_fields=["key_told_at"])
+
+
 def _replace_key(
     site: str, device_id: str, credential: str, by: User | None, at: datetime, replaces: str
 ) -> DeviceView:
@@ -229,10 +243,10 @@ def _replace_key(
             )
         before = view_of(device, site)
         _give_key(device, credential)
-        device.ends_before = at
+        device.ends_before, device.key_told_at = at, None
         if not device.online:
             forget_starts(device)
-        device.save(update_fields=["credential_hash", "broker_hash", "ends_before", *STARTS])
+        device.save(update_fields=["credential_hash", "broker_hash", "ends_before", "key_told_at", *STARTS])
         write_event(device, at, "credential", said("credential"), by)
         after = view_of(device, site)
         announce(before, after)

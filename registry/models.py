@@ -190,6 +190,7 @@ class Device(models.Model):
     credential_hash = models.CharField(max_length=64, blank=True)
     broker_hash = models.CharField(max_length=160, blank=True)
     ends_before = models.DateTimeField(null=True)
+    key_told_at = models.DateTimeField(null=True)
     dropped = models.BigIntegerField(default=0)
 
     description = models.JSONField(null=True)
