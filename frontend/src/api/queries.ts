@@ -53,8 +53,21 @@ function retry(failures: number, error: Error): boolean {
   return again && failures < 3;
 }
 
+/**
+ * Without a network a call fails at once, with a sentence, instead of waiting unseen: a Stop all, or the reset of one,
+ * that is carried out when the network comes back is the last thing that anybody expects.
+ */
+const networkMode = "always";
+
 export function makeQueryClient(): QueryClient {
-  return new QueryClient({ defaultOptions: { queries: { retry, staleTime: 30_000, refetchOnWindowFocus: false } } });
+  const queries = {
+    retry,
+    networkMode,
+    staleTime: 30_000,
+    refetchOnWindowFocus: false,
+    refetchOnReconnect: true,
+  } as const;
+  return new QueryClient({ defaultOptions: { queries, mutations: { networkMode } } });
 }
 
 async function getMe(): Promise<Me> {
