@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from datetime import datetime, timedelta
+from typing import Any
 
 from execution.claiming import CONTROLS
 from execution.models import Command, Run
@@ -69,12 +70,13 @@ def _find_done_since(known: Sequence[registry.AlertView]) -> list[int]:
     ]
 
 
-def note_complaint(device: str, reason: str) -> None:
+def note_complaint(device: str, reason: str, facts: Mapping[str, Any] | None = None) -> None:
     """Take in why a message was dropped or refused; touches no database."""
     kind, _, detail = reason.partition(": ")
+    args = {"why": detail[:MOST_CHARACTERS], **({"faults": facts["faults"]} if facts and "faults" in facts else {})}
     if kind == TOO_MANY:
         registry.note_alert(device_id=device, code="messages_dropped")
     elif kind == "desc":
-        registry.note_alert(device_id=device, code="description_refused", args={"why": detail[:MOST_CHARACTERS]})
+        registry.note_alert(device_id=device, code="description_refused", args=args)
     elif "/" not in kind:  # a knock is nobody's yet
-        registry.note_alert(device_id=device, code="messages_refused", args={"why": detail[:MOST_CHARACTERS]})
+        registry.note_alert(device_id=device, code="messages_refused", args=args)

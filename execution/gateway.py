@@ -12,6 +12,7 @@ import logging
 import threading
 import time
 from collections import OrderedDict, deque
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import Any
 
@@ -19,15 +20,17 @@ from django.db import DatabaseError, InterfaceError, connection
 
 from execution import services as execution
 from execution.alerting import note_complaint
-from execution.intake import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket
+from execution.intake import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
 from execution.taking_in import KNOCK, Taker
 from registry import live, wire
 from registry import services as registry
 from registry.errors import VipoError
+from registry.faults import facts_of, fault
 from registry.mqtt import Message, MqttClient
 from registry.outage import Outage
 
 log = logging.getLogger(__name__)
+FLOOD = fault("flood")
 
 EVERYTHING = "$share/gateway/vipo/v1/dev/+/up/#"
 KNOCKS = "$share/gateway/vipo/v1/join/+/+"
@@ -52,7 +55,7 @@ class Gateway:
         self._outage = Outage("The database", "What devices say waits at the broker, and commands wait.")
         self._outages_seen = 0
         self._taker = Taker(self._note, self.complaints.counts, self._outage)
-        self._notes: deque[tuple[str, str]] = deque(maxlen=1000)
+        self._notes: deque[tuple[str, str, Mapping[str, Any]]] = deque(maxlen=1000)
         self._greeting_due = threading.Event()
         self._stops: dict[str, bytes] = {}
         self._stops_at = 0.0
@@ -98,7 +101,7 @@ class Gateway:
             return
         device, kind = found or (knock[1] if knock else "", KNOCK)
         if not self._bucket(f"join:{knock[0]}" if knock else device).take(time.monotonic()):
-            self._note(device, "too many messages: some were dropped")
+            self._note(device, FLOOD.text, facts_of([FLOOD]))
             message.acknowledge()
         elif not self._inbox.put(Entry(message, device, kind)):
             self.complaints.counts["inbox full"] += 1
@@ -110,19 +113,20 @@ class Gateway:
             self._buckets.popitem(last=False)
         return bucket
 
-    def _note(self, device: str, reason: str) -> None:
+    def _note(self, device: str, reason: str, facts: Mapping[str, Any]) -> None:
         """Count a message that was not taken; the worker writes it into the device's history."""
-        note_complaint(device, reason)
-        line = self.complaints.add(device, reason, time.monotonic())
-        if line is not None:
+        note_complaint(device, reason, facts)
+        others = self.complaints.count(device, reason, time.monotonic())
+        if others is not None:
+            line = with_others(reason, others)
             log.warning("Device %s: %s", device, line)
-            self._notes.append((device, line))
+            self._notes.append((device, line, {**facts, "more": others}))
 
     def _write_notes(self) -> None:
         while self._notes:
-            device, line = self._notes.popleft()
+            device, line, facts = self._notes.popleft()
             try:
-                registry.record_problem(device_id=device, text=line, at=datetime.now(UTC))
+                registry.record_problem(device_id=device, text=line, facts=facts, at=datetime.now(UTC))
             except DatabaseError as error:
                 log.warning("The note about %s was not kept: %s", device, error)
 

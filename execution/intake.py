@@ -108,6 +108,11 @@ class Complaints:
 
     def add(self, device: str, reason: str, now: float) -> str | None:
         """Count one more; return a line for the device's history, at most one a minute."""
+        others = self.count(device, reason, now)
+        return None if others is None else with_others(reason, others)
+
+    def count(self, device: str, reason: str, now: float) -> int | None:
+        """Count one more; at most once a minute, where a line is due, return how many others it stands for."""
         self.counts[reason.split(":", 1)[0]] += 1
         self.waiting[device] += 1
         with self._guard:
@@ -118,5 +123,9 @@ class Complaints:
         self.written_at.move_to_end(device)
         if len(self.written_at) > KNOWN_DEVICES:
             self.written_at.popitem(last=False)
-        others = self.waiting.pop(device) - 1
-        return reason if not others else f"{reason} ({others} more since the last note)"
+        return self.waiting.pop(device) - 1
+
+
+def with_others(reason: str, others: int) -> str:
+    """Return the line for a complaint that stands for others, too."""
+    return reason if not others else f"{reason} ({others} more since the last note)"

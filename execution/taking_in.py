@@ -5,8 +5,9 @@ from __future__ import annotations
 import logging
 import threading
 from collections import Counter, defaultdict, deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
+from typing import Any
 
 from django.db import DatabaseError, InterfaceError, OperationalError, connection
 
@@ -29,7 +30,9 @@ MOST_DESCRIPTIONS = 50
 class Taker:
     """Takes messages in and acknowledges each to the broker once it is kept, or will never be."""
 
-    def __init__(self, note: Callable[[str, str], None], counts: Counter[str], outage: Outage | None = None) -> None:
+    def __init__(
+        self, note: Callable[[str, str, Mapping[str, Any]], None], counts: Counter[str], outage: Outage | None = None
+    ) -> None:
         self._note, self._counts = note, counts
         self._outage = outage or Outage("The database", "What devices say waits.")
 
@@ -98,7 +101,7 @@ class Taker:
         try:
             for entry, outcome in zip(entries, ingest(), strict=True):
                 if isinstance(outcome, VipoError):
-                    self._note(entry.device, f"{kind}: {outcome.detail}")
+                    self._note(entry.device, f"{kind}: {outcome.detail}", {**outcome.facts, "kind": kind})
                 elif outcome is not None:
                     self._pass_on(outcome, at)
                     if kind == "desc":
@@ -121,7 +124,7 @@ class Taker:
                 self._outage.end()
                 break
             except VipoError as error:
-                self._note(entry.device, f"{entry.kind}: {error.detail}")
+                self._note(entry.device, f"{entry.kind}: {error.detail}", {**error.facts, "kind": entry.kind})
                 break
             except (OperationalError, InterfaceError) as error:
                 self._outage.begin(error)

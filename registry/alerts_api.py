@@ -30,7 +30,7 @@ class AlertShape(Schema):
     code: AlertCode
     severity: Severity
     role: Literal["viewer", "admin"]
-    args: Annotated[Any, Shown(dict[str, bool | int | float | str])]
+    args: Annotated[Any, Shown(dict[str, Any])]
     text: str
     count: int
     state: AlertState

@@ -30,6 +30,7 @@ from registry.differences import list_changes
 from registry.errors import RegistryError
 from registry.event_words import described
 from registry.event_words import said as in_words
+from registry.faults import Fault, facts_of
 from registry.models import Device, DeviceEvent, Site
 from registry.rdf_text import CONTENT_TYPES
 from registry.topic_claims import claim_topics
@@ -189,7 +190,8 @@ def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[De
     if not (words := described(old, description)):
         return []
     told = line_of_history(device, at, "described", words, changes=list_changes(before, after) if before else ())
-    mended = [in_words("mended", text=line) for line in reversed(_packed(news.reading.notes))]
+    packs = reversed(_packed(news.reading.notes))
+    mended = [in_words("mended", text=" ".join(n.text for n in pack), **facts_of(pack)) for pack in packs]
     return [told, *(line_of_history(device, at, "mended", words) for words in mended)]
 
 
@@ -210,12 +212,12 @@ def _write(devices: list[Device]) -> None:
         cursor.executemany(WRITE_DESCRIPTION, rows)
 
 
-def _packed(notes: tuple[str, ...]) -> list[str]:
+def _packed(notes: tuple[Fault, ...]) -> list[list[Fault]]:
     """Put what was mended into few lines of history, none longer than one may be."""
-    lines: list[str] = []
+    packs: list[list[Fault]] = []
     for note in notes:
-        if lines and len(lines[-1]) + len(note) < MOST_CHARACTERS:
-            lines[-1] += f" {note}"
-        elif len(lines) < MOST_LINES:
-            lines.append(note)
-    return lines
+        if packs and sum(len(each.text) + 1 for each in packs[-1]) + len(note.text) <= MOST_CHARACTERS:
+            packs[-1].append(note)
+        elif len(packs) < MOST_LINES:
+            packs.append([note])
+    return packs

@@ -8,11 +8,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from registry.capability import Description, description_to_json, find_faults
+from registry.capability import Description, description_to_json
 from registry.device_triples import describe
+from registry.faults import Fault
 from registry.ontology import write_rdf
 from registry.paper_message import describe_message, write_message
 from registry.paper_text import read_text
+from registry.plausibility import find_faults
 from registry.rdf_reading import read_json_ld, read_turtle
 from registry.rdf_text import (
     FORMS,
@@ -23,6 +25,7 @@ from registry.rdf_text import (
     is_json,
     plain_text,
     read_json,
+    refuse,
 )
 from registry.td_schema import check_thing
 from registry.thing import describe_thing, write_thing
@@ -34,7 +37,7 @@ class Reading:
 
     description: Description
     form: DescriptionForm
-    notes: tuple[str, ...] = ()
+    notes: tuple[Fault, ...] = ()
 
 
 def source_hash(payload: bytes) -> str:
@@ -62,9 +65,7 @@ def read(payload: bytes, *, device_id: str | None = None) -> Reading:
     reading = _read_json_form(text) if is_json(text) else _read_text_form(text)
     description = reading.description
     if device_id is not None and description.id != device_id:
-        raise BadDescription(
-            f"The description is of {description.id[:64]!r}, but it came on the topic of {device_id!r}. Use one id."
-        )
+        refuse("other_id", said=description.id[:64], device=device_id)
     if faults := find_faults(description):
         raise BadDescription(*faults, heading="The description cannot be believed.")
     return reading
@@ -108,4 +109,4 @@ def write_description(description: Description, form: str = "turtle", *, broker:
             return write_thing(description, broker)
         case "paper":
             return write_message(description)
-    raise BadDescription(f"There is no form {form[:20]!r}. Ask for {', '.join(FORMS)}.")
+    return refuse("no_form", form=form[:20], forms=", ".join(FORMS))

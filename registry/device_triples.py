@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from math import isfinite
-from typing import Any, cast
+from typing import Any, NoReturn, cast
 
 from registry.capability import (
     Description,
@@ -18,11 +18,12 @@ from registry.capability import (
     Size,
     ValueType,
 )
-from registry.rdf_text import NAMESPACES, BadDescription
+from registry.rdf_text import NAMESPACES, refuse
 from registry.triples import BLANK, FIRST, NIL, RDF, REST, Node, Text, Triples
 from registry.wire import down_topic
 
 MOST_ITEMS = 256
+_LISTS = frozenset({"vipo:location", "vipo:size", "vipo:parameters", "vipo:options"})
 _KINDS: dict[str, DeviceKind] = {"vipo:Machine": "machine", "vipo:Robot": "robot"}
 
 
@@ -31,7 +32,7 @@ def describe(triples: Triples) -> Description:
     device, kind = _the_device(triples)
     own_id, radius = device.text("dct:identifier"), device.number("vipo:radius", 0.0)
     if not own_id:
-        raise BadDescription('The description needs the device\'s id: dct:identifier "lamp01".')
+        refuse("rdf_no_id")
     return Description(
         id=own_id,
         name=device.text("dct:title") or own_id,
@@ -67,37 +68,42 @@ class _Thing:
     triples: Triples
     node: Node
 
+    def key(self, short: str) -> str:
+        """Return how a refusal calls what a predicate says, with the name of the affordance that it says it of."""
+        names = [node.text for node in self.triples.objects(self.node, _full("td:name")) if isinstance(node, Text)]
+        return f"{short} ({', '.join(names)[:64]})" if names else short
+
     def one(self, short: str) -> Node | None:
         found = self.triples.objects(self.node, _full(short))
         if len(found) > 1:
-            raise BadDescription(f"The description gives {short} more than once.")
+            refuse("rdf_list" if short in _LISTS else "rdf_more", key=self.key(short))
         return found[0] if found else None
 
     def text(self, short: str) -> str:
         found = self.one(short)
-        return "" if found is None else _text_of(found, short)
+        return "" if found is None else _text_of(found, self.key(short))
 
     def number(self, short: str, default: float) -> float:
         found = self.one(short)
-        return default if found is None else _number_of(found, short)
+        return default if found is None else _number_of(found, self.key(short))
 
     def limit(self, short: str) -> float | None:
         found = self.one(short)
-        return None if found is None else _number_of(found, short)
+        return None if found is None else _number_of(found, self.key(short))
 
     def whole(self, short: str) -> int:
         number = self.number(short, 0.0)
         if not number.is_integer():
-            raise BadDescription(f"The description needs a whole number for {short}.")
+            refuse("rdf_whole", key=self.key(short))
         return int(number)
 
     def truth(self, short: str, *, default: bool) -> bool:
         found = self.one(short)
         if found is None:
             return default
-        said = _text_of(found, short).lower()
+        said = _text_of(found, self.key(short)).lower()
         if said not in {"true", "false", "0", "1"}:
-            raise BadDescription(f"The description needs true or false for {short}.")
+            refuse("rdf_truth", key=self.key(short))
         return said in {"true", "1"}
 
     def words(self, short: str) -> tuple[str, ...]:
@@ -111,7 +117,7 @@ class _Thing:
             seen.add(node)
             first, rest = self.triples.objects(node, FIRST), self.triples.objects(node, REST)
             if len(first) != 1 or len(rest) > 1:
-                raise BadDescription(f"The description needs a list for {short}.")
+                refuse("rdf_list", key=self.key(short))
             items.append(first[0])
             node = rest[0] if rest else None
         return items
@@ -125,47 +131,48 @@ class _Thing:
         return sorted(found, key=lambda each: (each.number("schema:position", 1000.0), each.text("td:name")))
 
 
-def _text_of(node: Node, short: str) -> str:
+def _text_of(node: Node, key: str) -> str:
     if isinstance(node, Text):
         return node.text
     if node.startswith(BLANK):
-        raise BadDescription(f"The description needs text for {short}.")
+        refuse("rdf_text", key=key)
     return node
 
 
-def _number_of(node: Node, short: str) -> float:
+def _number_of(node: Node, key: str) -> float:
     """Read a literal's text, whatever its datatype says of it."""
     try:
         number = float(node.text) if isinstance(node, Text) else float("nan")
     except ValueError:
         number = float("nan")
     if not isfinite(number):
-        raise BadDescription(f"The description needs a number for {short}.")
+        refuse("rdf_number", key=key)
     return number
 
 
 def _the_device(triples: Triples) -> tuple[_Thing, DeviceKind]:
     found = [(node, kind) for short, kind in _KINDS.items() for node in triples.subjects_of(_full(short))]
-    if len(found) != 1:
-        count = "no" if not found else "more than one"
-        raise BadDescription(
-            f"The description names {count} vipo:Machine or vipo:Robot. It needs exactly one, such as "
-            f"'<urn:vipo:device:lamp01> a vipo:Machine', where vipo: is {NAMESPACES['vipo']}.{_kinds_said(triples)}"
-        )
+    if len(found) > 1:
+        refuse("rdf_kinds")
+    if not found:
+        _refuse_kinds(triples)
     return _Thing(triples, found[0][0]), found[0][1]
 
 
-def _kinds_said(triples: Triples) -> str:
-    """Return what kinds of things are spoken of instead: a misspelt one is seen at once."""
-    kinds = {str(kind)[:100] for _, predicate, kind in triples if predicate == RDF + "type"}
-    said = sorted(kinds - {_full(short) for short in _KINDS})
-    return f" It speaks of {', '.join(said[:3])}." if said else ""
+def _refuse_kinds(triples: Triples) -> NoReturn:
+    """Say what is spoken of instead: a kind that is misspelt, or whose prefix is unknown, is seen at once."""
+    kinds = sorted({str(kind)[:100] for _, predicate, kind in triples if predicate == RDF + "type"})
+    if unknown := [kind for kind in kinds if kind in _KINDS]:
+        refuse("rdf_no_vipo", kind=unknown[0])
+    if kinds:
+        refuse("rdf_other_kinds", kinds=", ".join(kinds[:3]))
+    refuse("rdf_no_kind")
 
 
 def _pose(device: _Thing) -> Pose:
     numbers = device.numbers("vipo:location")
     if len(numbers) not in (2, 3, 4):
-        raise BadDescription("The description needs vipo:location ( x y z theta ) in metres and radians.")
+        refuse("rdf_location")
     return Pose(*numbers)
 
 
@@ -174,7 +181,7 @@ def _size(device: _Thing, radius: float) -> Size:
     if not numbers and radius:
         return Size(2 * radius, 2 * radius, 2 * radius)
     if len(numbers) != 3:
-        raise BadDescription("The description needs vipo:size ( x y z ) in metres.")
+        refuse("rdf_size")
     return Size(*numbers)
 
 

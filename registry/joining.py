@@ -10,6 +10,7 @@ import hmac
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime, timedelta
+from typing import Any
 
 from django.conf import settings
 from django.db import transaction
@@ -154,13 +155,15 @@ def count_dropped(*, dropped: Mapping[str, int]) -> None:
                 announce(before, replace(before, dropped=device.dropped))
 
 
-def record_problem(*, device_id: str, text: str, at: datetime | None = None) -> bool:
+def record_problem(
+    *, device_id: str, text: str, facts: Mapping[str, Any] | None = None, at: datetime | None = None
+) -> bool:
     """Note in a device's history that something of it was refused, at most every 10 s; tell whether it was noted."""
     at = at or timezone.now()
     device = Device.objects.filter(pk=device_id).first()
     if device is None or DeviceEvent.objects.filter(device=device, kind="problem", at__gt=at - PROBLEM_EVERY).exists():
         return False
-    write_event(device, at, "problem", said("problem", text=text))
+    write_event(device, at, "problem", said("problem", **{**(facts or {}), "text": text}))
     return True
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
 from registry.capability import Pose, Size
-from registry.rdf_text import BadDescription, Fault
+from registry.rdf_text import refuse
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,15 +22,11 @@ class Fields:
         """Return the path of a field, written as a JSON pointer."""
         return f"{self.path}/{key.replace('~', '~0').replace('/', '~1')}"
 
-    def refuse(self, key: str, reason: str) -> NoReturn:
+    def refuse(self, key: str, code: str, **args: str) -> NoReturn:
         """Say what is wrong with a field. Raises BadDescription."""
         path = self.path_of(key)
         line, column = self.places.get(path) or self.places.get(self.path) or (0, 0)
-        raise BadDescription(Fault(f"The description {reason}.", line, column, path))
-
-    def need(self, key: str, what: str) -> NoReturn:
-        """Say what a field must hold. Raises BadDescription."""
-        self.refuse(key, f"needs {what} for {key}")
+        refuse(code, line, column, path, key=key, **args)
 
     def has(self, key: str) -> bool:
         """Tell whether the field is given and not null."""
@@ -42,7 +38,7 @@ class Fields:
         if value is None:
             return ""
         if not isinstance(value, str):
-            self.need(key, "text in quotes")
+            self.refuse(key, "need_text")
         return value
 
     def number(self, key: str) -> float | None:
@@ -51,14 +47,14 @@ class Fields:
         if value is None:
             return None
         if not _is_number(value):
-            self.need(key, "a number")
+            self.refuse(key, "need_number")
         return float(value)
 
     def whole(self, key: str) -> int:
         """Return a whole number, 0 when it is not given."""
         value = self.number(key) or 0.0
         if not value.is_integer():
-            self.need(key, "a whole number")
+            self.refuse(key, "need_whole")
         return int(value)
 
     def truth(self, key: str, *, default: bool) -> bool:
@@ -67,7 +63,7 @@ class Fields:
         if value is None:
             return default
         if not isinstance(value, bool):
-            self.need(key, "true or false")
+            self.refuse(key, "need_truth")
         return value
 
     def numbers(self, key: str) -> list[float]:
@@ -76,7 +72,7 @@ class Fields:
         if values is None:
             return []
         if not isinstance(values, list) or not all(_is_number(value) for value in values):
-            self.need(key, "a list of numbers")
+            self.refuse(key, "need_numbers")
         return [float(value) for value in values]
 
     def words(self, key: str) -> tuple[str, ...]:
@@ -85,7 +81,7 @@ class Fields:
         if values is None:
             return ()
         if not isinstance(values, list) or not all(isinstance(value, str) for value in values):
-            self.need(key, "a list of texts")
+            self.refuse(key, "need_words")
         return tuple(values)
 
     def inside(self, key: str) -> Fields:
@@ -94,7 +90,7 @@ class Fields:
         if value is None:
             value = {}
         if not isinstance(value, dict):
-            self.need(key, "an object")
+            self.refuse(key, "need_object")
         return Fields(value, self.path_of(key), self.places)
 
     def named(self, key: str) -> Iterator[tuple[str, Fields]]:
@@ -109,11 +105,11 @@ class Fields:
         if values is None:
             values = []
         if not isinstance(values, list):
-            self.need(key, "a list")
+            self.refuse(key, "need_list")
         group = Fields({str(i): value for i, value in enumerate(values)}, self.path_of(key), self.places)
         for position, value in enumerate(values):
             if not isinstance(value, dict):
-                group.need(str(position), "an object")
+                group.refuse(str(position), "need_object")
             yield group.inside(str(position))
 
 
@@ -121,7 +117,7 @@ def read_pose(fields: Fields, key: str) -> Pose:
     """Return a pose of two to four numbers. Raises BadDescription."""
     numbers = fields.numbers(key)
     if len(numbers) not in (2, 3, 4):
-        fields.need(key, "[x, y, z, theta] in metres and radians")
+        fields.refuse(key, "need_pose")
     return Pose(*numbers)
 
 
@@ -131,7 +127,7 @@ def read_size(fields: Fields, key: str, radius: float) -> Size:
     if not numbers and radius:
         return Size(2 * radius, 2 * radius, 2 * radius)
     if len(numbers) != 3:
-        fields.need(key, "[x, y, z] in metres")
+        fields.refuse(key, "need_size")
     return Size(*numbers)
 
 

@@ -55,20 +55,29 @@ class DescriptionText(Schema):
 
 
 class FaultShape(Schema):
-    """One thing that is wrong: a sentence, and where: a line and column from 1 (0: none), or a path into JSON."""
+    """One thing that is wrong or was mended: a sentence, and where: a line and column from 1 (0: none), or a path.
+
+    `code` and `args` are what the sentence is made of; both are empty where it stands for itself.
+    """
 
     text: str
     line: int
     column: int
     path: str
+    code: str
+    args: dict[str, str | int | float]
 
 
 class LookShape(Schema):
-    """What VIPO makes of a description; with `faults` the rest is null or empty."""
+    """What VIPO makes of a description; with `faults` the rest is null or empty.
+
+    `notes` are the sentences of `mended`: what was mended or left out.
+    """
 
     form: DescriptionForm | None
     faults: list[FaultShape]
     notes: list[str]
+    mended: list[FaultShape]
     description: dict[str, Any] | None
     turtle: str
 
@@ -96,11 +105,12 @@ def look_at_description(request: HttpRequest, slug: str, body: DescriptionText) 
         reading = read(body.text.encode("utf-8", errors="surrogatepass"))
     except BadDescription as error:
         faults = [asdict(fault) for fault in error.faults]
-        return {"form": None, "faults": faults, "notes": [], "description": None, "turtle": ""}
+        return {"form": None, "faults": faults, "notes": [], "mended": [], "description": None, "turtle": ""}
     return {
         "form": reading.form,
         "faults": [],
-        "notes": list(reading.notes),
+        "notes": [note.text for note in reading.notes],
+        "mended": [asdict(note) for note in reading.notes],
         "description": description_to_json(reading.description),
         "turtle": write_description(reading.description),
     }

@@ -16,6 +16,7 @@ from registry.capability import (
     Size,
     ValueType,
 )
+from registry.faults import Fault, note
 from registry.json_fields import Fields, read_pose, read_size
 from registry.paper_text import KEYS
 from registry.rdf_text import paper_key
@@ -35,17 +36,18 @@ _ROS_NAME = re.compile(r"/[A-Za-z0-9_ ]{1,100}")
 
 
 def describe_message(
-    body: Mapping[str, Any], places: Mapping[str, tuple[int, int]] | None = None, notes: tuple[str, ...] = ()
-) -> tuple[Description, tuple[str, ...]]:
+    body: Mapping[str, Any], places: Mapping[str, tuple[int, int]] | None = None, notes: tuple[Fault, ...] = ()
+) -> tuple[Description, tuple[Fault, ...]]:
     """Return what a message says of a device, and what was mended or left out. Raises BadDescription."""
     told = list(notes)
     fields = Fields(_spelt(body, "", told), "", places or {})
     if not fields.text("id"):
-        fields.need("id", "text")
-    return _description(fields, told), tuple(dict.fromkeys(told))
+        fields.refuse("id", "need_id")
+    description = _description(fields, told)
+    return description, tuple({each.text: each for each in told}.values())
 
 
-def _spelt(value: Any, path: str, told: list[str]) -> Any:
+def _spelt(value: Any, path: str, told: list[Fault]) -> Any:
     """Return the message with every key as it is spelt here; keys that mean nothing are left out, and told."""
     if isinstance(value, list):
         return [_spelt(item, f"{path}/{i}", told) for i, item in enumerate(value)]
@@ -55,20 +57,20 @@ def _spelt(value: Any, path: str, told: list[str]) -> Any:
     for written, inner in value.items():
         key = _SPELLINGS.get(paper_key(written))
         if key is None:
-            told.append(f"Left out {f'{path}/{written}'[:80]!r}, which means nothing here.")
+            told.append(note("left_key", key=f"{path}/{written}"[:80]))
             continue
         if key != written:
-            told.append(f"Read {written[:40]!r} as {key}.")
+            told.append(note("mended_key", written=written[:40], key=key))
         if key in found:
-            Fields(value, path).refuse(written, f"says {key} twice")
+            Fields(value, path).refuse(written, "said_twice", meant=key)
         found[key] = _spelt(inner, f"{path}/{key}", told)
     return found
 
 
-def _description(fields: Fields, told: list[str]) -> Description:
+def _description(fields: Fields, told: list[Fault]) -> Description:
     kind = fields.text("kind") or "machine"
     if kind not in ("machine", "robot"):
-        fields.need("kind", "machine or robot")
+        fields.refuse("kind", "need_kind")
     radius = fields.number("radius") or 0.0
     device_id = fields.text("id")
     return Description(
@@ -98,21 +100,21 @@ def _size(fields: Fields, radius: float) -> Size:
         return read_size(fields, "size", radius)
     side = SIZES_M.get(fields.text("size").lower())
     if side is None:
-        fields.need("size", "small, medium, large or [x, y, z] in metres")
+        fields.refuse("size", "need_size_word")
     return Size(side, side, side)
 
 
-def _image(fields: Fields, told: list[str]) -> str:
+def _image(fields: Fields, told: list[Fault]) -> str:
     image = fields.text("imgUrl")
     if image and re.match(r"[A-Za-z][A-Za-z0-9+.-]*:", image) is None:
-        told.append(f"Left out imgUrl {image[:80]!r}: only an address with http:// or https:// can be shown.")
+        told.append(note("left_image", image=image[:80]))
         return ""
     return image
 
 
-def _property(item: Fields, told: list[str]) -> PropertySpec:
+def _property(item: Fields, told: list[Fault]) -> PropertySpec:
     if item.has("value"):
-        told.append(f"Left out the value of {item.text('name')[:64]}: values come on up/state.")
+        told.append(note("left_value", name=item.text("name")[:64]))
     return PropertySpec(**_value(item), title=item.text("title"))
 
 
@@ -133,7 +135,7 @@ def _type_of(value: object) -> ValueType:
     return "text" if isinstance(value, str) else "number"
 
 
-def _method(device_id: str, item: Fields, told: list[str]) -> MethodSpec:
+def _method(device_id: str, item: Fields, told: list[Fault]) -> MethodSpec:
     name, message_type = item.text("name"), item.text("vipo_msg_type")
     given = tuple(
         ParameterSpec(**_value(parameter), required=parameter.truth("required", default=True))
@@ -148,11 +150,11 @@ def _method(device_id: str, item: Fields, told: list[str]) -> MethodSpec:
     )
 
 
-def _topic(device_id: str, method: str, said: str, told: list[str]) -> str:
+def _topic(device_id: str, method: str, said: str, told: list[Fault]) -> str:
     """Return the topic of a method; a name of ROS, which no MQTT client is told on, gives way to the device's own."""
     own = down_topic(device_id, method)
     if _ROS_NAME.fullmatch(said):
-        told.append(f"Commands for {method[:64]} come on {own[:200]}, not on the ROS topic {said!r}.")
+        told.append(note("own_topic", method=method[:64], topic=own, said=said))
         return own
     return said or own
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NoReturn
 
-from registry.rdf_text import BadDescription, Fault, paper_key
+from registry.faults import JSON_SYNTAX, Fault, note
+from registry.rdf_text import DESCRIPTION, BadDescription, paper_key, refuse
 from registry.wire import BadMessage, parse_json
 
 KEYS = (
@@ -30,7 +31,7 @@ class MessageText:
 
     body: dict[str, Any]
     places: Mapping[str, tuple[int, int]]
-    notes: tuple[str, ...]
+    notes: tuple[Fault, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,10 +49,10 @@ class _Reader:
     """Gathers places and notes while the lines become JSON."""
 
     places: dict[str, tuple[int, int]] = field(default_factory=dict)
-    notes: list[tuple[int, str]] = field(default_factory=list)
+    notes: list[Fault] = field(default_factory=list)
 
-    def refuse(self, line: _Line, reason: str) -> NoReturn:
-        raise BadDescription(Fault(f"The description {reason}.", line.number, line.column))
+    def refuse(self, line: _Line, code: str, **args: str) -> NoReturn:
+        refuse(code, line.number, line.column, **args)
 
 
 def read_text(text: str) -> MessageText:
@@ -59,9 +60,7 @@ def read_text(text: str) -> MessageText:
     reader = _Reader()
     lines = list(_lines(text, reader))
     body = _mapping(reader, lines, "")
-    return MessageText(
-        body, reader.places, tuple(f"Line {line}: {note}" for line, note in sorted(reader.notes, key=lambda n: n[0]))
-    )
+    return MessageText(body, reader.places, tuple(sorted(reader.notes, key=lambda told: told.line)))
 
 
 def _lines(text: str, reader: _Reader) -> Iterator[_Line]:
@@ -92,11 +91,11 @@ def _line(reader: _Reader, number: int, indent: int, begins: bool, content: str)
     column = indent + content.find(value) + 1 if value else indent + 1
     line = _Line(number, indent, begins, key, value, column)
     if match is None or (bare and key not in KEYS) or (bare and not value and key not in SECTIONS):
-        reader.refuse(line, f"has a line that is not `key: value`: {content[:40]!r}")
+        reader.refuse(line, "paper_line", said=content[:40])
     if bare:
-        reader.notes.append((number, f"put a colon behind {key}."))
+        reader.notes.append(note("mended_colon", number, key=key))
     if key != written:
-        reader.notes.append((number, f"read {written!r} as {key}."))
+        reader.notes.append(note("mended_key", number, written=written, key=key))
     return line
 
 
@@ -105,14 +104,14 @@ def _mapping(reader: _Reader, lines: list[_Line], path: str) -> dict[str, Any]:
     for line, inner in _blocks(reader, lines):
         place = f"{path}/{line.key}"
         if line.key in found:
-            reader.refuse(line, f"says {line.key} twice")
+            reader.refuse(line, "said_twice", meant=line.key)
         reader.places[place] = (line.number, line.column)
         if line.key in SECTIONS and not line.value:
             found[line.key] = _items(reader, inner, place)
         elif inner:
-            reader.refuse(inner[0], f"has a line that is set in under {line.key}, which holds no list")
+            reader.refuse(inner[0], "paper_under", key=line.key)
         elif not line.value:
-            reader.refuse(line, f"needs a value for {line.key}")
+            reader.refuse(line, "paper_no_value", key=line.key)
         else:
             found[line.key] = _value(reader, line)
     return found
@@ -126,7 +125,7 @@ def _blocks(reader: _Reader, lines: list[_Line]) -> Iterator[tuple[_Line, list[_
         while end < len(lines) and lines[end].indent > lines[0].indent:
             end += 1
         if lines[at].indent != lines[0].indent:
-            reader.refuse(lines[at], "has a line that is set in less than the lines before it")
+            reader.refuse(lines[at], "paper_less")
         yield lines[at], lines[at + 1 : end]
         at = end
 
@@ -142,7 +141,7 @@ def _items(reader: _Reader, lines: list[_Line], path: str) -> list[dict[str, Any
         if line.indent == outer and (line.begins if dashed else line.key == "name"):
             groups.append([])
         if not groups:
-            reader.refuse(line, f"needs name as the first line of each of its {path.rpartition('/')[2]}")
+            reader.refuse(line, "paper_name", section=path.rpartition("/")[2])
         groups[-1].append(line)
     items = []
     for position, group in enumerate(groups):
@@ -159,11 +158,13 @@ def _value(reader: _Reader, line: _Line) -> Any:
     try:
         return parse_json(text.encode())
     except BadMessage as error:
+        if error.fault.code not in JSON_SYNTAX.values():
+            told = error.fault.about(DESCRIPTION)
+            raise BadDescription(replace(told, line=line.number, column=line.column)) from error
         mended = _mended(text)
-        if mended is None or not error.line:
-            told = error.reason.removeprefix("The message ")
-            reader.refuse(line, f"{told.rstrip('.')} in the value of {line.key}")
-        reader.notes.append((line.number, f"put the value of {line.key} in quotes: {mended!r}."))
+        if mended is None:
+            reader.refuse(line, "paper_value", key=line.key, said=text[:60])
+        reader.notes.append(note("mended_quotes", line.number, key=line.key, value=mended))
         return mended
 
 

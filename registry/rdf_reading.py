@@ -12,25 +12,32 @@ from typing import Any
 
 from pyoxigraph import BlankNode, Literal, NamedNode, QuadParser, RdfFormat, parse
 
-from registry.rdf_text import BadDescription, Fault, check_turtle, pin_contexts
+from registry.faults import Fault, fault
+from registry.rdf_text import BadDescription, check_turtle, pin_contexts, refuse
 from registry.triples import BLANK, RDF, Node, Text, Triple, Triples
 
 NOWHERE = "relative:/"
 """What an address that is not complete is completed with: a description has no address of its own."""
-_UNKNOWN_PREFIX = re.compile(r"The prefix (\S*:) has not been declared")
+_PLACE = re.compile(r"Parser error [^:]*: ")
+_COMPLAINTS = {
+    "rdf_prefix": re.compile(r"The prefix (?P<prefix>\S*:) has not been declared"),
+    "rdf_commas": re.compile(r", "),
+    "rdf_dot": re.compile(r"A dot is expected"),
+    "rdf_end": re.compile(r"Unexpected end of file"),
+    "rdf_predicate": re.compile(r"(?P<said>.+) is not a valid predicate"),
+    "rdf_subject": re.compile(r"(?P<said>.+) is not a valid subject"),
+}
+"""The codes of what the parser complains of, by how its words begin."""
 _PLAIN = frozenset({"http://www.w3.org/2001/XMLSchema#string", RDF + "langString", RDF + "dirLangString"})
 
 
 def read_turtle(text: str) -> Triples:
     """Return the triples of a text. Raises BadDescription."""
     check_turtle(text)
-    says = "The description is not RDF (Turtle, N-Triples or JSON-LD)"
     try:
         return Triples(_plain(parse(text, RdfFormat.TURTLE, base_iri=NOWHERE)))
     except SyntaxError as error:
-        reason = _reason(error)
-        fault = Fault(f"{says}: {reason}. {_remedy(reason)}", error.lineno or 0, error.offset or 0)
-        raise BadDescription(fault) from error
+        raise BadDescription(_fault(_reason(error), error.lineno or 0, error.offset or 0)) from error
 
 
 def read_json_ld(body: Any) -> Triples:
@@ -39,7 +46,7 @@ def read_json_ld(body: Any) -> Triples:
     try:
         return Triples(_plain(parse(text, RdfFormat.JSON_LD, base_iri=NOWHERE)))
     except SyntaxError as error:
-        raise BadDescription(f"The description is not JSON-LD: {_reason(error)}.") from error
+        raise BadDescription(fault("json_ld", reason=_reason(error))) from error
 
 
 def _plain(found: QuadParser) -> Iterator[Triple]:
@@ -59,20 +66,17 @@ def _name(node: object) -> str:
         return node.value
     if isinstance(node, BlankNode):
         return BLANK + node.value
-    raise BadDescription("The description makes statements about statements (RDF 1.2). Keep to RDF 1.1.")
+    return refuse("rdf_statements")
 
 
 def _reason(error: SyntaxError) -> str:
     """Return the parser's reason, without the place that it begins with."""
-    place, _, reason = error.msg.partition(": ")
-    return (reason if place.startswith("Parser error at") else error.msg).rstrip(".")[:120]
+    return _PLACE.sub("", error.msg).rstrip(".")[:120]
 
 
-def _remedy(reason: str) -> str:
-    """Return what mends what the parser complains of, as far as that can be told from its words."""
-    if reason.startswith(", "):
-        return "The members of a list, ( 1 2 3 ), have blanks between them and no commas."
-    if prefix := _UNKNOWN_PREFIX.match(reason):
-        said = f"@prefix {prefix[1]} <…> ."
-        return f"Begin the text with {said!r}; docs/protocol.md and registry/demo/devices/ have those that VIPO knows."
-    return "Look just before it for a missing dot, semicolon, quote, bracket or prefix."
+def _fault(reason: str, line: int, column: int) -> Fault:
+    """Return what the parser complains of, with what mends it as far as that can be told from its words."""
+    for code, pattern in _COMPLAINTS.items():
+        if found := pattern.match(reason):
+            return fault(code, line, column, **found.groupdict())
+    return fault("rdf_syntax", line, column, reason=reason)

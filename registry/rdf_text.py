@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any, Literal, get_args
+from typing import Any, Literal, NoReturn, get_args
 
 from registry.errors import RegistryError
+from registry.faults import MOST_TOLD, Fault, bare, facts_of, fault
 from registry.wire import MAX_BYTES, MAX_DEPTH, BadMessage, parse_json
 
 DescriptionForm = Literal["turtle", "n-triples", "json-ld", "td", "paper"]
@@ -29,13 +29,14 @@ NAMESPACES: Mapping[str, str] = {
     "dct": "http://purl.org/dc/terms/",
 }
 CONTEXT = "urn:vipo:context"
+DESCRIPTION = "The description"
 PINNED_CONTEXTS: Mapping[str, Mapping[str, str]] = {CONTEXT: NAMESPACES}
 TD_CONTEXT = "https://www.w3.org/2022/wot/td/v1.1"
 TD_CONTEXTS = frozenset({TD_CONTEXT, "https://www.w3.org/2019/wot/td/v1"})
 PAPER_KEYS = frozenset(
     {"id", "name", "description", "location", "size", "imgurl", "done", "properties", "methods", "kind"}
 )
-_MARKUP = re.compile(rb"\s*<(?:\?xml|!DOCTYPE|!--|rdf:)", re.IGNORECASE)
+_MARKUP = re.compile(rb"\s*<(?:\?xml|!DOCTYPE|!--|rdf:|html[\s>])", re.IGNORECASE)
 _FIRST_LINE = re.compile(r"(?m)^(?:---)?[ \t]*(?!#|---)(\S.*)$")
 _PAPER_LINE = re.compile(r"\"?([A-Za-z](?:[A-Za-z_ -]*[A-Za-z_])?)\"?\s*(?::(?:\s|$|[\"'\[])|$)")
 _TRIPLE = re.compile(r"\s*(?:(?:<[^>]*>|_:\S+)\s+<[^>]*>\s.*\.\s*)?(?:#.*)?")
@@ -50,23 +51,6 @@ _BRACKET = re.compile(
 _SURROGATE = re.compile(r"\\u[dD][89a-fA-F]|\\U0000[dD][89a-fA-F]")
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """One thing that is wrong: a sentence, and where it is: a line and column from 1, or a path into JSON."""
-
-    text: str
-    line: int = 0
-    column: int = 0
-    path: str = ""
-
-    @property
-    def sentence(self) -> str:
-        """The sentence with its place."""
-        if self.line:
-            return f"{self.text} See line {self.line}, column {self.column}."
-        return f"{self.text} See {self.path}." if self.path else self.text
-
-
 class BadDescription(RegistryError):
     """A description that cannot be read or believed; `faults` say why, each in a sentence with its place."""
 
@@ -74,14 +58,14 @@ class BadDescription(RegistryError):
     status = 422
 
     def __init__(self, *faults: Fault | str, heading: str = "") -> None:
-        self.faults = tuple(_printable(Fault(fault) if isinstance(fault, str) else fault) for fault in faults)
-        super().__init__(" ".join([heading, *(fault.sentence for fault in self.faults[:5])]).strip())
+        self.faults = tuple(bare(fault) if isinstance(fault, str) else fault for fault in faults)
+        told = " ".join([heading, *(fault.sentence for fault in self.faults[:MOST_TOLD])]).strip()
+        super().__init__(told, facts_of(self.faults))
 
 
-def _printable(fault: Fault) -> Fault:
-    """Return a fault without what a terminal would obey or a page would hide: it quotes what strangers sent."""
-    text, path = ("".join(c if c.isprintable() else "\ufffd" for c in part) for part in (fault.text, fault.path))
-    return replace(fault, text=text, path=path)
+def refuse(code: str, line: int = 0, column: int = 0, path: str = "", /, **args: str | float) -> NoReturn:
+    """Say what is wrong with a description. Raises BadDescription."""
+    raise BadDescription(fault(code, line, column, path, **args))
 
 
 def form_of(payload: bytes) -> DescriptionForm:
@@ -95,19 +79,17 @@ def form_of(payload: bytes) -> DescriptionForm:
 def plain_text(payload: bytes) -> str:
     """Return a payload's text. Raises BadDescription for what is too long, XML, not UTF-8, or holds NUL."""
     if len(payload) > MAX_BYTES:
-        raise BadDescription(f"The description has {len(payload)} bytes; {MAX_BYTES} is the most.")
+        refuse("too_many_bytes", it=DESCRIPTION, bytes=len(payload), most=MAX_BYTES)
     if _MARKUP.match(payload.removeprefix(b"\xef\xbb\xbf")) or b"<rdf:RDF" in payload:
-        raise BadDescription(
-            "The description is RDF/XML, which is not accepted. Send Turtle, N-Triples, JSON-LD or a TD."
-        )
+        refuse("markup")
     try:
         text = payload.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise BadDescription("The description is not UTF-8.") from error
+        raise BadDescription(fault("not_utf8", it=DESCRIPTION)) from error
     if "\0" in text or "\\u0000" in text or "\\U00000000" in text:
-        raise BadDescription("The description holds the character NUL. Remove it.")
+        refuse("nul")
     if not text.strip():
-        raise BadDescription("The description is empty.")
+        refuse("empty")
     return text
 
 
@@ -151,12 +133,10 @@ def check_turtle(text: str) -> None:
         depth += (mark in "[(") - (mark in "])")
         if depth > MAX_DEPTH:
             line, column = place_in(text, found.start())
-            raise BadDescription(
-                Fault(f"The description is not RDF that is accepted: it is nested over {MAX_DEPTH} deep.", line, column)
-            )
+            refuse("rdf_deep", line, column, most=MAX_DEPTH)
     if half := _SURROGATE.search(text):
         line, column = place_in(text, half.start())
-        raise BadDescription(Fault("The description holds half of a surrogate pair. Remove it.", line, column))
+        refuse("half_pair", line, column)
 
 
 def place_in(text: str, at: int) -> tuple[int, int]:
@@ -169,8 +149,7 @@ def read_json(text: str) -> Any:
     try:
         return parse_json(text.encode())
     except BadMessage as error:
-        told = error.reason.removeprefix("The message ")
-        raise BadDescription(Fault(f"The description {told}", error.line, error.column)) from error
+        raise BadDescription(error.fault.about(DESCRIPTION)) from error
 
 
 def pin_contexts(value: Any) -> Any:
@@ -180,7 +159,7 @@ def pin_contexts(value: Any) -> Any:
     if not isinstance(value, dict):
         return value
     if "@import" in value:
-        raise BadDescription("The description imports a JSON-LD context. Write the context out.")
+        refuse("context_import")
     return {k: _pin_context(v) if k == "@context" else pin_contexts(v) for k, v in value.items()}
 
 
@@ -189,6 +168,6 @@ def _pin_context(context: Any) -> Any:
         return [_pin_context(c) for c in context]
     if isinstance(context, str):
         if context not in PINNED_CONTEXTS:
-            raise BadDescription(f"The description's context {context[:100]!r} is not known here. Use {CONTEXT!r}.")
+            refuse("context_unknown", named=context[:100], known=CONTEXT)
         return dict(PINNED_CONTEXTS[context])
     return pin_contexts(context)

@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from registry.describing import Reading
+from registry.faults import Fault, bare
 from registry.ontology import graph_of, graph_of_triples
 from registry.rdf_reading import read_json_ld, read_turtle
-from registry.rdf_text import BadDescription, Fault, is_json, plain_text, read_json
+from registry.rdf_text import BadDescription, is_json, plain_text, read_json
 
 SHAPES = Path(__file__).parent / "shapes" / "device.ttl"
 _RESULTS = """
@@ -51,4 +52,4 @@ def _faults(graph: Any) -> Iterator[Fault]:
         raise BadDescription("The description could not be held against the SHACL shapes.")
     for message, value in report.query(_RESULTS):
         told = f" It is {str(value)[:60]!r}." if value is not None and value.__class__.__name__ == "Literal" else ""
-        yield Fault(f"{message}{told}")
+        yield bare(f"{message}{told}")

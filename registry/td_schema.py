@@ -6,6 +6,7 @@ Two libraries: one in Rust tells in microseconds that a Thing keeps to it; the o
 from __future__ import annotations
 
 import json
+import re
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -14,17 +15,20 @@ from jsonschema import Draft7Validator
 from jsonschema.exceptions import best_match
 from jsonschema_rs import Draft7Validator as QuickValidator
 
-from registry.rdf_text import BadDescription, Fault
+from registry.faults import Fault, fault
+from registry.rdf_text import BadDescription
 
 SCHEMA = Path(__file__).parent / "schemas" / "thing-description-1.1.json"
 MOST_FAULTS = 5
-REMEDIES = {
-    "security": ' Such as "security": ["device_key"].',
-    "securityDefinitions": ' Such as "securityDefinitions": {"device_key": {"scheme": "basic"}}.',
-    "forms": ' Such as "forms": [{"href": "vipo/v1/dev/<id>/down/<action>"}].',
-    "title": ' Such as "title": "Lamp".',
+MOST_CHARACTERS = 160
+EXAMPLES = {
+    "security": '"security": ["device_key"]',
+    "securityDefinitions": '"securityDefinitions": {"device_key": {"scheme": "basic"}}',
+    "forms": '"forms": [{"href": "vipo/v1/dev/<id>/down/<action>"}]',
+    "title": '"title": "Lamp"',
 }
 """What people leave out, and how it is said."""
+_MISSING = re.compile(r"'([^']+)' is a required property")
 
 
 @cache
@@ -53,6 +57,21 @@ def check_thing(body: Any) -> None:
 
 def _fault(error: Any) -> Fault:
     path = "".join(f"/{str(part).replace('~', '~0').replace('/', '~1')}" for part in error.absolute_path)
-    message = error.message if len(error.message) <= 200 else f"{error.message[:60]}…{error.message[-100:]}"
-    remedy = next((text for name, text in REMEDIES.items() if message == f"{name!r} is a required property"), "")
-    return Fault(f"The TD schema says: {message.rstrip('.')}.{remedy}", path=path)
+    if (missing := _MISSING.fullmatch(error.message)) and missing[1] in EXAMPLES:
+        return fault("td_missing_such", 0, 0, path, name=missing[1], example=EXAMPLES[missing[1]])
+    if missing:
+        return fault("td_missing", 0, 0, path, name=missing[1])
+    value = _shortened(repr(error.instance))
+    match error.validator:
+        case "type" if isinstance(error.validator_value, str):
+            return fault("td_type", 0, 0, path, value=value, type=error.validator_value)
+        case "enum":
+            return fault("td_choice", 0, 0, path, value=value, choices=", ".join(map(str, error.validator_value)))
+        case "minItems" | "minLength" | "minProperties":
+            return fault("td_empty", 0, 0, path, value=value)
+    return fault("td_unclear", 0, 0, path, reason=_shortened(error.message))
+
+
+def _shortened(text: str) -> str:
+    text = text.rstrip(".")
+    return text if len(text) <= MOST_CHARACTERS else f"{text[:60]}…{text[-100:]}"

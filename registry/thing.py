@@ -16,7 +16,7 @@ from registry.capability import (
     ValueType,
 )
 from registry.json_fields import Fields, read_pose, read_size
-from registry.rdf_text import CONTEXT, NAMESPACES, TD_CONTEXT, TD_CONTEXTS, BadDescription, Fault
+from registry.rdf_text import CONTEXT, NAMESPACES, TD_CONTEXT, TD_CONTEXTS, refuse
 from registry.wire import down_topic, up_topic
 
 DEVICE_URN = "urn:vipo:device:"
@@ -77,15 +77,13 @@ def _with_our_prefixes(body: Mapping[str, Any]) -> dict[str, Any]:
     own = {}
     for part in context if isinstance(context, list) else [context]:
         if isinstance(part, str) and part not in {*TD_CONTEXTS, CONTEXT}:
-            text = f"The description's context {part[:100]!r} is not known here. Write its prefixes out."
-            raise BadDescription(Fault(text, path="/@context"))
+            refuse("context_unknown", 0, 0, "/@context", named=part[:100], known=TD_CONTEXT)
         own.update(part if isinstance(part, dict) else {})
     ours = {name: prefix for prefix, name in TERMS.items()}
     renamed = {p: ours[n] for p, n in own.items() if isinstance(n, str) and n in ours and p != ours[n]}
     foreign = [p for p, n in own.items() if p in TERMS and n != TERMS[p]]
     if foreign:
-        text = f"The description's context gives the prefix {foreign[0]} another meaning than {TERMS[foreign[0]]}."
-        raise BadDescription(Fault(text, path="/@context"))
+        refuse("context_meaning", 0, 0, "/@context", prefix=foreign[0], meaning=TERMS[foreign[0]])
     rest = {key: value for key, value in body.items() if key != "@context"}
     return cast("dict[str, Any]", _renamed(rest, renamed, ours))
 
@@ -96,10 +94,10 @@ def _renamed(value: Any, prefixes: Mapping[str, str], ours: Mapping[str, str]) -
     if not isinstance(value, dict):
         return value
     if "@context" in value:
-        raise BadDescription("The description has a context within a context. Put all prefixes at its top.")
+        refuse("context_within")
     found = {_short(key, prefixes, ours): _renamed(inner, prefixes, ours) for key, inner in value.items()}
     if len(found) != len(value):
-        raise BadDescription("The description says the same term twice, under two prefixes.")
+        refuse("term_twice")
     if "@type" in found:
         kinds = found["@type"] if isinstance(found["@type"], list) else [found["@type"]]
         found["@type"] = [_short(kind, prefixes, ours) for kind in kinds if isinstance(kind, str)]
@@ -120,7 +118,7 @@ def _device_id(fields: Fields) -> str:
     if not said and named.startswith(DEVICE_URN):
         return named.removeprefix(DEVICE_URN)
     if not said:
-        fields.need("id", f"{DEVICE_URN}<the device's id>, or the id as dct:identifier,")
+        fields.refuse("id", "need_td_id")
     return said
 
 
@@ -128,7 +126,7 @@ def _kind(fields: Fields) -> DeviceKind:
     types = fields.body.get("@type", [])
     kinds: list[DeviceKind] = [kind for kind, names in _KINDS.items() if names[-1] in types]
     if len(kinds) != 1:
-        fields.need("@type", "either vipo:Machine or vipo:Robot")
+        fields.refuse("@type", "need_td_kind")
     return kinds[0]
 
 
@@ -148,7 +146,7 @@ def _type(item: Fields) -> ValueType:
         return cast("ValueType", item.text("vipo:type"))
     said = item.text("type") or ("string" if item.has("enum") else "number")
     if said not in _TYPES:
-        item.refuse("type", f"has a value of type {said[:20]}; use number, string or boolean, or say vipo:type")
+        item.refuse("type", "value_type", type=said[:20])
     return _TYPES[said]
 
 
@@ -167,14 +165,14 @@ def _mqtt_form(item: Fields) -> Fields:
     for form in item.each("forms"):
         if form.has("mqv:topic") or urlsplit(form.text("href")).scheme in ("", "mqtt", "mqtts"):
             return form
-    return item.refuse("forms", "needs a form for MQTT: an href with the device's own topic")
+    return item.refuse("forms", "need_mqtt")
 
 
 def _topic(form: Fields) -> str:
     """Return the topic of a form; where it is said twice, both must agree."""
     named, linked = form.text("mqv:topic"), urlsplit(form.text("href")).path.lstrip("/")
     if named and linked and not linked.endswith(named):
-        form.refuse("mqv:topic", f"names the topic {named[:80]!r} and links to {linked[:80]!r}; use one")
+        form.refuse("mqv:topic", "two_topics", named=named[:80], linked=linked[:80])
     return named or linked
 
 

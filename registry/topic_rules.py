@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING
 
+from registry.faults import Fault, fault
+
 if TYPE_CHECKING:
     from registry.capability import Description, MethodSpec
 
@@ -30,21 +32,21 @@ def is_own(device_id: str, topic: str) -> bool:
     return topic.startswith(below) and _METHOD.fullmatch(topic.removeprefix(below)) is not None
 
 
-def find_topic_fault(device_id: str, method: str, topic: str) -> str:
-    """Say why a method can never be told on this topic, as the end of a sentence; empty when it might be."""
+def find_topic_fault(device_id: str, method: str, topic: str) -> Fault | None:
+    """Say why a method can never be told on this topic; None when it might be."""
     if is_own(device_id, topic):
-        return ""
-    use = f"use {own_prefix(device_id)}{method[:64]}"
+        return None
+    named = {"method": method[:64], "own": f"{own_prefix(device_id)}{method[:64]}"}
     levels = topic.split("/")
     if levels[0].lower() == RESERVED or topic.startswith(("$", "/")):
-        return f"names a topic that is not its own; {use}"
+        return fault("topic_foreign", **named)
     if method in OWN_MEANING:
-        return f"names a topic of its own choice, but {method} is always told on the device's; {use}"
+        return fault("topic_fixed", **named)
     if len(topic) > MOST_CHARACTERS:
-        return f"names a topic of more than {MOST_CHARACTERS} characters; {use}"
+        return fault("topic_long", most=MOST_CHARACTERS, **named)
     if not all(_LEVEL.fullmatch(level) for level in levels):
-        return f"names a topic that is not levels of letters, digits and _ . @ = ~ - with / between; {use}"
-    return ""
+        return fault("topic_levels", **named)
+    return None
 
 
 def list_asked(description: Description) -> tuple[MethodSpec, ...]:

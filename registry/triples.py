@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from registry.rdf_text import BadDescription
+from registry.rdf_text import refuse
 
 MOST_TRIPLES = 4000
 RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
@@ -36,11 +36,11 @@ class Triples:
         self._about: defaultdict[str, defaultdict[str, dict[Node, None]]] = defaultdict(lambda: defaultdict(dict))
         for subject, predicate, value in triples:
             if isinstance(value, Text) and value.datatype in _MARKUP:
-                raise BadDescription("The description holds XML or HTML literals. Use plain text.")
+                refuse("rdf_literals")
             self._about[subject][predicate][value] = None
         count = sum(len(values) for said in self._about.values() for values in said.values())
         if count > MOST_TRIPLES:
-            raise BadDescription(f"The description has {count} triples; {MOST_TRIPLES} is the most.")
+            refuse("rdf_triples", count=count, most=MOST_TRIPLES)
 
     def __iter__(self) -> Iterator[Triple]:
         for subject, said in self._about.items():

@@ -12,6 +12,7 @@ from typing import Any, Literal, cast, get_args
 
 from registry.capability import DeviceState, Pose, Scalar
 from registry.errors import RegistryError
+from registry.faults import JSON_SYNTAX, Fault, bare, facts_of, fault
 
 AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
 MAX_BYTES = 16 * 1024
@@ -20,9 +21,12 @@ MAX_PROPERTIES = 64
 MAX_TEXT = 256
 MAX_WHOLE = 2**53
 MAX_METRES = 1e6
+MESSAGE = "The message"
 _ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
 _KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([A-Za-z0-9_.-]{1,64})")
 _NO_TEXT = re.compile("[\0\ud800-\udfff]")
+_TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]|[^\s,:"\[\]{}]+', re.DOTALL)
+_COLON = re.compile(r"\s*:")
 _UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
 
 
@@ -32,9 +36,9 @@ class BadMessage(RegistryError):
     code = "bad_message"
     status = 422
 
-    def __init__(self, reason: str, line: int = 0, column: int = 0) -> None:
-        self.reason, self.line, self.column = reason, line, column
-        super().__init__(f"{reason} See line {line}, column {column}." if line else reason)
+    def __init__(self, reason: Fault | str) -> None:
+        self.fault = reason if isinstance(reason, Fault) else bare(reason)
+        super().__init__(self.fault.sentence, facts_of([self.fault]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,20 +89,58 @@ def read_join_topic(topic: str) -> tuple[str, str] | None:
 def parse_json(payload: bytes, *, max_bytes: int = MAX_BYTES) -> Any:
     """Return the JSON value of a payload; raises BadMessage for all that two readers could understand differently."""
     if len(payload) > max_bytes:
-        raise BadMessage(f"The message has {len(payload)} bytes; {max_bytes} is the most.")
+        raise BadMessage(fault("too_many_bytes", it=MESSAGE, bytes=len(payload), most=max_bytes))
     try:
         text = payload.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise BadMessage("The message is not UTF-8.") from error
+        raise BadMessage(fault("not_utf8", it=MESSAGE)) from error
     _check_depth(text)
     try:
         value = json.loads(
             text, object_pairs_hook=_unique, parse_constant=_no_constant, parse_float=_finite, parse_int=_whole
         )
     except json.JSONDecodeError as error:
-        raise BadMessage(f"The message is not JSON: {error.msg.lower()}.", error.lineno, error.colno) from error
+        code = next((code for words, code in JSON_SYNTAX.items() if error.msg.startswith(words)), "json_unclear")
+        raise BadMessage(fault(code, error.lineno, error.colno, it=MESSAGE, reason=error.msg.lower())) from error
+    except _Refused as error:
+        raise BadMessage(_with_place(text, error.code, error.said)) from error
     _check_text(value)
     return value
+
+
+class _Refused(Exception):
+    """Something that Python's reader takes and two readers could understand differently."""
+
+    def __init__(self, code: str, said: str) -> None:
+        self.code, self.said = code, said
+
+
+def _with_place(text: str, code: str, said: str) -> Fault:
+    """Say where what is refused stands: the first such number, or the key when an object has it for the second time."""
+    at = _second_key(text, said) if code == "json_twice" else _first_number(text, said)
+    line, column = (text.count("\n", 0, at) + 1, at - text.rfind("\n", 0, at)) if at >= 0 else (0, 0)
+    return fault(code, line, column, it=MESSAGE, **{"key" if code == "json_twice" else "value": said[:64]})
+
+
+def _first_number(text: str, said: str) -> int:
+    tokens = _TOKEN.finditer(text)
+    return next((found.start() for found in tokens if found.group() == said), -1)
+
+
+def _second_key(text: str, key: str) -> int:
+    """Return where an object has a key for the second time, -1 where that cannot be told."""
+    counts: list[int] = []
+    for found in _TOKEN.finditer(text):
+        mark = found.group()
+        if mark in "[{":
+            counts.append(0)
+        elif mark in "]}":
+            counts.pop()
+        elif mark.startswith('"') and counts and _COLON.match(text, found.end()) and json.loads(mark) == key:
+            counts[-1] += 1
+            if counts[-1] > 1:
+                return found.start()
+    return -1
 
 
 def _check_depth(text: str) -> None:
@@ -107,31 +149,30 @@ def _check_depth(text: str) -> None:
         mark = found.group()[0]
         depth += (mark in "[{") - (mark in "]}")
         if depth > MAX_DEPTH:
-            raise BadMessage(f"The message is nested more than {MAX_DEPTH} levels deep.")
+            raise BadMessage(fault("json_deep", it=MESSAGE, most=MAX_DEPTH))
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) != len(pairs):
-        twice = Counter(name for name, _ in pairs).most_common(1)[0][0]
-        raise BadMessage(f"The message names the key {twice[:64]!r} twice.")
+        raise _Refused("json_twice", Counter(name for name, _ in pairs).most_common(1)[0][0])
     return found
 
 
 def _no_constant(name: str) -> Any:
-    raise BadMessage(f"The message holds {name}, which is not a number of JSON.")
+    raise _Refused("json_constant", name)
 
 
 def _finite(text: str) -> float:
     number = float(text)
     if not isfinite(number):
-        raise BadMessage(f"The message holds a number that is too large: {text[:20]}.")
+        raise _Refused("json_large", text)
     return number
 
 
 def _whole(text: str) -> int:
     if len(text) > 17 or abs(int(text)) > MAX_WHOLE:
-        raise BadMessage(f"The message holds a whole number that is too large: {text[:20]}.")
+        raise _Refused("json_large", text)
     return int(text)
 
 
@@ -139,7 +180,7 @@ def _check_text(value: Any) -> None:
     """Refuse NUL, which PostgreSQL cannot keep, and lone surrogates, which UTF-8 cannot say."""
     if isinstance(value, str):
         if _NO_TEXT.search(value):
-            raise BadMessage("The message holds a character that is not text (NUL or half of a surrogate pair).")
+            raise BadMessage(fault("json_no_text", it=MESSAGE))
     elif isinstance(value, dict):
         for key, inner in value.items():
             _check_text(key)
@@ -154,7 +195,7 @@ def parse_presence(payload: bytes) -> Presence:
     fields = _object(parse_json(payload))
     said = fields.get("s")
     if said not in ("online", "offline"):
-        raise BadMessage("Presence needs `s`: online or offline.")
+        raise BadMessage(fault("presence_said"))
     return Presence(said == "online", _count(fields, "boot"))
 
 
@@ -163,7 +204,7 @@ def parse_state(payload: bytes) -> DeviceState:
     fields = _object(parse_json(payload))
     done = fields.get("done")
     if not isinstance(done, bool):
-        raise BadMessage("State needs `done`: true or false.")
+        raise BadMessage(fault("state_done"))
     return DeviceState(
         boot=_count(fields, "boot"),
         seq=_count(fields, "seq"),
@@ -179,9 +220,9 @@ def parse_ack(payload: bytes) -> AckMessage:
     fields = _object(parse_json(payload))
     command, status = _text(fields, "id", 64), fields.get("st")
     if not command:
-        raise BadMessage("An answer needs `id`, the command's.")
+        raise BadMessage(fault("answer_id"))
     if status not in get_args(AckStatus):
-        raise BadMessage(f"An answer needs `st`: one of {', '.join(get_args(AckStatus))}.")
+        raise BadMessage(fault("answer_status", choices=", ".join(get_args(AckStatus))))
     return AckMessage(
         command, cast("AckStatus", status), _text(fields, "why", MAX_TEXT), _scalars(fields.get("result"), "result")
     )
@@ -189,14 +230,14 @@ def parse_ack(payload: bytes) -> AckMessage:
 
 def _object(value: Any) -> dict[str, Any]:
     if not isinstance(value, dict):
-        raise BadMessage("The message is not a JSON object.")
+        raise BadMessage(fault("no_object", it=MESSAGE))
     return value
 
 
 def _count(fields: dict[str, Any], name: str) -> int:
     value = fields.get(name)
     if not isinstance(value, int) or isinstance(value, bool) or value < 0:
-        raise BadMessage(f"The message needs `{name}`: a whole number from 0.")
+        raise BadMessage(fault("need_count", key=name))
     return value
 
 
@@ -205,7 +246,7 @@ def _text(fields: dict[str, Any], name: str, longest: int) -> str:
     if value is None:
         return ""
     if not isinstance(value, str) or len(value) > longest:
-        raise BadMessage(f"`{name}` must be text of at most {longest} characters.")
+        raise BadMessage(fault("text_length", key=name, most=longest))
     return value
 
 
@@ -213,7 +254,7 @@ def _location(value: Any) -> Pose | None:
     if value is None:
         return None
     if not isinstance(value, list) or len(value) not in (3, 4) or not all(_is_metres(v) for v in value):
-        raise BadMessage("`loc` must be [x, y, z, theta]: metres and radians.")
+        raise BadMessage(fault("state_location"))
     x, y, z, theta = (float(v) for v in (*value, 0.0)[:4])
     return Pose(x, y, z, theta)
 
@@ -226,12 +267,12 @@ def _scalars(value: Any, name: str) -> dict[str, Scalar]:
     if value is None:
         return {}
     if not isinstance(value, dict) or len(value) > MAX_PROPERTIES:
-        raise BadMessage(f"`{name}` must be an object of at most {MAX_PROPERTIES} values.")
+        raise BadMessage(fault("many_values", key=name, most=MAX_PROPERTIES))
     for key, inner in value.items():
         if not 1 <= len(key) <= 64 or isinstance(inner, dict | list):
-            raise BadMessage(f"`{name}` holds {key[:40]!r}, which is not a plain value with a short name.")
+            raise BadMessage(fault("no_plain_value", key=name, name=key[:40]))
         if isinstance(inner, str) and len(inner) > MAX_TEXT:
-            raise BadMessage(f"`{name}` holds a text of more than {MAX_TEXT} characters: {key!r}.")
+            raise BadMessage(fault("value_length", key=name, most=MAX_TEXT, name=key))
     return value
 
 

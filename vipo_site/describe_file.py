@@ -12,7 +12,8 @@ from typing import Any
 
 from registry.capability import Description, MethodSpec, ParameterSpec, PropertySpec, description_to_json
 from registry.describing import Reading, read, write_description
-from registry.rdf_text import BadDescription, Fault, form_of
+from registry.faults import Fault
+from registry.rdf_text import BadDescription, form_of
 from registry.shacl import check_rdf, check_reading
 from vipo_site.program_file import UnreadableFile
 
@@ -44,7 +45,7 @@ def describe_file(options: argparse.Namespace) -> int:
         _write(json.dumps(_as_json(reading, options.to), ensure_ascii=False, indent=1))
     elif options.to:
         sys.stdout.write(write_description(reading.description, options.to))
-        _complain([f"{options.file}: {note}" for note in reading.notes])
+        _complain([f"{options.file}: {note.text}" for note in reading.notes])
     else:
         _write("\n".join(_summary(options.file, reading)))
     return 0
@@ -84,7 +85,7 @@ def _place(path: Path, fault: Fault) -> str:
 def _as_json(reading: Reading, form: str | None) -> dict[str, Any]:
     body = {
         "form": reading.form,
-        "notes": list(reading.notes),
+        "notes": [note.text for note in reading.notes],
         "faults": [],
         "description": description_to_json(reading.description),
     }
@@ -100,7 +101,7 @@ def _summary(path: Path, reading: Reading) -> Iterator[str]:
     )
     yield from (f"property: {_value(spec)}" for spec in d.properties)
     yield from (f"method: {_method(method)}" for method in d.methods)
-    yield from (f"mended: {note}" for note in reading.notes)
+    yield from (f"mended: {note.text}" for note in reading.notes)
 
 
 def _class_of(d: Description) -> str:

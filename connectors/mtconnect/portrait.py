@@ -9,8 +9,9 @@ from dataclasses import dataclass
 
 from connectors.mtconnect.documents import BadDocument, Item, Machine
 from connectors.mtconnect.measures import AXES, MEASURES, Measure, measure_of
-from registry.capability import MOST_PROPERTIES, Description, Pose, PropertySpec, Size, find_faults
+from registry.capability import MOST_PROPERTIES, Description, Pose, PropertySpec, Size
 from registry.describing import write_description
+from registry.plausibility import find_faults
 from registry.wire import MAX_BYTES
 
 EXECUTION, ERROR, WARNING = "execution", "error", "warning"
@@ -77,7 +78,7 @@ def portray(machine: Machine, site: str, stand: Stand) -> Portrait:
             break
         shown = shown[: len(shown) * 9 // 10]
     if faults := find_faults(description):
-        raise BadDocument(f"{machine.name[:60]} cannot be described: {faults[0]}")
+        raise BadDocument(f"{machine.name[:60]} cannot be described: {faults[0].text}")
     return Portrait(
         description,
         turtle,

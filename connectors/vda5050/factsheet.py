@@ -10,7 +10,8 @@ from math import hypot
 
 from connectors.vda5050.fields import Fields, read_fields
 from connectors.vda5050.messages import VehicleName, read_header
-from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size, ValueType, find_faults
+from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size, ValueType
+from registry.plausibility import find_faults
 from registry.wire import BadMessage, down_topic
 
 HANDLING = ("pick", "drop")
@@ -147,7 +148,7 @@ def describe(name: VehicleName, sheet: Factsheet, home: Pose, site: str) -> Desc
         methods=tuple(_methods(device, sheet)),
     )
     if faults := find_faults(description):
-        raise BadMessage(f"factsheet: {faults[0]}"[:300])
+        raise BadMessage(f"factsheet: {faults[0].text}"[:300])
     return description
 
 

@@ -9,8 +9,8 @@ export interface Alert {
   severity: AlertSeverity;
   /** The least role that it concerns. */
   role: "viewer" | "admin";
-  /** `why` in the device's own words, `method`. */
-  args: Record<string, boolean | number | string>;
+  /** `why` in the device's own words, `method`, `faults`. */
+  args: Record<string, unknown>;
   /** The English sentence. */
   text: string;
   /** How often it was raised since `first_at`. */

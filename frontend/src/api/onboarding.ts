@@ -1,4 +1,5 @@
 /** Bringing devices in: what they are set up with, and what VIPO makes of a description. */
+import type { Fault } from "./faults";
 
 export interface ExpectedDevice {
   id: string;
@@ -15,18 +16,11 @@ export interface Door {
   broker: string;
 }
 
-export interface DescriptionFault {
-  text: string;
-  /** From 1; 0 where there is none. */
-  line: number;
-  column: number;
-  path: string;
-}
-
 export interface DescriptionLook {
   form: "turtle" | "n-triples" | "json-ld" | "td" | "paper" | null;
-  faults: DescriptionFault[];
-  notes: string[];
+  faults: Fault[];
+  /** What was mended or left out. */
+  mended: Fault[];
   description: { id: string; name: string; kind: "machine" | "robot"; methods: { name: string }[] } | null;
   turtle: string;
 }

@@ -1598,7 +1598,7 @@ export interface components {
          */
         AlertShape: {
             args: {
-                [key: string]: boolean | number | string;
+                [key: string]: unknown;
             };
             /** @enum {string} */
             code: "offline_at_work" | "offline" | "error" | "warning" | "battery_low" | "newcomer_waits" | "description_refused" | "messages_dropped" | "messages_refused" | "flapping" | "wrong_key" | "foreign_knock" | "command_rejected" | "command_failed" | "command_timed_out";
@@ -1944,8 +1944,16 @@ export interface components {
             text?: string | null;
             value?: unknown;
         };
-        /** @description One thing that is wrong: a sentence, and where: a line and column from 1 (0: none), or a path into JSON. */
+        /**
+         * @description One thing that is wrong or was mended: a sentence, and where: a line and column from 1 (0: none), or a path.
+         *
+         *     `code` and `args` are what the sentence is made of; both are empty where it stands for itself.
+         */
         FaultShape: {
+            args: {
+                [key: string]: string | number;
+            };
+            code: string;
             column: number;
             line: number;
             path: string;
@@ -2039,13 +2047,18 @@ export interface components {
             t: number;
             text: string;
         };
-        /** @description What VIPO makes of a description; with `faults` the rest is null or empty. */
+        /**
+         * @description What VIPO makes of a description; with `faults` the rest is null or empty.
+         *
+         *     `notes` are the sentences of `mended`: what was mended or left out.
+         */
         LookShape: {
             description: {
                 [key: string]: unknown;
             } | null;
             faults: components["schemas"]["FaultShape"][];
             form: ("turtle" | "n-triples" | "json-ld" | "td" | "paper") | null;
+            mended: components["schemas"]["FaultShape"][];
             notes: string[];
             turtle: string;
         };
@@ -5288,9 +5301,9 @@ export interface operations {
     };
     registry_sparql_api_ask: {
         parameters: {
-            query: {
-                query: string;
-                format?: ("json" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
+            query?: {
+                query?: string;
+                format?: ("json" | "xml" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
             };
             header?: never;
             path: {
@@ -5309,6 +5322,7 @@ export interface operations {
                     "application/ld+json": string;
                     "application/n-triples": string;
                     "application/sparql-results+json": string;
+                    "application/sparql-results+xml": string;
                     "text/csv": string;
                     "text/turtle": string;
                 };
@@ -5327,7 +5341,7 @@ export interface operations {
     registry_sparql_api_post_query: {
         parameters: {
             query?: {
-                format?: ("json" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
+                format?: ("json" | "xml" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
             };
             header?: never;
             path: {
@@ -5346,6 +5360,7 @@ export interface operations {
                     "application/ld+json": string;
                     "application/n-triples": string;
                     "application/sparql-results+json": string;
+                    "application/sparql-results+xml": string;
                     "text/csv": string;
                     "text/turtle": string;
                 };

@@ -1,6 +1,8 @@
 /** A line of a device's history in the language of the screen; older lines are shown as they were written. */
 import i18next from "i18next";
 import type { DeviceEvent } from "@/api/devices";
+import { faultsOf } from "@/api/faults";
+import { faultsWords } from "./faults";
 import { formatPoint } from "./format";
 
 type Args = Readonly<Record<string, unknown>>;
@@ -8,7 +10,18 @@ type Args = Readonly<Record<string, unknown>>;
 export function deviceEventWords(event: DeviceEvent): string {
   const parts = event.args.parts;
   if (event.code === "described" && Array.isArray(parts)) return describedWords(parts as Args[]) || event.text;
-  return wordsOf(`device.event.${event.code}`, event.args) ?? event.text;
+  const text = refusedWords(event.args);
+  if (text === null) return wordsOf(`device.event.${event.code}`, event.args) ?? event.text;
+  const words = wordsOf(`device.event.refused.${String(event.args.kind)}`, { text });
+  return words ?? wordsOf(`device.event.${event.code}`, { text }) ?? event.text;
+}
+
+/** What was refused or mended, and how often it was since the last line; null where the line does not say. */
+function refusedWords(args: Args): string | null {
+  const faults = faultsOf(args);
+  if (faults.length === 0) return null;
+  const others = Number(args.more ?? 0);
+  return [faultsWords(faults), others > 0 ? i18next.t("device.event.others", { count: others }) : ""].join(" ").trim();
 }
 
 /** What is different in a description: its parts in one sentence. */

@@ -1,8 +1,12 @@
 /** A refusal of the server in the language of the screen, where it says what it is made of. */
 import i18next from "i18next";
+import { faultsOf } from "@/api/faults";
+import { faultsWords } from "./faults";
 
 /** The sentence for a refusal; null where the screens do not know it, so that the server's own is shown. */
 export function refusalWords(code: string, args: Readonly<Record<string, unknown>> | undefined): string | null {
+  const faults = faultsOf(args);
+  if (faults.length > 0) return faultsWords(faults);
   const key = `refusal.${code}.${String(args?.why)}`;
   const count = typeof args?.count === "number" ? args.count : undefined;
   if (!args || !i18next.exists(key, { count })) return null;

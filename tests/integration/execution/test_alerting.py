@@ -121,6 +121,7 @@ def test_refused_messages_are_told_until_better_ones_come(hall, tick):
     send("state", json.dumps({"boot": -1}).encode())
     assert sorted(code for code, _, _ in alerts()) == ["description_refused", "messages_refused"]
     assert all(args["why"] for _, args, _ in alerts())
+    assert {args["faults"][0]["code"] for _, args, _ in alerts()} == {"rdf_subject", "state_done"}
     send("desc", write_description(MIXER).encode())
     assert [code for code, _, _ in alerts()] == ["messages_refused"]
     note_complaint("mixer", "too many messages: some were dropped")

@@ -15,6 +15,7 @@ from execution.taking_in import Taker
 from registry import services
 from registry.capability import Description, Pose, Size
 from registry.describing import write_description
+from registry.models import DeviceEvent
 from registry.mqtt import Message
 
 pytestmark = pytest.mark.django_db
@@ -51,7 +52,7 @@ def notes() -> list[tuple[str, str]]:
 
 @pytest.fixture
 def taker(notes: list[tuple[str, str]]) -> Taker:
-    return Taker(lambda device, line: notes.append((device, line)), Counter())
+    return Taker(lambda device, line, _: notes.append((device, line)), Counter())
 
 
 def readings(device: str) -> dict[str, Any]:
@@ -118,6 +119,21 @@ def test_a_description_that_is_refused_is_noted_and_harms_no_other(taker: Taker,
     assert [device for device, _ in notes] == ["b", "c"]
     assert all(line.startswith("desc: ") for _, line in notes)
     assert sorted(post.acknowledged) == [0, 1, 2, 3]
+
+
+def test_what_is_refused_stands_in_the_history_with_its_faults_for_readers_of_every_language() -> None:
+    services.create_site(name="Hall", slug="hall")
+    taker = Taker(
+        lambda device, line, facts: services.record_problem(device_id=device, text=line, facts=facts), Counter()
+    )
+    post = Post()
+    taker.take_all([post("a", "desc", description("a")), post("a", "desc", b'{"id": "a",}')], threading.Event())
+    line = DeviceEvent.objects.get(device="a", kind="problem")
+    (fault,) = line.args["faults"]
+    assert (line.code, line.args["kind"], fault["code"], fault["line"], fault["column"]) == (
+        "problem", "desc", "json_key", 1, 12,
+    )  # fmt: skip
+    assert line.text == f"desc: {fault['text']} See line 1, column 12."
 
 
 def test_descriptions_that_cannot_be_kept_together_are_kept_one_by_one_and_then_acknowledged(

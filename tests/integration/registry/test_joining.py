@@ -110,7 +110,7 @@ def test_all_that_was_mended_stands_in_the_history(hall: str) -> None:
     events = services.list_device_events(site="hall", device_id="paintMixer02")
     assert [e.kind for e in events] == ["mended", "mended", "mended", "described"]
     assert all(len(e.text) <= 300 for e in events)
-    assert " ".join(e.text for e in events[:3]) == " ".join(read(figure).notes)
+    assert " ".join(e.text for e in events[:3]) == " ".join(note.text for note in read(figure).notes)
 
 
 def test_an_unchanged_description_is_not_parsed_again(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -38,7 +38,7 @@ def payload(device: str, name: str) -> bytes:
 
 def describe(worker: str, faults: list[str], acknowledged: Counter[str]) -> None:
     """Let every device speak in every round, in an order of this worker's own."""
-    taker = Taker(lambda device, reason: faults.append(f"{device}: {reason}"), Counter())
+    taker = Taker(lambda device, reason, _: faults.append(f"{device}: {reason}"), Counter())
     order = random.Random(worker)
     for number in range(ROUNDS):
         entries = [

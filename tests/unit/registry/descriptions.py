@@ -11,8 +11,8 @@ from registry.capability import (
     Pose,
     PropertySpec,
     Size,
-    find_faults,
 )
+from registry.plausibility import find_faults
 from registry.wire import down_topic
 
 IDS = st.from_regex(r"[A-Za-z0-9_.-]{1,20}", fullmatch=True)

@@ -19,10 +19,11 @@ from registry.capability import (
     Size,
     description_from_json,
     description_to_json,
-    find_faults,
 )
 from registry.demo.devices import describe_devices
 from registry.describing import canonical_hash, read_description, write_description
+from registry.faults import fault
+from registry.plausibility import find_faults
 from registry.rdf_text import BadDescription
 
 MIXER = Description(
@@ -149,7 +150,7 @@ BOMB = (
         ((TURTLE % "; vipo:done 7").encode(), "true or false for vipo:done"),
         ((TURTLE % "; vipo:capacity 1e400").encode(), "number for vipo:capacity"),
         ((TURTLE % '; td:hasActionAffordance [ td:name "a/b" ]').encode(), "method name 'a/b'"),
-        ((TURTLE % '; td:hasActionAffordance [ td:name "a" ], [ td:name "a" ]').encode(), "names a method twice"),
+        ((TURTLE % '; td:hasActionAffordance [ td:name "a" ], [ td:name "a" ]').encode(), "names the method 'a' twice"),
         (
             (TURTLE % '; td:hasActionAffordance [ td:name "a" ; vipo:topic "vipo/v1/dev/m2/down/a" ]').encode(),
             "not its own",
@@ -187,7 +188,7 @@ def test_a_list_that_bites_its_tail_ends() -> None:
 
 def test_too_many_methods_are_refused() -> None:
     many = tuple(MethodSpec(f"m{i}", f"vipo/v1/dev/mixer1/down/m{i}") for i in range(65))
-    assert find_faults(replace(MIXER, methods=many)) == ("It has more than 64 properties or 64 methods.",)
+    assert find_faults(replace(MIXER, methods=many)) == (fault("many_methods", most=64),)
     assert find_faults(MIXER) == ()
 
 

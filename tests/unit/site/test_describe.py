@@ -78,7 +78,7 @@ def test_a_broken_file_gives_code_1_and_sentences_with_places(
     assert any(line.startswith(f"{path}{place}: ") and says in line for line in lines)
     assert main(["describe", str(path), "--json"]) == 1
     faults = json.loads(capsys.readouterr().out)["faults"]
-    assert [sorted(fault) for fault in faults] == [["column", "line", "path", "text"]] * len(lines)
+    assert [sorted(fault) for fault in faults] == [["args", "code", "column", "line", "path", "text"]] * len(lines)
 
 
 def test_every_implausible_thing_has_a_line_of_its_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,14 +1,18 @@
 /** An alert in the language of the screen; the server's English where a code is newer than this page. */
 import i18next from "i18next";
+import { faultsOf } from "@/api/faults";
 import type { Alert, AlertSeverity } from "@/api/types";
 import type { StatusName } from "@/design/StatusGlyph";
+import { faultsWords } from "@/i18n/faults";
 
 export function alertWords(alert: Alert): string {
   return i18next.t(`alerts.what.${alert.code}`, { ...alert.args, defaultValue: alert.text });
 }
 
-/** What the device, or whoever refused something, said itself. */
+/** What the device, or whoever refused something, said itself; what VIPO refused is told in the screen's language. */
 export function ownWords(alert: Alert): string {
+  const faults = faultsOf(alert.args);
+  if (faults.length > 0) return faultsWords(faults);
   return typeof alert.args.why === "string" ? alert.args.why : "";
 }
 

@@ -5,9 +5,11 @@ import { CircleCheck, OctagonAlert } from "lucide-react";
 import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
-import type { DescriptionFault, DescriptionLook } from "@/api/onboarding";
+import type { Fault } from "@/api/faults";
+import type { DescriptionLook } from "@/api/onboarding";
 import type { Site } from "@/api/types";
 import { problemText } from "@/app/LoadProblem";
+import { faultPlace, faultsWords, faultWords, isKnownFault } from "@/i18n/faults";
 import styles from "./adding.module.css";
 
 export function CheckDescription({ site }: { site: Site }) {
@@ -62,26 +64,25 @@ function Found({ look }: { look: DescriptionLook }) {
         })}
       </p>
       {can ? <p className={styles.quiet}>{t("adding.can", { can })}</p> : null}
-      {look.notes.map((note) => (
-        <p key={note} className={styles.quiet}>
-          {t("adding.mended", { note })}
+      {look.mended.map((note) => (
+        <p key={`${note.line}:${note.text}`} className={styles.quiet}>
+          {t("adding.mended", { note: faultsWords([note]) })}
         </p>
       ))}
     </>
   );
 }
 
-function Faults({ faults }: { faults: DescriptionFault[] }) {
-  const { t } = useTranslation();
+function Faults({ faults }: { faults: Fault[] }) {
   return (
     <ul className={styles.faults}>
       {faults.map((fault) => (
         <li key={`${fault.line}:${fault.column}:${fault.path}:${fault.text}`}>
           <OctagonAlert size={16} aria-hidden="true" />
           <span>
-            {fault.line > 0 ? <b>{t("adding.at", { line: fault.line, column: fault.column })} </b> : null}
+            {faultPlace(fault) ? <b>{faultPlace(fault)} </b> : null}
             {fault.path ? <code>{fault.path} </code> : null}
-            <span lang="en">{fault.text}</span>
+            <span lang={isKnownFault(fault) ? undefined : "en"}>{faultWords(fault)}</span>
           </span>
         </li>
       ))}
