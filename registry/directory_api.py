@@ -14,12 +14,13 @@ from registry.device_rows import NoSuchDevice
 from registry.directory_thing import directory_thing
 from registry.errors import RegistryError
 from registry.things import EVENTS, EventName, device_id_of
-from registry.things_answers import answer_thing, change_thing, open_stream
+from registry.things_answers import MERGE_PATCH, answer_thing, change_thing, open_stream
 from registry.things_pages import Page, answer_page, list_page
 from registry.views import DeviceView
 
 router = Router(tags=["directory"])
 READ = ["GET", "HEAD"]
+LIST_TAKES, THING_TAKES = "GET, HEAD, OPTIONS", "GET, HEAD, OPTIONS, PATCH"
 HOW_THINGS_COME = (
     "Things are neither made nor deleted here: devices join over MQTT (docs/protocol.md), and admins let them in and "
     "take them out."
@@ -60,16 +61,28 @@ def patch_thing(request: HttpRequest, thing: str) -> HttpResponse:
     return change_thing(request, signed_in(request), view.site, view.id)
 
 
-@router.post("/things")
+@router.api_operation(["POST", "PUT", "PATCH", "DELETE"], "/things")
 def refuse_new_thing(request: HttpRequest) -> HttpResponse:
     """Say how Things come."""
-    raise NotMadeHere(HOW_THINGS_COME, {"allow": "GET, HEAD"})
+    raise NotMadeHere(HOW_THINGS_COME, {"allow": LIST_TAKES})
 
 
-@router.api_operation(["PUT", "DELETE"], "/things/{thing}")
+@router.api_operation(["POST", "PUT", "DELETE"], "/things/{thing}")
 def refuse_thing(request: HttpRequest, thing: str) -> HttpResponse:
     """Say how Things come and go."""
-    raise NotMadeHere(HOW_THINGS_COME, {"allow": "GET, HEAD, PATCH"})
+    raise NotMadeHere(HOW_THINGS_COME, {"allow": THING_TAKES})
+
+
+@router.api_operation(["OPTIONS"], "/things", auth=None)
+def tell_of_list(request: HttpRequest) -> HttpResponse:
+    """Say what can be done with the list."""
+    return HttpResponse(status=204, headers={"Allow": LIST_TAKES})
+
+
+@router.api_operation(["OPTIONS"], "/things/{thing}", auth=None)
+def tell_of_thing(request: HttpRequest, thing: str) -> HttpResponse:
+    """Say what can be done with a Thing, also with one that is not there."""
+    return HttpResponse(status=204, headers={"Allow": THING_TAKES, "Accept-Patch": MERGE_PATCH})
 
 
 @router.api_operation(READ, "/events")

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -57,18 +58,20 @@ class QueryAnswer:
     body: bytes
 
 
-def run_query(*, site: str, query: str, form: str = "") -> QueryAnswer:
-    """Answer a query over a site's devices in a form: `json`, `csv`, `turtle`, `n-triples`, `json-ld` or what fits.
+def run_query(*, site: str, query: str, forms: Sequence[str] = ()) -> QueryAnswer:
+    """Answer a query over a site's devices in the first form that can hold the result, or (none given) in any.
+
+    Forms are `json`, `xml`, `csv`, `turtle`, `n-triples` and `json-ld`.
 
     Raises:
-        BadQuery: it is no query, reaches out of the site, or cannot be answered in that form.
+        BadQuery: it is no query, reaches out of the site, or cannot be answered in these forms.
         QueryTooLarge: it took too long or too much memory, or its result is too large.
         TooManyQueries: two others are under way.
     """
     if not query.strip() or len(query) > MOST_QUERY_CHARACTERS:
         raise BadQuery(f"A query has 1 to {MOST_QUERY_CHARACTERS} characters. Give it as `query`.")
     devices = [_device(view) for view in list_devices(site=site)]
-    job = {"query": query, "form": form, "devices": devices, "cpu_s": CPU_S, "memory_bytes": MEMORY_BYTES}
+    job = {"query": query, "forms": list(forms), "devices": devices, "cpu_s": CPU_S, "memory_bytes": MEMORY_BYTES}
     if not _slots.acquire(timeout=PATIENCE_S):
         raise TooManyQueries("Other queries are still being answered. Try again in a moment.")
     try:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import resource
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 from math import ceil
 from typing import Any
@@ -32,12 +32,18 @@ MOST_TRIPLES = 50_000
 MOST_BYTES = 5_000_000
 MEDIA_TYPES: Mapping[str, str] = {
     "json": "application/sparql-results+json",
+    "xml": "application/sparql-results+xml",
     "csv": "text/csv",
     "turtle": "text/turtle",
     "n-triples": "application/n-triples",
     "json-ld": "application/ld+json",
 }
 _WRITERS: Mapping[str, str] = {"turtle": "turtle", "n-triples": "nt", "json-ld": "json-ld"}
+_TABLES: Mapping[str, tuple[str, ...]] = {"SELECT": ("json", "xml", "csv"), "ASK": ("json", "xml")}
+_WORDS = (
+    "CONSTRUCT and DESCRIBE are answered as turtle, n-triples or json-ld",
+    "SELECT is answered as json, xml or csv, ASK as json or xml",
+)
 _FORBIDDEN: Mapping[str, str] = {"ServiceGraphPattern": "SERVICE", "DatasetClause": "FROM"}
 
 
@@ -50,7 +56,7 @@ class Refused(Exception):
 
 
 def main() -> int:
-    """Read a job `{"query", "form", "devices", "cpu_s", "memory_bytes"}`, answer it, and return how it went."""
+    """Read a job `{"query", "forms", "devices", "cpu_s", "memory_bytes"}`, answer it, and return how it went."""
     job = json.load(sys.stdin)
     resource.setrlimit(resource.RLIMIT_AS, (job["memory_bytes"], job["memory_bytes"]))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -60,7 +66,7 @@ def main() -> int:
         _limit_computing(GRAPH_S)
         graph = graph_of_devices(job["devices"])
         _limit_computing(job["cpu_s"])
-        form, body = answer(graph, job["query"], job["form"])
+        form, body = answer(graph, job["query"], job["forms"])
     except Refused as error:
         return _say(str(error).encode(), error.code)
     except (MemoryError, RecursionError):
@@ -86,13 +92,15 @@ def _say(body: bytes, code: int) -> int:
     return code
 
 
-def answer(graph: Graph, query: str, form: str) -> tuple[str, bytes]:
-    """Return the form of the answer and its text; an empty `form` is JSON or Turtle, as the query needs."""
+def answer(graph: Graph, query: str, forms: Sequence[str]) -> tuple[str, bytes]:
+    """Return the form of the answer and its text: the first of `forms` that can hold it, or (none given) any."""
     rdflib.plugins.sparql.SPARQL_LOAD_GRAPHS = False
     result = graph.query(query, initNs=dict(PREFIXES))
-    if result.type in {"SELECT", "ASK"}:
-        return _table(result, form)
-    return _triples(result, form)
+    fitting = _TABLES.get(result.type, tuple(_WRITERS))
+    form = next((form for form in forms if form in fitting), None if forms else fitting[0])
+    if form is None:
+        raise Refused(f"{_WORDS[result.type in _TABLES]}, not as {' or '.join(forms)}.")
+    return form, (_table if result.type in _TABLES else _triples)(result, form)
 
 
 def check_query(query: str) -> None:
@@ -120,27 +128,22 @@ def _parts(value: Any) -> Iterator[CompValue]:
             waiting.extend(found)
 
 
-def _table(result: Result, form: str) -> tuple[str, bytes]:
-    form = form or "json"
-    if form not in {"json", "csv"} or (form == "csv" and result.type == "ASK"):
-        raise Refused("SELECT is answered as json or csv, ASK as json.")
+def _table(result: Result, form: str) -> bytes:
     if result.type == "SELECT":
         rows = list(islice(result.bindings, MOST_ROWS + 1))
         if len(rows) > MOST_ROWS:
             raise Refused(f"The result has more than {MOST_ROWS} rows. Add a LIMIT.", TOO_LARGE)
         result.bindings = rows
-    return form, result.serialize(format=form) or b""
+    return result.serialize(format=form) or b""
 
 
-def _triples(result: Result, form: str) -> tuple[str, bytes]:
-    form = form or "turtle"
-    if form not in _WRITERS or result.graph is None:
-        raise Refused("CONSTRUCT and DESCRIBE are answered as turtle, n-triples or json-ld.")
+def _triples(result: Result, form: str) -> bytes:
+    assert result.graph is not None
     if len(result.graph) > MOST_TRIPLES:
         raise Refused(f"The result has more than {MOST_TRIPLES} triples. Add a LIMIT.", TOO_LARGE)
     for prefix, namespace in PREFIXES.items():
         result.graph.bind(prefix, namespace)
-    return form, result.graph.serialize(format=_WRITERS[form], encoding="utf-8")
+    return result.graph.serialize(format=_WRITERS[form], encoding="utf-8")
 
 
 def graph_of_devices(devices: list[Mapping[str, Any]]) -> Graph:

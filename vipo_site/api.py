@@ -23,6 +23,14 @@ from registry.sparql_api import router as sparql_router
 from registry.things_api import router as things_router
 from vipo_site.openapi import DescribedAPI
 
+_FRAMEWORK_SAYS = {
+    "Unauthorized": "You are signed out. Sign in again; a program does so with POST /api/sign-in and sends its cookie "
+    "along (docs/api.md).",
+    "CSRF check Failed": "The page is out of date: reload it. A program sends the value of the cookie csrftoken as the "
+    "header X-CSRFToken, too; it changes at signing in (docs/api.md).",
+    "Cannot parse request body": "The body of the request cannot be read. Send JSON, or what docs/openapi.json names.",
+}
+"""What is said instead of the framework's own refusals: how to mend it."""
 api = DescribedAPI(title="VIPO", version="1", auth=django_auth, docs_url=None, urls_namespace="api")
 
 
@@ -40,10 +48,10 @@ def problem(status: int, code: str, detail: str, **more: Any) -> JsonResponse:
 
 
 @api.exception_handler(VipoError)
-def on_refusal(request: HttpRequest, error: VipoError) -> HttpResponse:
-    """Turn an app's refusal into an answer."""
+def on_refusal(request: HttpRequest, error: VipoError, status: int = 0) -> HttpResponse:
+    """Turn an app's refusal into an answer, with its own status unless another is given."""
     more = {"args": dict(error.facts)} if error.facts else {}
-    return problem(error.status, error.code, error.detail, **more)
+    return problem(status or error.status, error.code, error.detail, **more)
 
 
 @api.exception_handler(ValidationError)
@@ -58,7 +66,7 @@ def on_bad_request(request: HttpRequest, error: ValidationError, status: int = 4
 def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
     """Turn the framework's own refusals (no session, bad CSRF) into an answer."""
     code = {401: "signed_out", 403: "not_allowed", 404: "not_found"}.get(error.status_code, "refused")
-    return problem(error.status_code, code, str(error))
+    return problem(error.status_code, code, _FRAMEWORK_SAYS.get(str(error), str(error)))
 
 
 api.add_router("", registry_router)

@@ -19,8 +19,8 @@ directory.add_router("", router)
 
 @directory.exception_handler(VipoError)
 def tell_refusal(request: HttpRequest, error: VipoError) -> HttpResponse:
-    """Tell a refusal; what is never allowed comes with what is (RFC 9110)."""
-    response = on_refusal(request, error)
+    """Tell a refusal, as 400 what does not fit (WoT Discovery); what is never allowed comes with what is (RFC 9110)."""
+    response = on_refusal(request, error, status=400 if error.status == 422 else 0)
     if "allow" in error.facts:
         response["Allow"] = error.facts["allow"]
     return response

@@ -34,6 +34,7 @@ def no_such_call(request: HttpRequest) -> HttpResponse:
     return problem(404, "not_found", "There is no such call. See docs/api.md.")
 
 
+handler400, handler500 = "vipo_site.refusals.tell_unreadable", "vipo_site.refusals.tell_failure"
 urlpatterns = [
     path("api/", api.urls),
     path("health", health),

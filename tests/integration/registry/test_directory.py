@@ -180,10 +180,20 @@ def test_what_cannot_be_answered_is_a_problem_as_the_standard_has_it(
 def test_things_are_not_made_or_deleted_over_http(two_sites: None) -> None:
     client = signed_in("admin")
     headers = {"X-CSRFToken": client.cookies["csrftoken"].value}
-    for answer in (client.delete("/things/a", headers=headers), client.put("/things/a", {}, headers=headers)):
+    for method, path, allowed in (
+        ("DELETE", "/things/a", "GET, HEAD, OPTIONS, PATCH"),
+        ("PUT", "/things/a", "GET, HEAD, OPTIONS, PATCH"),
+        ("POST", "/things", "GET, HEAD, OPTIONS"),
+        ("PUT", "/things", "GET, HEAD, OPTIONS"),
+    ):
+        answer = client.generic(method, path, headers=headers)
         assert (answer.status_code, answer.json()["code"]) == (405, "not_made_here")
-        assert answer["Allow"] == "GET, HEAD, PATCH"
-    assert client.post("/things", {}, headers=headers)["Allow"] == "GET, HEAD"
+        assert answer["Allow"] == allowed
+        told = client.options(path)
+        assert (told.status_code, told["Allow"], told.content) == (204, allowed, b"")
+    assert client.options("/things/a")["Accept-Patch"] == PATCH
     wrong = client.patch("/things/a", {"title": "X"}, content_type="application/json", headers=headers)
     assert (wrong.status_code, wrong.json()["code"]) == (415, "not_merge_patch")
+    long = client.patch("/things/a", {"title": "X" * 101}, content_type=PATCH, headers=headers)
+    assert (long.status_code, long.json()["status"], long.json()["code"]) == (400, 400, "bad_device")
     assert services.get_device(site="hall", device_id="a").name == "Mixer z"

@@ -9,6 +9,8 @@ import subprocess
 import threading
 from dataclasses import replace
 from typing import Any
+from urllib.parse import urlencode
+from xml.etree import ElementTree
 
 import pytest
 from django.test import Client
@@ -16,7 +18,7 @@ from django.test import Client
 from registry import sparql
 from registry.capability import PropertySpec
 from registry.models import User
-from registry.sparql_engine import Refused, check_query
+from registry.sparql_engine import Refused, answer, check_query, graph_of_devices
 
 from .conftest import MIXER, ROBOT, ROLES, come, describe, say
 
@@ -74,6 +76,52 @@ def test_results_come_as_csv_and_graphs_as_turtle_too(asked: Client) -> None:
     )
     assert answer["Content-Type"] == "text/turtle; charset=utf-8"
     assert '<urn:vipo:device:robot1> dct:title "Robot One" .' in answer.content.decode()
+
+
+@pytest.mark.parametrize(
+    ("accept", "forms"),
+    [
+        ("text/csv;q=0.1, application/sparql-results+xml", ["xml", "csv"]),
+        ("application/rdf+xml, text/*;q=0.1", ["turtle", "csv"]),
+        ("application/rdf+xml", []),
+    ],
+)
+def test_the_dearest_form_comes_first(
+    asked: Client, accept: str, forms: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    jobs: list[Any] = []
+
+    def run(job: bytes) -> tuple[int, bytes]:
+        jobs.append(json.loads(job))
+        return 0, b"text/csv\nx\n"
+
+    monkeypatch.setattr(sparql, "_run", run)
+    told = asked.get(ADDRESS, {"query": NAMES}, headers={"Accept": accept})
+    assert jobs[0]["forms"] == forms
+    assert "Accept" in told["Vary"]
+
+
+def test_a_result_comes_in_the_first_form_that_can_hold_it() -> None:
+    graph = graph_of_devices([])
+    rows, one = "SELECT ?a { BIND(1 AS ?a) }", "CONSTRUCT { <urn:a> dct:title ?a } { BIND(1 AS ?a) }"
+    told = [answer(graph, *each)[0] for each in ((rows, ["turtle", "json"]), (one, ["json", "turtle"]), (one, []))]
+    assert told == ["json", "turtle", "turtle"]
+    with pytest.raises(Refused, match="SELECT is answered as json, xml or csv, ASK as json or xml, not as turtle"):
+        answer(graph, rows, ["turtle"])
+    found = ElementTree.fromstring(answer(graph, rows, ["xml"])[1])
+    assert [cell.text for cell in found.iter("{http://www.w3.org/2005/sparql-results#}literal")] == ["1"]
+
+
+def test_a_forms_fields_are_those_of_the_protocol(asked: Client) -> None:
+    def post(**fields: str) -> Any:
+        return asked.post(ADDRESS, urlencode(fields), content_type="application/x-www-form-urlencoded")
+
+    assert post(query=NAMES, format="csv")["Content-Type"] == "text/csv; charset=utf-8"
+    for refused in (post(query=NAMES, format="rdf"), post(query=NAMES, **{"named-graph-uri": "urn:a"}), post()):
+        assert (refused.status_code, refused.json()["code"]) == (400, "bad_query")
+    elsewhere = asked.get(ADDRESS, {"query": NAMES, "default-graph-uri": "http://127.0.0.1:1/"})
+    assert elsewhere.json()["detail"].startswith("default-graph-uri and named-graph-uri are not allowed")
+    assert asked.get(ADDRESS).json()["detail"].startswith("A query has 1 to 16384 characters.")
 
 
 @pytest.mark.parametrize("role", [*ROLES, "stranger", "nobody"])
