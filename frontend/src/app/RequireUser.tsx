@@ -23,7 +23,7 @@ export function RequireUser() {
   const { pathname, search } = useLocation();
   useEffect(() => noteVisit(pathname), [pathname]);
   if (me.isPending) return <Waiting />;
-  if (me.isError) return <LoadProblem error={me.error} again={() => void me.refetch()} />;
+  if (me.isLoadingError) return <LoadProblem error={me.error} again={() => void me.refetch()} />;
   if (!me.data.user) {
     const next = pathname === "/" ? "" : `?next=${encodeURIComponent(pathname + search)}`;
     return <Navigate to={`/sign-in${next}`} replace />;

@@ -41,6 +41,7 @@ export function StopDialog({ site, opened, busy, onReset, onClose }: StopDialogP
     <Modal
       opened={opened}
       onClose={onClose}
+      closeOnClickOutside
       title={t("shell.stop.title", { site: site.name })}
       zIndex={1000}
       size={460}

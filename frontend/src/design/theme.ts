@@ -52,7 +52,14 @@ export const makeTheme = (close: string) =>
         defaultProps: { shadow: "lg", radius: "lg", withinPortal: true, withInitialFocusPlaceholder: false },
       }),
       Modal: Modal.extend({
-        defaultProps: { radius: "lg", centered: true, shadow: "lg", closeButtonProps: { "aria-label": close } },
+        // A tap beside a dialog does not throw away what was typed into it.
+        defaultProps: {
+          radius: "lg",
+          centered: true,
+          shadow: "lg",
+          closeOnClickOutside: false,
+          closeButtonProps: { "aria-label": close },
+        },
       }),
       Notification: Notification.extend({
         defaultProps: { radius: "lg", closeButtonProps: { "aria-label": close } },

@@ -2,8 +2,10 @@
 import { useEffect, useMemo, useState, useSyncExternalStore } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
+import { missing } from "@/api/failed";
 import { useCompiled, useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Site, User } from "@/api/types";
+import { LoadProblem } from "@/app/LoadProblem";
 import { useSiteLive } from "@/live/site";
 import { useEditorText, useScene } from "./canvas/useScene";
 import { EditorWorkspace } from "./EditorWorkspace";
@@ -27,8 +29,9 @@ export function EditorScreen() {
   useSiteLive(slug);
   const canEdit = site.data?.role === "author" || site.data?.role === "admin";
   const shared = useShared(id, site.data !== undefined, canEdit);
-  const failed = program.error ?? site.error ?? devices.error;
-  if (failed) return <p className={classes.wait}>{failed.message}</p>;
+  const failed = missing(program, site, devices);
+  if (failed)
+    return <Failed error={failed} again={() => void [program, site, devices].map((read) => read.refetch())} />;
   if (!program.data || !site.data || !devices.data || !shared) return <p className={classes.wait}>{t("opening")}</p>;
   return (
     <Loaded
@@ -39,6 +42,14 @@ export function EditorScreen() {
       canEdit={canEdit}
       user={me.data?.user ?? null}
     />
+  );
+}
+
+function Failed({ error, again }: { error: Error; again: () => void }) {
+  return (
+    <main className={classes.wait}>
+      <LoadProblem error={error} again={again} />
+    </main>
   );
 }
 

@@ -6,6 +6,7 @@ import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { LoadProblem } from "@/app/LoadProblem";
 import { PageShell } from "@/app/PageShell";
+import { missing } from "@/api/failed";
 import { useDevices, useSite } from "@/api/queries";
 import type { Device, Site } from "@/api/types";
 import { Chip } from "@/design/Chip";
@@ -81,7 +82,7 @@ export function DevicesPage() {
   const site = useSite(slug);
   const devices = useDevices(slug);
   const chosen = devices.data?.find((device) => device.id === id);
-  const problem = site.error ?? devices.error;
+  const problem = missing(site, devices);
   return (
     <PageShell
       title={t("shell.nav.devices")}

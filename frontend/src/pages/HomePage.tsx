@@ -41,7 +41,9 @@ function SitePart({ site }: { site: Site }) {
             </EmptyState>
           ) : null}
           {programs.isPending ? <TableSkeleton rows={4} /> : null}
-          {programs.isError ? <LoadProblem error={programs.error} again={() => void programs.refetch()} /> : null}
+          {programs.isLoadingError ? (
+            <LoadProblem error={programs.error} again={() => void programs.refetch()} />
+          ) : null}
         </Panel>
         <RecentRuns slug={site.slug} runs={runs} />
       </div>
@@ -68,7 +70,7 @@ export function HomePage() {
   const sites = useSites();
   return (
     <PageShell title={t("shell.nav.home")} actions={site ? <NewProgramButton slug={site.slug} /> : null}>
-      {sites.isError ? <LoadProblem error={sites.error} again={() => void sites.refetch()} /> : null}
+      {sites.isLoadingError ? <LoadProblem error={sites.error} again={() => void sites.refetch()} /> : null}
       {sites.isPending ? <TableSkeleton /> : null}
       {sites.data?.length === 0 ? <NoSites /> : null}
       {site ? (

@@ -70,7 +70,7 @@ export function LibraryPage() {
           onChange={(event) => setTyped(event.target.value)}
         />
         {found.isPending ? <TableSkeleton /> : null}
-        {found.isError ? <LoadProblem error={found.error} again={() => void found.refetch()} /> : null}
+        {found.isLoadingError ? <LoadProblem error={found.error} again={() => void found.refetch()} /> : null}
         {found.data && items.length === 0 && query ? <NothingFound clear={() => setTyped("")} /> : null}
         {found.data && items.length === 0 && !query ? <EmptyLibrary slug={slug} /> : null}
         <ul className={styles.cards}>

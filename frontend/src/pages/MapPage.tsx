@@ -6,6 +6,7 @@ import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { LoadProblem } from "@/app/LoadProblem";
 import { PageShell } from "@/app/PageShell";
+import { missing } from "@/api/failed";
 import { useDevices, useSite, useSiteMap } from "@/api/queries";
 import type { Site, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
@@ -114,7 +115,7 @@ export function MapPage() {
   const site = useSite(slug);
   const map = useSiteMap(site.data?.has_map ? slug : undefined);
   const [moving, setMoving] = useState(false);
-  const problem = site.error ?? map.error;
+  const problem = missing(site, map);
   return (
     <PageShell
       title={t("shell.nav.map")}

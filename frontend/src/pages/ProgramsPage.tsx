@@ -63,7 +63,7 @@ export function ProgramsPage() {
       actions={<NewProgramButton slug={slug} />}
     >
       {programs.isPending ? <TableSkeleton /> : null}
-      {programs.isError ? <LoadProblem error={programs.error} again={() => void programs.refetch()} /> : null}
+      {programs.isLoadingError ? <LoadProblem error={programs.error} again={() => void programs.refetch()} /> : null}
       {programs.data ? <Programs slug={slug} programs={programs.data} /> : null}
     </PageShell>
   );

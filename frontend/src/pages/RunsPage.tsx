@@ -81,7 +81,7 @@ export function RunsPage() {
       chips={open > 0 ? <Chip tone="busy">{t("pages.runs.openNow", { count: open })}</Chip> : null}
     >
       {runs.isPending ? <TableSkeleton /> : null}
-      {runs.isError ? <LoadProblem error={runs.error} again={() => void runs.refetch()} /> : null}
+      {runs.isLoadingError ? <LoadProblem error={runs.error} again={() => void runs.refetch()} /> : null}
       {runs.data?.length ? <RunTable runs={runs.data} /> : null}
       {runs.data?.length === 0 ? (
         <Panel>

@@ -126,7 +126,7 @@ export function SignInPage() {
     document.title = `${t("pages.signIn.go")} · VIPO`;
   }, [t]);
   if (me.isPending) return <Waiting />;
-  if (me.isError) return <LoadProblem error={me.error} again={() => void me.refetch()} />;
+  if (me.isLoadingError) return <LoadProblem error={me.error} again={() => void me.refetch()} />;
   if (me.data.user) return <Navigate to={next} replace />;
   return (
     <main className={styles.page}>

@@ -3,11 +3,12 @@ import { ChartGantt, FileCode, SquareTerminal } from "lucide-react";
 import { useCallback, useEffect, useMemo, useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
-import { ApiProblem } from "@/api/client";
+import { missing } from "@/api/failed";
 import { keys, useDevices, useQuestions, useRun, useRunEvents, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Run, RunEvent, Site } from "@/api/types";
 import { QuestionCard } from "@/app/questions/QuestionCard";
 import { shownQuestions } from "@/app/questions/shown";
+import { LoadProblem } from "@/app/LoadProblem";
 import { Crumb, TopBar } from "@/app/TopBar";
 import { Chip } from "@/design/Chip";
 import { ProgramMap } from "@/editor/ProgramMap";
@@ -266,12 +267,12 @@ export function RunScreen() {
   const site = useSite(run?.site).data;
   useSiteLive(run?.site);
   if (run) return <Loaded key={run.id} run={run} site={site} />;
-  const refusal = query.error instanceof ApiProblem ? query.error.detail : null;
+  const failed = missing(query);
   return (
     <div className={styles.screen}>
       <TopBar site={undefined} />
-      <main className={styles.loading} role={refusal ? "alert" : "status"}>
-        {refusal ?? t("run.loading")}
+      <main className={styles.loading} role={failed ? undefined : "status"}>
+        {failed ? <LoadProblem error={failed} again={() => void query.refetch()} /> : t("run.loading")}
       </main>
     </div>
   );

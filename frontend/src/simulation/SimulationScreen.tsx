@@ -5,6 +5,7 @@ import { useEffect, useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
+import { missing } from "@/api/failed";
 import { keys, useDevices, useProgram, useRehearsal, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
 import { Crumb, TopBar } from "@/app/TopBar";
@@ -147,7 +148,7 @@ export function SimulationScreen() {
   useSiteLive(program?.site);
   const data = rehearsal.data;
   const result = data?.status === "done" ? data.result : null;
-  const refusal = problem ?? (rehearsal.error instanceof ApiProblem ? rehearsal.error.detail : undefined);
+  const refusal = problem ?? missing(rehearsal)?.message;
   return (
     <div className={styles.screen}>
       <TopBar

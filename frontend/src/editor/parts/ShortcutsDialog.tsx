@@ -31,7 +31,7 @@ export function ShortcutsDialog() {
   const { t } = useOpenProgram();
   const opened = useUi((ui) => ui.dialog === "shortcuts");
   return (
-    <Modal opened={opened} onClose={() => useUi.setState({ dialog: null })} title={t("keys.title")}>
+    <Modal opened={opened} onClose={() => useUi.setState({ dialog: null })} closeOnClickOutside title={t("keys.title")}>
       <dl className={classes.keys}>
         {KINDS.filter((kind) => kind.key).map((kind) => [
           <dt key={`${kind.kind}-key`}>{kind.key}</dt>,

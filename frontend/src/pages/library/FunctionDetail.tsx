@@ -124,7 +124,7 @@ export function FunctionDetail({ slug, item }: { slug: string; item: LibraryFunc
           <X size={18} aria-hidden="true" />
         </Link>
       </header>
-      {full.isError ? <LoadProblem error={full.error} again={() => void full.refetch()} /> : null}
+      {full.isLoadingError ? <LoadProblem error={full.error} again={() => void full.refetch()} /> : null}
       <Body slug={slug} item={shown} />
       <UseInProgram slug={slug} item={shown} />
     </aside>
