@@ -98,8 +98,9 @@ class Fleet:
                 self._take(self._inbox.get(timeout=TICK_S), time.monotonic())
             if (now := time.monotonic()) - ticked_s >= TICK_S:
                 ticked_s = now
+                is_reached = self._client.connected
                 for member in self._members.values():
-                    member.tick(now)
+                    member.tick(now, is_reached=is_reached)
 
     def _take(self, event: Said | LineEvent, now_s: float) -> None:
         if isinstance(event, Said):

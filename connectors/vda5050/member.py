@@ -36,6 +36,8 @@ SILENT_LIMIT_S = 75.0
 """A vehicle says its state at least every 30 s; one that misses two counts as gone, whatever its connection says."""
 ASK_S = 1.0
 ASK_AGAIN_S = 30.0
+STATES_OF_LIFE = 2
+"""So many states after its last will show that a vehicle is there: the will was that of an earlier connection."""
 PATIENCE_S = 10.0
 """So long a vehicle may take to become a device before the log says what is missing."""
 
@@ -76,6 +78,7 @@ class Member:
         self._version = "2.0.0"
         self._told_facts = (b"", "")
         self._connected = False
+        self._states_since_will: int | None = None
         self._newest: dict[str, Header] = {}
         self._state: VehicleState | None = None
         self._located: Located | None = None
@@ -95,6 +98,7 @@ class Member:
                 state = read_state(payload, self.name)
                 if self._is_news("state", state.header):
                     self._state, self._heard_s = state, now_s
+                    self._doubt_will()
                     self._locate(state.located)
             case "visualization":
                 header, located = read_visualization(payload, self.name)
@@ -123,9 +127,15 @@ class Member:
         if self._line is not None and self.control is not None:
             self._line.introduce(self._description, online=self.control.online)
 
-    def tick(self, now_s: float) -> None:
-        """Let time pass: ask the vehicle for what is missing, send again what it did not answer."""
-        self._ask(now_s)
+    def tick(self, now_s: float, *, is_reached: bool = True) -> None:
+        """Let time pass: ask the vehicle for what is missing, send again what it did not answer.
+
+        While the vehicles' broker is not reached, nothing is known of any vehicle, and its next state is waited for.
+        """
+        if is_reached:
+            self._ask(now_s)
+        elif self._heard_s:
+            self._heard_s, self._ask_at_s["stateRequest"] = 0.0, now_s + ASK_S
         self._say_what_is_missing(now_s)
         if self.control is not None:
             self._be_present(now_s)
@@ -165,7 +175,9 @@ class Member:
         they are connected, which changes nothing.
         """
         was_connected = self._connected
-        header, self._connected = read_connection(payload, self.name)
+        header, said = read_connection(payload, self.name)
+        self._connected = said == "ONLINE"
+        self._states_since_will = 0 if said == "CONNECTIONBROKEN" else None
         self._version = header.version
         if self._connected:
             self._newest.clear()
@@ -175,6 +187,13 @@ class Member:
         self._ask_at_s = {"stateRequest": now_s + ASK_S, "factsheetRequest": now_s + ASK_S}
         self._missing_at_s = now_s + PATIENCE_S
         self._be_present(now_s)
+
+    def _doubt_will(self) -> None:
+        """Take a vehicle whose last will was heard for connected again when it goes on telling its state."""
+        if self._states_since_will is not None:
+            self._states_since_will += 1
+            if self._states_since_will >= STATES_OF_LIFE:
+                self._connected, self._states_since_will = True, None
 
     def _is_news(self, subtopic: str, header: Header) -> bool:
         if header.is_stale(self._newest.get(subtopic)):

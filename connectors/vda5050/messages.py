@@ -146,13 +146,13 @@ class VehicleState:
         return next((e for e in self.errors if e.level == "FATAL"), None)
 
 
-def read_connection(payload: bytes, name: VehicleName) -> tuple[Header, bool]:
-    """Return the header, and whether the vehicle is connected. Raises BadMessage."""
+def read_connection(payload: bytes, name: VehicleName) -> tuple[Header, str]:
+    """Return the header, and ONLINE, OFFLINE or CONNECTIONBROKEN. Raises BadMessage."""
     fields = read_fields(payload, "connection")
     said = fields.text("connectionState", needed=True)
     if said not in {"ONLINE", "OFFLINE", "CONNECTIONBROKEN"}:
         fields.refuse("connectionState", "ONLINE, OFFLINE or CONNECTIONBROKEN")
-    return read_header(fields, name), said == "ONLINE"
+    return read_header(fields, name), said
 
 
 def read_visualization(payload: bytes, name: VehicleName) -> tuple[Header, Located | None]:

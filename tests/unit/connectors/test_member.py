@@ -77,3 +77,29 @@ def test_the_log_says_why_a_vehicle_is_not_on_the_map(member: Member, caplog: py
         "Acme-1 is connected, but not on the map yet: it has not told its factsheet.",
         "Acme-1 is connected, but not on the map yet: it does not know where it is.",
     ]
+
+
+def test_a_last_will_that_comes_late_does_not_keep_a_vehicle_away(member: Member) -> None:
+    come(member, 100.0)
+    say(member, "connection", 101.0, connectionState="CONNECTIONBROKEN")
+    assert member.control is not None
+    heard = []
+    for number in (2, 3):
+        say(member, "state", 101.0 + number, **{**STATE, "headerId": number})
+        heard.append(member.control.online)
+    assert heard == [False, True]
+    say(member, "connection", 105.0, connectionState="OFFLINE")
+    for number in (4, 5):
+        say(member, "state", 102.0 + number, **{**STATE, "headerId": number})
+        assert not member.control.online, "it said goodbye"
+
+
+def test_nothing_is_known_of_vehicles_while_their_broker_is_not_reached(member: Member) -> None:
+    come(member, 100.0)
+    assert member.control is not None
+    member.tick(101.0, is_reached=False)
+    assert not member.control.online
+    member.tick(102.0)
+    assert not member.control.online, "what it was before may have changed"
+    say(member, "state", 103.0, **{**STATE, "headerId": 2})
+    assert member.control.online
