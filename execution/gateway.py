@@ -100,8 +100,9 @@ class Gateway:
             message.acknowledge()
             return
         device, kind = found or (knock[1] if knock else "", KNOCK)
-        if not self._bucket(f"join:{knock[0]}" if knock else device).take(time.monotonic()):
-            self._note(device, FLOOD.text, facts_of([FLOOD]))
+        sender = f"join:{knock[0]}" if knock else device  # whoever knocks may name any device
+        if not self._bucket(sender).take(time.monotonic()):
+            self._note(sender, FLOOD.text, facts_of([FLOOD]))
             message.acknowledge()
         elif not self._inbox.put(Entry(message, device, kind)):
             self.complaints.counts["inbox full"] += 1

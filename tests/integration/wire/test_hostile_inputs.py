@@ -16,7 +16,7 @@ from execution.gateway import Gateway
 from registry import services
 from registry.models import DeviceEvent
 from registry.mqtt import MqttClient
-from tests.integration.wire.bus import SITE, Bus, wait
+from tests.integration.wire.bus import JOIN, SITE, Bus, wait
 
 pytestmark = pytest.mark.servers
 KEYS = {"loud01": "the-key-of-the-loud-one-1", "calm01": "the-key-of-the-calm-one-1"}
@@ -133,6 +133,24 @@ def test_a_flood_is_held_back_and_memory_stays_flat(bus: Bus, gateway: Gateway) 
     assert any("too many messages" in text or "state: " in text for text in problems("loud01"))
     calm.stop()
     loud.stop()
+
+
+def test_a_flood_of_knocks_is_the_doors_and_no_devices(
+    bus: Bus, gateway: Gateway, caplog: pytest.LogCaptureFixture
+) -> None:
+    calm, door = join(bus, "calm01"), bus.client(f"join:{SITE}", JOIN)
+    door.start()
+    for number in range(220):
+        name = f"new{number}" if number < 100 else "calm01"
+        door.publish(f"vipo/v1/join/{SITE}/{name}", json.dumps({"key": "k" * 30}).encode())
+    wait("the flood", lambda: gateway.complaints.counts["too many messages"] >= 150, 60)
+    say(calm, "calm01", 1, 77.0)
+    wait("the calm one's state", lambda: reading("calm01") == 77.0, 60)
+    assert [line for line in caplog.messages if "too many" in line] == [
+        f"Device join:{SITE}: too many messages: some were dropped"
+    ]
+    door.stop()
+    calm.stop()
 
 
 def test_a_packet_that_is_too_large_ends_that_connection_only(bus: Bus, gateway: Gateway) -> None:
