@@ -6,6 +6,7 @@ import { knownBox, type FloorPlan } from "./floor";
 import { FloorCanvas } from "./FloorCanvas";
 import type { FloorDetail } from "./floorPainter";
 import classes from "./map.module.css";
+import { boxOfDevices } from "./framing";
 import { fitViewport, toPixels, type Box, type Point, type Viewport } from "./projection";
 import { Route } from "./Route";
 import { useSize } from "./useSize";
@@ -34,7 +35,12 @@ export function StaticMap(props: StaticMapProps) {
   const { plan, devices = [], routes = [], focus, named = false, label } = props;
   const [element, { width, height }] = useSize<HTMLDivElement>();
   const [cell] = useState(() => new ViewportCell());
-  const view = useMemo(() => staticView(plan, focus, width, height), [plan, focus, width, height]);
+  const known = useMemo(() => focus ?? (plan ? knownBox(plan) : null), [plan, focus]);
+  const { left, top, right, bottom } = known ?? boxOfDevices(devices);
+  const view = useMemo(
+    () => staticView({ left, top, right, bottom }, width, height),
+    [left, top, right, bottom, width, height],
+  );
   useEffect(() => cell.set(view), [cell, view]);
   return (
     <div ref={element} className={classes.static} role="group" aria-label={label}>
@@ -54,10 +60,10 @@ export function StaticMap(props: StaticMapProps) {
   );
 }
 
-function staticView(plan: FloorPlan | null, focus: Box | undefined, width: number, height: number): Viewport {
-  if (!plan || width === 0) return { x: 0, y: 0, zoom: 1 };
+function staticView(frame: Box, width: number, height: number): Viewport {
+  if (width === 0) return { x: 0, y: 0, zoom: 1 };
   const margin = Math.min(16, width / 20);
-  return fitViewport(focus ?? knownBox(plan), width, height, {
+  return fitViewport(frame, width, height, {
     left: margin,
     right: margin,
     top: margin,

@@ -1,36 +1,55 @@
+import { Skeleton } from "@mantine/core";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
 import { useSiteMap } from "@/api/queries";
 import type { Device, Site } from "@/api/types";
+import { LoadProblem } from "@/app/LoadProblem";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { useLiveStore } from "@/live/store";
 import { StaticMap } from "@/map/StaticMap";
+import { newcomerOf } from "./filter";
 import { Newcomer } from "./Newcomer";
 import styles from "./devices.module.css";
 
-/** Where the devices stand, and the first of those that want to join. */
-export function MapStrip({ site, devices, chosen }: { site: Site; devices: Device[]; chosen: string | undefined }) {
+interface StripProps {
+  site: Site;
+  devices: Device[];
+  chosen: string | undefined;
+}
+
+/** Without its map a site's devices are shown as they stand to each other; a map that is still to come is waited for. */
+function Floor({ site, devices, chosen }: StripProps) {
   const { t } = useTranslation();
   const navigate = useNavigate();
-  const map = useSiteMap(site.has_map ? site.slug : undefined).data ?? null;
+  const map = useSiteMap(site.has_map ? site.slug : undefined);
+  if (site.has_map && map.isLoadingError) return <LoadProblem error={map.error} again={() => void map.refetch()} />;
+  if (site.has_map && !map.data) return <Skeleton className={styles.stripWaits} aria-hidden="true" />;
+  return (
+    <StaticMap
+      plan={map.data ?? null}
+      devices={devices.filter((device) => device.lifecycle !== "retired")}
+      selected={chosen ?? null}
+      onSelect={(id) => void navigate(`/sites/${site.slug}/devices/${id}`)}
+      label={t("pages.map.of", { site: site.name })}
+    />
+  );
+}
+
+/** Where the devices stand, and one of those that want to join. */
+export function MapStrip({ site, devices, chosen }: StripProps) {
+  const { t } = useTranslation();
   const live = useLiveStore((state) => state.connection === "live");
-  const newcomer = devices.find((device) => device.lifecycle === "pending");
+  const newcomer = newcomerOf(devices, chosen);
   return (
     <Panel className={styles.strip}>
       <div className={styles.stripMap}>
-        <StaticMap
-          plan={map}
-          devices={devices.filter((device) => device.lifecycle !== "retired")}
-          selected={chosen ?? null}
-          onSelect={(id) => void navigate(`/sites/${site.slug}/devices/${id}`)}
-          label={t("pages.map.of", { site: site.name })}
-        />
+        <Floor site={site} devices={devices} chosen={chosen} />
         <span className={styles.liveMark}>
           <StatusBadge status={live ? "done" : "offline"}>{t(live ? "pages.live" : "pages.notLive")}</StatusBadge>
         </span>
       </div>
-      {newcomer ? <Newcomer device={newcomer} site={site} /> : null}
+      {newcomer ? <Newcomer key={newcomer.id} device={newcomer} site={site} /> : null}
     </Panel>
   );
 }

@@ -49,7 +49,8 @@ export function Newcomer({ device, site }: { device: Device; site: Site }) {
         <span>
           <b>{device.name}</b>
           <span>
-            {t("pages.devices.saysItIs", { what: t(`pages.devices.kind.${device.kind}`), icon: device.device_class })}
+            {t("pages.devices.saysItIs", { what: t(`pages.devices.kind.${device.kind}`) })}
+            {device.device_class ? ` (${device.device_class})` : null}
           </span>
         </span>
       </div>

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { Device } from "@/api/types";
-import { batteryOf, filterDevices, jobOf, methodNames, NO_FILTER } from "./filter";
+import { batteryOf, filterDevices, jobOf, methodNames, newcomerOf, NO_FILTER } from "./filter";
 
 function device(id: string, more: Partial<Device> = {}): Device {
   const base = { id, name: id, kind: "machine", lifecycle: "approved", status: "idle", doing: "" };
@@ -60,4 +60,13 @@ test("a job is a share of one, and only while busy", () => {
   expect(jobOf(job(75, "busy"))).toBe(0.75);
   expect(jobOf(job(180, "busy"))).toBe(1);
   expect(jobOf(job(75, "idle"))).toBeNull();
+});
+
+test("an admin is asked about the newcomer that is looked at, else about the first", () => {
+  const second = device("mixer04", { lifecycle: "pending", status: "pending" });
+  const all = [...ALL, second];
+  expect(newcomerOf(all, "mixer04")).toBe(second);
+  expect(newcomerOf(all, "mixer01")).toBe(newcomer);
+  expect(newcomerOf(all, undefined)).toBe(newcomer);
+  expect(newcomerOf([oven], "oven01")).toBeUndefined();
 });

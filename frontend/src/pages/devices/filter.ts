@@ -23,6 +23,12 @@ export function filterDevices(devices: readonly Device[], filter: DeviceFilter):
     .sort((a, b) => Number(b.lifecycle === "pending") - Number(a.lifecycle === "pending"));
 }
 
+/** Whose approval is asked for: the one that is looked at if it waits for it, the first one otherwise. */
+export function newcomerOf(devices: readonly Device[], chosen: string | undefined): Device | undefined {
+  const waiting = devices.filter((device) => device.lifecycle === "pending");
+  return waiting.find((device) => device.id === chosen) ?? waiting[0];
+}
+
 function textOf(device: Device): string {
   const methods = device.methods.flatMap((method) => [method.name, method.title, method.topic]);
   return [device.name, device.id, doingWords(device), ...methods].join(" ").toLowerCase();

@@ -1,0 +1,27 @@
+import { expect, test } from "vitest";
+import type { MapDevice } from "./device";
+import { boxOfDevices } from "./framing";
+import { fitViewport, toPixels } from "./projection";
+
+function device(x: number, y: number): MapDevice {
+  const location = { x, y, theta: 0 };
+  const base = { id: `${x}`, name: "", kind: "machine", device_class: "", status: "idle", doing: "", properties: [] };
+  return { ...base, location, size: { x: 1, y: 1 } };
+}
+
+test("without a floor all devices are seen, wherever they stand", () => {
+  const devices = [device(40, -30), device(52, -38)];
+  const view = fitViewport(boxOfDevices(devices), 400, 250, { left: 0, right: 0, top: 0, bottom: 0 });
+  for (const { location } of devices) {
+    const at = toPixels([location.x, location.y]);
+    expect(at.x * view.zoom + view.x).toBeGreaterThan(20);
+    expect(at.x * view.zoom + view.x).toBeLessThan(380);
+    expect(at.y * view.zoom + view.y).toBeGreaterThan(20);
+    expect(at.y * view.zoom + view.y).toBeLessThan(230);
+  }
+});
+
+test("an empty site has a box, too", () => {
+  const { left, right } = boxOfDevices([]);
+  expect(right).toBeGreaterThan(left);
+});
