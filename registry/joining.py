@@ -32,6 +32,7 @@ from registry.differences import Change
 from registry.errors import RegistryError
 from registry.event_words import Said, said
 from registry.intake import SaidState, ingest_states
+from registry.knocking import MOST_NEWCOMERS
 from registry.models import Device, DeviceEvent, Site, User
 from registry.sites import find_site
 from registry.views import DeviceEventView, DeviceView, view_of
@@ -188,7 +189,13 @@ def check_device_password(*, username: str, password: str) -> Principal | None:
         return Principal(username, False, offered, frozenset(device.granted.values())) if is_its_key else None
     if device and device.lifecycle != Device.Lifecycle.PENDING:
         return None
-    return Principal(username, True) if Site.objects.filter(join_key_hash=offered).exists() else None
+    is_let_in = Site.objects.filter(join_key_hash=offered).exists() and (device or _has_room())
+    return Principal(username, True) if is_let_in else None
+
+
+def _has_room() -> bool:
+    """Tell whether one more newcomer may come that brings no key of its own."""
+    return Device.objects.filter(lifecycle="pending", credential_hash="").count() < MOST_NEWCOMERS
 
 
 def _check_door(username: str, offered: str) -> Principal | None:

@@ -12,7 +12,8 @@ from registry import described, live, services
 from registry.capability import MethodSpec, Pose
 from registry.credentials import secret_hash
 from registry.describing import read, write_description
-from registry.models import Device, DeviceEvent, User
+from registry.knocking import MOST_NEWCOMERS
+from registry.models import Device, DeviceEvent, Site, User
 from registry.rdf_text import CONTENT_TYPES, FORMS, BadDescription
 from registry.services import BadDevice, NoSuchDevice, NotPending, Principal
 from registry.wire import BadMessage
@@ -276,6 +277,18 @@ def test_the_join_key_is_for_newcomers_until_they_are_approved(hall: str) -> Non
     assert check(username="mixer1", password=JOIN) == Principal("mixer1", True)
     services.approve_device(site="hall", device_id="mixer1", by=None, at=NOW)
     assert check(username="mixer1", password=JOIN) is None
+
+
+def test_no_more_than_two_hundred_newcomers_come_in_with_a_join_key_alone(hall: str) -> None:
+    services.set_join_key(site="hall", join_key=JOIN)
+    site = Site.objects.get(slug="hall")
+    Device.objects.bulk_create(Device(pk=f"n{number}", site=site) for number in range(MOST_NEWCOMERS - 1))
+    assert services.check_device_password(username="mixer1", password=JOIN)
+    describe()
+    assert services.check_device_password(username="mixer1", password=JOIN)
+    assert services.check_device_password(username="robot1", password=JOIN) is None
+    services.reject_device(site="hall", device_id="mixer1", by=None, at=NOW)
+    assert services.check_device_password(username="robot1", password=JOIN)
 
 
 @pytest.mark.parametrize("device_id", ["server", ".", ".."])
