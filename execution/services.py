@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from execution.arming import arm_program, disarm_program, list_armed, start_armed
-from execution.calls import call_method, cancel_call, get_call
+from execution.calls import call_method, cancel_call, expire_calls, get_call
 from execution.claiming import OutgoingCommand, claim_commands, mark_commands_sent
 from execution.clockwork import run_ticker
 from execution.devices import record_device_change
@@ -55,6 +55,7 @@ __all__ = [
     "change_map",
     "claim_commands",
     "disarm_program",
+    "expire_calls",
     "get_call",
     "get_rehearsal",
     "get_run",

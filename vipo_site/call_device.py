@@ -9,6 +9,7 @@ import os
 import sys
 import time
 from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime, timedelta
 from typing import Any
 from uuid import UUID
 
@@ -17,6 +18,9 @@ import django
 from registry.printing import printable
 
 POLL_S = 0.2
+GRACE = timedelta(seconds=3)
+"""So much later than VIPO itself a call is given up here."""
+NEVER_SENT = "It was never sent. Look whether VIPO and its gateway run."
 DONE, NOT_DONE, UNUSABLE = 0, 1, 2
 WHAT = "Tell a device to carry out one of its methods, and wait until it is done."
 
@@ -60,9 +64,7 @@ def _call(options: argparse.Namespace) -> dict[str, Any]:
     device = registry.find_device(device_id=options.device)
     if device is None or options.site not in {"", device.site}:
         where = f" at the site {options.site!r}" if options.site else ""
-        raise ValueError(
-            f"There is no device {options.device!r}{where}. See the page Devices for those that there are."
-        )
+        raise ValueError(f"There is no device {options.device!r}{where}. Try: vipo devices")
     method = device.canonical.method(options.method)
     types = {parameter.name: parameter.type for parameter in method.parameters} if method else {}
     arguments = read_arguments(options.args, types)
@@ -71,12 +73,34 @@ def _call(options: argparse.Namespace) -> dict[str, Any]:
         device_id=device.id,
         method=options.method,
         arguments=arguments,
-        by=f"{getpass.getuser()} (vipo)",
+        by=f"{_person()} (vipo)",
     )
+    try:
+        return _wait(device.site, call)
+    except KeyboardInterrupt:
+        cancel = f"POST /api/sites/{device.site}/calls/{call['id']}/cancel"
+        _complain(f"{device.id} may go on with {options.method}. Its page can end that, and so can {cancel}.")
+        raise
+
+
+def _wait(site: str, call: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the call when it is over; it is given up in time even where nothing of VIPO runs that would do it."""
+    from execution import services as execution
+
+    given_up_at = datetime.fromisoformat(call["expires_at"]) + GRACE
     while not call["over"]:
         time.sleep(POLL_S)
-        call = execution.get_call(site=device.site, call_id=UUID(call["id"]))
-    return call
+        if datetime.now(UTC) > given_up_at:
+            execution.expire_calls(now=datetime.now(UTC))
+        call = execution.get_call(site=site, call_id=UUID(call["id"]))
+    return dict(call)
+
+
+def _person() -> str:
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):  # a container may run as a number without a name
+        return "somebody"
 
 
 def read_arguments(words: Sequence[str], types: Mapping[str, str]) -> dict[str, Any]:
@@ -97,6 +121,8 @@ def _json_object(text: str) -> dict[str, Any]:
         body: dict[str, Any] = json.loads(text)
     except json.JSONDecodeError as error:
         raise ValueError(f"The arguments are not JSON: {error.msg.lower()}, column {error.colno}.") from error
+    except RecursionError as error:
+        raise ValueError("The arguments are nested too deep.") from error
     return body
 
 
@@ -105,14 +131,15 @@ def _value(name: str, text: str, type_name: str) -> Any:
         return text
     try:
         return json.loads(text)
-    except json.JSONDecodeError as error:
+    except (json.JSONDecodeError, RecursionError) as error:
         examples = {"number": "5 or 2.5", "boolean": "true or false", "location": "[3.2,-4.1]"}
         raise ValueError(f"{name}={text} is no {type_name}. Write {examples[type_name]}.") from error
 
 
 def _in_words(call: Mapping[str, Any]) -> str:
     result = "".join(f", {name} {value}" for name, value in call["result"].items())
-    why = f": {call['why']}" if call["why"] else ""
+    sent = call["sent_at"] or call["status"] != "timed_out"
+    why = f": {call['why'] if sent else NEVER_SENT}" if call["why"] else ""
     return printable(f"{call['device']}: {call['method']} is {call['status'].replace('_', ' ')}{result}{why}")
 
 

@@ -19,7 +19,7 @@ from vipo_site.draw_file import add_arguments as add_draw_arguments
 from vipo_site.draw_file import draw_file
 from vipo_site.program_file import FaultyScript, ProgramFile, UnreadableFile, read_program_file
 
-CLEAN, FAULTY, UNUSABLE = 0, 1, 2
+CLEAN, FAULTY, UNUSABLE, INTERRUPTED = 0, 1, 2, 130
 _WORDS: Mapping[Language, Mapping[str, tuple[str, ...]]] = {
     "en": {
         "errors": ("error", "errors"), "warnings": ("warning", "warnings"),
@@ -33,8 +33,26 @@ _WORDS: Mapping[Language, Mapping[str, tuple[str, ...]]] = {
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command and return its exit code: 0 clean, 1 errors in the program, 2 nothing could be done."""
+    """Run one command and return its exit code: 0 clean, 1 errors in it, 2 nothing could be done, 130 Ctrl-C."""
     options = _parser().parse_args(arguments)
+    try:
+        code = _run(options)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # nobody reads on; what Python still wants to write at its end goes nowhere
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return CLEAN
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _complain(f"This cannot be done: {error.strerror or error}{f': {error.filename}' if error.filename else ''}.")
+        return UNUSABLE
+    return code
+
+
+def _run(options: argparse.Namespace) -> int:
+    """Run one command; tell what keeps it from being carried out."""
     try:
         run: Callable[[argparse.Namespace], int] = options.run
         return run(options)
@@ -48,9 +66,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except UnreadableFile as error:
         _complain(str(error))
         return UNUSABLE
-    except BrokenPipeError:
-        sys.stderr.close()
-        return CLEAN
+    except _setting_error() as error:
+        _complain(str(error))
+        return UNUSABLE
     except _database_error() as error:
         folder = os.environ.get("VIPO_STATE_DIR", "var")
         _complain(
@@ -60,8 +78,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return UNUSABLE
 
 
+def _setting_error() -> type[Exception]:
+    """Return what missing settings are; looked up only when something went wrong, for that takes time."""
+    from django.core.exceptions import ImproperlyConfigured
+
+    return ImproperlyConfigured
+
+
 def _database_error() -> type[Exception]:
-    """Return what database errors are; looked up only when something went wrong, for that takes time."""
+    """Return what database errors are; looked up late, too."""
     from django.db import DatabaseError
 
     return DatabaseError
@@ -89,7 +114,9 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="vipo", description="Check, print, plan and rehearse programs for robots and machines.")
-    names = "|".join([*(name for name, _, _ in _COMMANDS), "describe", "call", "devices", "approve", "join-key"])
+    names = "|".join(
+        [*(name for name, _, _ in _COMMANDS), "describe", "call", "devices", "alerts", "approve", "join-key"]
+    )
     commands = parser.add_subparsers(required=True, metavar=names, parser_class=_Parser)
     for name, command, text in _COMMANDS:
         sub = commands.add_parser(name, help=text, description=text)

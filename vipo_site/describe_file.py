@@ -6,6 +6,7 @@ import argparse
 import json
 import sys
 from collections.abc import Iterator
+from contextlib import nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -60,12 +61,15 @@ def _faults_of_shapes(payload: bytes) -> tuple[Fault, ...]:
 
 
 def _read_bytes(path: Path) -> bytes:
+    """Return what stands in the file (`-`: comes on standard input), of which no more is read than may be."""
     try:
-        if path.stat().st_size > MOST_BYTES:
-            raise UnreadableFile(f"{path} is larger than {MOST_BYTES // 1_000_000} MB. That is no description.")
-        return path.read_bytes()
+        with nullcontext(sys.stdin.buffer) if str(path) == "-" else path.open("rb") as file:
+            payload = file.read(MOST_BYTES + 1)
     except OSError as error:
         raise UnreadableFile(f"{path} cannot be read: {error.strerror or error}.") from error
+    if len(payload) > MOST_BYTES:
+        raise UnreadableFile(f"{path} is larger than {MOST_BYTES // 1_000_000} MB. That is no description.")
+    return payload
 
 
 def _tell_faults(options: argparse.Namespace, faults: tuple[Fault, ...]) -> int:

@@ -95,6 +95,7 @@ def list_alerts(options: argparse.Namespace) -> int:
         found = [(slug, services.alert_to_json(a)) for slug in slugs for a in services.list_alerts(site=slug)]
     except VipoError as error:
         return _complain(error.detail)
+    found.sort(key=lambda each: each[1]["last_at"], reverse=True)
     if options.json:
         _write(json.dumps([alert | {"site": slug} for slug, alert in found], ensure_ascii=False, indent=1))
         return CLEAN

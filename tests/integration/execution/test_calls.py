@@ -223,10 +223,11 @@ def vipo(*words):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("nothing", "mixPaint"), "There is no device 'nothing'. See the page Devices for those that there are."),
+        (("nothing", "mixPaint"), "There is no device 'nothing'. Try: vipo devices"),
         (("paintMixer01", "mixPaint", "time"), "'time' is no argument. Write each once, as name=value."),
         (("paintMixer01", "mixPaint", "time=x"), "time=x is no number. Write 5 or 2.5."),
         (("paintMixer01", "mixPaint", "{"), "The arguments are not JSON: "),
+        (("paintMixer01", "mixPaint", '{"time": ' + "[" * 9000), "The arguments are nested too deep."),
         (("paintMixer01", "mixPaint"), "time: give a value, mixPaint needs it."),
         (("paintMixer01", "mixPaint", "time=5", "--site", "hall"), "There is no device 'paintMixer01' at the site"),
     ],
@@ -262,3 +263,23 @@ def test_the_command_line_waits_for_the_outcome(factory, status, code):
     device.join(60)
     assert (found, err) == (code, "")
     assert (json.loads(out)["status"], json.loads(out)["result"]) == (status.lower(), {"shade": 3})
+
+
+def test_a_call_that_nothing_sends_is_given_up_by_the_command_line_itself(factory, monkeypatch):
+    monkeypatch.setattr("execution.calls.EXPIRY_S", 0.05)
+    monkeypatch.setattr("vipo_site.call_device.GRACE", timedelta())
+    told = "paintMixer01: mixPaint is timed out: It was never sent. Look whether VIPO and its gateway run.\n"
+    assert vipo("paintMixer01", "mixPaint", "time=2") == (1, told, "")
+    assert Command.objects.get().status == "timed_out"
+
+
+def test_who_interrupts_the_command_line_learns_that_the_device_may_go_on(factory, monkeypatch):
+    def press_ctrl_c(_seconds):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("vipo_site.call_device.time.sleep", press_ctrl_c)
+    code, out, err = vipo("paintMixer01", "mixPaint", "time=2")
+    made = Command.objects.get()
+    cancel = f"POST /api/sites/{SITE}/calls/{made.id}/cancel"
+    assert (code, out, made.status) == (130, "", "pending")
+    assert err == f"paintMixer01 may go on with mixPaint. Its page can end that, and so can {cancel}.\n"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from datetime import timedelta
 
 import pytest
 
@@ -97,3 +98,18 @@ def test_a_legacy_topic_is_confirmed_by_its_name(hall: str, capsys: pytest.Captu
     assert services.list_granted_topics() == {}
     code, _, complaint = told(capsys, *withdraw)
     assert (code, "nothing is to be done" in complaint) == (2, True)
+
+
+def test_alerts_of_all_sites_are_listed_with_the_latest_first(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    services.create_site(name="Shed", slug="shed")
+    describe()
+    describe(replace(ROBOT, site="shed"))
+    for minutes, device in ((0, "robot1"), (5, "mixer1"), (10, "robot1")):
+        code = "error" if minutes == 0 else "warning"
+        services.raise_alert(device_id=device, code=code, at=NOW + timedelta(minutes=minutes), args={"why": "hot"})
+    _, out, _ = told(capsys, "alerts", "--json")
+    assert [(a["site"], a["code"]) for a in json.loads(out)] == [
+        ("shed", "warning"),
+        ("hall", "warning"),
+        ("shed", "error"),
+    ]

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 
@@ -104,3 +105,16 @@ def test_a_file_that_cannot_be_read_gives_code_2(tmp_path: Path, capsys: pytest.
     assert main(["describe", str(tmp_path / "nothing.ttl")]) == 2
     assert capsys.readouterr().err == f"{tmp_path / 'nothing.ttl'} cannot be read: No such file or directory.\n"
     assert main(["describe", str(tmp_path)]) == 2
+
+
+def test_a_description_comes_on_standard_input_too(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(MIXER.read_bytes())))
+    assert main(["describe", "-", "--to", "paper"]) == 0
+    assert 'id: "paintMixer02"' in capsys.readouterr().out
+
+
+def test_no_more_is_read_than_a_description_may_have(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["describe", "/dev/zero"]) == 2
+    assert capsys.readouterr().err == "/dev/zero is larger than 20 MB. That is no description.\n"
