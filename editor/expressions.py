@@ -9,8 +9,8 @@ from uuid import UUID
 from editor.checking import build_surroundings
 from editor.language import compile_document
 from editor.language.line_scope import LineScope, make_line_scope
+from editor.language.names import member_name
 from editor.language.one_line import NotUnderstood, kind_of_line, parse_line, print_line
-from editor.language.printing_steps import member_name
 from editor.language.quoting import quote
 from editor.programs import get_document, get_program
 

@@ -59,3 +59,10 @@ def local_name(wanted: str, taken: Iterable[str]) -> str:
 
 def _is_good(name: str) -> bool:
     return name.isascii() and name.isidentifier() and not keyword.iskeyword(name)
+
+
+def member_name(wanted: str, known: list[str]) -> str | None:
+    """Return the script name of a method or property; None where it would not be clear which one is meant."""
+    name = snake_case(wanted)
+    alike = [other for other in known if snake_case(other) == name]
+    return name if alike == [wanted] and name not in RESERVED_MEMBERS else None

@@ -11,11 +11,11 @@ from editor.language.keeping import with_document_names
 from editor.language.line_scope import LineScope
 from editor.language.line_sugar import Desugared, desugar
 from editor.language.line_texts import LINE_TEXTS
+from editor.language.names import member_name
 from editor.language.nodes import MISSING
 from editor.language.parsing_expressions import Refused, parse_expression
 from editor.language.phrases import LANGUAGES, Refusal
 from editor.language.plan import Expression, Located, Quantity
-from editor.language.printing_steps import member_name
 from editor.language.quoting import quote
 from editor.language.typing_of_values import Kind, Typing
 from editor.language.units import UNITS, unit_symbol

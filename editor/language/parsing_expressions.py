@@ -8,10 +8,9 @@ from dataclasses import dataclass, field
 from typing import Final, Literal
 
 from editor.language.mistakes import instead_of_call, instead_of_expression
-from editor.language.names import ROBOT_METHODS, snake_case
+from editor.language.names import ROBOT_METHODS, member_name, snake_case
 from editor.language.nodes import MISSING, NOWHERE, Point
 from editor.language.plan import Constant, Expression, Located, PlaceRef, Quantity, Reading, Variable
-from editor.language.printing_steps import member_name
 from editor.language.surroundings import Surroundings
 from editor.language.units import UNITS, unit_code
 from editor.language.values import DEEPEST_EXPRESSION, FUNCTIONS, arity_fits, is_number, operation, plain

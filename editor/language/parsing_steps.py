@@ -9,7 +9,7 @@ from string import ascii_lowercase
 
 from editor.language import nodes as n
 from editor.language.mistakes import instead_of_call, instead_of_statement
-from editor.language.names import ROBOT_METHODS
+from editor.language.names import ROBOT_METHODS, member_name
 from editor.language.outline import DEEPEST_STEP
 from editor.language.parsing_bindings import parse_arguments
 from editor.language.parsing_expressions import (
@@ -25,7 +25,7 @@ from editor.language.parsing_expressions import (
 from editor.language.parsing_questions import parse_ask, parse_notify
 from editor.language.parsing_variables import check_local, parse_target
 from editor.language.plan import Expression, PlaceRef
-from editor.language.printing_steps import ERROR_CLASSES, member_name
+from editor.language.printing_steps import ERROR_CLASSES
 
 _KINDS = {name: kind for kind, name in ERROR_CLASSES.items()}
 _STATEMENTS = (

@@ -15,7 +15,8 @@ from editor.language.nodes import (
     Role,
     Tree,
 )
-from editor.language.printing_steps import Printer
+from editor.language.printer import Printer
+from editor.language.printing_steps import PRINTERS
 from editor.language.quoting import quote
 from editor.language.remembering import Memory
 from editor.language.scopes import local_variables, program_variables
@@ -46,7 +47,7 @@ def print_tree(
     names = {role.name for role in tree.roles} | {function.method for function in tree.functions}
     shared = program_variables(tree)
     taken = RESERVED_ATTRIBUTES | names | shared | {parameter.name for parameter in tree.parameters}
-    printer = Printer(tree, surroundings, numbers, set(taken), zone_names=zone_names or {}, known=known)
+    printer = Printer(tree, surroundings, numbers, set(taken), PRINTERS, zone_names=zone_names or {}, known=known)
     if known is not None:
         known.begin(what_programs_see(surroundings))
     printer.line(0, "class Task(object):")
