@@ -33,8 +33,16 @@ def _kept_inside(raw: object, said: object, says: object) -> object:
 
 
 def without_unknown_names(raw: Plain, said: Plain) -> dict[str, object]:
-    """Return parameters without those that name a parameter or variable and of which the script said nothing."""
-    known = {name: value for name, value in raw.items() if name in said or '"param"' not in json.dumps(value)}
+    """Return parameters without those that name a parameter or variable and of which the script said nothing.
+
+    One that the script needs and says nothing in, such as what is waited for, becomes as empty as it is there.
+    """
+    known: dict[str, object] = {}
+    for name, value in raw.items():
+        if '"param"' not in json.dumps(value) or said.get(name) or (name == "args" and name in said):
+            known[name] = value
+        elif name in said:
+            known[name] = said[name]
     inner = {"args": without_unknown_names(mapping(raw["args"]), mapping(said.get("args")))} if "args" in known else {}
     return {**known, **inner}
 

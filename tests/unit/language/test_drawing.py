@@ -297,6 +297,18 @@ def test_orders_change_as_little_as_can_be() -> None:
     assert order_between("V", "V0") is None
 
 
+def test_what_a_wait_is_for_gets_no_sense_from_a_name_that_is_new() -> None:
+    def waiting(until: object, parameter: str) -> dict[str, Any]:
+        step = {"kind": "wait", "place": ["program", "body", "1"], "pos": [0, 0], "params": {"until": until}}
+        parameters = {"p": {"name": parameter, "type": "number", "default": 2}}
+        return {"format": 2, "start_pos": [0, 0], "steps": {"s": step}, "parameters": parameters}
+
+    unknown = {"op": "and", "args": [True, {"property": [{"param": "minutes"}, "jobStatus"]}]}
+    tree = parse_script(compile_document(waiting({}, "minutes"), factory()).script, factory()).tree
+    assert tree is not None
+    assert compile_document(tree_to_document(tree, factory(), waiting(unknown, "n")), factory()).tree == tree
+
+
 @given(st.lists(st.integers(0, 30), max_size=40))
 def test_there_is_always_an_order_between_two(places: list[int]) -> None:
     orders: list[str] = []
