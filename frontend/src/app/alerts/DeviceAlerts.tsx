@@ -1,5 +1,5 @@
 /** The alerts of one device, or of a run's devices, where people look at them; nothing when all is well. */
-import { useRef } from "react";
+import { useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useDevices } from "@/api/queries";
 import type { Alert } from "@/api/types";
@@ -22,22 +22,52 @@ interface DeviceAlertsProps {
 
 export function DeviceAlerts({ slug, devices, brief }: DeviceAlertsProps) {
   const { t } = useTranslation();
-  const now = useClock();
-  const list = useRef<HTMLUListElement>(null);
-  const known = useDevices(slug).data ?? [];
-  const { alerts, role } = useAlerts(slug);
-  const { one } = useMarkSeen(slug);
+  const box = useRef<HTMLDivElement>(null);
+  // Whoever marks the last one as seen goes on from where it was by keyboard.
+  const [left, setLeft] = useState(false);
+  const { alerts } = useAlerts(slug);
   const own = sortAlerts(alerts.filter((alert) => devices.includes(alert.device)));
   const shown = brief ? inState(own, "open") : own;
-  if (shown.length === 0) return null;
+  const none = shown.length === 0;
+  if (none && !left) return null;
+  const stay = () => {
+    box.current?.focus();
+    setLeft(true);
+  };
+  return (
+    <div
+      ref={box}
+      tabIndex={-1}
+      className={none ? "visually-hidden" : styles.around}
+      onBlur={none ? () => setLeft(false) : undefined}
+    >
+      {none ? t("alerts.none.open") : <List slug={slug} alerts={shown} brief={brief} onSeen={stay} />}
+    </div>
+  );
+}
+
+interface ListProps {
+  slug: string;
+  alerts: readonly Alert[];
+  brief: boolean | undefined;
+  /** Called when the button that has the focus is about to go. */
+  onSeen: () => void;
+}
+
+function List({ slug, alerts, brief, onSeen }: ListProps) {
+  const { t } = useTranslation();
+  const now = useClock();
+  const known = useDevices(slug).data ?? [];
+  const { role } = useAlerts(slug);
+  const { one } = useMarkSeen(slug);
   const maySee = role !== undefined && role !== "viewer";
   const see = (id: number) => {
     one.mutate(id);
-    list.current?.focus();
+    onSeen();
   };
   return (
-    <ul className={styles.own} data-brief={brief} ref={list} tabIndex={-1} aria-label={t("alerts.title")}>
-      {shown.slice(0, brief ? MOST_IN_BRIEF : undefined).map((alert) => (
+    <ul className={styles.own} data-brief={brief} aria-label={t("alerts.title")}>
+      {alerts.slice(0, brief ? MOST_IN_BRIEF : undefined).map((alert) => (
         <AlertItem
           key={alert.id}
           slug={slug}
@@ -49,8 +79,8 @@ export function DeviceAlerts({ slug, devices, brief }: DeviceAlertsProps) {
           onSeen={maySee ? () => see(alert.id) : undefined}
         />
       ))}
-      {brief && shown.length > MOST_IN_BRIEF ? (
-        <li className={styles.more}>{t("alerts.more", { count: shown.length - MOST_IN_BRIEF })}</li>
+      {brief && alerts.length > MOST_IN_BRIEF ? (
+        <li className={styles.more}>{t("alerts.more", { count: alerts.length - MOST_IN_BRIEF })}</li>
       ) : null}
     </ul>
   );
