@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from threading import Event, Lock
 
-from connectors.vda5050.member import Member, Setting
-from connectors.vda5050.messages import VehicleName, read_connection
+from connectors.vda5050.member import Member, Setting, memory_path
+from connectors.vda5050.messages import VehicleName, read_connection, read_state
 from registry.device_line import CameIn, Commanded, LineEvent, Stopped
 from registry.mqtt import MqttClient
 from registry.wire import BadMessage
@@ -134,11 +134,15 @@ class Fleet:
     def _admit(self, said: Said) -> Member | None:
         """Make a member of a vehicle that says that it is connected; nothing else of a stranger is listened to.
 
-        Raises BadMessage.
+        Who has been a device before is known also by its state: a broker that was started anew may have forgotten the
+        rest. Raises BadMessage.
         """
-        if said.subtopic != "connection":
+        if said.subtopic == "connection":
+            read_connection(said.payload, said.name)
+        elif said.subtopic == "state" and memory_path(self._setting, said.name).exists():
+            read_state(said.payload, said.name)
+        else:
             return None
-        read_connection(said.payload, said.name)
         if len(self._members) >= MOST_VEHICLES:
             raise BadMessage(f"{'/'.join(said.name)} is one vehicle too many: a connector serves {MOST_VEHICLES}.")
         member = Member(said.name, self._setting, self._publish, self._inbox.put)

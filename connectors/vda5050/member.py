@@ -59,6 +59,11 @@ class Setting:
     clock: Callable[[], datetime]
 
 
+def memory_path(setting: Setting, name: VehicleName) -> Path:
+    """Return where is kept what was open at a vehicle; the file is there once it has been a device."""
+    return setting.folder / f"{device_id(name)}.json"
+
+
 class Member:
     """A vehicle that was heard of. It becomes a device when its connection, factsheet and state are known."""
 
@@ -69,7 +74,7 @@ class Member:
         self._publish = publish
         self.control: VehicleControl | None = None
         self._setting, self._inbox = setting, inbox
-        self._path = setting.folder / f"{self.id}.json"
+        self._path = memory_path(setting, name)
         self._memory: Memory = read_memory(self._path, int(setting.clock().timestamp()))
         self._line: DeviceLine | None = None
         self._sheet: Factsheet | None = None
@@ -78,7 +83,7 @@ class Member:
         self._version = "2.0.0"
         self._told_facts = (b"", "")
         self._connected = False
-        self._states_since_will: int | None = None
+        self._states_since_will: int | None = 0
         self._newest: dict[str, Header] = {}
         self._state: VehicleState | None = None
         self._located: Located | None = None
@@ -98,7 +103,7 @@ class Member:
                 state = read_state(payload, self.name)
                 if self._is_news("state", state.header):
                     self._state, self._heard_s = state, now_s
-                    self._doubt_will()
+                    self._doubt_will(now_s)
                     self._locate(state.located)
             case "visualization":
                 header, located = read_visualization(payload, self.name)
@@ -184,16 +189,21 @@ class Member:
         if was_connected and self._connected:
             return
         self._heard_s = 0.0
-        self._ask_at_s = {"stateRequest": now_s + ASK_S, "factsheetRequest": now_s + ASK_S}
-        self._missing_at_s = now_s + PATIENCE_S
+        self._expect(now_s)
         self._be_present(now_s)
 
-    def _doubt_will(self) -> None:
-        """Take a vehicle whose last will was heard for connected again when it goes on telling its state."""
+    def _expect(self, now_s: float) -> None:
+        """Wait a moment for what a vehicle tells by itself before it is asked."""
+        self._ask_at_s = {"stateRequest": now_s + ASK_S, "factsheetRequest": now_s + ASK_S}
+        self._missing_at_s = now_s + PATIENCE_S
+
+    def _doubt_will(self, now_s: float) -> None:
+        """Take a vehicle for connected when it goes on telling its state after its last will, or without any word."""
         if self._states_since_will is not None:
             self._states_since_will += 1
             if self._states_since_will >= STATES_OF_LIFE:
                 self._connected, self._states_since_will = True, None
+                self._expect(now_s)
 
     def _is_news(self, subtopic: str, header: Header) -> bool:
         if header.is_stale(self._newest.get(subtopic)):

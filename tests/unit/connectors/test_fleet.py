@@ -18,7 +18,7 @@ from connectors.vda5050.frame import Frame
 from connectors.vda5050.member import Setting
 from connectors.vda5050.messages import VehicleName
 from registry.mqtt import MISSES_TOLD, MqttClient
-from tests.unit.connectors.vehicle import HEADER, NAME, payload
+from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
 
 
 @pytest.fixture
@@ -43,6 +43,16 @@ def test_strangers_are_heard_only_when_they_say_that_they_are_connected(fleet: F
     fleet._take(connection(NAME), 0.0)
     fleet._take(Said(NAME, "state", b"{}"), 0.0)
     assert (dict(fleet.refused), list(fleet._members)) == ({STRANGERS: 1, "Acme-1": 1}, ["Acme-1"])
+
+
+def test_who_has_been_a_device_is_known_by_its_state(fleet: Fleet, tmp_path: Path) -> None:
+    (tmp_path / "Acme-1.json").write_text("{}")
+    fleet._take(Said(NAME, "visualization", payload(STATE)), 0.0)
+    fleet._take(Said(NAME, "state", b"{}"), 0.0)
+    fleet._take(Said(VehicleName("Acme", "2"), "state", payload(STATE, serialNumber="2")), 0.0)
+    assert (dict(fleet.refused), fleet._members) == ({STRANGERS: 1}, {})
+    fleet._take(Said(NAME, "state", payload(STATE)), 0.0)
+    assert list(fleet._members) == ["Acme-1"]
 
 
 def test_a_connector_serves_two_hundred_vehicles(fleet: Fleet) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -23,10 +24,16 @@ def away(device: str, will: Will) -> MqttClient:
 
 
 @pytest.fixture
-def member(tmp_path: Path) -> Iterator[Member]:
+def asked() -> list[tuple[str, Any]]:
+    """Return what the vehicle is sent: topic and message."""
+    return []
+
+
+@pytest.fixture
+def member(tmp_path: Path, asked: list[tuple[str, Any]]) -> Iterator[Member]:
     at = datetime(2026, 1, 1, tzinfo=UTC)
     setting = Setting("hall", Frame(), "floor", tmp_path, away, lambda: "id", lambda: at)
-    member = Member(NAME, setting, lambda *_: None, lambda _: None)
+    member = Member(NAME, setting, lambda _, topic, body: asked.append((topic, json.loads(body))), lambda _: None)
     yield member
     member.leave()
 
@@ -102,4 +109,17 @@ def test_nothing_is_known_of_vehicles_while_their_broker_is_not_reached(member: 
     member.tick(102.0)
     assert not member.control.online, "what it was before may have changed"
     say(member, "state", 103.0, **{**STATE, "headerId": 2})
+    assert member.control.online
+
+
+def test_a_vehicle_whose_connection_is_forgotten_is_asked_who_it_is(member: Member, asked: list[Any]) -> None:
+    for number in (1, 2):
+        say(member, "state", 100.0 + number, **{**STATE, "headerId": number})
+    member.tick(104.0)
+    assert [(topic, body["actions"][0]["actionType"]) for topic, body in asked] == [
+        ("instantActions", "factsheetRequest")
+    ]
+    say(member, "factsheet", 105.0, **FACTSHEET)
+    member.tick(106.0)
+    assert member.control is not None
     assert member.control.online
