@@ -30,7 +30,7 @@ from registry.differences import list_changes
 from registry.errors import RegistryError
 from registry.event_words import described
 from registry.event_words import said as in_words
-from registry.faults import Fault, facts_of
+from registry.faults import Fault, facts_of, told
 from registry.models import Device, DeviceEvent, Site
 from registry.rdf_text import CONTENT_TYPES
 from registry.topic_claims import claim_topics
@@ -116,7 +116,7 @@ def _find_sites(found: Sequence[_News]) -> dict[str, Site]:
 def _site_for(slug: str, sites: Mapping[str, Site]) -> Site:
     site = sites.get(slug) or sites.get(settings.VIPO_DEFAULT_SITE)
     if site is None:
-        raise BadDevice(f"There is no site {slug[:64]!r} that the device could join, and no default site.")
+        raise BadDevice(*told("no_site", site=slug[:64]))
     return site
 
 
@@ -189,10 +189,10 @@ def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[De
     device.first_seen_at, device.last_seen_at = device.first_seen_at or at, at
     if not (words := described(old, description)):
         return []
-    told = line_of_history(device, at, "described", words, changes=list_changes(before, after) if before else ())
+    news_line = line_of_history(device, at, "described", words, changes=list_changes(before, after) if before else ())
     packs = reversed(_packed(news.reading.notes))
     mended = [in_words("mended", text=" ".join(n.text for n in pack), **facts_of(pack)) for pack in packs]
-    return [told, *(line_of_history(device, at, "mended", words) for words in mended)]
+    return [news_line, *(line_of_history(device, at, "mended", words) for words in mended)]
 
 
 def _may_choose_site(device: Device) -> bool:

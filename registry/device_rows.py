@@ -12,6 +12,7 @@ from django.db.models import Count
 from registry.differences import Change
 from registry.errors import RegistryError
 from registry.event_words import Said
+from registry.faults import told
 from registry.live import publish_all
 from registry.models import Device, DeviceEvent, User
 from registry.rdf_text import CONTENT_TYPES
@@ -51,9 +52,7 @@ class BadDevice(RegistryError):
 def check_id(device_id: str) -> None:
     """Raise BadDevice for an id that no device can have."""
     if not is_device_id(device_id) or device_id in RESERVED_IDS:
-        raise BadDevice(
-            "A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server', '.' or '..'."
-        )
+        raise BadDevice(*told("device_id"))
 
 
 def lock_device(site: str, device_id: str) -> Device:

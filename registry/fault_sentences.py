@@ -219,5 +219,47 @@ _STATES: Mapping[str, str] = {
     "value_length": "`{key}` holds a text of more than {most} characters: {name!r}.",
     "flood": "too many messages: some were dropped",
 }
-SENTENCES: Mapping[str, str] = {**_OUTSIDE, **_JSON, **_RDF, **_FIELDS, **_PAPER, **_MEANING, **_STATES}
+_MAPS: Mapping[str, str] = {
+    "map_parts_differ": "The parts of the map tell of different sizes, places or numbers of parts.",
+    "map_parts_missing": "The map has {count} of its {parts} parts.",
+    "map_turned": "The map is turned; `origin` must have theta 0.",
+    "map_not_packed": "The cells are not packed with zlib.",
+    "map_cell_count": "The map has not the {wanted} cells that its size says.",
+    "map_cell": "A cell must be 0 to 100, or 255 for unknown.",
+    "map_whole": "`{key}` must be a whole number from {least} to {most}.",
+    "map_size": "`size` must be [width, height]: cells, from 1 to {most}.",
+    "map_cells": "The map has more than {most} cells.",
+    "map_resolution": "`resolution` must be from 0.001 to 10 metres.",
+    "map_origin": "`origin` must be [x, y, theta]: metres and radians.",
+    "map_base64": "`cells` must be text in base64.",
+    "map_of_machine": "Only a robot sends a map, and this device describes itself as a machine.",
+    "map_bytes": "The map has more than {most} packed bytes. Send a coarser or smaller one.",
+    "map_too_often": "Whole maps come too fast; one every {seconds} s is enough.",
+}
+_JOINING: Mapping[str, str] = {
+    "topic_taken": (
+        "Its method {method} names the topic {topic}, which another device asks for or has. Use a topic of its own, or "
+        "let an admin take the other device out."
+    ),
+    "no_site": "There is no site {site!r} that the device could join, and no default site.",
+    "device_id": "A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server', '.' or '..'.",
+    "knock_key": "A knock needs `key`: {least} to {most} printable ASCII characters, made at random.",
+    "newcomers": "{most} newcomers wait at this site already. Decide about some of them first.",
+    "knock_revoked": "{device} knocked, whose key was revoked. Give it a new key, or retire it and let it come back.",
+    "knock_foreign": (
+        "Somebody knocked as {device}, which is known with another key. If it is the same device, reject or retire it "
+        "first and let it come back."
+    ),
+}
+SENTENCES: Mapping[str, str] = {
+    **_OUTSIDE,
+    **_JSON,
+    **_RDF,
+    **_FIELDS,
+    **_PAPER,
+    **_MEANING,
+    **_STATES,
+    **_MAPS,
+    **_JOINING,
+}
 """English for each code; what stands in braces are its arguments."""

@@ -80,5 +80,11 @@ def facts_of(faults: Iterable[Fault]) -> dict[str, Any]:
     return {"faults": [asdict(each) for each in list(faults)[:MOST_TOLD]]}
 
 
+def told(code: str, **args: str | float) -> tuple[str, dict[str, Any]]:
+    """Return the sentence of a code and what a screen says it from: the arguments of a refusal that is no fault's."""
+    found = fault(code, **args)
+    return found.sentence, facts_of([found])
+
+
 def _shown(value: Any) -> Any:
     return printable(value)[:MOST_CHARACTERS] if isinstance(value, str) else value

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any
 
+from registry.faults import fault
 from registry.floor import FREE, OCCUPIED, UNKNOWN, Grid
-from registry.wire import MAX_METRES, BadMessage, parse_json
+from registry.wire import MAX_METRES, MESSAGE, BadMessage, parse_json
 
 MAX_CELLS = 16_000_000
 MAX_SIDE = 8192
@@ -61,9 +62,9 @@ def join_parts(parts: Iterable[GridPart]) -> Grid:
     by_number = {part.part: part for part in parts}
     first = next(iter(by_number.values()))
     if not all(belong_together(first, part) for part in by_number.values()):
-        raise BadMessage("The parts of the map tell of different sizes, places or numbers of parts.")
+        raise BadMessage(fault("map_parts_differ"))
     if len(by_number) < first.parts:
-        raise BadMessage(f"The map has {len(by_number)} of its {first.parts} parts.")
+        raise BadMessage(fault("map_parts_missing", count=len(by_number), parts=first.parts))
     return unpack_grid(first, b"".join(by_number[number].packed for number in range(first.parts)))
 
 
@@ -76,7 +77,7 @@ def read_grid_part(payload: bytes) -> GridPart:
     """Read one message of `up/map`. Raises BadMessage."""
     body = parse_json(payload)
     if not isinstance(body, dict):
-        raise BadMessage("The message is not a JSON object.")
+        raise BadMessage(fault("no_object", it=MESSAGE))
     parts = _whole(body, "parts", 1, MAX_PARTS)
     width, height = _size(body.get("size"))
     return GridPart(
@@ -99,44 +100,44 @@ def _head(part: GridPart) -> tuple[Any, ...]:
 def unpack_grid(part: GridPart, packed: bytes) -> Grid:
     """Return the map of which one part and all packed cells are given; never unpacks more. Raises BadMessage."""
     if abs(part.origin[2]) > 1e-6:
-        raise BadMessage("The map is turned; `origin` must have theta 0.")
+        raise BadMessage(fault("map_turned"))
     wanted = part.width * part.height
     unpacker = zlib.decompressobj()
     try:
         cells = unpacker.decompress(packed, wanted + 1)
     except zlib.error:
-        raise BadMessage("The cells are not packed with zlib.") from None
+        raise BadMessage(fault("map_not_packed")) from None
     if len(cells) != wanted or not unpacker.eof or unpacker.unused_data:
-        raise BadMessage(f"The map has not the {wanted} cells that its size says.")
+        raise BadMessage(fault("map_cell_count", wanted=wanted))
     if cells.translate(None, _KNOWN):
-        raise BadMessage("A cell must be 0 to 100, or 255 for unknown.")
+        raise BadMessage(fault("map_cell"))
     return Grid(part.width, part.height, part.resolution_m, part.origin[0], part.origin[1], cells)
 
 
 def _whole(body: dict[str, Any], name: str, least: int, most: int) -> int:
     value = body.get(name)
     if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
-        raise BadMessage(f"`{name}` must be a whole number from {least} to {most}.")
+        raise BadMessage(fault("map_whole", key=name, least=least, most=most))
     return value
 
 
 def _size(value: Any) -> tuple[int, int]:
     if not isinstance(value, list) or len(value) != 2 or not all(type(v) is int and 1 <= v <= MAX_SIDE for v in value):
-        raise BadMessage(f"`size` must be [width, height]: cells, from 1 to {MAX_SIDE}.")
+        raise BadMessage(fault("map_size", most=MAX_SIDE))
     if value[0] * value[1] > MAX_CELLS:
-        raise BadMessage(f"The map has more than {MAX_CELLS} cells.")
+        raise BadMessage(fault("map_cells", most=MAX_CELLS))
     return value[0], value[1]
 
 
 def _resolution(value: Any) -> float:
     if not _is_number(value) or not 0.001 <= value <= 10:
-        raise BadMessage("`resolution` must be from 0.001 to 10 metres.")
+        raise BadMessage(fault("map_resolution"))
     return float(value)
 
 
 def _origin(value: Any) -> tuple[float, float, float]:
     if not isinstance(value, list) or len(value) != 3 or not all(_is_number(v) and abs(v) <= MAX_METRES for v in value):
-        raise BadMessage("`origin` must be [x, y, theta]: metres and radians.")
+        raise BadMessage(fault("map_origin"))
     return float(value[0]), float(value[1]), float(value[2])
 
 
@@ -146,8 +147,8 @@ def _is_number(value: Any) -> bool:
 
 def _packed(value: Any) -> bytes:
     if not isinstance(value, str) or not value:
-        raise BadMessage("`cells` must be text in base64.")
+        raise BadMessage(fault("map_base64"))
     try:
         return base64.b64decode(value, validate=True)
     except (binascii.Error, ValueError):
-        raise BadMessage("`cells` must be text in base64.") from None
+        raise BadMessage(fault("map_base64")) from None

@@ -16,6 +16,7 @@ from registry.broker_accounts import Account, accounts
 from registry.credentials import LEAST_CHARACTERS, MOST_CHARACTERS, broker_hash, is_strong, secret_hash
 from registry.device_rows import STARTS, BadDevice, check_id, forget_starts, write_event
 from registry.event_words import said
+from registry.faults import fault, told
 from registry.models import Device
 from registry.sites import find_site
 from registry.wire import BadMessage, parse_json
@@ -62,9 +63,7 @@ def _read_key(payload: bytes) -> str:
     body = parse_json(payload)
     key = body.get("key") if isinstance(body, dict) else None
     if not isinstance(key, str) or not is_strong(key):
-        raise BadMessage(
-            f"A knock needs `key`: {LEAST_CHARACTERS} to {MOST_CHARACTERS} printable ASCII characters, made at random."
-        )
+        raise BadMessage(fault("knock_key", least=LEAST_CHARACTERS, most=MOST_CHARACTERS))
     return key
 
 
@@ -76,17 +75,12 @@ def _make_room(site_id: int, at: datetime) -> None:
         accounts().remove(device.pk)
         device.delete()
     if waiting.count() >= MOST_NEWCOMERS:
-        raise BadDevice(f"{MOST_NEWCOMERS} newcomers wait at this site already. Decide about some of them first.")
+        raise BadDevice(*told("newcomers", most=MOST_NEWCOMERS))
 
 
 def _require_keyless(device: Device, site_id: int) -> None:
     if not device.credential_hash and device.lifecycle == Device.Lifecycle.APPROVED and device.site_id == site_id:
-        raise BadDevice(
-            f"{device.pk} knocked, whose key was revoked. Give it a new key, or retire it and let it come back."
-        )
+        raise BadDevice(*told("knock_revoked", device=device.pk))
     if device.lifecycle != Device.Lifecycle.PENDING or device.credential_hash or device.site_id != site_id:
         note_alert(device_id=device.pk, code="foreign_knock")
-        raise BadDevice(
-            f"Somebody knocked as {device.pk}, which is known with another key. "
-            "If it is the same device, reject or retire it first and let it come back."
-        )
+        raise BadDevice(*told("knock_foreign", device=device.pk))

@@ -12,6 +12,7 @@ from datetime import datetime, timedelta
 from django.db import transaction
 from django.db.models import Q, QuerySet
 
+from registry.faults import fault
 from registry.floor import Grid
 from registry.grid_message import GridPart, read_grid_part, unpack_grid
 from registry.models import Device
@@ -58,7 +59,7 @@ def _find_robot(device_id: str, boot: int) -> Device | None:
     if device is None or device.is_locked_out or boot < device.presence_boot:
         return None
     if not device.description or device.description["kind"] != "robot":
-        raise BadMessage("Only a robot sends a map, and this device describes itself as a machine.")
+        raise BadMessage(fault("map_of_machine"))
     return device
 
 
@@ -68,7 +69,7 @@ def _take(device: Device, part: GridPart, at: datetime) -> Outcome:
     if name < known or (name == known and draft.is_over):
         return None
     if name == known and draft.head != _head(part):
-        return BadMessage("The parts of the map tell of different sizes, places or numbers of parts.")
+        return BadMessage(fault("map_parts_differ"))
     draft.spoken_at = at
     if name > known:
         _begin(draft, part)
@@ -117,7 +118,7 @@ def _add(draft: RobotMapDraft, part: GridPart) -> Outcome:
     draft.size += len(part.packed) if is_new else 0
     if draft.size > MOST_PACKED:
         _forget(draft)
-        return BadMessage(f"The map has more than {MOST_PACKED} packed bytes. Send a coarser or smaller one.")
+        return BadMessage(fault("map_bytes", most=MOST_PACKED))
     rows = RobotMapPart.objects.filter(draft=draft).order_by("part")
     return _finish(draft, part, rows) if rows.count() == part.parts else None
 
@@ -126,7 +127,7 @@ def _finish(draft: RobotMapDraft, part: GridPart, rows: QuerySet[RobotMapPart]) 
     packed = b"".join(bytes(row) for row in rows.values_list("packed", flat=True))
     _forget(draft)
     if not _take_token(draft):
-        return BadMessage(f"Whole maps come too fast; one every {MAP_EVERY_S * 2:g} s is enough.")
+        return BadMessage(fault("map_too_often", seconds=f"{MAP_EVERY_S * 2:g}"))
     try:
         return Whole(unpack_grid(part, packed), packed)
     except BadMessage as error:

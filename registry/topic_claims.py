@@ -17,6 +17,7 @@ from registry.capability import Description, description_from_json
 from registry.device_rows import announce, lock_device, write_event
 from registry.errors import RegistryError
 from registry.event_words import said
+from registry.faults import told
 from registry.models import Device, User
 from registry.topic_rows import TopicClaim
 from registry.topic_rules import list_asked
@@ -60,10 +61,7 @@ def _ask(device: Device, method: str, topic: str, at: datetime) -> None:
         topic=topic, defaults={"device": device, "method": method, "asked_at": at}
     )
     if claim.device_id != device.pk:
-        raise TopicTaken(
-            f"Its method {method} names the topic {topic}, which another device asks for or has. "
-            "Use a topic of its own, or let an admin take the other device out."
-        )
+        raise TopicTaken(*told("topic_taken", method=method, topic=topic))
     if made:
         write_event(device, at, "topic_asked", said("topic_asked", topic=topic, method=method))
 
