@@ -21,6 +21,7 @@ from editor.presence import find_standing
 from editor.room import Room
 from editor.stream import RoomStream, StreamLost, make_stream
 from registry import live
+from registry.sessions import has_ended
 
 CLOSE_EMPTY_AFTER_S = 5.0
 FLUSH_LIMIT_S = 5.0
@@ -125,6 +126,9 @@ class Hub:
     async def _review(self, room: Room) -> None:
         """Look again at what each connection may do; it acts on the open connection at once."""
         for member in list(room.members):
+            if await in_database(has_ended)(member.session):
+                member.close(Close(Close.SIGNED_OUT, "You are signed out. Sign in again."))
+                continue
             standing = await in_database(find_standing)(member.person.id, room.program)
             if standing is None:
                 member.close(Close(Close.NOT_FOUND, "The program was deleted, or you are no longer one of its site."))

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from editor import wire
+
+if TYPE_CHECKING:
+    from registry.sessions import Session
 
 KIB, MIB = 1024, 1024 * 1024
 FRAMES_PER_S, BURST_FRAMES = 60.0, 600.0
@@ -77,9 +80,12 @@ class Budget:
 class Member:
     """A connection; frames for it are queued here and sent by its socket."""
 
-    def __init__(self, person: Person, *, can_write: bool, wake: Callable[[], None]) -> None:
-        """`wake` is called when there is something to send."""
+    def __init__(
+        self, person: Person, *, can_write: bool, wake: Callable[[], None], session: Session | None = None
+    ) -> None:
+        """`wake` is called when there is something to send; `session` is the one that the connection came in with."""
         self.person = person
+        self.session = session
         self.can_write = can_write
         self.synced = False
         self.clients: set[int] = set()

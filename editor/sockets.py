@@ -14,6 +14,7 @@ from editor.member import Close, Member
 from editor.open_room import in_database
 from editor.presence import Standing, find_standing
 from editor.room import Room
+from registry.sessions import session_of_socket
 
 
 class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
@@ -45,7 +46,12 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
     async def _enter(self, standing: Standing) -> None:
         self._waiting = asyncio.Event()
         self.hub = hub_of_this_loop()
-        member = Member(standing.person, can_write=standing.can_write, wake=self._waiting.set)
+        member = Member(
+            standing.person,
+            can_write=standing.can_write,
+            wake=self._waiting.set,
+            session=session_of_socket(self.scope),
+        )
         program = str(self.scope["url_route"]["kwargs"]["program"])
         self.room = await self.hub.enter(program, member)
         self.member = member

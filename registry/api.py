@@ -21,6 +21,7 @@ from registry import people, services
 from registry.access import require
 from registry.capability import Pose
 from registry.describing import write_description
+from registry.live import EVERY_SITE, publish
 from registry.models import User
 from registry.rdf_text import CONTENT_TYPES, DescriptionForm
 from registry.ros_map import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap
@@ -87,6 +88,7 @@ def sign_out(request: HttpRequest) -> dict[str, Any]:
     """End the session."""
     logout(request)
     call_listeners()
+    publish(EVERY_SITE, {"type": "members"})
     return show_me(request)
 
 

@@ -1,8 +1,10 @@
-"""Whether a session that opened a stream still stands while the stream goes on."""
+"""Whether a session that opened a stream or a socket still stands while that goes on."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from django.contrib.auth import SESSION_KEY, get_user
 from django.contrib.sessions.backends.db import SessionStore
@@ -22,6 +24,17 @@ class Session:
 def session_of(request: HttpRequest) -> Session:
     """Return the session of a request that is signed in."""
     return Session(request.session.session_key or "", int(request.session[SESSION_KEY]))
+
+
+def session_of_socket(scope: Mapping[str, Any]) -> Session | None:
+    """Return the session of a socket that is signed in; None where the socket came in without one."""
+    key = scope["session"].session_key if "session" in scope else None
+    return Session(key, scope["user"].pk) if key else None
+
+
+def has_ended(session: Session | None) -> bool:
+    """Tell whether a socket's session does not stand any more."""
+    return session is not None and find_person(session) is None
 
 
 def find_person(session: Session) -> User | None:

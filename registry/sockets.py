@@ -13,6 +13,7 @@ from channels.generic.websocket import AsyncWebsocketConsumer
 
 from registry.access import Access, find_access
 from registry.live import Message, subscribe
+from registry.sessions import has_ended, session_of_socket
 
 SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_SLOW = 4401, 4403, 4404, 4503
 BREATH_S = 0.1
@@ -24,8 +25,8 @@ MOST_WAITING = 1000
 class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has no types
     """Sends what happens at a site; what the browser says is not listened to.
 
-    Closes with 4401 (not signed in), 4404 (no such site, or not a member), 4403 (no member any more) and 4503 (the
-    browser reads too slowly); always after accepting, since a browser learns no code otherwise.
+    Closes with 4401 (not signed in, or not any more), 4404 (no such site, or not a member), 4403 (no member any more)
+    and 4503 (the browser reads too slowly); always after accepting, since a browser learns no code otherwise.
     """
 
     _access: Access | None = None
@@ -59,7 +60,7 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
     @database_sync_to_async  # type: ignore[untyped-decorator] # Channels has no types
     def _refusal(self) -> int:
         user = self.scope["user"]
-        if not user.is_authenticated:
+        if not user.is_authenticated or has_ended(session_of_socket(self.scope)):
             return SIGNED_OUT
         self._access = find_access(user, self.site)
         return 0 if self._access else NOT_FOUND
@@ -70,8 +71,8 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
             while True:
                 message = await messages.get()
                 if message["type"] == "members":
-                    if await self._refusal():
-                        await self.close(NOT_ALLOWED)
+                    if code := await self._refusal():
+                        await self.close(SIGNED_OUT if code == SIGNED_OUT else NOT_ALLOWED)
                         return
                 elif self._concerns(message) and not self._put(message):
                     await self.close(TOO_SLOW)

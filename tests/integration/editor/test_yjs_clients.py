@@ -128,3 +128,17 @@ def test_strangers_and_signed_out_people_are_refused_for_good(web: Web) -> None:
     with node_clients(web, web.program) as clients:
         assert clients.open("stranger", "stranger", wait=True)["closed"] == 4404
         assert clients.open("nobody", "nobody", wait=True)["closed"] == 4401
+
+
+def test_who_signs_out_edits_no_more_and_others_go_on(web: Web) -> None:
+    program = web.new_program()
+    with web.client(None) as browser, node_clients(web, program) as clients:
+        browser.post("/sign-in", json={"email": "second@vipo.example", "password": "a long password"})
+        web.sessions["leaving"] = browser.cookies["sessionid"]
+        clients.open("leaving", "leaving")
+        clients.open("ada")
+        browser.headers["X-CSRFToken"] = browser.get("/me").json()["csrf"]
+        assert browser.post("/sign-out").status_code == 200
+        assert clients.tell("closed", name="leaving")["closed"] == 4401
+        clients.tell("add", name="ada", id="still-works")
+        clients.tell("saved", name="ada")

@@ -10,6 +10,8 @@ from channels.db import database_sync_to_async
 from channels.routing import URLRouter
 from channels.testing import WebsocketCommunicator
 from django.contrib.auth.models import AnonymousUser
+from django.contrib.sessions.backends.db import SessionStore
+from django.test import Client
 from django.urls import path
 
 from registry import live, services, sockets
@@ -22,9 +24,9 @@ pytestmark = pytest.mark.django_db(transaction=True)
 
 
 @asynccontextmanager
-async def opened(user: Any, site: str = "hall") -> AsyncIterator[WebsocketCommunicator]:
+async def opened(user: Any, site: str = "hall", **scope: Any) -> AsyncIterator[WebsocketCommunicator]:
     socket = WebsocketCommunicator(URLRouter([path("ws/site/<slug:slug>", SiteSocket.as_asgi())]), f"/ws/site/{site}")
-    socket.scope["user"] = user
+    socket.scope |= {"user": user, **scope}
     connected, _ = await socket.connect(timeout=5)
     assert connected
     yield socket
@@ -102,6 +104,24 @@ async def test_somebody_who_is_no_member_any_more_is_closed_out(person: Callable
             assert await close_code(leaving) == 4403
             live.publish("hall", {"type": "programs"})
             assert await staying.receive_json_from(5) == {"type": "programs"}
+
+
+async def test_who_signs_out_is_closed_out_everywhere_and_others_stay(person: Callable[[str], User]) -> None:
+    browsers = {role: Client() for role in ("viewer", "author")}
+    for role, browser in browsers.items():
+        await database_sync_to_async(browser.force_login)(await database_sync_to_async(person)(role))
+    sessions = {role: SessionStore(browser.cookies["sessionid"].value) for role, browser in browsers.items()}
+    async with (
+        opened(await database_sync_to_async(person)("viewer"), session=sessions["viewer"]) as leaving,
+        opened(await database_sync_to_async(person)("author"), session=sessions["author"]) as staying,
+    ):
+        for socket in (leaving, staying):
+            await socket.receive_json_from(5)
+        answer = await database_sync_to_async(browsers["viewer"].post)("/api/sign-out")
+        assert answer.status_code == 200
+        assert await close_code(leaving) == 4401
+        live.publish("hall", {"type": "programs"})
+        assert await staying.receive_json_from(5) == {"type": "programs"}
 
 
 async def test_a_browser_that_reads_too_slowly_is_closed(
