@@ -1,9 +1,11 @@
+import { Skeleton } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Cpu } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { DeviceEvent, FieldChange } from "@/api/types";
+import { LoadProblem } from "@/app/LoadProblem";
 import { Avatar } from "@/design/Avatar";
 import { Panel } from "@/design/Panel";
 import { deviceEventWords } from "@/i18n/deviceEvents";
@@ -63,6 +65,8 @@ export function Changes({ slug, device, most }: { slug: string; device: string; 
       <div className={styles.cardHead}>
         <h3>{t("pages.devices.changes")}</h3>
       </div>
+      {events.isPending ? <Skeleton height={120} m={12} w="auto" /> : null}
+      {events.isLoadingError ? <LoadProblem error={events.error} again={() => void events.refetch()} /> : null}
       <ul>
         {events.data?.slice(0, most).map((event, index) => (
           <Change key={index} event={event} />

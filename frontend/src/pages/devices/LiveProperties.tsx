@@ -7,6 +7,7 @@ import { StatusBadge } from "@/design/StatusBadge";
 import { formatNumber } from "@/i18n/format";
 import { unitSign } from "@/i18n/units";
 import { useNow } from "../useNow";
+import { isOnline } from "./filter";
 import { Sparkline } from "./Sparkline";
 import { RANGES, type Range } from "./useHistory";
 import styles from "./detail.module.css";
@@ -32,9 +33,13 @@ interface PropertyCardProps {
 function PropertyCard({ slug, device, property, range, colour }: PropertyCardProps) {
   return (
     <li className={styles.property}>
-      <code>{property.name}</code>
+      <code title={property.name}>{property.name}</code>
       <div>
-        <span className={styles.value} data-text={typeof property.value === "number" ? undefined : true}>
+        <span
+          className={styles.value}
+          data-text={typeof property.value === "number" ? undefined : true}
+          title={typeof property.value === "string" ? property.value : undefined}
+        >
           {shown(property)}
           <small>{unitSign(property.unit)}</small>
         </span>
@@ -61,7 +66,7 @@ export function LiveProperties({ site, device }: { site: Site; device: Device })
   const { t } = useTranslation();
   const [range, setRange] = useState<Range>("now");
   const now = useNow(1000);
-  const live = device.status !== "offline";
+  const live = isOnline(device, now);
   const streaming = device.last_seen_at !== null && now - Date.parse(device.last_seen_at) < STREAMING_MS;
   const state = streaming ? "streaming" : "online";
   return (

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { Device } from "@/api/types";
-import { batteryOf, filterDevices, jobOf, methodNames, newcomerOf, NO_FILTER } from "./filter";
+import { batteryOf, filterDevices, isOnline, jobOf, methodNames, newcomerOf, NO_FILTER } from "./filter";
 
 function device(id: string, more: Partial<Device> = {}): Device {
   const base = { id, name: id, kind: "machine", lifecycle: "approved", status: "idle", doing: "" };
@@ -69,4 +69,14 @@ test("an admin is asked about the newcomer that is looked at, else about the fir
   expect(newcomerOf(all, "mixer01")).toBe(newcomer);
   expect(newcomerOf(all, undefined)).toBe(newcomer);
   expect(newcomerOf([oven], "oven01")).toBeUndefined();
+});
+
+test("a newcomer that has long said nothing is not online", () => {
+  const at = Date.parse("2026-11-22T08:00:00Z");
+  const seen = { ...newcomer, last_seen_at: "2026-11-22T07:59:30Z" };
+  expect(isOnline(seen, at)).toBe(true);
+  expect(isOnline(seen, at + 20_000)).toBe(false);
+  expect(isOnline({ ...newcomer, last_seen_at: null }, at)).toBe(false);
+  expect(isOnline(oven, at)).toBe(true);
+  expect(isOnline(device("gone", { status: "offline" }), at)).toBe(false);
 });
