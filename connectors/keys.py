@@ -79,9 +79,12 @@ class Doorstep:
         threading.Thread(target=self._wait, args=(device, key, client), name=f"door-{device}", daemon=True).start()
 
     def _wait(self, device: str, key: str, client: MqttClient) -> None:
-        pause = threading.Event()
+        pause, has_knocked = threading.Event(), False
         while not client.wait_connected(PATIENCE_S):
             if client.refusal:
+                if not has_knocked:
+                    log.warning("%s is not known at %s; it knocks, and waits for an admin.", device, self._site)
+                has_knocked = True
                 self._knock(device, key)
                 # As all newcomers of a site are one client there, they must not knock in step.
                 pause.wait(LEAST_PAUSE_S + secrets.randbelow(MOST_PAUSE_S - LEAST_PAUSE_S))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from pathlib import Path
 from typing import Any
@@ -12,9 +13,25 @@ from connectors.keys import Doorstep, KeyRing
 from registry.device_line import ConnectionMaker
 from registry.mqtt import MqttClient, Will, tls_context
 
+log = logging.getLogger(__name__)
+
+
+class Complaints:
+    """Tells once of each device that it has no key by which it is let in."""
+
+    def __init__(self) -> None:
+        self._told: set[str] = set()
+
+    def say(self, device: str) -> None:
+        """Tell it in the log."""
+        if device not in self._told:
+            self._told.add(device)
+            log.warning("%s has no key that is known: write one into secrets/devices.json, or name a join key.", device)
+
 
 def device_connections(site: str, secrets: Path, world: str) -> ConnectionMaker:
     """Return what connects a device to VIPO, by its own key; a newcomer of that world knocks with the join key."""
+    complaints = Complaints()
     ring = KeyRing(secrets / "devices.json", secrets / f"{world}-{site}.json")
     join_key = read_join_key(secrets)
     doorstep = Doorstep(site, lambda: vipo_client(f"join:{site}", join_key))
@@ -24,6 +41,8 @@ def device_connections(site: str, secrets: Path, world: str) -> ConnectionMaker:
         client = vipo_client(device, key, will)
         if join_key:
             doorstep.wait(device, key, client)
+        else:
+            client.on_refused(lambda: complaints.say(device))
         return client
 
     return connect

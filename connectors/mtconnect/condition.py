@@ -19,7 +19,7 @@ AT_WORK = frozenset(
 LEVELS = {"Fault": ERROR, "Warning": WARNING}
 MOST_OF_ITEM = 16
 LENGTHS = (MAX_TEXT, 100, 40, 10)
-_NUMBER = re.compile(r"[+-]?\d{1,30}(\.\d{1,30})?([Ee][+-]?\d{1,3})?")
+_NUMBER = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})([Ee][+-]?\d{1,3})?")
 
 
 class MachineCondition:

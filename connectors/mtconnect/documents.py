@@ -26,12 +26,13 @@ class BadDocument(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """Which life of which agent speaks, and where its observations begin and go on; 0 where it does not say."""
+    """Which life of which agent speaks, where its observations begin and go on, how many it keeps; 0 where not said."""
 
     instance: int
     first: int = 0
     last: int = 0
     next: int = 0
+    size: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +141,7 @@ def _parse(data: bytes) -> Any:
 
 
 def _header(element: Any) -> Header:
-    names = ("instanceId", "firstSequence", "lastSequence", "nextSequence")
+    names = ("instanceId", "firstSequence", "lastSequence", "nextSequence", "bufferSize")
     return Header(*(_whole(element.get(name) or "0") for name in names))
 
 

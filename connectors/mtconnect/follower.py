@@ -55,7 +55,7 @@ class Follower:
         self._agent, self._interval_s, self._hear = agent, interval_s, hear
         self._instance: int | None = None
         self._machines: tuple[Machine, ...] = ()
-        self._next = 0
+        self._next, self._count = 0, COUNT
         self._probed_s = 0.0
         self._failures = self._hurries = 0
 
@@ -114,10 +114,11 @@ class Follower:
         if not isinstance(document, Streams):
             raise BadDocument(_why(document, "current"))
         self._instance, self._next = instance, max(document.header.next, 1)
+        self._count = min(COUNT, document.header.size or COUNT)  # more than it keeps may not be asked for
         self._hear(Said(document.observations, is_whole=True))
 
     def _sample(self, instance: int) -> bool:
-        document = self._ask("sample", instance, **{"from": self._next, "count": COUNT})
+        document = self._ask("sample", instance, **{"from": self._next, "count": self._count})
         if isinstance(document, Refusal) and "OUT_OF_RANGE" in document.codes:
             return self._fill_gap(instance)
         if not isinstance(document, Streams):

@@ -13,5 +13,5 @@ def why_not(name: str, state: VehicleState, *, is_located: bool) -> str:
     if state.mode not in DRIVING_MODES:
         return f"{name} is in the mode {state.mode[:40]}; switch it to AUTOMATIC."
     if state.has_way_left and not state.order.startswith(OURS):
-        return f"{name} carries out an order of somebody else's ({state.order[:60]})."
+        return f"{name} carries out an order of somebody else ({state.order[:60]})."
     return "" if is_located and not state.is_lost else f"{name} does not know where it is; set its position."

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import os
 import uuid
 from argparse import ArgumentParser
+from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -68,7 +70,7 @@ def make_fleet(options: dict[str, Any]) -> Fleet:
         new_id=lambda: uuid.uuid4().hex,
         clock=lambda: datetime.now(UTC),
     )
-    return Fleet(vehicle_client(options["broker"], options["ca"], f"vipo-{site}"), interface, setting)
+    return Fleet(vehicle_client(options["broker"], options["ca"], f"vipo-{site}-{interface}"), interface, setting)
 
 
 def read_origin(text: str) -> Frame:
@@ -76,19 +78,23 @@ def read_origin(text: str) -> Frame:
     try:
         x, y, theta = (float(part) for part in text.split(","))
     except ValueError:
-        raise CommandError(f"--origin {text!r} is not x,y,theta: metres and radians, with commas between.") from None
+        x = y = theta = math.nan
+    if not all(map(math.isfinite, (x, y, theta))):
+        raise CommandError(f"--origin {text!r} is not x,y,theta: metres and radians, with commas between.")
     return Frame(x, y, theta)
 
 
 def vehicle_client(address: str, authority: str, client_id: str) -> MqttClient:
     """Return the connection to the vehicles' broker."""
-    parts = urlsplit(address)
-    if parts.scheme not in {"mqtt", "mqtts"} or not parts.hostname:
+    parts, port = urlsplit(address), None
+    with suppress(ValueError):
+        port = parts.port or (8883 if parts.scheme == "mqtts" else 1883)
+    if parts.scheme not in {"mqtt", "mqtts"} or not parts.hostname or port is None:
         raise CommandError(f"--broker {address!r} is not the vehicles' broker; say mqtt://host:1883 or mqtts://host.")
     is_safe = parts.scheme == "mqtts"
     return MqttClient(
         host=parts.hostname,
-        port=parts.port or (8883 if is_safe else 1883),
+        port=port,
         username=unquote(parts.username or ""),
         password=os.environ.get("VIPO_VDA5050_PASSWORD", unquote(parts.password or "")),
         client_id=client_id,

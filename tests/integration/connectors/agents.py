@@ -75,12 +75,12 @@ class ScriptedAgent:
                 return 200, words.probe(instance=self.instance, version=self.version)
             if call == "current":
                 last = {text.split('dataItemId="')[1].split('"')[0]: text for text in self._said}
-                head = words.header(self.instance, first, following)
+                head = words.header(self.instance, first, following, self.keeps)
                 return 200, words.streams(*last.values(), head=head, version=self.version)
-            if not first <= begin <= following:
+            if not first <= begin <= following or count > self.keeps:
                 return 404, words.refusal("OUT_OF_RANGE", instance=self.instance)
             told = self._said[begin - 1 : begin - 1 + count]
-            head = words.header(self.instance, first, following).replace(
+            head = words.header(self.instance, first, following, self.keeps).replace(
                 f'nextSequence="{following}"', f'nextSequence="{begin + len(told)}"'
             )
             return 200, words.streams(*told, head=head, version=self.version)

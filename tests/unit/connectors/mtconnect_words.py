@@ -48,11 +48,11 @@ EVENTS = {
 }
 
 
-def header(instance: int = 1, first: int = 1, following: int = 1) -> str:
+def header(instance: int = 1, first: int = 1, following: int = 1, size: int = 1000) -> str:
     numbers = f'firstSequence="{first}" lastSequence="{max(following - 1, 1)}" nextSequence="{following}"'
     return (
         f'<Header version="1.2" creationTime="2026-01-01T00:00:00Z" sender="test" instanceId="{instance}" '
-        f'bufferSize="8" {numbers}/>'
+        f'bufferSize="{size}" {numbers}/>'
     )
 
 

@@ -115,7 +115,7 @@ def test_an_order_of_somebody_else_is_neither_cancelled_nor_driven_over() -> Non
     bench.wait(6.0)
     assert [said.split()[:2] for said in bench.said()] == [["a", "CANCELED"], ["x", "DONE"]]
     bench.tell("move", "b", path=[[1, 0]])
-    assert bench.said() == ["b REJECTED Acme 1 carries out an order of somebody else's (theirs)."]
+    assert bench.said() == ["b REJECTED Acme 1 carries out an order of somebody else (theirs)."]
     assert bench.sent() == []
 
 

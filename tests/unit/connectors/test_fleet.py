@@ -83,6 +83,10 @@ def test_the_command_says_what_cannot_be() -> None:
     assert read_origin("1,-2.5,0.1") == Frame(1.0, -2.5, 0.1)
     with pytest.raises(CommandError, match=r"^--origin '1,2' is not x,y,theta"):
         read_origin("1,2")
+    with pytest.raises(CommandError, match=r"^--origin 'nan,0,0' is not x,y,theta"):
+        read_origin("nan,0,0")
+    with pytest.raises(CommandError, match=r"^--broker 'mqtt://host:abc' is not the vehicles' broker"):
+        vehicle_client("mqtt://host:abc", "", "id")
     with pytest.raises(CommandError, match=r"^--broker '' is not the vehicles' broker; say mqtt://host:1883"):
         vehicle_client("", "", "id")
     with pytest.raises(CommandError, match=r"^--site and --interface must be words"):

@@ -84,7 +84,9 @@ def test_millimetres_become_metres_and_execution_says_whether_it_is_done(lathe: 
     assert (said["execution"], said["done"], said["parts"], said["program"]) == ("ACTIVE", False, 12.0, "O<1>")
     assert hear(lathe, words.told("exec", "FEED_HOLD", 7))["done"] is False
     assert hear(lathe, words.told("exec", "PROGRAM_COMPLETED", 8), version="2.0")["done"] is True
-    for odd in ("UNAVAILABLE", "NaN", "1e999", "0x10", "1 2", ""):
+    for short, metres in ((".5", 0.0005), ("5.", 0.005), ("-.5e3", -0.5)):
+        assert hear(lathe, words.told("xpos", short, 9))["Xact"] == metres
+    for odd in ("UNAVAILABLE", "NaN", "1e999", "0x10", "1 2", "", "."):
         assert hear(lathe, words.told("xpos", odd, 9))["Xact"] is None
 
 
