@@ -15,7 +15,7 @@ export function useStopAll(slug: string) {
     notifications.show({
       color: "red",
       title: t("shell.stop.notHeard"),
-      message: problemText(error, t("shell.stop.useHardware")),
+      message: `${problemText(error, "")} ${t("shell.stop.useHardware")}`.trim(),
       autoClose: false,
     });
   const press = useMutation({

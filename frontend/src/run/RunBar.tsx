@@ -1,7 +1,8 @@
 import { Button, Group, Modal, Text } from "@mantine/core";
-import { Pause, Play, X } from "lucide-react";
+import { ArrowLeft, Pause, Play, X } from "lucide-react";
 import { useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
 import type { Run } from "@/api/types";
 import { clock } from "@/design/clock";
@@ -63,7 +64,8 @@ export function RunActions(props: RunActionsProps) {
       {t(`run.${what}`)}
     </Button>
   );
-  if (["finished", "failed", "cancelled"].includes(run.status) || !allowed) return null;
+  if (["finished", "failed", "cancelled"].includes(run.status)) return <BackToEditor program={run.program.id} />;
+  if (!allowed) return null;
   return (
     <>
       {order("pause", <Pause size={16} aria-hidden />, !paused)}
@@ -73,6 +75,21 @@ export function RunActions(props: RunActionsProps) {
       </Button>
       <CancelDialog opened={asking} onClose={() => setAsking(false)} onCancel={() => send("cancel")} />
     </>
+  );
+}
+
+/** What comes after a run: its program, to be changed or run again. */
+function BackToEditor({ program }: { program: string }) {
+  const { t } = useTranslation();
+  return (
+    <Button
+      component={Link}
+      to={`/programs/${program}`}
+      variant="default"
+      leftSection={<ArrowLeft size={16} aria-hidden />}
+    >
+      {t("simulation.backToEditor")}
+    </Button>
   );
 }
 

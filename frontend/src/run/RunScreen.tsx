@@ -15,6 +15,7 @@ import { ProgramMap } from "@/editor/ProgramMap";
 import { reasonWords } from "@/i18n/reasons";
 import { liveRobots } from "@/live/robots";
 import { useSiteLive } from "@/live/site";
+import { useLiveStore } from "@/live/store";
 import { RunAlerts } from "./RunAlerts";
 import { RunActions, RunPill } from "./RunBar";
 import styles from "./RunScreen.module.css";
@@ -53,7 +54,7 @@ function elapsedSeconds(run: Run, now: number): number {
 
 function Notes({ run, problem }: { run: Run; problem: string | null }) {
   const { t } = useTranslation();
-  const tone = run.status === "failed" ? "error" : run.status === "finished" ? "done" : "warn";
+  const reason = reasonWords(run.cause, run.reason);
   return (
     <div className={styles.notes}>
       {problem && (
@@ -61,9 +62,9 @@ function Notes({ run, problem }: { run: Run; problem: string | null }) {
           {problem}
         </p>
       )}
-      {run.status !== "running" && run.status !== "pending" && (
-        <p className={styles.note} data-tone={tone}>
-          <b>{t(`run.status.${run.status}`)}</b> {reasonWords(run.cause, run.reason)}
+      {reason && run.status !== "running" && run.status !== "pending" && (
+        <p className={styles.note} data-tone={run.status === "failed" ? "error" : "warn"}>
+          <b>{t(`run.status.${run.status}`)}</b> {reason}
         </p>
       )}
       {OVER.includes(run.status) ? null : <RunAlerts run={run} />}
@@ -136,10 +137,19 @@ function useRunView({ run, site }: LoadedProps) {
 
 type RunView = ReturnType<typeof useRunView>;
 
+/** A refusal, for as long as things stand as they stood when it came. */
+function useProblem({ run, site }: LoadedProps) {
+  const connection = useLiveStore((state) => state.connection);
+  const now = `${run.status} ${site?.stop.active} ${connection}`;
+  const [refusal, setRefusal] = useState({ text: "", at: "" });
+  const setProblem = (text: string | null) => setRefusal({ text: text ?? "", at: now });
+  return [refusal.at === now && refusal.text ? refusal.text : null, setProblem] as const;
+}
+
 function Loaded(props: LoadedProps) {
   const { t } = useTranslation();
   const view = useRunView(props);
-  const [problem, setProblem] = useState<string | null>(null);
+  const [problem, setProblem] = useProblem(props);
   const { run, selected, setSelected } = view;
   return (
     <div className={styles.screen}>

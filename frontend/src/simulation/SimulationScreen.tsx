@@ -35,12 +35,22 @@ function useFreshRehearsal(id: string | undefined) {
   return query;
 }
 
-function Waiting({ rehearsal, problem, onAgain }: { rehearsal?: Rehearsal; problem?: string; onAgain: () => void }) {
+interface WaitingProps {
+  rehearsal?: Rehearsal;
+  /** It is not known yet how the rehearsal stands. */
+  loading: boolean;
+  problem?: string;
+  onAgain: () => void;
+}
+
+function Waiting({ rehearsal, loading, problem, onAgain }: WaitingProps) {
   const { t } = useTranslation();
   const failed = problem !== undefined || rehearsal?.status === "failed";
   return (
     <section className={`${styles.pane} ${styles.waiting}`} aria-live="polite">
-      <h2>{t(failed ? "simulation.failedTitle" : rehearsal ? "simulation.running" : "simulation.noRehearsal")}</h2>
+      <h2>
+        {t(failed ? "simulation.failedTitle" : rehearsal || loading ? "simulation.running" : "simulation.noRehearsal")}
+      </h2>
       {failed && <p role="alert">{problem ?? rehearsal?.result?.errors[0]?.message}</p>}
       {!failed && rehearsal && (
         <>
@@ -53,7 +63,7 @@ function Waiting({ rehearsal, problem, onAgain }: { rehearsal?: Rehearsal; probl
           <p>{t("simulation.runningHint")}</p>
         </>
       )}
-      {(failed || !rehearsal) && (
+      {(failed || (!rehearsal && !loading)) && (
         <Button onClick={onAgain}>{t(failed ? "simulation.again" : "simulation.start")}</Button>
       )}
     </section>
@@ -177,7 +187,7 @@ export function SimulationScreen() {
         {data && result && program ? (
           <Recording key={data.id} rehearsal={data} result={result} devices={devices} program={program} />
         ) : (
-          <Waiting rehearsal={data} problem={refusal} onAgain={start} />
+          <Waiting rehearsal={data} loading={rehearsal.isLoading} problem={refusal} onAgain={start} />
         )}
       </main>
     </div>

@@ -91,6 +91,14 @@ test("a comment is a note on the map and no draft", () => {
   expect(scene.tree.drafts).toEqual([]);
 });
 
+test("Start stands where no chip covers it", () => {
+  const startWith = (steps: Record<string, Step>) => sceneOf(steps)[0].start;
+  const usual = startWith({});
+  const moved = startWith({ ask: step("comment", null, [1, -1], { text: "Here" }) });
+  expect([moved.y, moved.x > usual.x]).toEqual([usual.y, true]);
+  expect(startWith({ ask: step("comment", null, [1, -6], { text: "Elsewhere" }) })).toEqual(usual);
+});
+
 test("a step is told with where it stands", () => {
   const [scene, document] = sceneOf(
     {

@@ -66,7 +66,7 @@ export function buildScene(input: SceneInput): Scene {
       );
   }
   const frames = framesOf(document, tree, chips);
-  const start = document.start_pos ? toPixels(document.start_pos) : freeStart(surroundings);
+  const start = document.start_pos ? toPixels(document.start_pos) : freeStart(surroundings, chips);
   const links = linksOf({ document, tree, chips, frames, start, surroundings, t });
   placeTags(chips, routes, links);
   return {
@@ -110,12 +110,13 @@ function tagSide(chip: Chip, chips: ReadonlyMap<string, Chip>, lines: readonly B
   return leastCovering([...sides], [...others, ...lines]).side;
 }
 
-/** Along the top of the floor, where no machine stands. */
-function freeStart(surroundings: Surroundings): PixelPoint {
+/** Along the top of the floor, where neither a machine nor a chip stands. */
+function freeStart(surroundings: Surroundings, chips: ReadonlyMap<string, Chip>): PixelPoint {
   const machines = [...surroundings.devices.values()].filter((device) => !isRobot(device)).map(deviceBox);
+  const taken = [...machines.map((box) => grown(box, 14)), ...[...chips.values()].map((chip) => grown(chip.box, 8))];
   for (let x = DEFAULT_START[0]; x < 20; x += 0.5) {
     const at = toPixels([x, DEFAULT_START[1]]);
-    if (!machines.some((box) => overlaps(grown(box, 14), boxAt(at, 78, 30)))) return at;
+    if (!taken.some((box) => overlaps(box, boxAt(at, 78, 30)))) return at;
   }
   return toPixels(DEFAULT_START);
 }
