@@ -9,6 +9,7 @@ from typing import Any
 from registry.capability import Description
 
 SENTENCES: Mapping[str, str] = {
+    "expected": "Added, and given a key",
     "approved": "Approved",
     "rejected": "Rejected",
     "retired": "Retired",

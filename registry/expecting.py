@@ -11,6 +11,7 @@ from django.db import transaction
 from registry.broker_accounts import Account, accounts
 from registry.credentials import broker_hash, make_credential, secret_hash
 from registry.device_rows import BadDevice, check_id, write_event
+from registry.event_words import said
 from registry.knocking import make_row
 from registry.models import Device, User
 from registry.sites import find_site
@@ -46,7 +47,7 @@ def expect_newcomer(*, site: str, device_id: str, by: User, at: datetime) -> Exp
         device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
         device.first_seen_at = at
         device.save(update_fields=["credential_hash", "broker_hash", "first_seen_at"])
-        write_event(device, at, "expected", "Added, and given a key", by)
+        write_event(device, at, "expected", said("expected"), by)
         accounts().put(Account(device_id, credential))
     return Expected(device_id, site, credential, str(settings.VIPO_BROKER_URL))
 

@@ -13,7 +13,6 @@ from typing import Any
 from registry.fault_sentences import SENTENCES
 from registry.printing import printable
 
-MOST_TOLD = 5
 MOST_CHARACTERS = 200
 JSON_SYNTAX: Mapping[str, str] = {
     "Expecting value": "json_value",
@@ -76,8 +75,8 @@ def bare(text: str) -> Fault:
 
 
 def facts_of(faults: Iterable[Fault]) -> dict[str, Any]:
-    """Return what a screen says the first faults from: `{"faults": [{text, line, column, path, code, args}]}`."""
-    return {"faults": [asdict(each) for each in list(faults)[:MOST_TOLD]]}
+    """Return what a screen says faults from: `{"faults": [{text, line, column, path, code, args}]}`."""
+    return {"faults": [asdict(each) for each in faults]}
 
 
 def told(code: str, **args: str | float) -> tuple[str, dict[str, Any]]:

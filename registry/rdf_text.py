@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any, Literal, NoReturn, get_args
 
 from registry.errors import RegistryError
-from registry.faults import MOST_TOLD, Fault, bare, facts_of, fault
+from registry.faults import Fault, bare, facts_of, fault
 from registry.wire import MAX_BYTES, MAX_DEPTH, BadMessage, parse_json
 
 DescriptionForm = Literal["turtle", "n-triples", "json-ld", "td", "paper"]
@@ -30,6 +30,7 @@ NAMESPACES: Mapping[str, str] = {
 }
 CONTEXT = "urn:vipo:context"
 DESCRIPTION = "The description"
+MOST_TOLD = 5
 PINNED_CONTEXTS: Mapping[str, Mapping[str, str]] = {CONTEXT: NAMESPACES}
 TD_CONTEXT = "https://www.w3.org/2022/wot/td/v1.1"
 TD_CONTEXTS = frozenset({TD_CONTEXT, "https://www.w3.org/2019/wot/td/v1"})
@@ -60,7 +61,7 @@ class BadDescription(RegistryError):
     def __init__(self, *faults: Fault | str, heading: str = "") -> None:
         self.faults = tuple(bare(fault) if isinstance(fault, str) else fault for fault in faults)
         told = " ".join([heading, *(fault.sentence for fault in self.faults[:MOST_TOLD])]).strip()
-        super().__init__(told, facts_of(self.faults))
+        super().__init__(told, facts_of(self.faults[:MOST_TOLD]))
 
 
 def refuse(code: str, line: int = 0, column: int = 0, path: str = "", /, **args: str | float) -> NoReturn:

@@ -112,6 +112,8 @@ def test_all_that_was_mended_stands_in_the_history(hall: str) -> None:
     assert [e.kind for e in events] == ["mended", "mended", "mended", "described"]
     assert all(len(e.text) <= 300 for e in events)
     assert " ".join(e.text for e in events[:3]) == " ".join(note.text for note in read(figure).notes)
+    told = [fault for event in events[:3] for fault in event.args["faults"]]
+    assert [fault["code"] for fault in told] == [note.code for note in read(figure).notes]
 
 
 def test_an_unchanged_description_is_not_parsed_again(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
