@@ -1,7 +1,7 @@
 /** Paints live robots: reserved path, trail, body, ring, what they carry and why they wait. */
 import type { Palette } from "./palette";
 import { toPixels, type Box, type Point, type Viewport } from "./projection";
-import type { RobotView, Trails } from "./robots";
+import type { RobotView, TrailPoint, Trails } from "./robots";
 
 type Canvas = CanvasRenderingContext2D;
 
@@ -67,13 +67,13 @@ function line(canvas: Canvas, points: readonly Point[]): void {
   });
 }
 
-function paintTrail(canvas: Canvas, palette: Palette, trail: readonly { x: number; y: number; fresh: number }[]): void {
+function paintTrail(canvas: Canvas, palette: Palette, trail: readonly TrailPoint[]): void {
   canvas.strokeStyle = palette.busy;
   canvas.lineWidth = 5;
-  canvas.lineCap = "round";
+  canvas.lineCap = "butt";
   for (let index = 1; index < trail.length; index += 1) {
     const [a, b] = [trail[index - 1], trail[index]];
-    if (!a || !b) continue;
+    if (!a || !b?.seen) continue;
     canvas.globalAlpha = 0.55 * b.fresh;
     canvas.beginPath();
     const [from, to] = [toPixels([a.x, a.y]), toPixels([b.x, b.y])];

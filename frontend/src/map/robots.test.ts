@@ -27,5 +27,17 @@ test("a trail forgets what is older than 30 s and does not grow while the robot 
   trails.add(robot, 100);
   expect(trails.of("r", 100)).toHaveLength(1);
   trails.add({ ...robot, x: 5 }, 31_000);
-  expect(trails.of("r", 31_000)).toEqual([{ x: 5, y: 0, fresh: 1 }]);
+  expect(trails.of("r", 31_000)).toEqual([{ x: 5, y: 0, fresh: 1, seen: false }]);
+});
+
+test("a trail has a gap where the robot was not seen, instead of a line through walls", () => {
+  const trails = new Trails();
+  const robot = { id: "r", name: "r", status: "busy", x: 0, y: 0, theta: 0 } as RobotView;
+  [0, 0.5, 7, 7.5].forEach((x, second) => trails.add({ ...robot, x }, second * 1000));
+  expect(trails.of("r", 3000).map(({ x, seen }) => [x, seen])).toEqual([
+    [0, false],
+    [0.5, true],
+    [7, false],
+    [7.5, true],
+  ]);
 });

@@ -54,27 +54,39 @@ export function turn(from: number, to: number): number {
 
 const TRAIL_MS = 30_000;
 const TRAIL_STEP_M = 0.08;
+/** Farther than any robot drives between two pictures: it was not seen meanwhile. */
+const UNSEEN_M = 2;
+
+export interface TrailPoint {
+  readonly x: number;
+  readonly y: number;
+  /** From 1 (just now) to 0 (30 s ago). */
+  readonly fresh: number;
+  /** Whether the robot was seen on its way from the point before. */
+  readonly seen: boolean;
+}
 
 /** Where each robot has been in the last 30 s. */
 export class Trails {
-  readonly #points = new Map<string, { x: number; y: number; at: number }[]>();
+  readonly #points = new Map<string, { x: number; y: number; at: number; seen: boolean }[]>();
 
   add(robot: RobotView, now: number): void {
     const points = this.#points.get(robot.id) ?? [];
     const last = points.at(-1);
-    if (!last || Math.hypot(last.x - robot.x, last.y - robot.y) > TRAIL_STEP_M)
-      points.push({ x: robot.x, y: robot.y, at: now });
+    const driven = last ? Math.hypot(last.x - robot.x, last.y - robot.y) : Infinity;
+    if (driven > TRAIL_STEP_M) points.push({ x: robot.x, y: robot.y, at: now, seen: driven < UNSEEN_M });
     this.#points.set(
       robot.id,
       points.filter((point) => now - point.at <= TRAIL_MS),
     );
   }
 
-  /** Oldest first, each with its age from 1 (just now) to 0 (30 s ago). */
-  of(robot: string, now: number): readonly { x: number; y: number; fresh: number }[] {
+  /** Oldest first. */
+  of(robot: string, now: number): readonly TrailPoint[] {
     return (this.#points.get(robot) ?? []).map((point) => ({
       x: point.x,
       y: point.y,
+      seen: point.seen,
       fresh: 1 - (now - point.at) / TRAIL_MS,
     }));
   }

@@ -72,6 +72,26 @@ describe("ganttOf", () => {
     ]);
   });
 
+  it("ends what was done for a step that was broken off, as failed", () => {
+    const rows = ganttOf(
+      [
+        event(0, "step_entered", { kind: "step", step: "go" }),
+        event(1, "way", { kind: "way", step: "", robot: "robot01" }),
+        event(2, "command", { device: "oven", step: "cure" }),
+        event(3, "blocked", { kind: "wait", step: "go", robot: "robot01", device: "" }),
+        event(9, "step_cancelled", { kind: "step", step: "go" }),
+        event(9, "step_cancelled", { kind: "step", step: "cure" }),
+      ],
+      ["robot01", "oven"],
+      () => "robot01",
+    );
+    expect(rows.flatMap((row) => row.bars).map((bar) => [bar.device, bar.kind, bar.ended_s, bar.failed])).toEqual([
+      ["robot01", "work", 9, true],
+      ["robot01", "wait", 9, false],
+      ["oven", "work", 9, true],
+    ]);
+  });
+
   it("draws a drive from setting out to the robot's next command or the step's end", () => {
     const way = { kind: "way", step: "", robot: "robot01" };
     const rows = ganttOf(

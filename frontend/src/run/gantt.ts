@@ -64,6 +64,16 @@ class Collector {
     open.bar.ended_s = at_s;
     this.#open.delete(key);
   }
+
+  /** A step was broken off: whatever was done for it is over, and did not come to its end. */
+  breakOff(step: string, at_s: number): void {
+    for (const [key, { bar }] of [...this.#open]) {
+      if (bar.step !== step) continue;
+      bar.ended_s = at_s;
+      bar.failed = bar.kind === "work";
+      this.#open.delete(key);
+    }
+  }
 }
 
 /** Which robot a step's role is bound to, if it is known. */
@@ -94,6 +104,7 @@ class Reader {
 
   #leave(event: RunEvent): void {
     this.#steps = this.#steps.filter((step) => step !== event.step);
+    if (event.code !== "step_done") this.collector.breakOff(event.step, event.t_s);
     for (const [robot, step] of [...this.#drives]) if (step === event.step) this.#arrive(robot, event.t_s);
   }
 
