@@ -12,23 +12,14 @@ from typing import Any, Literal
 
 from connectors.vda5050.cancelling import Cancel, is_orphan
 from connectors.vda5050.frame import Point
+from connectors.vda5050.handing_over import growing, next_order
 from connectors.vda5050.messages import ENDED, Located, VehicleError, VehicleState
 from connectors.vda5050.open_tasks import OpenTasks
-from connectors.vda5050.orders import (
-    OURS,
-    Body,
-    Order,
-    action,
-    begin_actions,
-    begin_drive,
-    extend_drive,
-    order_from_json,
-    order_to_json,
-)
+from connectors.vda5050.orders import Body, Order, order_from_json, order_to_json
 from connectors.vda5050.pausing import Pausing, pausing_from_json
-from connectors.vda5050.readiness import why_not
+from connectors.vda5050.readiness import why_not, works_for_others
 from connectors.vda5050.shown import shown
-from connectors.vda5050.tasks import Task, Vehicle, action_parameters, drives_in_front, read_task, why_astray
+from connectors.vda5050.tasks import Task, Vehicle, drives_in_front, read_task, why_astray
 from registry.capability import DeviceState, Pose
 from registry.told import Told
 from registry.wire import AckMessage
@@ -98,7 +89,8 @@ class VehicleControl:
         pose = self.vehicle.frame.to_site(self.located.pose) if self.located else None
         head = self._tasks.head
         command = head.command if head else ""
-        return DeviceState(boot, seq, head is None, pose, command, shown(self.state, self.vehicle.sheet))
+        is_free = head is None and not (self.state and works_for_others(self.state))
+        return DeviceState(boot, seq, is_free, pose, command, shown(self.state, self.vehicle.sheet))
 
     def settle(self, now_s: float) -> None:
         """Judge everything that is open by the newest state, and do what is due."""
@@ -324,18 +316,15 @@ class VehicleControl:
         order, waiting, under_way = self._order, self._tasks.waiting, self._tasks.handed_over
         if not waiting or self._cancel or (order is not None and not order.is_taken) or self._refusal():
             return
-        drives = drives_in_front(waiting)
-        is_joined = order is not None and order.kind == "drive" and (bool(under_way) or state.has_horizon)
-        if (under_way and not (drives and is_joined)) or (state.has_way_left and not under_way):
+        drives, grown = drives_in_front(waiting), growing(order, state, is_under_way=bool(under_way))
+        if (under_way and not (drives and grown)) or (state.has_way_left and not under_way):
             return
-        grown = order if is_joined else None
         if drives and (why := self._why_astray(drives[0], grown)):
             self._tasks.end_refused(drives[0], why)
             self._tasks.drop_drives()
             return
-        self._order = (
-            extend_drive(grown, (), ()) if grown and not drives else self._order_for(drives, waiting[0], grown)
-        )
+        assert self.located is not None
+        self._order = next_order(self.vehicle, self.located, waiting, grown, self._new_id)
         self._tries, self._errors_before = 0, frozenset(state.errors)
         self._send_order(self._order, now_s)
 
@@ -344,22 +333,6 @@ class VehicleControl:
         assert self.located is not None
         here = Pose(*order.end_point) if order else self.located.pose
         return why_astray(self.vehicle, task.begin, self._in_site(here))
-
-    def _order_for(self, drives: list[Task], head: Task, order: Order | None) -> Order:
-        assert self.located is not None
-        located = self.located
-        here, name = (located.pose.x, located.pose.y), OURS + self._new_id()
-        if not drives:
-            parameters = action_parameters(self.vehicle, head)
-            head.actions = tuple(f"{name}-{count}" for count in range(len(parameters)))
-            told = zip(head.actions, parameters, strict=True)
-            return begin_actions(name, located.map_id, here, [action(i, head.method, p) for i, p in told])
-        end = order.end_sequence if order else 0
-        for task in drives:
-            task.last = end = end + 2 * len(task.way)
-        way = [waypoint for task in drives for waypoint in task.way]
-        ahead = drives[-1].ahead
-        return extend_drive(order, way, ahead) if order else begin_drive(name, located.map_id, here, way, ahead)
 
     def _send_order(self, order: Order, now_s: float) -> None:
         self._sent_s = now_s

@@ -25,6 +25,7 @@ from connectors.vda5050.messages import (
     read_visualization,
 )
 from connectors.vda5050.orders import action, instant_actions
+from connectors.vda5050.presence import Presence
 from connectors.vda5050.tasks import Vehicle
 from registry.describing import write_description
 from registry.device_line import ConnectionMaker, DeviceLine, LineEvent
@@ -32,16 +33,6 @@ from registry.told import Told
 from registry.wire import AckMessage
 
 log = logging.getLogger(__name__)
-SILENT_LIMIT_S = 75.0
-"""A vehicle says its state at least every 30 s; one that misses two counts as gone, whatever its connection says."""
-ASK_S = 1.0
-ASK_AGAIN_S = 30.0
-STATES_OF_LIFE = 2
-"""So many states after its last will show that a vehicle is there: the will was that of an earlier connection."""
-PATIENCE_S = 10.0
-"""So long a vehicle may take to become a device before the log says what is missing."""
-
-
 Publish = Callable[[VehicleName, str, bytes], None]
 """Sends a message's body to a vehicle, on a subtopic."""
 
@@ -82,14 +73,11 @@ class Member:
         self._description = b""
         self._version = "2.0.0"
         self._told_facts = (b"", "")
-        self._connected = False
-        self._states_since_will: int | None = 0
+        self._presence = Presence()
         self._newest: dict[str, Header] = {}
         self._state: VehicleState | None = None
         self._located: Located | None = None
-        self._heard_s = 0.0
-        self._ask_at_s: dict[str, float] = {}
-        self._missing_at_s, self._missed = 0.0, ""
+        self._missed = ""
 
     def hear(self, subtopic: str, payload: bytes, now_s: float) -> None:
         """Take in a message of the vehicle. Raises BadMessage."""
@@ -102,8 +90,8 @@ class Member:
             case "state":
                 state = read_state(payload, self.name)
                 if self._is_news("state", state.header):
-                    self._state, self._heard_s = state, now_s
-                    self._doubt_will(now_s)
+                    self._state = state
+                    self._presence.hear_state(now_s)
                     self._locate(state.located)
             case "visualization":
                 header, located = read_visualization(payload, self.name)
@@ -139,8 +127,8 @@ class Member:
         """
         if is_reached:
             self._ask(now_s)
-        elif self._heard_s:
-            self._heard_s, self._ask_at_s["stateRequest"] = 0.0, now_s + ASK_S
+        else:
+            self._presence.lose_sight(now_s)
         self._say_what_is_missing(now_s)
         if self.control is not None:
             self._be_present(now_s)
@@ -158,14 +146,12 @@ class Member:
         if control is None or line is None:
             return
         out, control.out = control.out, []
-        for item in out:
-            if isinstance(item, Send):
-                self._memory.headers[item.topic] = self._memory.headers.get(item.topic, -1) + 1
+        numbered = [(item, self._count(item.topic) if isinstance(item, Send) else 0) for item in out]
         self._save(control.to_json())
         over = [item for item in out if isinstance(item, AckMessage) and item.status not in OPEN]
-        for item in out:
+        for item, number in numbered:
             if isinstance(item, Send):
-                self._send(item.topic, item.body)
+                self._send(item.topic, item.body, number)
             elif item not in over:
                 line.answer(item)
         if control.online or over:
@@ -176,34 +162,14 @@ class Member:
     def _hear_connection(self, payload: bytes, now_s: float) -> None:
         """Take in that the vehicle came or went; a will is older than what it ends, so its number says nothing.
 
-        A vehicle that comes may count from 0 again, with a clock that is not set yet. Some say every few seconds that
-        they are connected, which changes nothing.
+        A vehicle that comes may count from 0 again, with a clock that is not set yet.
         """
-        was_connected = self._connected
         header, said = read_connection(payload, self.name)
-        self._connected = said == "ONLINE"
-        self._states_since_will = 0 if said == "CONNECTIONBROKEN" else None
         self._version = header.version
-        if self._connected:
+        self._presence.hear_connection(said, now_s)
+        if self._presence.is_connected:
             self._newest.clear()
-        if was_connected and self._connected:
-            return
-        self._heard_s = 0.0
-        self._expect(now_s)
         self._be_present(now_s)
-
-    def _expect(self, now_s: float) -> None:
-        """Wait a moment for what a vehicle tells by itself before it is asked."""
-        self._ask_at_s = {"stateRequest": now_s + ASK_S, "factsheetRequest": now_s + ASK_S}
-        self._missing_at_s = now_s + PATIENCE_S
-
-    def _doubt_will(self, now_s: float) -> None:
-        """Take a vehicle for connected when it goes on telling its state after its last will, or without any word."""
-        if self._states_since_will is not None:
-            self._states_since_will += 1
-            if self._states_since_will >= STATES_OF_LIFE:
-                self._connected, self._states_since_will = True, None
-                self._expect(now_s)
 
     def _is_news(self, subtopic: str, header: Header) -> bool:
         if header.is_stale(self._newest.get(subtopic)):
@@ -219,7 +185,7 @@ class Member:
     def _become_device(self) -> None:
         """Make the device, or describe it anew when the factsheet has changed."""
         facts = (self._sheet_said, self._version)
-        if not self._connected or facts == self._told_facts:
+        if not self._presence.is_connected or facts == self._told_facts:
             return
         if self._sheet is None or self._state is None or self._located is None:
             return
@@ -248,24 +214,20 @@ class Member:
         write_memory(self._path, self._memory)
 
     def _be_present(self, now_s: float) -> None:
-        """Follow whether the vehicle is there: connected, and heard of lately."""
-        online = self._connected and self._heard_s > 0 and now_s - self._heard_s < SILENT_LIMIT_S
+        """Follow whether the vehicle is there."""
+        online = self._presence.is_online(now_s)
         if self.control is not None and self._line is not None and online != self.control.online:
             self.control.online = online
             self._line.say_presence(online=online)
 
     def _ask(self, now_s: float) -> None:
         """Ask for a state or factsheet that does not come by itself."""
-        missing = {"stateRequest": self._heard_s == 0, "factsheetRequest": self._sheet is None}
-        for what, at_s in self._ask_at_s.items():
-            if self._connected and missing[what] and now_s >= at_s:
-                self._ask_at_s[what] = now_s + ASK_AGAIN_S
-                self._memory.headers["instantActions"] = self._memory.headers.get("instantActions", -1) + 1
-                self._send("instantActions", action(self._setting.new_id(), what, {}))
+        for what in self._presence.take_questions(now_s, has_sheet=self._sheet is not None):
+            self._send("instantActions", action(self._setting.new_id(), what, {}), self._count("instantActions"))
 
     def _say_what_is_missing(self, now_s: float) -> None:
         """Tell in the log, once, why a vehicle that is connected is not on the map."""
-        if self.control is not None or not self._connected or now_s < self._missing_at_s:
+        if self.control is not None or not self._presence.is_long_here(now_s):
             return
         told = {
             "has not told its factsheet": self._sheet is not None,
@@ -282,9 +244,14 @@ class Member:
             self._memory.control = control
             write_memory(self._path, self._memory)
 
-    def _send(self, subtopic: str, body: Mapping[str, Any]) -> None:
+    def _count(self, subtopic: str) -> int:
+        """Return the number of the next message on a topic, no two of which may have the same."""
+        number = self._memory.headers[subtopic] = self._memory.headers.get(subtopic, -1) + 1
+        return number
+
+    def _send(self, subtopic: str, body: Mapping[str, Any], number: int) -> None:
         header = {
-            "headerId": self._memory.headers.get(subtopic, 0),
+            "headerId": number,
             "timestamp": self._setting.clock().strftime("%Y-%m-%dT%H:%M:%S.%f")[:-3] + "Z",
             "version": self._version,
             "manufacturer": self.name.manufacturer,

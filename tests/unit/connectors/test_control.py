@@ -64,7 +64,7 @@ def test_a_further_piece_grows_the_base_from_its_last_node_unchanged() -> None:
     assert bench.said() == ["b DONE"]
     bench.tell("move", "c", path=[[0, 0]])
     (new,) = bench.sent()
-    assert (new["orderId"], new["orderUpdateId"]) == ("vipo-n3", 0)
+    assert (new["orderId"], new["orderUpdateId"]) == ("vipo-n2", 0)
 
 
 def test_the_way_ahead_is_the_horizon_and_each_piece_brings_another() -> None:

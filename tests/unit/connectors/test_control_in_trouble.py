@@ -116,6 +116,7 @@ def test_an_order_of_somebody_else_is_neither_cancelled_nor_driven_over() -> Non
     assert [said.split()[:2] for said in bench.said()] == [["a", "CANCELED"], ["x", "DONE"]]
     bench.tell("move", "b", path=[[1, 0]])
     assert bench.said() == ["b REJECTED Acme 1 carries out an order of somebody else (theirs)."]
+    assert not bench.control.look(1, 1).done, "it is busy, though not for VIPO"
     assert bench.sent() == []
 
 

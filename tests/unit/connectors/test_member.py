@@ -10,8 +10,10 @@ from typing import Any
 
 import pytest
 
+from connectors.vda5050.control import Send
 from connectors.vda5050.frame import Frame
-from connectors.vda5050.member import PATIENCE_S, Member, Setting
+from connectors.vda5050.member import Member, Setting
+from connectors.vda5050.presence import PATIENCE_S
 from registry.device_line import Will
 from registry.mqtt import MqttClient
 from tests.integration.connectors.factsheet import FACTSHEET
@@ -123,3 +125,11 @@ def test_a_vehicle_whose_connection_is_forgotten_is_asked_who_it_is(member: Memb
     member.tick(106.0)
     assert member.control is not None
     assert member.control.online
+
+
+def test_no_two_messages_that_go_out_together_have_the_same_number(member: Member, asked: list[Any]) -> None:
+    come(member, 100.0)
+    assert member.control is not None
+    member.control.out = [Send("instantActions", {"actionType": kind}) for kind in ("cancelOrder", "startPause")]
+    member.speak(101.0)
+    assert [body["headerId"] for _, body in asked] == [0, 1]
