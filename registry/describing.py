@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from registry.capability import Description, description_to_json
-from registry.device_triples import describe
+from registry.device_triples import describe, list_own_terms
 from registry.faults import Fault
 from registry.ontology import write_rdf
 from registry.paper_message import describe_message, write_message
@@ -28,7 +28,9 @@ from registry.rdf_text import (
     refuse,
 )
 from registry.td_schema import check_thing
-from registry.thing import describe_thing, write_thing
+from registry.thing import describe_thing, list_own_keys, write_thing
+from registry.triples import Triples
+from registry.vocabulary import find_unknown
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,11 +78,11 @@ def _read_json_form(text: str) -> Reading:
     form = form_of_json(body)
     if form == "td":
         check_thing(body)
-        return Reading(describe_thing(body), form)
+        return Reading(describe_thing(body), form, find_unknown(list_own_keys(body)))
     if form == "paper":
         description, notes = describe_message(body)
         return Reading(description, form, notes)
-    return Reading(describe(read_json_ld(body)), form)
+    return _read_triples(read_json_ld(body), form)
 
 
 def _read_text_form(text: str) -> Reading:
@@ -89,7 +91,11 @@ def _read_text_form(text: str) -> Reading:
         message = read_text(text)
         description, notes = describe_message(message.body, message.places, message.notes)
         return Reading(description, form, notes)
-    return Reading(describe(read_turtle(text)), form)
+    return _read_triples(read_turtle(text), form)
+
+
+def _read_triples(triples: Triples, form: DescriptionForm) -> Reading:
+    return Reading(describe(triples), form, find_unknown(list_own_terms(triples)))
 
 
 def read_description(payload: bytes, *, device_id: str | None = None) -> Description:

@@ -55,6 +55,13 @@ def describe(triples: Triples) -> Description:
     )
 
 
+def list_own_terms(triples: Triples) -> set[str]:
+    """Return which of VIPO's own terms the triples use as predicates, in short, whether there are such or not."""
+    own = NAMESPACES["vipo"]
+    said = {predicate for _, predicate, _ in triples}
+    return {f"vipo:{predicate.removeprefix(own)}" for predicate in said if predicate.startswith(own)}
+
+
 @cache
 def _full(short: str) -> str:
     prefix, _, name = short.partition(":")

@@ -150,13 +150,14 @@ _PAPER: Mapping[str, str] = {
     "mended_key": "Read {written!r} as {key}.",
     "mended_quotes": "Put the value of {key} in quotes: {value!r}.",
     "left_key": "Left out {key!r}, which means nothing here.",
+    "left_term": "Left out {key!r}, which means nothing here. Perhaps {like} is meant.",
     "left_value": "Left out the value of {name}: values come on up/state.",
     "left_image": "Left out imgUrl {image!r}: only an address with http:// or https:// can be shown.",
     "own_topic": "Commands for {method} come on {topic}, not on the ROS topic {said!r}.",
 }
 _MEANING: Mapping[str, str] = {
-    "location_far": "Its location is not within a million metres.",
-    "size_range": "Its size must be three lengths between 0 and 100 metres.",
+    "location_far": "Its location is not within a million metres: {said}.",
+    "size_range": "Its size must be three lengths between 0 and 100 metres: {said}.",
     "capacity_range": "Its capacity must lie between 0 and 1000 objects.",
     "radius_range": "Its radius must lie between 0 and 10 m.",
     "speed_range": "Its speed must lie between 0 and 20 m/s.",

@@ -39,9 +39,9 @@ def find_faults(description: Description) -> tuple[Fault, ...]:
 
 def _faults_of_numbers(d: Description) -> Iterator[Fault]:
     if not all(isfinite(v) and abs(v) <= 1e6 for v in (d.pose.x, d.pose.y, d.pose.z, d.pose.theta)):
-        yield fault("location_far")
+        yield fault("location_far", said=f"{d.pose.x:g}, {d.pose.y:g}, {d.pose.z:g}, {d.pose.theta:g}")
     if not all(isfinite(v) and 0 < v <= 100 for v in (d.size.x, d.size.y, d.size.z)):
-        yield fault("size_range")
+        yield fault("size_range", said=f"{d.size.x:g}, {d.size.y:g}, {d.size.z:g}")
     if not 0 <= d.capacity <= 1000:
         yield fault("capacity_range")
     if not 0 <= d.radius_m <= 10:

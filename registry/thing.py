@@ -88,6 +88,19 @@ def _with_our_prefixes(body: Mapping[str, Any]) -> dict[str, Any]:
     return cast("dict[str, Any]", _renamed(rest, renamed, ours))
 
 
+def list_own_keys(body: Mapping[str, Any]) -> set[str]:
+    """Return which of VIPO's own terms a Thing uses as keys, in short, whether there are such or not."""
+    found = set[str]()
+    left: list[Any] = [_with_our_prefixes(body)]
+    for value in left:
+        if isinstance(value, dict):
+            found.update(key for key in value if key.startswith("vipo:"))
+            left.extend(value.values())
+        elif isinstance(value, list):
+            left.extend(value)
+    return found
+
+
 def _renamed(value: Any, prefixes: Mapping[str, str], ours: Mapping[str, str]) -> Any:
     if isinstance(value, list):
         return [_renamed(item, prefixes, ours) for item in value]

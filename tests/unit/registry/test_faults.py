@@ -101,6 +101,21 @@ def test_a_broken_description_is_refused_with_one_fault_its_code_and_its_place(
     assert (found.code, f"{found.line}:{found.column}" if found.line else found.path) == (code, place)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"{DEVICE}( 1 2 ) ; vipo:capasity 3 ; vipo:farbe 'rot' .",
+        thing(**{"vipo:capasity": 3, "vipo:farbe": "rot"}),
+    ],
+    ids=["turtle", "td"],
+)
+def test_a_term_that_vipo_does_not_have_is_left_out_and_told(text: str) -> None:
+    assert [note.text for note in read(text.encode()).notes] == [
+        "Left out 'vipo:capasity', which means nothing here. Perhaps vipo:capacity is meant.",
+        "Left out 'vipo:farbe', which means nothing here.",
+    ]
+
+
 def test_a_refusal_tells_its_first_faults_as_json() -> None:
     with pytest.raises(BadDescription) as refusal:
         read(f"{MESSAGE}capacity: -1\nspeed: 99\n".encode())

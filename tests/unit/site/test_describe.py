@@ -87,7 +87,7 @@ def test_every_implausible_thing_has_a_line_of_its_own(tmp_path: Path, capsys: p
     path.write_text('id: "m1"\nlocation: [1, 2]\nsize: [0, 1, 1]\ncapacity: -1\n')
     assert main(["describe", str(path)]) == 1
     assert capsys.readouterr().err.splitlines() == [
-        f"{path}: Its size must be three lengths between 0 and 100 metres.",
+        f"{path}: Its size must be three lengths between 0 and 100 metres: 0, 1, 1.",
         f"{path}: Its capacity must lie between 0 and 1000 objects.",
     ]
 
