@@ -47,6 +47,11 @@ class Area:
         reach_y = (self.room.height_m + other.room.height_m) / 2
         return abs(self.x - other.x) < reach_x and abs(self.y - other.y) < reach_y
 
+    def shared_m2(self, other: Area) -> float:
+        """Return how large the part is that the two have in common."""
+        across = _shared_m(self.x, self.room.width_m, other.x, other.room.width_m)
+        return across * _shared_m(self.y, self.room.height_m, other.y, other.room.height_m)
+
 
 @dataclass(slots=True)
 class Layout:
@@ -139,16 +144,31 @@ class Layout:
         return 1.0 if facts is None else facts.description.size.y
 
     def _free_near(self, wanted: Point, room: Room) -> Point:
-        """Look around the wanted place, the nearest first; on a full floor it is taken as it is."""
+        """Look around the wanted place, the nearest first; where all is taken, where least is covered.
+
+        A floor on which that has happened several times counts as full: there the wanted place is taken as it is.
+        """
         key = wanted, room
         for index in range(self.tried.get(key, 0), len(_OFFSETS) if self.misses < _MOST_MISSES else 0):
             dx, dy = _OFFSETS[index]
-            point = (round(wanted[0] + dx, 2), round(wanted[1] + dy, 2))
+            point = _rounded((wanted[0] + dx, wanted[1] + dy))
             if self._is_free(point, room):
                 self.tried[key] = index
                 return point
         self.misses += 1
-        return round(wanted[0], 2), round(wanted[1], 2)
+        return self._least_covering(wanted, room) if self.misses < _MOST_MISSES else _rounded(wanted)
+
+    def _least_covering(self, wanted: Point, room: Room) -> Point:
+        """Return the place on the map, the nearest of equal ones, that covers least; as wanted if there is none."""
+        points = [_rounded((wanted[0] + dx, wanted[1] + dy)) for dx, dy in _OFFSETS]
+        on_floor = [point for point in points if self._is_on_floor(*point, room)]
+        return min(
+            on_floor, key=lambda point: self._covered_m2(Area(point[0], point[1], room)), default=_rounded(wanted)
+        )
+
+    def _covered_m2(self, area: Area) -> float:
+        taken = {id(each): each for cell in _cells(area) for each in self.cells.get(cell, ())}
+        return sum(area.shared_m2(each) for each in taken.values())
 
     def _is_free(self, point: Point, room: Room) -> bool:
         x, y = point
@@ -169,6 +189,16 @@ class Layout:
     def _take(self, area: Area) -> None:
         for cell in _cells(area):
             self.cells.setdefault(cell, []).append(area)
+
+
+def _rounded(point: Point) -> Point:
+    return round(point[0], 2), round(point[1], 2)
+
+
+def _shared_m(middle: float, width: float, other: float, other_width: float) -> float:
+    """Return how long the part is that two stretches have in common."""
+    right, left = min(middle + width / 2, other + other_width / 2), max(middle - width / 2, other - other_width / 2)
+    return max(0.0, right - left)
 
 
 def _cells(area: Area) -> Iterator[tuple[int, int]]:

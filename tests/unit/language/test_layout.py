@@ -41,6 +41,15 @@ def test_no_step_of_a_script_is_drawn_over_another(path: Path) -> None:
     assert overlapping(redrawn(compile_document(program.document, site).script, site)) == []
 
 
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def test_no_step_stands_beyond_the_map_however_full_it_is(path: Path) -> None:
+    program = read_program_file(path, None)
+    site, _, _ = read_site(program.site, 0)
+    assert site.floor is not None
+    for document in (program.document, redrawn(compile_document(program.document, site).script, site)):
+        assert [step["kind"] for step in document["steps"].values() if not site.floor.is_inside(*step["pos"])] == []
+
+
 def test_what_a_loop_holds_stands_below_its_head_and_nothing_else_stands_there() -> None:
     waits = "\n".join(f"            self.wait({10 + number})" for number in range(4))
     script = (
