@@ -14,6 +14,7 @@ from registry.errors import RegistryError
 from registry.models import SignInFailure, User
 
 WINDOW = timedelta(minutes=15)
+MOST_NAME = 100
 MOST_FOR_PAIR, MOST_FOR_EMAIL, MOST_FOR_ADDRESS = 8, 50, 200
 
 
@@ -41,6 +42,8 @@ class BadPerson(RegistryError):
 def create_user(*, email: str, password: str, display_name: str) -> User:
     """Add a person. Raises BadPerson."""
     email = email.strip().lower()
+    if not 0 < len(display_name) <= MOST_NAME or not display_name.isprintable():
+        raise BadPerson(f"A person's name has 1 to {MOST_NAME} characters, all of which can be printed.")
     try:
         validate_email(email)
         validate_password(password)
@@ -50,6 +53,20 @@ def create_user(*, email: str, password: str, display_name: str) -> User:
         raise BadPerson(" ".join(error.messages)) from error
     except IntegrityError as error:
         raise BadPerson(f"There is already somebody with the address {email}.") from error
+
+
+def is_known(*, email: str) -> bool:
+    """Tell whether somebody signs in with this address."""
+    return User.objects.filter(email=email.strip().lower()).exists()
+
+
+def change_password(*, email: str, password: str) -> None:
+    """Give a known person another password; their sessions end. Raises BadPerson."""
+    user = User.objects.filter(email=email.strip().lower()).first()
+    if user is None:
+        raise BadPerson(f"Nobody signs in as {email[:100]!r}. Check the address.")
+    user.set_password(password)
+    user.save(update_fields=["password"])
 
 
 def check_sign_in(*, email: str, password: str, address: str, now: datetime) -> User:

@@ -50,7 +50,7 @@ from registry.joining import (
     update_device,
 )
 from registry.knocking import admit_newcomer
-from registry.people import check_sign_in, create_user
+from registry.people import change_password, check_sign_in, create_user, is_known
 from registry.robot_map_intake import ingest_map_part
 from registry.robot_maps import NoRobotMap, RobotMapFacts, RobotMapView, get_robot_map, get_robot_map_facts
 from registry.samples import flush_samples, note_samples, prune_samples
@@ -130,6 +130,7 @@ __all__ = [
     "admit_newcomer",
     "alert_to_json",
     "approve_device",
+    "change_password",
     "check_device_password",
     "check_sign_in",
     "compare_robot_map",
@@ -161,6 +162,7 @@ __all__ = [
     "ingest_presence",
     "ingest_state",
     "ingest_states",
+    "is_known",
     "list_alerts",
     "list_broker_hashes",
     "list_device_events",

@@ -14,7 +14,7 @@ from editor.language import compile_document, compiled_to_json, plan_to_json
 from editor.language.compiled import Compiled, diagnostic_to_json
 from editor.language.phrases import LANGUAGES, Language
 from registry.rdf_text import FORMS
-from vipo_site import call_device, devices_cli
+from vipo_site import account_cli, call_device, devices_cli
 from vipo_site.draw_file import add_arguments as add_draw_arguments
 from vipo_site.draw_file import draw_file
 from vipo_site.program_file import FaultyScript, ProgramFile, UnreadableFile, read_program_file
@@ -139,6 +139,7 @@ def _parser() -> argparse.ArgumentParser:
         ("alerts", devices_cli.ALERTS, devices_cli.add_alerts_arguments),
         ("approve", devices_cli.APPROVE, devices_cli.add_approve_arguments),
         ("join-key", devices_cli.JOIN_KEY, devices_cli.add_join_key_arguments),
+        ("account", account_cli.ACCOUNT, account_cli.add_account_arguments),
     ):
         add(commands.add_parser(word, help=text, description=text))
     return parser

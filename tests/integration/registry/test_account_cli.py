@@ -1,0 +1,61 @@
+"""`vipo account`."""
+
+from __future__ import annotations
+
+import pytest
+from django.test import Client
+
+from registry.models import Membership, User
+from vipo_site.cli import main
+
+NEW = "reader@vipo.example"
+
+
+def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    code = main(["account", *arguments])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def status_of_signing_in(password: str) -> int:
+    return (
+        Client().post("/api/sign-in", {"email": NEW, "password": password}, content_type="application/json").status_code
+    )
+
+
+def role() -> list[str]:
+    return list(Membership.objects.filter(user__email=NEW).values_list("role", flat=True))
+
+
+def test_an_account_is_made_gets_a_role_and_another_password(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = told(capsys, "Reader@vipo.example", "--name", "Line Display", "--site", "hall")
+    first, second, third = out.splitlines()
+    assert (code, err, first, third) == (0, "", f"{NEW} may sign in.", f"{NEW} is viewer of hall.")
+    password = second.removeprefix("The password, shown this once: ")
+    assert status_of_signing_in(password) == 200
+    assert (role(), User.objects.get(email=NEW).initials) == (["viewer"], "LD")
+    assert told(capsys, NEW, "--site", "hall", "--role", "author") == (0, f"{NEW} is author of hall.\n", "")
+    assert role() == ["author"]
+    _, out, _ = told(capsys, NEW, "--new-password")
+    assert status_of_signing_in(password) == 401
+    assert status_of_signing_in(out.strip().removeprefix(f"The new password of {NEW}, shown this once: ")) == 200
+    assert told(capsys, NEW, "--site", "hall", "--role", "none")[1] == f"{NEW} is no member of hall.\n"
+    assert role() == []
+    assert told(capsys, NEW)[1].startswith(f"{NEW} may sign in already. Name what to change: ")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ((NEW, "--site", "nowhere"), "There is no site 'nowhere'."),
+        ((NEW, "--site", "nowhere", "--role", "none"), "There is no site 'nowhere'."),
+        (("no-address",), "Enter a valid email address."),
+        ((NEW, "--name", "A" * 101), "A person's name has 1 to 100 characters, all of which can be printed."),
+    ],
+)
+def test_what_cannot_be_changes_nothing(
+    hall: str, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], says: str
+) -> None:
+    before = User.objects.count()
+    assert told(capsys, *arguments) == (2, "", f"{says}\n")
+    assert User.objects.count() == before
