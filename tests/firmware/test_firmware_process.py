@@ -21,6 +21,7 @@ from tests.firmware.rig import (
     LIMIT_S,
     ROOT,
     Running,
+    interpreter_command,
     listening,
     running_bus,
     start_firmware,
@@ -135,6 +136,26 @@ def test_a_stop_holds_the_work_until_it_is_released(mixer: Running) -> None:
     assert all(h.json["props"]["jobStatus"] <= held + 6 for h in mixer.ear.all("/state"))
     mixer.tell("resume", "p2", command="c1")
     mixer.answer("c1", "DONE")
+
+
+def test_without_a_site_the_stop_of_each_holds_and_no_other_site_lifts_it(micropython: str, tmp_path: Path) -> None:
+    with running_bus("amqtt", tmp_path) as bus, listening(bus) as ear:
+        for site, active in (("a-hall", False), ("hall", True), ("other", False)):
+            ear.say(f"vipo/v1/site/{site}/stop", {"active": active}, retain=True)
+        command = interpreter_command(micropython)
+        process = start_firmware(command, tmp_path, bus, site="+")
+        mixer = Running(ear, bus, process, tmp_path / "panel.log", command)
+        try:
+            mixer.state(lambda _state: True)
+            for site in ("other", "a-hall"):
+                ear.say(f"vipo/v1/site/{site}/stop", {"active": False}, retain=True)
+            mixer.tell("dispense", "c1", object="can", value=1)
+            assert mixer.answer("c1", "REJECTED").json["why"] == "the site is stopped"
+            ear.say("vipo/v1/site/hall/stop", {"active": False}, retain=True)
+            mixer.tell("dispense", "c2", object="can", value=1)
+            mixer.answer("c2", "DONE")
+        finally:
+            mixer.end()
 
 
 def test_it_comes_back_after_the_broker_was_killed_and_says_what_was_missed(mixer: Running) -> None:

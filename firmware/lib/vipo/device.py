@@ -53,6 +53,7 @@ class Device:
 
     def _up(self):
         self.duties.entrance.came_in()
+        self.duties.connected = True
         if self.duties.work is None:
             self.panel.show("VIPO online", self.client.client_id)
         self.duties.shine()
@@ -61,7 +62,8 @@ class Device:
     def _down(self, reason):
         if self.duties.work is None:
             self.panel.show("No connection", reason)
-        self.panel.light(lights.RED)
+        self.duties.connected = False
+        self.duties.shine()
 
     def _describe(self):
         self.client.publish(self.base + "up/desc", self.description, retain=True, replace=True)
@@ -94,6 +96,6 @@ class Device:
             if not retained:
                 self._describe()
         elif topic.endswith("/stop") and topic.startswith("vipo/v1/site/"):
-            self.duties.stop(payload if whole else None)
+            self.duties.stop(topic, payload if whole else None)
         elif topic.startswith(self.base + "down/") and not retained:
             self.duties.told(topic[len(self.base) + 5 :], payload, whole)

@@ -18,17 +18,24 @@ class Duties:
         self.entrance = entrance
         self.say = self.changed = None
         self.work = None
-        self.stopped = False
+        self.connected = True
+        self._stops = []
         self._output = output or (lambda on: None)
         self._answers = Answers()
         self._running = None
 
-    def stop(self, payload):
-        """Hold or release everything; a stop that cannot be read holds, one that was taken away does not."""
+    @property
+    def stopped(self):
+        """Tell whether any site that this machine listens to is stopped."""
+        return bool(self._stops)
+
+    def stop(self, site, payload):
+        """Hold or release everything for a site; a stop that cannot be read holds, one that was taken away does not."""
         try:
-            self.stopped = payload != b"" and read_object(payload).get("active") is not False
+            active = payload != b"" and read_object(payload).get("active") is not False
         except BadCommand:
-            self.stopped = True
+            active = True
+        self._stops = [known for known in self._stops if known != site] + ([site] if active else [])
         self.shine()
 
     def told(self, method, payload, whole=True):
@@ -134,7 +141,7 @@ class Duties:
 
     def shine(self, failed=False):
         """Show on the status light how the machine is."""
-        if self.stopped or failed:
+        if self.stopped or failed or not self.connected:
             self.panel.light(lights.RED)
         elif self.work is None:
             self.panel.light(lights.GREEN)
