@@ -6,6 +6,7 @@ usage: rehearse_drivers.py FOLDER     (input: JSON lines of [driver, options, [[
 import asyncio
 import json
 import sys
+import time
 
 from vipo.declare import check_arguments
 from vipo.describe import describe
@@ -32,18 +33,22 @@ async def call(driver, panel, method, arguments):
     why = check_arguments(driver.methods[method], arguments)
     if why:
         return {"refused": why}
-    switched, panel.seen = [], []
+    switched, times, panel.seen = [], [], []
 
     def switch(on):
         if not switched or switched[-1] != on:
             switched.append(on)
+            times.append(time.ticks_us())
         driver.switched(on)
 
     try:
         result = await getattr(driver, method)(Work("c1", SPEED, lambda: False, switch), **arguments)
     except Failure as error:
         return {"failed": str(error)}
-    return {"result": result, "shown": panel.seen, "switched": switched, "properties": driver.properties}
+    shortest = min([time.ticks_diff(later, earlier) for earlier, later in zip(times, times[1:])] or [0])  # noqa: B905, RUF007
+    told = {"result": result, "shown": panel.seen, "switched": switched, "properties": driver.properties}
+    told["shortest_us"] = shortest
+    return told
 
 
 def main():

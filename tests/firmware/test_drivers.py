@@ -117,6 +117,7 @@ def test_a_dispenser_pushes_once_for_each_object(micropython: str) -> None:
     (told,) = rehearse(micropython, ("dispenser", {"object": "can"}, [["dispense", {"object": "can", "value": 2.0}]]))
     (answer,) = told["answers"]
     assert answer["switched"] == [True, False, True, False]
+    assert answer["shortest_us"] > 500, "the output was switched off for no time: that is one long push"
     assert answer["properties"] == {"dispensed": 2}
     assert answer["shown"] == [["Dispensing", "1 of 2 can"], ["Dispensing", "2 of 2 can"], ["Dispensed", "2 x can"]]
 

@@ -32,15 +32,19 @@ class Work:
         While the work is held the output is off and no time passes; it is off when this ends, however it ends.
         """
         try:
-            await self._spend(seconds, progress)
+            await self._spend(seconds, progress, True)
         finally:
             self._output(False)
 
-    async def _spend(self, seconds, progress):
+    async def rest(self, seconds):
+        """Let `seconds` of work pass with the output off."""
+        await self._spend(seconds, None, False)
+
+    async def _spend(self, seconds, progress, on):
         elapsed, last = 0.0, ticks_ms()
         while elapsed < seconds:
             held = self.paused or self._is_stopped()
-            self._output(not held)
+            self._output(on and not held)
             await asyncio.sleep(min(STEP_S, max(0.001, (seconds - elapsed) / self.speed)))
             now = ticks_ms()
             step, last = ticks_diff(now, last) / 1000 * self.speed, now

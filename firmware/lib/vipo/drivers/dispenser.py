@@ -3,7 +3,7 @@
 from vipo.declare import hand_over, number
 from vipo.drivers.machine import Machine
 
-PUSH_S = 1.5
+PUSH_S, BACK_S = 1.5, 0.5
 
 
 class Driver(Machine):
@@ -24,6 +24,8 @@ class Driver(Machine):
     async def dispense(self, work, object, value):
         """Push out `value` objects."""
         for count in range(int(value)):
+            if count:
+                await work.rest(BACK_S)  # else the pushes would be one long one
             self.panel.show("Dispensing", "%d of %d %s" % (count + 1, value, object))
             await work.spend(PUSH_S)
             self.properties["dispensed"] += 1
