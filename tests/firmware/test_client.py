@@ -6,6 +6,7 @@ import json
 import socket
 import subprocess
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -223,6 +224,37 @@ def test_a_broker_that_talks_nonsense_or_refuses_is_asked_again(micropython: str
     assert told[1] == "down: the broker did not answer as one"
     assert told[-1] == "all acknowledged"
     assert broker.connections == len(answers) + 1
+
+
+def test_a_broker_that_lets_in_and_hangs_up_is_asked_ever_more_seldom(micropython: str, tmp_path: Path) -> None:
+    came: list[float] = []
+
+    def hang_up(packet: Packet) -> bytes | None:
+        if packet.kind & 0xF0 == CONNECT:
+            came.append(time.monotonic())
+            return well(packet)
+        return None if packet.connection < 6 else well(packet)
+
+    with client_at(micropython, tmp_path, hang_up) as (_, process):
+        assert ended(process).splitlines()[-1] == "all acknowledged"
+    assert came[5] - came[4] > 0.75 * 0.05 * 2**4
+
+
+def test_a_large_message_comes_whole(micropython: str, tmp_path: Path) -> None:
+    more = '    client.publish("up", bytes(range(65, 88)) * 400)\n    client.publish("up", b"after")'
+    with (
+        run_mosquitto(tmp_path, {"server": "secret", "soak": "word"}) as mosquitto,
+        Ear(mosquitto.port, "secret", "vipo/v1/dev/soak/up/ack") as ear,
+    ):
+        path = tmp_path / "program.py"
+        program = PROGRAM.format(port=mosquitto.device_port, keepalive=15, first=1, count=2, more=more)
+        path.write_text(program.replace('"up"', '"vipo/v1/dev/soak/up/ack"'))
+        environment = {"MICROPYPATH": f"{FIRMWARE / 'lib'}:.frozen", "PATH": "/usr/bin:/bin"}
+        command = [micropython, "-X", "heapsize=80k", str(path)]
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+        assert done.stdout == "all acknowledged\n", done.stdout + done.stderr
+        wait_for(lambda: len(ear.heard) >= 4, "the broker lost messages")
+    assert [h.payload for h in ear.heard] == [b"0", b"1", bytes(range(65, 88)) * 400, b"after"]
 
 
 def test_seventy_thousand_messages_pass_the_end_of_the_packet_ids(micropython: str, tmp_path: Path) -> None:

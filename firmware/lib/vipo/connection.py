@@ -4,6 +4,8 @@ import asyncio
 
 from vipo.packets import CONNACK, REFUSALS, WRONG_KEY, MqttFailure, Refused
 
+WRITTEN_BYTES = 512
+
 
 async def open_stream(client):
     """Return (reader, writer) of a connection to a client's broker."""
@@ -22,3 +24,11 @@ async def shake_hands(reader, writer, hello):
     if answer[3]:
         failure = Refused if answer[3] in WRONG_KEY else MqttFailure
         raise failure("refused: " + REFUSALS.get(answer[3], str(answer[3])))
+
+
+async def write_all(writer, data):
+    """Write bytes, a few at a time: what a stream cannot send at once it copies."""
+    view = memoryview(data)
+    for start in range(0, len(data), WRITTEN_BYTES):
+        writer.write(view[start : start + WRITTEN_BYTES])
+        await writer.drain()

@@ -4,7 +4,7 @@ import asyncio
 import json
 
 from vipo.connection import open_stream, shake_hands
-from vipo.packets import DISCONNECT, PUBACK, MqttFailure, connect_packet, publish_packet, read_packet
+from vipo.packets import DISCONNECT, PUBACK, MqttFailure, connect_packet, publish_head, read_packet
 from vipo.portable import close_stream
 
 ANSWER_TIMEOUT_S, KEEPALIVE_S = 10, 15
@@ -18,7 +18,8 @@ async def knock(client, site, join_key, key):
         hello = connect_packet(door, door, join_key, KEEPALIVE_S, None)
         await asyncio.wait_for(shake_hands(reader, writer, hello), ANSWER_TIMEOUT_S)
         topic = "vipo/v1/join/%s/%s" % (site, client.client_id)
-        writer.write(publish_packet(1, topic, json.dumps({"key": key}).encode(), False, False))
+        payload = json.dumps({"key": key}).encode()
+        writer.write(publish_head(1, topic, len(payload), False, False) + payload)
         await writer.drain()
         kind, _, _ = await asyncio.wait_for(read_packet(reader), ANSWER_TIMEOUT_S)
         if kind >> 4 != PUBACK:

@@ -7,7 +7,7 @@ reads, one writes, one watches the clock; when one ends, the connection is made 
 import asyncio
 import random
 
-from vipo.connection import open_stream, shake_hands
+from vipo.connection import open_stream, shake_hands, write_all
 from vipo.outbox import Outbox
 from vipo.packets import (
     PUBACK,
@@ -51,7 +51,7 @@ class Client:
         self.outbox = Outbox()
         self._codes = b""
         self._broken = ""
-        self._was_up = False
+        self._was_served = False
         self._heard = 0
         self._news, self._over, self._subscribed = asyncio.Event(), asyncio.Event(), asyncio.Event()
 
@@ -72,7 +72,7 @@ class Client:
         """Connect, serve, and begin again when the connection ends."""
         pause_s = self.first_back_off_s
         while True:
-            self._was_up = False
+            self._was_served = False
             try:
                 await self._session()
             except FAILURES as error:
@@ -80,7 +80,8 @@ class Client:
                     self.on_refused()
                 if self.on_down:
                     self.on_down(str(error) or "no answer")
-            if self._was_up:
+            # A broker that lets in and hangs up at once is asked ever more seldom, too.
+            if self._was_served:
                 pause_s = self.first_back_off_s
             # Devices that lost their broker together do not come back all at once.
             await asyncio.sleep(pause_s * (0.75 + random.random() / 2))
@@ -111,7 +112,7 @@ class Client:
         for event in (self._over, self._subscribed):
             event.clear()
         self._heard = ticks_ms()
-        self.connected = self._was_up = True
+        self.connected = True
 
     async def _guard(self, part):
         """Run a part of the session; when it ends, so does the session."""
@@ -132,11 +133,10 @@ class Client:
         if self.on_up:
             self.on_up()
         while True:
-            data = self.outbox.next_bytes()
-            if data:
-                writer.write(data)
-                await writer.drain()
-            else:
+            pieces = self.outbox.next_pieces()
+            for piece in pieces:
+                await write_all(writer, piece)
+            if not pieces:
                 self._news.clear()
                 await self._news.wait()
 
@@ -161,6 +161,7 @@ class Client:
                 await self._received(kind, body, whole)
             elif kind >> 4 == PUBACK:
                 if self.outbox.acknowledge(int.from_bytes(body[:2], "big")):
+                    self._was_served = True
                     self._news.set()
             elif kind >> 4 == SUBACK:
                 self._codes = body[2:]

@@ -1,6 +1,6 @@
 """What a client has to write: messages at QoS 1 until they are acknowledged, answers to the broker's, pings."""
 
-from vipo.packets import PINGREQ, puback_packet, publish_packet
+from vipo.packets import PINGREQ, puback_packet, publish_head
 from vipo.portable import seconds_since, ticks_ms
 
 MOST_FLYING = 8
@@ -44,35 +44,40 @@ class Outbox:
             self.queue.pop(self._flying())
         self.queue.append(Message(topic, payload, retain))
 
-    def next_bytes(self):
-        """Return what is to be written next, or nothing; small packets go together.
+    def next_pieces(self):
+        """Return what is to be written next, in pieces; small packets go together, and a large payload is not copied.
 
-        Written one by one, each would wait until the broker's machine has confirmed the one before: 40 ms.
+        Written one by one, each would wait until the broker's machine has confirmed the one before: 40 ms. A block for
+        a copy of a description is hard to find in a small heap.
         """
-        packets, length = [], 0
+        small, length = [], 0
         while length < MOST_TOGETHER:
-            packet = self.next_packet()
+            packet, payload = self.next_packet()
             if not packet:
                 break
-            packets.append(packet)
-            length += len(packet)
-        return b"".join(packets)
+            small.append(packet)
+            if len(payload) > MOST_TOGETHER:
+                return [b"".join(small), payload]
+            small.append(payload)
+            length += len(packet) + len(payload)
+        return [b"".join(small)] if small else []
 
     def next_packet(self):
-        """Return the next packet to be written, or None; answers go first."""
+        """Return (the next packet to be written or its beginning, the payload that follows), or (None, b"")."""
         if self.to_answer:
-            return puback_packet(self.to_answer.pop(0))
+            return puback_packet(self.to_answer.pop(0)), b""
         if self.ping_due:
             self.ping_due = False
-            return bytes((PINGREQ << 4, 0))
+            return bytes((PINGREQ << 4, 0)), b""
         flying = self._flying()
         if flying == len(self.queue) or flying >= MOST_FLYING:
-            return None
+            return None, b""
         message = self.queue[flying]
         again = bool(message.number)
         message.number = message.number or self.next_id()
         message.sent_at = ticks_ms()
-        return publish_packet(message.number, message.topic, message.payload, message.retain, again)
+        size = len(message.payload)
+        return publish_head(message.number, message.topic, size, message.retain, again), message.payload
 
     def acknowledge(self, number):
         """Drop the message that the broker has; tell whether there was one."""

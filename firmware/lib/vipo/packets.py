@@ -69,10 +69,10 @@ def subscribe_packet(number, topics):
     return packet(SUBSCRIBE << 4 | 2, number.to_bytes(2, "big"), *[text(t) + b"\x01" for t in topics])
 
 
-def publish_packet(number, topic, payload, retain, again):
-    """Return a PUBLISH at QoS 1; `again` says that the broker may have it already."""
-    head = PUBLISH << 4 | 0x02 | (0x08 if again else 0) | (1 if retain else 0)
-    return packet(head, text(topic), number.to_bytes(2, "big"), payload)
+def publish_head(number, topic, length, retain, again):
+    """Return a PUBLISH at QoS 1 up to its payload of so many bytes; `again` says that the broker may have it already."""
+    kind = PUBLISH << 4 | 0x02 | (0x08 if again else 0) | (1 if retain else 0)
+    return packet(kind, text(topic), number.to_bytes(2, "big"), more=length)
 
 
 def puback_packet(number):
@@ -80,9 +80,9 @@ def puback_packet(number):
     return bytes((PUBACK << 4, 2, number >> 8, number & 0xFF))
 
 
-def packet(kind, *parts):
-    """Return a packet of some parts with its length in front, put together once: a large block is hard to find."""
-    length, head = sum([len(part) for part in parts]), bytearray((kind,))
+def packet(kind, *parts, more=0):
+    """Return a packet of some parts with its length in front; `more` bytes are still to follow."""
+    length, head = sum([len(part) for part in parts]) + more, bytearray((kind,))
     while True:
         byte, length = length & 0x7F, length >> 7
         head.append(byte | 0x80 if length else byte)
