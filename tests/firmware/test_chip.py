@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ from typing import Any
 import pytest
 
 from tests.firmware.hd44780 import Hd44780, texts
-from tests.firmware.rig import Chip, Running, configuration, listening, running_bus, running_chip, wait_for
+from tests.firmware.rig import LIMIT_S, Chip, Running, configuration, listening, running_bus, running_chip, wait_for
 
 LCD = 0x27
 RED, GREEN, BLUE, OUTPUT = 25, 26, 27, 23
@@ -71,6 +72,28 @@ def test_what_holds_the_work_switches_the_output_off(board: tuple[Chip, Running]
     mixer.tell("cancel", "x1", command="c1")
     mixer.answer("c1", "CANCELED")
     assert levels(chip.record, OUTPUT) == [0, 1, 0, 1, 0]
+
+
+def test_whatever_ends_the_program_the_output_is_off(board: tuple[Chip, Running]) -> None:
+    chip, mixer = board
+    mixer.tell("mixPaint", "c1", time=30)
+    chip.wait(lambda record: levels(record, OUTPUT)[-1:] == [1])
+    chip.process.send_signal(signal.SIGINT)
+    chip.process.wait(LIMIT_S)
+    assert levels(chip.record, OUTPUT) == [0, 1, 0]
+    assert chip.record[-1][1] != "reset"  # Ctrl-C leaves the board to whoever works on it
+
+
+def test_a_machine_without_a_connection_does_not_look_ready(board: tuple[Chip, Running]) -> None:
+    chip, mixer = board
+    mixer.tell("mixPaint", "c1", time=2)
+    mixer.answer("c1", "RUNNING")
+    mixer.bus.kill()
+    chip.wait(lambda record: any(text[0] == line("Mixing Complete") for text in texts(record)))
+    wait_for(lambda: levels(chip.record, BLUE)[-1] == 0, "it still works")
+    assert [levels(chip.record, pin)[-1] for pin in (RED, GREEN, BLUE)] == [1, 0, 0]
+    mixer.bus.start()
+    chip.wait(lambda record: [levels(record, pin)[-1] for pin in (RED, GREEN, BLUE)] == [0, 1, 0])
 
 
 def test_the_watchdog_is_fed_while_the_device_works_and_only_once_it_does(board: tuple[Chip, Running]) -> None:
@@ -156,3 +179,40 @@ def test_a_fault_is_shown_and_the_board_starts_again(micropython: str, tmp_path:
         assert "There is no description file gone.ttl." in chip.console
         assert texts(chip.record)[-1] == (line("Fault"), "There is no desc")
         assert chip.record[-1][1] == "reset"
+
+
+def come_back(mixer: Running, told: int) -> int:
+    """Wait for a state that is newer than the `told`-th, and return its number."""
+    sequence: int = mixer.state(lambda state: state["seq"] > told)["seq"]
+    return sequence
+
+
+def test_a_board_that_says_much_of_itself_comes_in_over_tls_each_time(micropython: str, tmp_path: Path) -> None:
+    with running_bus("mosquitto with TLS", tmp_path) as bus, listening(bus) as ear:
+        flash(tmp_path, configuration(bus, tmp_path, pins=PINS, name="n" * 100, about="a" * 300))
+        with running_chip(micropython, tmp_path, {}) as chip:
+            mixer = Running(ear, bus, chip.process, tmp_path / "console")
+            told = mixer.state(lambda _state: True)["seq"]
+            for _ in range(2):
+                bus.kill()
+                bus.start()
+                told = come_back(mixer, told)
+            assert "memory" not in chip.console
+            assert chip.console.count("VIPO online") == 3
+
+
+def test_the_time_is_asked_for_until_it_comes(micropython: str, tmp_path: Path) -> None:
+    """A certificate is dated: a factory whose time server starts after its boards has to get them back."""
+    came = tmp_path / "came"
+    (tmp_path / "late.py").write_text(
+        "import vipo.portable as portable\nportable.CLOCK_IS_SET_S = 1 << 40\nimport vipo.chip as chip\nchip.run()\n"
+    )
+    with running_bus("mosquitto with TLS", tmp_path) as bus, listening(bus) as ear:
+        flash(tmp_path, configuration(bus, tmp_path, pins=PINS, time_server="clock.hall"))
+        with running_chip(micropython, tmp_path, {"VIPO_TIME": str(came)}, main=tmp_path / "late.py") as chip:
+            wait_for(lambda: "no time yet" in chip.console, "it did not ask")
+            assert "no time from clock.hall: " in chip.console
+            assert not ear.heard
+            came.touch()
+            Running(ear, bus, chip.process, tmp_path / "console").state(lambda _state: True)
+            assert sum(entry[1] == "time" for entry in chip.record) == chip.console.count("no time from") + 1

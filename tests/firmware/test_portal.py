@@ -186,6 +186,11 @@ WRONG = [
     ),
     ({"join_key": "word"}, """The form has a join key, but does not say "Site (its short name)", whose key it is."""),
     ({"ca": "no certificate"}, "The form: the certificate is not in PEM form."),
+    (
+        {"ca": "-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----"},
+        "The form: the certificate is not in PEM form.",
+    ),
+    ({"time_server": "a b"}, 'The form: "Time server, if not pool.ntp.org" must be a name or address of at most 253'),
 ]
 
 
@@ -266,3 +271,17 @@ def test_the_button_asks_for_the_page_while_the_wifi_is_looked_for(micropython: 
     with set_up(micropython, tmp_path, environment) as page:
         assert page.form.values["host"] == "old"
     assert not (tmp_path / "set-up").exists()
+
+
+def test_another_chip_of_the_family_opens_the_page_without_the_usual_pins(micropython: str, tmp_path: Path) -> None:
+    with set_up(micropython, tmp_path, {"VIPO_LACKS": "22 23 24 25"}) as page:
+        assert page.get()[0] == 200
+        assert "Join the Wi-Fi VIPO-12abcd with " in page.chip.console
+        assert not [entry for entry in page.chip.record if entry[1] in ("i2c", "pin")]
+
+
+def test_a_pin_that_the_chip_does_not_have_is_named(micropython: str, tmp_path: Path) -> None:
+    known = {"wifi_name": "hall", "host": "old", "port": 1883, "id": "old", "password": "word", "pins": {"output": 24}}
+    (tmp_path / "config.json").write_text(json.dumps(known))
+    with set_up(micropython, tmp_path, {"VIPO_LACKS": "24"}) as page:
+        assert "config.json: pin 24 cannot be 'output': invalid pin.\n" in page.chip.console

@@ -7,7 +7,7 @@ import os
 import time
 
 import machine
-from vipo.configuration import write_file
+from vipo.portable import write_file
 
 ASKED = "set-up"
 

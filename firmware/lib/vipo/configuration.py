@@ -3,7 +3,7 @@
 import json
 import os
 
-from vipo.portable import clock_is_set, forget, unix_time
+from vipo.portable import clock_is_set, forget, unix_time, write_file
 
 NEEDED = ("host", "port", "id")
 LONGEST_FILE = 8192
@@ -41,13 +41,6 @@ def read_file(path, most, what):
             return file.read(size)
     except OSError:
         raise BadConfiguration("There is no %s file %s." % (what, path))
-
-
-def write_file(path, content):
-    """Write a text so that a power cut leaves the old one or the new one."""
-    with open(path + ".new", "w") as file:
-        file.write(content)
-    os.rename(path + ".new", path)
 
 
 def next_boot(path):

@@ -8,8 +8,7 @@ import os
 import random
 from binascii import hexlify
 
-from vipo.configuration import write_file
-from vipo.portable import forget
+from vipo.portable import forget, write_file
 
 KEY_BYTES, KEPT = 24, 2
 ATTEMPTS_AFTER_KNOCK = 3

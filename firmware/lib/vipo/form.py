@@ -14,6 +14,7 @@ FIELDS = (
     ("site", "text", "Site (its short name)", 64),
     ("join_key", "secret", "The site's join key, for a newcomer", 128),
     ("password", "secret", "This device's own key, if it has one", 128),
+    ("time_server", "text", "Time server, if not pool.ntp.org", 253),
     ("driver", "driver", "This device is a", 16),
     ("name", "text", "Name on the map", 100),
     ("location", "place", "Place: x y z theta (metres, radians)", 80),

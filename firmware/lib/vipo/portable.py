@@ -1,7 +1,8 @@
-"""What MicroPython and CPython do differently: clocks, closing a connection, showing an error."""
+"""What MicroPython and CPython do differently: clocks, closing a connection, showing an error; and a file written safely."""
 
 import asyncio
 import gc
+import os
 import sys
 import time
 
@@ -35,6 +36,13 @@ def unix_time():
 def clock_is_set():
     """Tell whether the clock shows a day that can be today."""
     return unix_time() > CLOCK_IS_SET_S
+
+
+def write_file(path, content):
+    """Write a text so that a power cut leaves the old one or the new one."""
+    with open(path + ".new", "w") as file:
+        file.write(content)
+    os.rename(path + ".new", path)
 
 
 async def close_stream(writer):

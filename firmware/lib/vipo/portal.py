@@ -9,11 +9,11 @@ import json
 import os
 from binascii import hexlify
 
-from vipo.certificate import read_certificate
+from vipo.certificate import read_certificate, trusting
 from vipo.checks import find_fault
-from vipo.configuration import BadConfiguration, read_configuration, write_file
+from vipo.configuration import BadConfiguration, read_configuration
 from vipo.form import FIELDS, page, read_form
-from vipo.portable import close_stream, show_error
+from vipo.portable import close_stream, show_error, write_file
 
 REQUEST_TIMEOUT_S = 10
 MOST_CONNECTIONS = 4
@@ -233,7 +233,7 @@ def fault_of_authority(text):
     if not text:
         return ""
     try:
-        read_certificate(text.split("\n"))
+        trusting(read_certificate(text.split("\n")))
     except ValueError:
         return "The form: the certificate is not in PEM form."
     return ""

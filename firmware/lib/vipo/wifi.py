@@ -34,3 +34,16 @@ def set_clock(server):
         except (OSError, ImportError, OverflowError) as error:
             sys.stdout.write("no time from %s: %s\n" % (server or TIME_SERVER, error))
     return clock_is_set()
+
+
+def look_for_time(client, server):
+    """Ask for the time before each connection until it is known: without it no certificate can be judged."""
+    prepare = client.prepare
+
+    async def ask_first():
+        if not set_clock(server):
+            raise OSError("no time yet")
+        client.prepare = prepare
+        await prepare()
+
+    client.prepare = ask_first

@@ -26,6 +26,8 @@ class Pin:
     IN, OUT, PULL_UP = 0, 1, 2
 
     def __init__(self, number, mode=0, pull=None, value=None):
+        if str(number) in (os.getenv("VIPO_LACKS") or "").split():
+            raise ValueError("invalid pin")
         self.number = number
         if pull:
             LEVELS[number] = not exists("VIPO_PRESSED")
