@@ -1,12 +1,13 @@
 /** A small read-only map: floor, devices and, if given, routes. */
 import { useEffect, useMemo, useState, type ReactNode } from "react";
 import { DeviceGlyph } from "./DeviceToken";
-import type { MapDevice } from "./device";
+import { footprint, type MapDevice } from "./device";
 import { knownBox, type FloorPlan } from "./floor";
 import { FloorCanvas } from "./FloorCanvas";
 import type { FloorDetail } from "./floorPainter";
 import classes from "./map.module.css";
-import { boxOfDevices } from "./framing";
+import { boxOfDevices, NAME_SIZE, nameOnMap, nameSize } from "./framing";
+import { walk } from "./walking";
 import { fitViewport, toPixels, type Box, type Point, type Viewport } from "./projection";
 import { Route } from "./Route";
 import { useSize } from "./useSize";
@@ -42,6 +43,7 @@ export function StaticMap(props: StaticMapProps) {
     [left, top, right, bottom, width, height],
   );
   useEffect(() => cell.set(view), [cell, view]);
+  const stop = (devices.find((device) => device.id === props.selected) ?? devices[0])?.id;
   return (
     <div ref={element} className={classes.static} role="group" aria-label={label}>
       <FloorCanvas plan={plan} viewport={cell} detail={named ? NAMED : QUIET} />
@@ -51,7 +53,14 @@ export function StaticMap(props: StaticMapProps) {
             <Route key={index} points={route.map(toPixels)} />
           ))}
           {devices.map((device) => (
-            <StaticDevice key={device.id} device={device} {...props} named={named} />
+            <StaticDevice
+              key={device.id}
+              device={device}
+              {...props}
+              named={named}
+              zoom={view.zoom}
+              stop={device.id === stop}
+            />
           ))}
           {props.children}
         </g>
@@ -71,16 +80,19 @@ function staticView(frame: Box, width: number, height: number): Viewport {
   });
 }
 
-function StaticDevice({
-  device,
-  selected,
-  onSelect,
-  named,
-}: { device: MapDevice; named: boolean } & Pick<StaticMapProps, "selected" | "onSelect">) {
+interface StaticDeviceProps extends Pick<StaticMapProps, "selected" | "onSelect"> {
+  device: MapDevice;
+  named: boolean;
+  zoom: number;
+  /** Whether Tab stops at it; from there the arrow keys lead to the others. */
+  stop: boolean;
+}
+
+function StaticDevice({ device, selected, onSelect, named, zoom, stop }: StaticDeviceProps) {
   const at = toPixels([device.location.x, device.location.y]);
   const chosen = selected === device.id;
   const choose = onSelect ? () => onSelect(device.id) : undefined;
-  const label = named || chosen ? <DeviceName device={device} chosen={chosen} /> : null;
+  const label = named || chosen ? <DeviceName device={device} chosen={chosen} zoom={zoom} /> : null;
   const body = (
     <>
       {chosen ? <circle r={28} fill="none" stroke="var(--brand)" strokeWidth={3} /> : null}
@@ -94,12 +106,14 @@ function StaticDevice({
       transform={`translate(${at.x} ${at.y})`}
       className={classes.device}
       role="button"
-      tabIndex={0}
+      tabIndex={stop ? 0 : -1}
       aria-label={device.name}
       aria-pressed={chosen}
       onClick={choose}
       onKeyDown={(event) => {
         if (event.key === "Enter" || event.key === " ") choose();
+        else if (!walk(event.currentTarget, event.key)) return;
+        event.preventDefault();
       }}
     >
       {body}
@@ -107,15 +121,17 @@ function StaticDevice({
   );
 }
 
-function DeviceName({ device, chosen }: { device: MapDevice; chosen: boolean }) {
+function DeviceName({ device, chosen, zoom }: { device: MapDevice; chosen: boolean; zoom: number }) {
+  const size = chosen ? nameSize(zoom) : NAME_SIZE;
   return (
     <text
       className={classes.label}
-      y={48}
+      y={footprint(device).height / 2 + size + 6}
       textAnchor="middle"
-      style={chosen ? { fill: "var(--brand-ink)", fontSize: 22 } : undefined}
+      aria-hidden="true"
+      style={{ fontSize: size, ...(chosen ? { fill: "var(--brand-ink)" } : {}) }}
     >
-      {device.name}
+      {nameOnMap(device.name)}
     </text>
   );
 }

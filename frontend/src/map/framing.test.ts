@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { MapDevice } from "./device";
-import { boxOfDevices } from "./framing";
+import { boxOfDevices, nameOnMap, nameSize } from "./framing";
 import { fitViewport, toPixels } from "./projection";
 
 function device(x: number, y: number): MapDevice {
@@ -24,4 +24,10 @@ test("without a floor all devices are seen, wherever they stand", () => {
 test("an empty site has a box, too", () => {
   const { left, right } = boxOfDevices([]);
   expect(right).toBeGreaterThan(left);
+});
+
+test("names are cut where they would cover others, and never too small to be read", () => {
+  expect(nameOnMap("Paint Mixer A")).toBe("Paint Mixer A");
+  expect(nameOnMap("x".repeat(200))).toHaveLength(28);
+  for (const zoom of [0.2, 0.5, 1, 2]) expect(nameSize(zoom) * zoom).toBeGreaterThanOrEqual(10.5);
 });

@@ -5,6 +5,21 @@ import { boxAround, PIXELS_PER_METRE, toPixels, type Box } from "./projection";
 /** Drawing pixels; a lone machine is not shown larger than life. */
 const MARGIN = 3 * PIXELS_PER_METRE;
 
+const LONGEST = 28;
+
+/** How large names are written, in drawing pixels. */
+export const NAME_SIZE = 11.5;
+
+/** A name as it stands on a map: whole names of a few hundred characters would cover the others. */
+export function nameOnMap(name: string): string {
+  return name.length > LONGEST ? `${name.slice(0, LONGEST - 1).trimEnd()}…` : name;
+}
+
+/** How large a single name is written, in drawing pixels, so that it can be read at any zoom. */
+export function nameSize(zoom: number): number {
+  return Math.max(NAME_SIZE, 10.5 / zoom);
+}
+
 /** The box in which devices stand, with room around them. */
 export function boxOfDevices(devices: readonly MapDevice[]): Box {
   const corners = devices.flatMap((device) => {

@@ -4,6 +4,7 @@ import { useTranslation } from "react-i18next";
 import type { Device, Site, SiteMap } from "@/api/types";
 import { formatNumber } from "@/i18n/format";
 import { footprint } from "@/map/device";
+import { nameOnMap } from "@/map/framing";
 import { DeviceGlyph } from "@/map/DeviceToken";
 import { toMetres, toPixels, type Point } from "@/map/projection";
 import { useDecide } from "./decide";
@@ -47,7 +48,7 @@ export function MovableMachine({ site, map, device }: MovableProps) {
         rx={8}
       />
       <text className={styles.movableName} y={height / 2 + 22} textAnchor="middle">
-        {device.name}
+        {nameOnMap(device.name)}
       </text>
     </g>
   );
