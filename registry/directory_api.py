@@ -34,6 +34,13 @@ class NotMadeHere(RegistryError):
     status = 405
 
 
+class NotSearchedHere(RegistryError):
+    """A search of the standard's that this directory does not offer."""
+
+    code = "not_searched_here"
+    status = 501
+
+
 @router.api_operation(READ, "/.well-known/wot", auth=None)
 def show_directory(request: HttpRequest) -> HttpResponse:
     """Describe the directory itself, also to strangers: they learn here how to sign in."""
@@ -95,6 +102,14 @@ def watch_all(request: HttpRequest, type: Query[list[EventName] | None] = None, 
 def watch_some(request: HttpRequest, kind: EventName, diff: bool = False) -> HttpResponseBase:
     """Send events of one kind."""
     return open_stream(request, site=None, kinds=(kind,), diff=diff)
+
+
+@router.api_operation([*READ, "POST"], "/search/{kind}")
+def refuse_search(request: HttpRequest, kind: str) -> HttpResponse:
+    """Say where one can search."""
+    raise NotSearchedHere(
+        "This directory has no search. Ask a site: GET /api/sites/{slug}/sparql?query=… (docs/api.md)."
+    )
 
 
 def _find(request: HttpRequest, thing: str) -> DeviceView:

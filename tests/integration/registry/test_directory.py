@@ -167,6 +167,7 @@ def test_everybody_sees_the_things_of_their_own_sites_only(two_sites: None, role
         ("/things?sort_by=colour", 501, "not_sorted"),
         ("/events/thing_eaten", 400, "bad_request"),
         ("/things/nothing", 404, "no_such_device"),
+        ("/search/jsonpath?query=$", 501, "not_searched_here"),
     ],
 )
 def test_what_cannot_be_answered_is_a_problem_as_the_standard_has_it(
