@@ -8,6 +8,7 @@ import logging
 import os
 import secrets
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +18,7 @@ from registry.mqtt import MqttClient
 log = logging.getLogger(__name__)
 PATIENCE_S = 2.0
 KEY_BYTES = 24
+NEW_KEY = "A key that it was given belongs into secrets/devices.json."
 LEAST_PAUSE_S, MOST_PAUSE_S = 5, 30
 
 
@@ -65,33 +67,51 @@ def _write(path: Path, keys: dict[str, str]) -> None:
 
 
 class Doorstep:
-    """Knocks for devices that are refused, one at a time, until each is let in as itself.
+    """What a device does that is not let in: it tries the key that people wrote meanwhile, or knocks, again and again.
 
-    `open_door` makes a connection as the newcomers of the site, with its join key.
+    `open_door` makes a connection as the newcomers of the site, with its join key; None where there is no such key.
     """
 
-    def __init__(self, site: str, open_door: Callable[[], MqttClient]) -> None:
-        self._site, self._open_door = site, open_door
+    def __init__(self, site: str, ring: KeyRing, open_door: Callable[[], MqttClient] | None) -> None:
+        self._site, self._ring, self._open_door = site, ring, open_door
         self._one_at_a_time = threading.Lock()
+        self._next_s: dict[str, float] = {}
+        self._told: set[str] = set()
 
-    def wait(self, device: str, key: str, client: MqttClient) -> None:
-        """Follow a device's first attempts to come in, in a thread of their own."""
-        threading.Thread(target=self._wait, args=(device, key, client), name=f"door-{device}", daemon=True).start()
+    def watch(self, device: str, key: str, client: MqttClient) -> None:
+        """Follow how a device is let in, for as long as its connection is wanted."""
+        offered = [key]
+        client.on_refused(lambda: self._refused(device, offered, client))
+        client.on_connected(lambda: self._told.discard(device))
 
-    def _wait(self, device: str, key: str, client: MqttClient) -> None:
-        pause, has_knocked = threading.Event(), False
-        while not client.wait_connected(PATIENCE_S):
-            if client.refusal:
-                if not has_knocked:
-                    log.warning("%s is not known at %s; it knocks, and waits for an admin.", device, self._site)
-                has_knocked = True
-                self._knock(device, key)
-                # As all newcomers of a site are one client there, they must not knock in step.
-                pause.wait(LEAST_PAUSE_S + secrets.randbelow(MOST_PAUSE_S - LEAST_PAUSE_S))
+    def _refused(self, device: str, offered: list[str], client: MqttClient) -> None:
+        key = self._ring.key(device)
+        if key != offered[-1]:
+            offered[:] = [key]
+            client.change_password(key)
+            return
+        self._tell(device)
+        open_door = self._open_door
+        if open_door is not None and time.monotonic() >= self._next_s.get(device, 0.0):
+            # As all newcomers of a site are one client there, they must not knock in step.
+            pause_s = LEAST_PAUSE_S + secrets.randbelow(MOST_PAUSE_S - LEAST_PAUSE_S)
+            self._next_s[device] = time.monotonic() + pause_s
+            told = (device, key, open_door)
+            threading.Thread(target=self._knock, args=told, name=f"door-{device}", daemon=True).start()
 
-    def _knock(self, device: str, key: str) -> None:
+    def _tell(self, device: str) -> None:
+        """Say in the log, once until it is let in, what will become of a device."""
+        if device in self._told:
+            return
+        self._told.add(device)
+        if self._open_door is None:
+            log.warning("%s has no key that is known: write one into secrets/devices.json, or name a join key.", device)
+        else:
+            log.warning("%s is not let in at %s: it knocks, and waits for an admin. %s", device, self._site, NEW_KEY)
+
+    def _knock(self, device: str, key: str, open_door: Callable[[], MqttClient]) -> None:
         with self._one_at_a_time:
-            door = self._open_door()
+            door = open_door()
             door.start()
             if door.wait_connected(PATIENCE_S):
                 door.publish(f"vipo/v1/join/{self._site}/{device}", json.dumps({"key": key}).encode())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import os
 from pathlib import Path
 from typing import Any
@@ -13,36 +12,17 @@ from connectors.keys import Doorstep, KeyRing
 from registry.device_line import ConnectionMaker
 from registry.mqtt import MqttClient, Will, tls_context
 
-log = logging.getLogger(__name__)
-
-
-class Complaints:
-    """Tells once of each device that it has no key by which it is let in."""
-
-    def __init__(self) -> None:
-        self._told: set[str] = set()
-
-    def say(self, device: str) -> None:
-        """Tell it in the log."""
-        if device not in self._told:
-            self._told.add(device)
-            log.warning("%s has no key that is known: write one into secrets/devices.json, or name a join key.", device)
-
 
 def device_connections(site: str, secrets: Path, world: str) -> ConnectionMaker:
     """Return what connects a device to VIPO, by its own key; a newcomer of that world knocks with the join key."""
-    complaints = Complaints()
     ring = KeyRing(secrets / "devices.json", secrets / f"{world}-{site}.json")
     join_key = read_join_key(secrets)
-    doorstep = Doorstep(site, lambda: vipo_client(f"join:{site}", join_key))
+    doorstep = Doorstep(site, ring, (lambda: vipo_client(f"join:{site}", join_key)) if join_key else None)
 
     def connect(device: str, will: Will) -> MqttClient:
         key = ring.key(device)
         client = vipo_client(device, key, will)
-        if join_key:
-            doorstep.wait(device, key, client)
-        else:
-            client.on_refused(lambda: complaints.say(device))
+        doorstep.watch(device, key, client)
         return client
 
     return connect

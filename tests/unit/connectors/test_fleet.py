@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from django.core.management.base import CommandError
 
-from connectors.keys import KeyRing
+from connectors.keys import Doorstep, KeyRing
 from connectors.management.commands.vda5050 import make_fleet, read_origin, vehicle_client
 from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS, Fleet, Said
 from connectors.vda5050.frame import Frame
@@ -110,3 +110,21 @@ def test_the_log_says_once_that_a_broker_is_not_reached(caplog: pytest.LogCaptur
     for _ in range(MISSES_TOLD + 2):
         client._missed(client._paho, None)
     assert caplog.messages == ["vipo-hall does not reach the MQTT broker at 127.0.0.1:9; it goes on trying."]
+
+
+def test_a_device_that_is_not_let_in_tries_the_key_that_was_written_meanwhile(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    by_hand = tmp_path / "devices.json"
+    ring = KeyRing(by_hand, tmp_path / "own.json")
+    client = vehicle_client("mqtt://127.0.0.1:9", "", "Acme-1")
+    Doorstep("hall", ring, None).watch("Acme-1", ring.key("Acme-1"), client)
+    for _ in range(2):
+        client._refused(client._paho, "Not authorized")
+    by_hand.write_text(json.dumps({"Acme-1": "the new key"}))
+    client._refused(client._paho, "Not authorized")
+    assert client._password == "the new key"
+    assert caplog.messages == [
+        "The MQTT broker refused Acme-1: Not authorized.",
+        "Acme-1 has no key that is known: write one into secrets/devices.json, or name a join key.",
+    ]
