@@ -40,7 +40,8 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
     Raises:
         NoSuchDevice: the site has no such device.
         BadArguments: the device has no such method, or the method does not take these arguments.
-        NotPossibleNow: the site is stopped, the device is busy, held by a run, away, or not approved.
+        NotPossibleNow: the site is stopped, the device is busy, held by a run, away, or not approved, or the method's
+            topic is not confirmed.
     """
     device = registry.get_device(site=site, device_id=device_id)
     if device.kind == "robot" and method == "move":
@@ -58,6 +59,8 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
 
 
 def _check_arguments(device: registry.DeviceView, method: str, arguments: Mapping[str, Any]) -> None:
+    if waiting := next((asked.topic for asked in device.asks if asked.name == method), None):
+        raise NotPossibleNow(f"{method} waits until an admin confirms its topic {waiting} on {device.name}'s page.")
     devices = [d.id for d in registry.list_devices(site=device.site, lifecycle="approved")]
     places = [place.id for place in registry.list_places(site=device.site)]
     misfits = find_misfits(device.canonical, method, arguments, devices, places)

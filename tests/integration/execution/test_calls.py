@@ -15,6 +15,8 @@ from editor.language.plan import Call, Constant, End, Instruction, Move, PlaceRe
 from execution import services
 from execution.calls import NO_ANSWER, expire_calls
 from execution.models import Command, InboxEvent
+from registry import services as registry
+from registry.demo.devices import DEVICES
 from registry.models import Device, Membership, User
 from vipo_site.cli import main
 
@@ -181,6 +183,17 @@ def test_a_run_waits_for_a_device_that_somebody_uses_by_hand(factory):
     assert not state(made)["over"]
     factory.go(lambda: services.get_run(run_id=run)["status"] == "finished", dt_s=3.0)
     assert state(made)["status"] == "done"
+
+
+def test_a_method_whose_topic_is_not_confirmed_says_so(factory):
+    said = (DEVICES / "paintMixer01.ttl").read_text().replace("vipo/v1/dev/paintMixer01/down/mixPaint", "plant/mix")
+    registry.ingest_description(device_id="paintMixer01", payload=said.encode(), at=datetime.now(UTC))
+    answer = ask(member("operator"))
+    assert (answer.status_code, answer.json()["code"]) == (409, "not_possible_now")
+    told = "mixPaint waits until an admin confirms its topic plant/mix on Paint Mixer A's page."
+    assert answer.json()["detail"] == told
+    registry.confirm_topic(site=SITE, device_id="paintMixer01", topic="plant/mix", by=None, at=datetime.now(UTC))
+    assert call(time=2)["status"] == "pending"
 
 
 def test_a_robot_drives_only_in_programs(factory):
