@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, Literal
 
 from connectors.vda5050.frame import Point
@@ -112,8 +112,8 @@ def instant_actions(actions: Sequence[Body], version: str) -> Body:
 
 
 def order_to_json(order: Order) -> dict[str, Any]:
-    """Return what order_from_json reads."""
-    return asdict(order)
+    """Return what order_from_json reads; it is asked for with each message, and so shares the order's body."""
+    return {field.name: getattr(order, field.name) for field in fields(order)}
 
 
 def order_from_json(body: Mapping[str, Any]) -> Order:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 from math import hypot
 from typing import Any
 
@@ -162,7 +162,8 @@ def _misfit_of_action(vehicle: Vehicle, told: Told) -> str:
 
 def task_to_json(task: Task) -> dict[str, Any]:
     """Return what task_from_json reads."""
-    return asdict(task)
+    way = [{"point": w.point, "theta": w.theta, "speed_m_s": w.speed_m_s} for w in task.way]
+    return {**{field.name: getattr(task, field.name) for field in fields(task)}, "way": way}
 
 
 def task_from_json(body: Mapping[str, Any]) -> Task:

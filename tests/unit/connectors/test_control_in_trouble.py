@@ -177,3 +177,8 @@ def test_what_a_vehicle_does_not_tell_is_left_out_and_what_stops_it_is_said() ->
         "Emergency stop (MANUAL)",
         "Something is in its protective field; slip",
     )
+
+
+def test_what_is_kept_is_not_copied_with_each_message() -> None:
+    control = driving().control
+    assert control.to_json()["order"]["body"] is control.to_json()["order"]["body"]
