@@ -199,6 +199,8 @@ def test_a_killed_device_is_declared_offline_with_its_boot_and_the_next_boot_is_
 
 def test_a_configuration_that_cannot_be_used_is_said_in_a_sentence(interpreter: list[str], tmp_path: Path) -> None:
     good = {"host": "h", "port": 1, "id": "x", "password": "p", "description": str(tmp_path / "none.ttl")}
+    long = tmp_path / "long.ttl"
+    long.write_text("#" * 16001)
     for content, sentence in (
         (None, "There is no configuration file {path}."),
         ("%", "{path} is not JSON."),
@@ -212,6 +214,10 @@ def test_a_configuration_that_cannot_be_used_is_said_in_a_sentence(interpreter: 
             "{path} has a join key, but does not say 'site', whose key it is.",
         ),
         (json.dumps(good), f"There is no description file {tmp_path}/none.ttl."),
+        (
+            json.dumps({**good, "description": str(long)}),
+            f"The description file {long} is longer than 16000 bytes.",
+        ),
     ):
         path = tmp_path / "c.json"
         path.unlink(missing_ok=True)

@@ -6,6 +6,7 @@ import json
 import re
 import socket
 import struct
+import subprocess
 from collections.abc import Iterator
 from dataclasses import dataclass
 from html import unescape
@@ -17,11 +18,23 @@ from urllib.parse import urlencode
 import pytest
 
 from tests.firmware.hd44780 import texts
-from tests.firmware.rig import ACCOUNTS, DEVICE, LIMIT_S, Chip, Running, listening, running_bus, running_chip, wait_for
+from tests.firmware.rig import (
+    ACCOUNTS,
+    DEVICE,
+    LIMIT_S,
+    ROOT,
+    Chip,
+    Running,
+    listening,
+    running_bus,
+    running_chip,
+    wait_for,
+)
 from tests.servers import free_port
 
 EVIL = "\"><script>alert('1')</script>&"
 SECRET = "a secret that stays"
+LONGEST_CERTIFICATE = 4000
 
 
 class Form(HTMLParser):
@@ -169,6 +182,18 @@ def test_an_empty_secret_keeps_the_one_that_is_there(page: Page) -> None:
     assert "token" not in kept
 
 
+def test_a_certificate_as_long_as_the_field_allows_is_kept(page: Page, tmp_path: Path) -> None:
+    script = ROOT / "deploy" / "mosquitto" / "make-certificates.sh"
+    subprocess.run([script, tmp_path / "authority", "localhost"], check=True, capture_output=True)
+    authority = (tmp_path / "authority" / "ca.crt").read_text()
+    chain = (authority * (LONGEST_CERTIFICATE // len(authority))).replace("\n", "\r\n")
+    assert len(chain) > 3500
+    status, _, body = page.post({**page.form.values, "driver": "mixer", "name": "Mixer", "ca": chain})
+    assert (status, "Saved." in body) == (200, True)
+    page.chip.process.wait(LIMIT_S)
+    assert (tmp_path / "ca.crt").read_bytes().decode().split() == chain.split()
+
+
 WRONG = [
     ({"id": "a/b"}, """The form: "This device's id" must be 1 to 64 letters, digits, '_', '.' or '-'."""),
     ({"id": ""}, """The form does not say "This device's id"."""),
@@ -281,7 +306,10 @@ def test_another_chip_of_the_family_opens_the_page_without_the_usual_pins(microp
 
 
 def test_a_pin_that_the_chip_does_not_have_is_named(micropython: str, tmp_path: Path) -> None:
-    known = {"wifi_name": "hall", "host": "old", "port": 1883, "id": "old", "password": "word", "pins": {"output": 24}}
+    known: dict[str, Any] = {"wifi_name": "hall", "host": "old", "port": 1883, "id": "old", "password": "word"}
+    known["pins"] = {"sda": 4, "scl": 5, "output": 24}
     (tmp_path / "config.json").write_text(json.dumps(known))
     with set_up(micropython, tmp_path, {"VIPO_LACKS": "24"}) as page:
         assert "config.json: pin 24 cannot be 'output': invalid pin.\n" in page.chip.console
+        assert texts(page.chip.record)[-1][0] == "VIPO-12abcd     "
+        assert not [entry for entry in page.chip.record if entry[1] == "pin"]

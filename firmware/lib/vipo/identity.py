@@ -4,7 +4,8 @@ from vipo.configuration import read_file
 from vipo.drivers import make_driver
 from vipo.portable import forget
 
-LONGEST_FILE = 16384
+# The broker's longest packet is 16,384 bytes, with the topic.
+LONGEST_FILE = 16000
 
 
 def make_identity(configuration, panel):

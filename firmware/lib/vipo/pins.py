@@ -8,26 +8,20 @@ LIGHTS, LEVELS = ("red", "green", "blue", "led"), ("lcd", "inverted", "output_in
 
 
 def find_pins(named):
-    """Return (the pins to use, why the named ones cannot be used or an empty text).
+    """Return (the pins to use, why a named one cannot be used or an empty text).
 
     A chip that lacks a usual pin is another one of the family: there the others may be the flash's, so none is used.
     """
-    if named:
-        fault = first_fault(named)
-        if not fault:
-            return named, ""
-    else:
-        fault = ""
-    return ({} if any(why_not(name, DEFAULT_PINS) for name in DEFAULT_PINS) else DEFAULT_PINS), fault
-
-
-def first_fault(pins):
-    """Return the first pin that this chip does not have or cannot use so, in a sentence, or an empty text."""
-    for name in pins:
-        why = why_not(name, pins, True)
+    if not named:
+        return ({} if any(why_not(name, DEFAULT_PINS) for name in DEFAULT_PINS) else DEFAULT_PINS), ""
+    good, fault = {}, ""
+    for name in named:
+        why = why_not(name, named, True)
         if why:
-            return "config.json: pin %d cannot be %r: %s." % (pins[name], name, why)
-    return ""
+            fault = "config.json: pin %d cannot be %r: %s." % (named[name], name, why)
+        else:
+            good[name] = named[name]
+    return good, fault
 
 
 def why_not(name, pins, switch=False):

@@ -5,6 +5,7 @@ connection, a few connections at once, everything bounded; whatever is asked for
 """
 
 import asyncio
+import io
 import json
 import os
 from binascii import hexlify
@@ -80,8 +81,9 @@ class Portal:
                 raise BadRequest(503)
             request = await asyncio.wait_for(self._read(reader), REQUEST_TIMEOUT_S)
             answer, saved = self._answer(*request)
-        except BadRequest as error:
-            answer, saved = response(error.code, REASONS[error.code]), False
+        except (BadRequest, MemoryError) as error:
+            code = getattr(error, "code", 503)
+            answer, saved = response(code, REASONS[code]), False
         return answer, saved, request is not None
 
     async def _read(self, reader):
@@ -233,7 +235,7 @@ def fault_of_authority(text):
     if not text:
         return ""
     try:
-        trusting(read_certificate(text.split("\n")))
+        trusting(read_certificate(io.StringIO(text)))
     except ValueError:
         return "The form: the certificate is not in PEM form."
     return ""
