@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { cellAt, cellBoxToPixels, knownBox, mergeCells, type FloorPlan } from "./floor";
+import { cellAt, cellBoxToPixels, knownBox, mergeCells, wallBoxes, type FloorPlan } from "./floor";
 
 const plan: FloorPlan = {
   version: 1,
@@ -31,4 +31,9 @@ test("unknown cells at the edge are not part of the known box", () => {
 test("a point off the map is unknown", () => {
   expect(cellAt(plan, [2.5, -2.5])).toBe(100);
   expect(cellAt(plan, [9, 9])).toBe(255);
+});
+
+test("walls are looked for once for as long as the cells stay the same", () => {
+  expect(wallBoxes(plan)).toEqual([{ left: 92, right: 138, top: 46, bottom: 138 }]);
+  expect(wallBoxes({ ...plan, version: 2 })).toBe(wallBoxes(plan));
 });

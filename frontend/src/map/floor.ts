@@ -72,6 +72,17 @@ export function cellBoxToPixels(plan: FloorPlan, box: CellBox): Box {
   return { left, bottom, right: left + box.columns * side, top: bottom - box.rows * side };
 }
 
+const walls = new WeakMap<Uint8Array, Box[]>();
+
+/** The walls on the drawing plane; kept for as long as the cells are. */
+export function wallBoxes(plan: FloorPlan): readonly Box[] {
+  const known = walls.get(plan.cells);
+  if (known) return known;
+  const boxes = mergeCells(plan, (cell) => cell === 100).map((box) => cellBoxToPixels(plan, box));
+  walls.set(plan.cells, boxes);
+  return boxes;
+}
+
 /** The whole map on the drawing plane. */
 export function planBox(plan: FloorPlan): Box {
   return cellBoxToPixels(plan, { column: 0, row: 0, columns: plan.width, rows: plan.height });

@@ -36,7 +36,7 @@ function Stage(props: MapStageProps) {
   const [element, size] = useSize<HTMLDivElement>();
   const [viewport] = useState(() => new ViewportCell());
   const [level, setLevel] = useState<LevelOfDetail>("full");
-  const built = useMemo(() => buildNodes(scene, devices, looks, plan?.places), [scene, devices, looks, plan]);
+  const built = useMemo(() => buildNodes(scene, devices, looks, plan), [scene, devices, looks, plan]);
   const snapping = useSnapping(scene, devices, viewport);
   const moving = useMovingNodes(built, props.onMove, props.onSelectMany, snapping.snapTo);
   const box = useBoxDirection();

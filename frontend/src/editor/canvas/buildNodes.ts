@@ -1,11 +1,11 @@
 /** The scene as React Flow's nodes, with explicit sizes so that nothing is measured. */
 import { doingWords } from "@/i18n/doing";
-import type { MapPlace } from "@/map/floor";
+import { wallBoxes, type FloorPlan } from "@/map/floor";
 import { toPixels, type Box } from "@/map/projection";
 import { footprint, isRobot } from "@/map/device";
 import type { Chip } from "../scene/chips";
 import { deviceBox, type SiteDevice } from "../scene/surroundings";
-import { boxAt, grown, legBoxes } from "../scene/geometry";
+import { boxAt, grown, legBoxes, overlaps } from "../scene/geometry";
 import { floorNames, labelPlace, labelWidth, type LabelPlace } from "../scene/labels";
 import type { Scene } from "../scene/scene";
 import type { Light } from "./MachineNode";
@@ -24,6 +24,8 @@ export interface NodeLooks {
   readonly editable: boolean;
 }
 
+/** No name stands farther from its machine than this and its own width, drawing pixels. */
+const REACH = 60;
 export const START_ID = ":start";
 export const DEVICE_PREFIX = "device:";
 
@@ -31,15 +33,19 @@ export function buildNodes(
   scene: Scene,
   devices: readonly SiteDevice[],
   looks: NodeLooks,
-  places: readonly MapPlace[] = [],
+  plan: FloorPlan | null = null,
 ): StageNode[] {
   const chips = [...scene.chips.values()];
   const machines = devices.filter((device) => !isRobot(device));
-  const covers = [...drawnBoxes(scene), ...floorNames(places)];
+  const covers = [...drawnBoxes(scene), ...floorNames(plan?.places ?? [])];
+  const walls = plan ? wallBoxes(plan) : [];
   return [
     ...machines.map((device) => {
       const others = machines.filter((each) => each.id !== device.id).map((each) => grown(deviceBox(each), 4));
-      const label = labelPlace(deviceBox(device), labelWidth(device.name, doingWords(device)), [...covers, ...others]);
+      const box = deviceBox(device);
+      const width = labelWidth(device.name, doingWords(device));
+      const near = walls.filter((wall) => overlaps(grown(box, width + REACH), wall));
+      const label = labelPlace(box, width, [...covers, ...others, ...near]);
       covers.push(label.box);
       return machineNode(device, label, looks);
     }),
