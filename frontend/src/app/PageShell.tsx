@@ -26,7 +26,7 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
     document.title = `${title} · VIPO`;
   }, [title]);
   return (
-    <div className={styles.shell}>
+    <div className={styles.shell} data-manage="">
       <SideBar />
       <header className={styles.head}>
         <div className={styles.headRow}>

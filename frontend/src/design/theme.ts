@@ -25,6 +25,20 @@ const brand: MantineColorsTuple = [
   "#332CA6",
 ];
 
+/** The greys of the dark theme, as in tokens.css: from text to void. */
+const dark: MantineColorsTuple = [
+  "#EEF0F5",
+  "#BCC3D1",
+  "#949DB0",
+  "#6C778D",
+  "#3F495D",
+  "#353E50",
+  "#2B3241",
+  "#191D27",
+  "#10141C",
+  "#0A0C11",
+];
+
 export const FONT = `"Inter Variable", Inter, system-ui, sans-serif`;
 export const MONO = `"JetBrains Mono", ui-monospace, monospace`;
 
@@ -33,7 +47,7 @@ export const makeTheme = (close: string) =>
   createTheme({
     fontFamily: FONT,
     fontFamilyMonospace: MONO,
-    colors: { brand },
+    colors: { brand, dark },
     primaryColor: "brand",
     primaryShade: 6,
     defaultRadius: "md",

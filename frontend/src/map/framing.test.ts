@@ -28,6 +28,7 @@ test("an empty site has a box, too", () => {
 
 test("names are cut where they would cover others, and never too small to be read", () => {
   expect(nameOnMap("Paint Mixer A")).toBe("Paint Mixer A");
+  expect(nameOnMap("Labeller of the packaging line")).toBe("Labeller of the packaging…");
   expect(nameOnMap("x".repeat(200))).toHaveLength(28);
   for (const zoom of [0.2, 0.5, 1, 2]) expect(nameSize(zoom) * zoom).toBeGreaterThanOrEqual(10.5);
 });

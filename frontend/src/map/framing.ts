@@ -10,9 +10,12 @@ const LONGEST = 28;
 /** How large names are written, in drawing pixels. */
 export const NAME_SIZE = 11.5;
 
-/** A name as it stands on a map: whole names of a few hundred characters would cover the others. */
+/** A name as it stands on a map, cut behind a word: long ones would cover the others. */
 export function nameOnMap(name: string): string {
-  return name.length > LONGEST ? `${name.slice(0, LONGEST - 1).trimEnd()}…` : name;
+  if (name.length <= LONGEST) return name;
+  const cut = name.slice(0, LONGEST - 1);
+  const words = cut.replace(/\s+\S*$/, "");
+  return `${words || cut}…`;
 }
 
 /** How large a single name is written, in drawing pixels, so that it can be read at any zoom. */

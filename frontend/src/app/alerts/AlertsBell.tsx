@@ -68,7 +68,7 @@ export function AlertsBell({ slug }: { slug: string }) {
             ) : null}
           </button>
         </Popover.Target>
-        <Popover.Dropdown className={styles.list} aria-label={t("alerts.title")}>
+        <Popover.Dropdown data-manage="" className={styles.list} aria-label={t("alerts.title")}>
           <AlertList slug={slug} onLeave={() => setOpened(false)} />
         </Popover.Dropdown>
       </Popover>

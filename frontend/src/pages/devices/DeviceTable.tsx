@@ -15,6 +15,11 @@ import { useNow } from "../useNow";
 import { batteryOf } from "./filter";
 import styles from "./devices.module.css";
 
+const COLUMN_CLASSES: Readonly<Record<string, string | undefined>> = {
+  position: pages.optional,
+  battery: styles.right,
+};
+
 function Battery({ device }: { device: Device }) {
   const percent = batteryOf(device);
   if (percent === null) return null;
@@ -58,7 +63,7 @@ function Row({ device, alerts, slug, chosen, now }: RowProps) {
       <td className={styles.doing} title={doingWords(device)}>
         {device.status === "pending" ? t("pages.devices.notTrusted") : doingWords(device) || "–"}
       </td>
-      <td>
+      <td className={pages.optional}>
         <code className={styles.position}>{formatPoint(x, y)}</code>
       </td>
       <td>{device.last_seen_at ? formatAge(device.last_seen_at, now) : t("pages.devices.never")}</td>
@@ -88,7 +93,7 @@ export function DeviceTable({
         <thead>
           <tr>
             {["device", "status", "doing", "position", "lastSeen", "battery"].map((column) => (
-              <th key={column} scope="col" className={column === "battery" ? styles.right : undefined}>
+              <th key={column} scope="col" className={COLUMN_CLASSES[column]}>
                 {t(`pages.devices.column.${column}`)}
               </th>
             ))}

@@ -14,6 +14,7 @@ export function KeyShown() {
       opened
       onClose={forget}
       closeOnClickOutside={false}
+      closeOnEscape={false}
       title={t("keys.shownTitle", { name: shown.name })}
       size={480}
     >

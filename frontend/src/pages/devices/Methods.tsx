@@ -118,7 +118,7 @@ function MethodTable({ site, device }: { site: Site; device: Device }) {
   const { t } = useTranslation();
   return (
     <Panel className={pages.scroll}>
-      <table className={pages.table}>
+      <table className={`${pages.table} ${styles.methodTable}`}>
         <thead>
           <tr>
             {["method", "parameter", "topic"].map((column) => (

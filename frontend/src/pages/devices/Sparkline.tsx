@@ -32,14 +32,15 @@ function useClock(every_ms: number): number {
 }
 
 /** The server's points with times as performance.now() has them. */
-function numbered(series: Series | undefined) {
+function numbered(series: Series | undefined, range: Range) {
   const offset = performance.timeOrigin;
   const points = (series?.points ?? []).flatMap(({ at, value, minimum, maximum }) =>
     typeof value === "number"
       ? [{ at: Date.parse(at) - offset, value, minimum: minimum ?? value, maximum: maximum ?? value }]
       : [],
   );
-  return cornersOf(points, (series?.bucket_s ?? 0) * 1000);
+  // The last minutes are short: what was reached within each would stand in it as a spike.
+  return range === "now" ? points : cornersOf(points, (series?.bucket_s ?? 0) * 1000);
 }
 
 export function Sparkline({ slug, device, property, range, colour }: SparklineProps) {
@@ -49,7 +50,7 @@ export function Sparkline({ slug, device, property, range, colour }: SparklinePr
   const live = readingsOf(device, property).filter(
     (each): each is Reading & { value: number } => typeof each.value === "number",
   );
-  const readings = joinReadings(numbered(series), live);
+  const readings = joinReadings(numbered(series, range), live);
   const frame = { now, window_ms: RANGE_MS[range], width: WIDTH, height: HEIGHT };
   const path = sparkPath(readings, frame);
   if (!path) return null;
