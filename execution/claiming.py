@@ -46,7 +46,8 @@ WITH due AS MATERIALIZED (
     WINDOW lane AS (PARTITION BY site_id, device)
 ), chosen AS MATERIALIZED (
     SELECT id FROM waiting
-    WHERE send_after <= %(now)s AND (method IN ({_words(CONTROLS)}) OR (
+    WHERE send_after <= %(now)s AND ({registry.OUT_SQL.format(device="waiting.device")}) IS NOT TRUE
+    AND (method IN ({_words(CONTROLS)}) OR (
         site_id NOT IN (SELECT site_id FROM execution_sitestop WHERE active)
         AND NOT (piece AND position > coalesce(unanswered_piece, position))
         AND (tries > 0 OR position - oldest < {WINDOW} OR {WINDOW} > (
@@ -104,10 +105,11 @@ class OutgoingCommand:
 def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     """Return commands that are due to be sent, in their order; nobody else is given them for a while.
 
-    One whose sending is not confirmed by `mark_commands_sent`, or that no device answers, is given out again. While a
-    site is stopped only pause, resume and cancel go out. A piece of way waits until the robot has accepted the piece
-    before it: with a gateway that died in between, it would otherwise cut the corner through a wall. Nothing new goes
-    out while a command that is `WINDOW` older is open: asked again, the device might have forgotten it.
+    One whose sending is not confirmed by `mark_commands_sent`, or that no device answers, is given out again. What
+    is meant for a device that does not take part is kept back. While a site is stopped only pause, resume and
+    cancel go out. A piece of way waits until the robot has accepted the piece before it: with a gateway that died
+    in between, it would otherwise cut the corner through a wall. Nothing new goes out while a command that is
+    `WINDOW` older is open: asked again, the device might have forgotten it.
     All that is one statement: a command waits for this, and each question more is a millisecond.
     """
     with _preparing_cursor() as cursor:

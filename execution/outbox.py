@@ -11,7 +11,9 @@ from django.db import transaction
 from execution import inbox
 from execution.claiming import CONTROLS, LAST_RETRY_S, UNANSWERED
 from execution.models import Command
+from execution.reasons import SENTENCES
 from registry import live
+from registry import services as registry
 from registry.capability import Scalar
 
 CONTROL_LIMIT_S = 60.0
@@ -23,6 +25,7 @@ STATUS = {
     "REJECTED": Command.Status.REJECTED,
     "CANCELED": Command.Status.CANCELLED,
 }
+OUT = SENTENCES["no_device"]
 FINAL = frozenset({"DONE", "FAILED", "REJECTED", "CANCELED"})
 
 
@@ -81,6 +84,24 @@ def _pass_on(row: Command, status: str, why: str, result: Mapping[str, Scalar]) 
                 "why": why}  # fmt: skip
         inbox.post(inbox.run_target(row.run), [(f"note:{row.id}", note)])
     inbox.post(inbox.site_target(row.site.slug), [(f"answer:{row.id}", answer)])
+
+
+def end_commands_of_those_out(now: datetime) -> None:
+    """End what devices were told that do not take part any more: another one may come in by such an id."""
+    waiting = Command.objects.filter(status__in=Command.OPEN)
+    out = registry.find_out(devices=set(waiting.values_list("device", flat=True)))
+    for number in list(waiting.filter(device__in=out).order_by("position").values_list("id", flat=True)) if out else ():
+        with transaction.atomic():
+            row = waiting.select_for_update(of=("self",)).select_related("site").filter(id=number).first()
+            if row is not None:
+                _end(row, OUT.format(device=row.device), now)
+
+
+def _end(row: Command, why: str, now: datetime) -> None:
+    row.status, row.why, row.ended_at = Command.Status.FAILED, why, now
+    row.save(update_fields=["status", "why", "ended_at"])
+    if row.method not in CONTROLS:
+        _pass_on(row, "FAILED", why, {})
 
 
 def _uuid(text: str) -> UUID | None:

@@ -13,7 +13,7 @@ from execution.alerting import watch_alerts
 from execution.arming import start_armed
 from execution.calls import expire_calls
 from execution.models import FloorState, InboxEvent, Lease, Rehearsal, Run, Timer
-from execution.outbox import drop_stale_controls
+from execution.outbox import drop_stale_controls, end_commands_of_those_out
 from registry import live
 from registry import services as registry
 
@@ -108,6 +108,7 @@ def sweep(now: datetime) -> None:
     for run in pending.values_list("id", flat=True):
         inbox.send_hint(inbox.ADVANCE_RUN, str(run))
     drop_stale_controls(now)
+    end_commands_of_those_out(now)
     expire_calls(now=now)
     _sweep_rehearsals(now)
 

@@ -34,6 +34,9 @@ DONE_FLAG_ONLY_SQL = f"SELECT source_type = '{CONTENT_TYPES['paper']}' FROM regi
 It asks about each device by its key: a look through all of them takes longer than all the rest of a claim.
 """
 
+OUT_SQL = "SELECT lifecycle <> 'approved' FROM registry_device WHERE id = {device}"
+"""Whether a device (a column's name) does not take part: it is told nothing. It asks about each by its key, too."""
+
 
 class NoSuchDevice(RegistryError):
     """No device of that id at that site."""

@@ -7,7 +7,7 @@ updates, and what is older than what is known is ignored by (boot, seq).
 from __future__ import annotations
 
 import hmac
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import asdict, dataclass, replace
 from datetime import datetime, timedelta
 from typing import Any
@@ -280,6 +280,12 @@ def find_device(*, device_id: str) -> DeviceView | None:
     """Return a device by its id alone, whatever its site; None when nobody described it yet."""
     device = Device.objects.filter(pk=device_id, description__isnull=False).select_related("site").first()
     return view_of(device, device.site.slug) if device else None
+
+
+def find_out(*, devices: Collection[str]) -> frozenset[str]:
+    """Return which of these devices do not take part: those that wait for approval, or were taken out."""
+    rows = Device.objects.filter(pk__in=devices).exclude(lifecycle=Device.Lifecycle.APPROVED)
+    return frozenset(rows.values_list("pk", flat=True))
 
 
 def list_device_events(*, site: str, device_id: str, limit: int = 50) -> tuple[DeviceEventView, ...]:

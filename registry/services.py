@@ -29,7 +29,7 @@ from registry.decisions import (
     rotate_credential,
 )
 from registry.described import SaidDescription, ingest_description, ingest_descriptions
-from registry.device_rows import DONE_FLAG_ONLY_SQL, BadDevice, NoSuchDevice
+from registry.device_rows import DONE_FLAG_ONLY_SQL, OUT_SQL, BadDevice, NoSuchDevice
 from registry.history import PointView, SeriesView, read_history
 from registry.intake import SaidState, find_unchanged, ingest_states
 from registry.joining import (
@@ -39,6 +39,7 @@ from registry.joining import (
     count_dropped,
     find_device,
     find_ended,
+    find_out,
     get_device,
     ingest_presence,
     ingest_state,
@@ -97,6 +98,7 @@ from registry.views import (
 __all__ = [
     "CONFIRMED_TOPICS_SQL",
     "DONE_FLAG_ONLY_SQL",
+    "OUT_SQL",
     "AlertCode",
     "AlertView",
     "BadDevice",
@@ -146,6 +148,7 @@ __all__ = [
     "find_alert",
     "find_device",
     "find_ended",
+    "find_out",
     "find_unchanged",
     "flush_alerts",
     "flush_samples",

@@ -201,6 +201,19 @@ def drop_pieces(turn: Turn, robot: Robot, *, cancel: bool) -> None:
         del turn.sent[sent.id]
 
 
+def leave_gone(turn: Turn) -> None:
+    """Reckon no more with devices that were taken out: a robot that stands or drives there stays where it is."""
+    for machine in [machine for machine in turn.stations if machine not in turn.layout.stations]:
+        del turn.stations[machine]
+    for robot in list(turn.robots.values()):
+        if robot.id not in turn.layout.devices:
+            turn.offline.setdefault(robot.id, turn.now)
+            robot = turn.put(robot, online=False)
+        if not all(turn.layout.has_node(node) for node in robot.way):
+            drop_pieces(turn, robot, cancel=True)
+            place(turn, turn.put(robot, evading="", yields_to="", blocked_since=None, idle_since=turn.now))
+
+
 def keep_stations(turn: Turn) -> None:
     """Give machines back that their robot neither stands at nor is on its way to."""
     for machine, holder in list(turn.stations.items()):

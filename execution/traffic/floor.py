@@ -10,7 +10,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from execution.traffic import messages as m
-from execution.traffic.driving import cut_way, drive, drop_pieces, end_piece, keep_stations, place, take_pose
+from execution.traffic.driving import (
+    cut_way,
+    drive,
+    drop_pieces,
+    end_piece,
+    keep_stations,
+    leave_gone,
+    place,
+    take_pose,
+)
 from execution.traffic.evading import resolve, send_home
 from execution.traffic.floor_state import FloorState, Job, Robot, Sent, from_json, to_json
 from execution.traffic.layout import Layout
@@ -43,6 +52,7 @@ def step(
     """Take in what happened, in order, at the time `now` (s), and decide once."""
     turn = Turn(layout, _without_gap(state, now), now)
     _know_robots(turn)
+    leave_gone(turn)
     for event in events:
         _take(turn, event)
     _check_limits(turn)

@@ -53,6 +53,10 @@ class Layout:
         """Return what people call a device or a place."""
         return self.names.get(thing, thing)
 
+    def has_node(self, node: Node) -> bool:
+        """Tell whether a node is there: a machine's spot goes when it is taken out."""
+        return isinstance(node, int) or node.startswith("@") or node in self.stations or node in self.places
+
     def spot(self, spot: str) -> Spot:
         """Return a spot by its id: a device's, a place's, or `@x,y` for a point."""
         if spot in self.stations:

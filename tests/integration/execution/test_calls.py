@@ -14,7 +14,9 @@ from django.test import Client
 from editor.language.plan import Call, Constant, End, Instruction, Move, PlaceRef, Plan, RoleBinding
 from execution import services
 from execution.calls import NO_ANSWER, expire_calls
+from execution.floor_stepping import advance_site
 from execution.models import Command, InboxEvent
+from execution.outbox import end_commands_of_those_out
 from registry import services as registry
 from registry.demo.devices import DEVICES
 from registry.models import Device, Membership, User
@@ -185,6 +187,18 @@ def test_a_run_waits_for_a_device_that_somebody_uses_by_hand(factory):
     assert state(made)["status"] == "done"
 
 
+@pytest.mark.parametrize("method", ["move", "mixPaint"])
+def test_a_run_whose_device_is_taken_out_ends_and_the_floor_goes_on(factory, method):
+    run = factory.start(CURE)
+    factory.go(lambda: Command.objects.filter(method=method, status__in=("sent", "accepted", "running")).exists())
+    device = Command.objects.filter(method=method).first().device
+    registry.retire_device(site=SITE, device_id=device, by=None, at=datetime.now(UTC))
+    end_commands_of_those_out(datetime.now(UTC))
+    factory.go(lambda: services.get_run(run_id=run)["status"] == "failed", limit_s=5.0)
+    assert services.get_run(run_id=run)["cause"] == {"code": "no_device", "args": {"device": device}}
+    assert advance_site(SITE)
+
+
 def test_a_method_whose_topic_is_not_confirmed_says_so(factory):
     said = (DEVICES / "paintMixer01.ttl").read_text().replace("vipo/v1/dev/paintMixer01/down/mixPaint", "plant/mix")
     registry.ingest_description(device_id="paintMixer01", payload=said.encode(), at=datetime.now(UTC))
@@ -214,6 +228,25 @@ def test_a_call_that_nobody_answers_is_given_up_and_the_device_is_free_again(fac
     factory.work()
     assert Command.objects.get(method="cancel").arguments == {"command": made["id"]}
     assert call(time=1)["status"] == "pending"
+
+
+def test_what_a_device_was_told_ends_when_it_is_taken_out_and_nobody_else_hears_of_it(factory):
+    made, now = call(time=20), datetime.now(UTC)
+    factory.send()
+    who = {"site": SITE, "device_id": "paintMixer01", "by": None, "at": now}
+    registry.retire_device(**who)
+    registry.readmit_device(**who)
+    Command.objects.update(send_after=now - timedelta(seconds=1))
+    assert services.claim_commands(limit=5) == ()
+    end_commands_of_those_out(now)
+    told = "There is no approved device called “paintMixer01” on this site."
+    assert (state(made)["status"], state(made)["why"], state(made)["cause"]["code"]) == ("failed", told, "no_device")
+    done = {"device": "paintMixer01", "command_id": made["id"], "status": "DONE", "why": "", "result": {}, "at": now}
+    assert not services.record_ack(**done)
+    factory.work()
+    registry.approve_device(**who)
+    Device.objects.filter(id="paintMixer01").update(online=True)
+    assert call("paintMixer01", time=1)["status"] == "pending"
 
 
 def test_a_call_can_be_cancelled_while_it_is_carried_out(factory):

@@ -24,6 +24,7 @@ NAME = "paintMixer02"
 def mixer(db):
     registry.create_site(name="Hall", slug="hall")
     registry.ingest_description(device_id=NAME, payload=FIGURE, at=datetime.now(UTC))
+    registry.approve_device(site="hall", device_id=NAME, by=None, at=datetime.now(UTC))
     return Mixer()
 
 
