@@ -219,6 +219,15 @@ _STATES: Mapping[str, str] = {
     "no_plain_value": "`{key}` holds {name!r}, which is not a plain value with a short name.",
     "value_length": "`{key}` holds a text of more than {most} characters: {name!r}.",
     "flood": "too many messages: some were dropped",
+    "no_room": "too many messages wait for it: some were dropped",
+    "many_subscriptions": "more than {most} subscriptions: some were refused",
+    "many_retained": "more than {most} retained topics: some were not kept",
+    "odd_packet": "a packet that no client sends ended its connection",
+    "giant_packet": "a packet of more than {most} bytes ended its connection",
+    "no_topic": "a message without a proper topic ended its connection",
+    "unreleased": "too many messages of QoS 2 that it does not release ended its connection",
+    "no_packet_id": "a packet without a number ended its connection",
+    "foreign_topic": "not its own topic: {topic}",
 }
 _MAPS: Mapping[str, str] = {
     "map_parts_differ": "The parts of the map tell of different sizes, places or numbers of parts.",

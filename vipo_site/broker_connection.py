@@ -20,6 +20,7 @@ from amqtt.mqtt.protocol.broker_handler import BrokerProtocolHandler
 from amqtt.mqtt.subscribe import SubscribePacket
 from amqtt.mqtt.unsubscribe import UnsubscribePacket
 
+from registry.faults import Fault, fault
 from vipo_site.broker_connect import UNREADABLE
 from vipo_site.broker_outbox import DEVICE_ROOM, Outbox
 
@@ -36,6 +37,10 @@ _ACKNOWLEDGED, _RECEIVED, _COMPLETE = 0x40, 0x50, 0x70
 class Unfit(Exception):
     """A client broke the protocol or its limits; the text says how. Its connection ends, and its will is sent."""
 
+    def __init__(self, why: Fault) -> None:
+        self.why = why
+        super().__init__(why.text)
+
 
 @dataclass(frozen=True, slots=True)
 class Publication:
@@ -51,7 +56,7 @@ class Connection(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no t
     """Serves one client; `receive` takes what it publishes, `complain` hears why it was thrown out."""
 
     receive: Callable[[Any, Publication], Awaitable[None]]
-    complain: Callable[[Any, str], None]
+    complain: Callable[[Any, Fault], None]
 
     def attach(self, session: Any, reader: Any, writer: Any) -> None:
         """Belong to a session, and to what waits in it."""
@@ -93,7 +98,7 @@ class Connection(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no t
             while await self._read_one():
                 pass
         except Unfit as reason:
-            self.complain(session, str(reason))
+            self.complain(session, reason.why)
         except (*UNREADABLE, ValueError, asyncio.CancelledError):
             pass  # amqtt's own loop takes a cancellation as the order to end properly, and so does this one
         await self.handle_connection_closed()
@@ -121,7 +126,7 @@ class Connection(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no t
             await self.handle_disconnect(DisconnectPacket())
             return False
         else:
-            raise Unfit("a packet that no client sends ended its connection")
+            raise Unfit(fault("odd_packet"))
         return True
 
     async def _read_packet(self) -> tuple[int, bytes]:
@@ -134,7 +139,7 @@ class Connection(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no t
                 length |= (byte & 0x7F) << shift
                 shift += 7
             if length + 1 + shift // 7 > PACKET_LIMIT_BYTES:
-                raise Unfit(f"a packet of more than {PACKET_LIMIT_BYTES} bytes ended its connection")
+                raise Unfit(fault("giant_packet", most=PACKET_LIMIT_BYTES))
             return head, (await self.reader.read(length) if length else b"")
 
     async def _take_publication(self, head: int, body: bytes) -> None:
@@ -142,7 +147,7 @@ class Connection(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no t
         qos, end = head >> 1 & 3, 2 + int.from_bytes(body[:2], "big")
         said = Publication(body[2:end].decode(), body[end + 2 if qos else end :], qos, bool(head & 1))
         if not said.topic or {"+", "#", "\0"} & set(said.topic) or said.topic.startswith("$") or qos == 3:
-            raise Unfit("a message without a proper topic ended its connection")
+            raise Unfit(fault("no_topic"))
         number = _number(body[end:]) if qos else 0
         if number not in self._unreleased or qos < 2:
             await self.receive(self.session, said)
@@ -151,7 +156,7 @@ class Connection(BrokerProtocolHandler):  # type: ignore[misc]  # amqtt has no t
         elif qos == 2:
             self._unreleased.add(number)
             if len(self._unreleased) > MOST_UNRELEASED:
-                raise Unfit("too many messages of QoS 2 that it does not release ended its connection")
+                raise Unfit(fault("unreleased"))
             await self._answer(bytes((_RECEIVED, 2)) + number.to_bytes(2, "big"))
 
     async def _ask(self, kind: int, head: int, body: bytes) -> None:
@@ -193,7 +198,7 @@ def _number(body: bytes) -> int:
     """Return a packet id; raises Unfit when there is none."""
     number = int.from_bytes(body[:2], "big")
     if len(body) < 2 or not number:
-        raise Unfit("a packet without a number ended its connection")
+        raise Unfit(fault("no_packet_id"))
     return number
 
 

@@ -14,18 +14,18 @@ from typing import Any
 from amqtt.broker import Broker
 from amqtt.contexts import Action
 
-from execution.intake import Complaints
-from registry.printing import printable
+from execution.intake import Complaints, with_others
+from registry.faults import Fault, facts_of, fault
 from vipo_site.broker_connection import Publication
 from vipo_site.broker_outbox import Letter
 from vipo_site.broker_topics import MOST_FILTERS, MOST_KEPT, MOST_KEPT_IN_ALL, MOST_LEVELS, KeptTopics, Subscriptions
-from vipo_site.doorkeeping import may_publish, may_subscribe
+from vipo_site.doorkeeping import Line, may_publish, may_subscribe
 
 log = logging.getLogger(__name__)
 
 SERVER = "server"
 REFUSED = 0x80
-NO_ROOM = "too many messages wait for it: some were dropped"
+NO_ROOM = fault("no_room")
 
 
 class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
@@ -36,9 +36,9 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
         self._subscriptions = Subscriptions()
         self._kept = KeptTopics()
         self._complaints = Complaints()
-        self._lines: deque[tuple[str, str]] = deque(maxlen=1000)
+        self._lines: deque[Line] = deque(maxlen=1000)
 
-    def take_dropped(self) -> tuple[Counter[str], list[tuple[str, str]]]:
+    def take_dropped(self) -> tuple[Counter[str], list[Line]]:
         """Return what was dropped since this was asked last, by user, and (user, line) for the histories."""
         lines = list(self._lines)
         self._lines.clear()
@@ -57,7 +57,7 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
         topic_filter, qos = subscription
         held = session.attributes.setdefault("filters", set())
         if topic_filter.count("/") >= MOST_LEVELS or (topic_filter not in held and len(held) >= MOST_FILTERS):
-            self._drop(session, f"more than {MOST_FILTERS} subscriptions: some were refused")
+            self._drop(session, fault("many_subscriptions", most=MOST_FILTERS))
             return REFUSED
         granted: int = await super().add_subscription((topic_filter, min(qos, 1)), session)
         if granted != REFUSED:
@@ -78,7 +78,7 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
     async def _receive(self, session: Any, said: Publication) -> None:
         """Take a message in: refuse it, or spread it, and keep it when it is to be retained."""
         if said.topic.count("/") >= MOST_LEVELS or not await self._topic_filtering(session, said.topic, Action.PUBLISH):
-            self._drop(session, f"not its own topic: {printable(said.topic[:100])}")
+            self._drop(session, fault("foreign_topic", topic=said.topic[:100]))
             return
         await self._broadcast_message(session, said.topic, said.payload)
         if said.retain:
@@ -106,7 +106,7 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
         else:
             most = MOST_KEPT_IN_ALL if session.username == SERVER else MOST_KEPT
             if not self._kept.add(session.username, topic, len(topic) + len(data), most=most):
-                self._drop(session, f"more than {most} retained topics: some were not kept")
+                self._drop(session, fault("many_retained", most=most))
                 return
         await super().retain_message(None, topic, data, qos)
 
@@ -130,10 +130,11 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
                     self._drop(session, NO_ROOM)
         await asyncio.sleep(0)
 
-    def _drop(self, session: Any, reason: str) -> None:
+    def _drop(self, session: Any, why: Fault) -> None:
         """Count something that was not taken or not sent; say it once a minute."""
         name = session.username or ""
-        line = self._complaints.add(name, reason, time.monotonic())
-        if line is not None:
+        others = self._complaints.count(name, why.text, time.monotonic())
+        if others is not None:
+            line = with_others(why.text, others)
             log.warning("MQTT: %s: %s", session.client_id, line)
-            self._lines.append((name, line))
+            self._lines.append((name, line, {**facts_of([why]), "more": others}))

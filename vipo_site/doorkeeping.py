@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from django.db import close_old_connections
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from registry.services import Login
 
 CheckPassword = Callable[[str, str], bool]
+Line = tuple[str, str, Mapping[str, Any]]
+"""For a device's history: its id, an English sentence, and what a screen says that from."""
 DOOR = "join:"
 LOOK_EVERY_S = 2.0
 _KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
@@ -41,7 +43,7 @@ class Doorkeeper(Protocol):
     def wait(self) -> None:
         """Return when it is time to look for ended ones: soon after a change, every 2 s at the latest."""
 
-    def record(self, dropped: Mapping[str, int], lines: Sequence[tuple[str, str]]) -> None:
+    def record(self, dropped: Mapping[str, int], lines: Sequence[Line]) -> None:
         """Note how many messages of each device were dropped, and (device, line) for their histories."""
 
 
@@ -63,7 +65,7 @@ class PasswordDoorkeeper:
         """See Doorkeeper."""
         time.sleep(LOOK_EVERY_S)
 
-    def record(self, _dropped: Mapping[str, int], _lines: Sequence[tuple[str, str]]) -> None:
+    def record(self, _dropped: Mapping[str, int], _lines: Sequence[Line]) -> None:
         """See Doorkeeper; without a registry there is nothing to note it in."""
 
 
@@ -98,15 +100,15 @@ class RegistryDoorkeeper:
 
         wait_wake(BROKER_CHANNEL, LOOK_EVERY_S)
 
-    def record(self, dropped: Mapping[str, int], lines: Sequence[tuple[str, str]]) -> None:
+    def record(self, dropped: Mapping[str, int], lines: Sequence[Line]) -> None:
         """See Doorkeeper."""
         from registry import services
 
         close_old_connections()
         try:
             services.count_dropped(dropped=dropped)
-            for device, line in lines:
-                services.record_problem(device_id=device, text=line)
+            for device, line, facts in lines:
+                services.record_problem(device_id=device, text=line, facts=facts)
         finally:
             close_old_connections()
 

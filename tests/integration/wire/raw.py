@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 from vipo_site.broker import EmbeddedBroker
-from vipo_site.doorkeeping import PasswordDoorkeeper
+from vipo_site.doorkeeping import Line, PasswordDoorkeeper
 
 
 def field(data: bytes | str) -> bytes:
@@ -121,6 +121,6 @@ class Notebook(PasswordDoorkeeper):
     def wait(self) -> None:
         time.sleep(0.05)
 
-    def record(self, dropped: Mapping[str, int], lines: Sequence[tuple[str, str]]) -> None:
+    def record(self, dropped: Mapping[str, int], lines: Sequence[Line]) -> None:
         self.dropped.update(dropped)
-        self.lines += lines
+        self.lines += [(device, line) for device, line, _ in lines]

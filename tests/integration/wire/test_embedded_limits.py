@@ -267,7 +267,9 @@ def test_the_registry_shows_what_was_dropped() -> None:
     site = services.create_site(name="Hall", slug="painting-factory")
     text = Path("registry/demo/devices/paintMixer03.ttl").read_bytes()
     services.ingest_description(device_id="paintMixer03", payload=text, at=datetime.now(UTC))
-    RegistryDoorkeeper().record({"paintMixer03": 7, "server": 2}, [("paintMixer03", "7 were dropped"), ("server", "x")])
+    RegistryDoorkeeper().record(
+        {"paintMixer03": 7, "server": 2}, [("paintMixer03", "7 were dropped", {}), ("server", "x", {})]
+    )
     device = services.get_device(site=site.slug, device_id="paintMixer03")
     events = services.list_device_events(site=site.slug, device_id="paintMixer03")
     assert (device.dropped, events[0].text) == (7, "7 were dropped")

@@ -17,7 +17,8 @@ from registry.faults import Fault, facts_of, fault, note
 from registry.rdf_text import BadDescription
 
 ROOT = Path(__file__).parents[3]
-SOURCES = [*(ROOT / "registry").glob("*.py"), ROOT / "execution" / "gateway.py"]
+SPEAKERS = ("execution/gateway.py", "vipo_site/broker_connection.py", "vipo_site/broker_spread.py")
+SOURCES = [*(ROOT / "registry").glob("*.py"), *(ROOT / name for name in SPEAKERS)]
 PREFIXES = """@prefix vipo: <urn:vipo:ns#> . @prefix td: <https://www.w3.org/2019/wot/td#> .
 @prefix dct: <http://purl.org/dc/terms/> . @prefix qudt: <http://qudt.org/schema/qudt/> .
 """
