@@ -165,6 +165,8 @@ class VehicleControl:
             self._cancel_named(told.command, target)
         elif not self.vehicle.can_pause:
             self._tasks.say(told.command, "REJECTED", f"{self.vehicle.description.name} cannot pause.")
+        elif self._tasks.is_over(target):
+            self._tasks.say(told.command, "DONE")  # it ended while this was on its way: there is nothing to hold
         else:
             self._pausing.ask(told.command, target, now_s, pause=told.method == "pause")
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict
 from typing import Any
 
-from connectors.commands import Answers
+from connectors.commands import OPEN, Answers
 from connectors.vda5050.tasks import Task, task_from_json, task_to_json
 from registry.wire import AckMessage, AckStatus
 
@@ -73,6 +73,11 @@ class OpenTasks:
     def find(self, command: str) -> AckMessage | None:
         """Return the last word about a command, open or over; None when nothing was said."""
         return self._answers.find(command)
+
+    def is_over(self, command: str) -> bool:
+        """Tell whether a command has had its final answer."""
+        said = self.find(command)
+        return said is not None and said.status not in OPEN
 
     def say(self, command: str, status: AckStatus, why: str = "") -> None:
         """Answer a command, whether it is one of these or not."""

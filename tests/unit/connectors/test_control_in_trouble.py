@@ -182,3 +182,11 @@ def test_what_a_vehicle_does_not_tell_is_left_out_and_what_stops_it_is_said() ->
 def test_what_is_kept_is_not_copied_with_each_message() -> None:
     control = driving().control
     assert control.to_json()["order"]["body"] is control.to_json()["order"]["body"]
+
+
+def test_a_pause_that_comes_when_its_command_has_just_ended_is_answered_at_once() -> None:
+    bench = driving()
+    bench.hear(orderId=ORDER, lastNodeSequenceId=4)
+    bench.tell("pause", "p", command="a")
+    assert bench.said() == ["a DONE", "p DONE"]
+    assert bench.sent() == []
