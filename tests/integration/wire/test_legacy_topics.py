@@ -11,7 +11,7 @@ from uuid import UUID
 import pytest
 
 from execution import services as execution
-from execution.errors import BadArguments
+from execution.errors import NotPossibleNow
 from execution.gateway import Gateway
 from registry import services
 from registry.describing import read_description, write_description
@@ -88,13 +88,13 @@ def test_a_command_reaches_its_device_on_the_confirmed_topic_and_is_refused_afte
         return UUID(made["id"])
 
     wait("the device", lambda: services.get_device(site=SITE, device_id="mixer01").online)
-    with pytest.raises(BadArguments):
+    with pytest.raises(NotPossibleNow):
         call()
     services.confirm_topic(site=SITE, device_id="mixer01", topic=TOPIC, by=None, at=now)
     command = call()
     wait("the answer", lambda: execution.get_call(site=SITE, call_id=command)["status"] == "done")
     assert {(topic, body["id"], body["v"]["time"]) for topic, body in told} == {(TOPIC, str(command), 5)}
     services.withdraw_topic(site=SITE, device_id="mixer01", topic=TOPIC, by=None, at=now)
-    with pytest.raises(BadArguments):
+    with pytest.raises(NotPossibleNow):
         call()
     device.stop()
