@@ -25,11 +25,11 @@ def make_ready(configuration, board):
 
     The large parts are loaded first, while there is room to compile them.
     """
-    load("mqtt", "duties", "device")
+    load("describe", "mqtt", "duties", "device")
     panel = board.panel()
     forget("board")
     identity = identify(configuration, panel)
-    forget("identity")
+    forget("identity", "describe")
     if not find_network(configuration, panel, board.pins):
         return None
     forget("wifi", "button")
