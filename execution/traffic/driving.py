@@ -47,7 +47,9 @@ def _nearest_node(turn: Turn, robot: Robot) -> Node:
     cells = [cell for cell in layout.lattice.cells_within(here, 3.0) if cell in layout.lattice.links]
     if cells and hypot(layout.point(cells[0])[0] - here[0], layout.point(cells[0])[1] - here[1]) < 0.12:
         return cells[0]
-    return f"@{here[0]:.3f},{here[1]:.3f}" if _can_stand(turn, here) else (cells or [min(layout.lattice.links)])[0]
+    if _can_stand(turn, here):
+        return f"@{here[0]:.3f},{here[1]:.3f}"
+    return (cells or [min(layout.lattice.links, default=0)])[0]
 
 
 def _can_stand(turn: Turn, point: Point) -> bool:

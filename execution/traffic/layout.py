@@ -54,8 +54,13 @@ class Layout:
         return self.names.get(thing, thing)
 
     def has_node(self, node: Node) -> bool:
-        """Tell whether a node is there: a machine's spot goes when it is taken out."""
-        return isinstance(node, int) or node.startswith("@") or node in self.stations or node in self.places
+        """Tell whether a node is there: a machine's goes when it is taken out, a point when one stands there."""
+        if isinstance(node, int) or node in self.stations or node in self.places:
+            return True
+        try:
+            return node.startswith("@") and bool(self.spot(node))
+        except NoSuchSpot:
+            return False
 
     def spot(self, spot: str) -> Spot:
         """Return a spot by its id: a device's, a place's, or `@x,y` for a point."""

@@ -210,6 +210,22 @@ def test_a_method_whose_topic_is_not_confirmed_says_so(factory):
     assert call(time=2)["status"] == "pending"
 
 
+@pytest.mark.parametrize(
+    ("method", "change"),
+    [("mixPaint", {"size": {"x": 100.0, "y": 100.0, "z": 1.0}}), ("move", {"radius_m": 10.0})],
+)
+def test_a_device_that_says_it_fills_the_whole_floor_does_not_end_its_traffic(factory, method, change):
+    run = factory.start(CURE)
+    factory.go(lambda: Command.objects.filter(method=method, status__in=("sent", "accepted", "running")).exists())
+    row = Device.objects.get(id=Command.objects.filter(method=method).first().device)
+    Device.objects.filter(id=row.id).update(description={**row.description, **change})
+    for _ in range(3):
+        factory.work()
+        assert advance_site(SITE)
+    Device.objects.filter(id=row.id).update(description=row.description)
+    factory.go(lambda: services.get_run(run_id=run)["status"] in ("finished", "failed"), dt_s=3.0)
+
+
 def test_a_robot_drives_only_in_programs(factory):
     path = f"/api/sites/{SITE}/devices/robot01/call"
     answer = ask(member("operator"), {"method": "move", "args": {}}, path)
