@@ -7,6 +7,7 @@ import { useDevices } from "@/api/queries";
 import { useChangeMap, useMapVersions, type MapVersion } from "@/api/robotMaps";
 import type { Site } from "@/api/types";
 import { problemText } from "@/app/LoadProblem";
+import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatMoment } from "@/i18n/format";
 import styles from "./devices/robotmap.module.css";
 
@@ -46,6 +47,7 @@ function Version({ version, words, choose }: { version: MapVersion; words: strin
 
 function AskBack({ site, version, current, onClose }: AskProps) {
   const { t } = useTranslation();
+  useReturnFocus();
   const change = useChangeMap(site.slug);
   const restore = () =>
     change.mutate(

@@ -4,6 +4,7 @@ import { Ban, KeyRound, PowerOff } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
 import type { Device, Site } from "@/api/types";
+import { useReturnFocus } from "@/design/useReturnFocus";
 import { useDecide } from "./decide";
 import styles from "./keys.module.css";
 
@@ -35,6 +36,7 @@ interface AskProps {
 
 export function AskKeyDecision({ site, device, decision, onClose }: AskProps) {
   const { t } = useTranslation();
+  useReturnFocus();
   const navigate = useNavigate();
   const decide = useDecide(site.slug);
   const word = WORDS[decision];

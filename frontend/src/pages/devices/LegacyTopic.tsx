@@ -4,6 +4,7 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, Site } from "@/api/types";
 import { StatusBadge } from "@/design/StatusBadge";
+import { useReturnFocus } from "@/design/useReturnFocus";
 import { useDecide } from "./decide";
 import styles from "./keys.module.css";
 
@@ -46,6 +47,7 @@ export function LegacyTopic({ site, device, topic, asking }: Props) {
 }
 
 function AskTopic({ site, device, topic, asking, onClose }: Props & { onClose: () => void }) {
+  useReturnFocus();
   const { t } = useTranslation();
   const decide = useDecide(site.slug);
   const word = asking ? "confirm" : "withdraw";

@@ -2,11 +2,13 @@ import { Button, Modal, TextInput } from "@mantine/core";
 import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, Site } from "@/api/types";
+import { useReturnFocus } from "@/design/useReturnFocus";
 import { useDecide } from "./decide";
 import styles from "./detail.module.css";
 
 export function RenameDevice({ site, device, onClose }: { site: Site; device: Device; onClose: () => void }) {
   const { t } = useTranslation();
+  useReturnFocus();
   const [name, setName] = useState(device.name);
   const decide = useDecide(site.slug);
   const submit = (event: FormEvent) => {

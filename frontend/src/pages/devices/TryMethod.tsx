@@ -1,11 +1,12 @@
 /** A form that tells a device to carry out one of its methods, and shows what comes of it. */
 import { Alert, Button, Modal, NumberInput, Select, Switch, TextInput } from "@mantine/core";
 import { Play, Square } from "lucide-react";
-import { useState, type FormEvent } from "react";
+import { useEffect, useRef, useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { useDevices, useSiteMap } from "@/api/queries";
 import type { Device, DeviceMethod, MethodParameter, Site } from "@/api/types";
 import { problemText } from "@/app/LoadProblem";
+import { useReturnFocus } from "@/design/useReturnFocus";
 import { unitSign } from "@/i18n/units";
 import { emptyForm, readArguments, type Problem, type Typed } from "./arguments";
 import { CallProgress } from "./CallProgress";
@@ -66,8 +67,15 @@ function useChoices(site: Site, device: Device) {
   };
 }
 
-function Buttons({ busy, starting, cancel }: { busy: boolean; starting: boolean; cancel: (() => void) | null }) {
+/** A button that is disabled would let the focus fall out of the dialog: Start stays one that does nothing. */
+function Buttons({ busy, cancel }: { busy: boolean; cancel: (() => void) | null }) {
   const { t } = useTranslation();
+  const start = useRef<HTMLButtonElement>(null);
+  const offered = useRef(false);
+  useEffect(() => {
+    if (cancel) offered.current = true;
+    else if (offered.current && document.activeElement === document.body) start.current?.focus();
+  }, [cancel]);
   return (
     <div className={styles.buttons}>
       {cancel ? (
@@ -75,7 +83,13 @@ function Buttons({ busy, starting, cancel }: { busy: boolean; starting: boolean;
           {t("device.try.cancel")}
         </Button>
       ) : null}
-      <Button type="submit" loading={starting} disabled={busy} leftSection={<Play size={15} aria-hidden="true" />}>
+      <Button
+        ref={start}
+        type="submit"
+        aria-disabled={busy}
+        data-disabled={busy || undefined}
+        leftSection={<Play size={15} aria-hidden="true" />}
+      >
         {t("device.try.start")}
       </Button>
     </div>
@@ -91,6 +105,7 @@ interface TryMethodProps {
 
 export function TryMethod({ site, device, method, onClose }: TryMethodProps) {
   const { t } = useTranslation();
+  useReturnFocus();
   const choicesOf = useChoices(site, device);
   const [typed, setTyped] = useState<Typed>(() => emptyForm(method));
   const [problems, setProblems] = useState<Readonly<Record<string, Problem>>>({});
@@ -98,6 +113,7 @@ export function TryMethod({ site, device, method, onClose }: TryMethodProps) {
   const busy = start.isPending || (call !== null && !call.over);
   const submit = (event: FormEvent) => {
     event.preventDefault();
+    if (busy) return;
     const read = readArguments(method, typed);
     setProblems("problems" in read ? read.problems : {});
     if ("args" in read) start.mutate({ method: method.name, args: read.args });
@@ -134,7 +150,6 @@ export function TryMethod({ site, device, method, onClose }: TryMethodProps) {
         {call ? <CallProgress call={call} /> : null}
         <Buttons
           busy={busy}
-          starting={start.isPending}
           cancel={busy && call && !cancel.isPending && !cancel.isSuccess ? () => cancel.mutate() : null}
         />
       </form>

@@ -7,6 +7,7 @@ import { useDevices, useSiteMap } from "@/api/queries";
 import { useChangeMap, useMapDifference, type MapDifference, type RobotMap } from "@/api/robotMaps";
 import type { Device, Site } from "@/api/types";
 import { problemText } from "@/app/LoadProblem";
+import { useReturnFocus } from "@/design/useReturnFocus";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { differencePaths, sharedBox } from "@/map/mapDifference";
 import { StaticMap } from "@/map/StaticMap";
@@ -72,6 +73,7 @@ function Changes({ difference }: { difference: MapDifference }) {
 
 export function UseRobotMap({ site, device, map, onClose }: UseProps) {
   const { t } = useTranslation();
+  useReturnFocus();
   const difference = useMapDifference(site.slug, device.id);
   const change = useChangeMap(site.slug);
   const problem = change.error ?? difference.error;

@@ -1,0 +1,35 @@
+// @vitest-environment jsdom
+import { cleanup, render, screen } from "@testing-library/react";
+import { afterEach, expect, test } from "vitest";
+import { useReturnFocus } from "./useReturnFocus";
+
+afterEach(cleanup);
+
+function Dialog() {
+  useReturnFocus();
+  return <input aria-label="in it" />;
+}
+
+function Page({ open, menu }: { open: boolean; menu: boolean }) {
+  return (
+    <>
+      <button id="opener">Open</button>
+      {menu ? (
+        <div role="menu" aria-labelledby="opener">
+          <button role="menuitem">Rename</button>
+        </div>
+      ) : null}
+      {open ? <Dialog /> : null}
+    </>
+  );
+}
+
+test.each([false, true])("the focus goes back to what opened the dialog (by a menu: %s)", (menu) => {
+  const { rerender } = render(<Page open={false} menu={menu} />);
+  screen.getByRole(menu ? "menuitem" : "button").focus();
+  rerender(<Page open menu={menu} />);
+  rerender(<Page open menu={false} />);
+  screen.getByLabelText("in it").focus();
+  rerender(<Page open={false} menu={false} />);
+  expect(document.activeElement?.id).toBe("opener");
+});
