@@ -105,7 +105,8 @@ def release_behind(turn: Turn, robot: Robot) -> None:
 
 def end_piece(turn: Turn, robot: Robot, sent: Sent) -> None:
     """A piece of way is done: the robot has reached its end."""
-    robot = turn.put(robot, passed=max(robot.passed, min(sent.upto, robot.released)), progress_at=turn.now)
+    passed = max(robot.passed, min(sent.upto, robot.released))
+    robot = turn.put(robot, passed=passed, progress_at=turn.now, refusals=0)
     release_behind(turn, robot)
     robot = turn.robots[robot.id]
     if not turn.is_driving(robot) and robot.passed == robot.released:

@@ -33,6 +33,8 @@ GAP_S = 5.0
 """A floor with something under way is looked at every half second; a longer gap means that the server was away."""
 STUCK_S = 60.0
 """How long a robot may take for a piece of way without getting on."""
+MOST_REFUSALS = 2
+"""A robot that refuses its way so often gets another one; then its errand fails."""
 KINDS = {"FAILED": "failed", "REJECTED": "refused", "CANCELED": "cancelled"}
 
 
@@ -207,10 +209,18 @@ def _take_answer(turn: Turn, event: m.CommandAnswered) -> None:
     why = event.why or (f"{turn.name(sent.device)} did not do it." if kind else "")
     if sent.upto < 0:
         _end_act(turn, sent, kind, why, event)
-    elif kind:
-        _fail_drive(turn, turn.robots[sent.device], kind, why)
     else:
-        end_piece(turn, turn.robots[sent.device], sent)
+        _take_answer_of_robot(turn, turn.robots[sent.device], sent, kind, why)
+
+
+def _take_answer_of_robot(turn: Turn, robot: Robot, sent: Sent, kind: str, why: str) -> None:
+    """A piece of way is driven, or not; one that was started anew on its way stands where no piece of it begins."""
+    if kind == "refused" and robot.refusals < MOST_REFUSALS:
+        _halt(turn, turn.put(robot, refusals=robot.refusals + 1))
+    elif kind:
+        _fail_drive(turn, robot, kind, why)
+    else:
+        end_piece(turn, robot, sent)
 
 
 def _end_act(turn: Turn, sent: Sent, kind: str, why: str, event: m.CommandAnswered | None) -> None:
@@ -228,15 +238,20 @@ def _end_act(turn: Turn, sent: Sent, kind: str, why: str, event: m.CommandAnswer
 
 def _fail_drive(turn: Turn, robot: Robot, kind: str, why: str) -> None:
     """A robot does not drive on: it stays where it is, and its errand fails."""
-    drop_pieces(turn, robot, cancel=True)
     job = None if robot.evading else turn.job_of(robot)
-    robot = turn.put(robot, evading="", yields_to="", blocked_since=None, idle_since=turn.now)
+    _halt(turn, turn.put(robot, refusals=0, idle_since=turn.now))
+    if job is not None:
+        turn.finish(job, kind, why)
+
+
+def _halt(turn: Turn, robot: Robot) -> None:
+    """Take a robot's way from it; it stands where it is."""
+    drop_pieces(turn, robot, cancel=True)
+    robot = turn.put(robot, evading="", yields_to="", blocked_since=None)
     if robot.online:
         place(turn, robot)
     else:
         turn.put(robot, way=(turn.node(robot),), passed=0, released=0)
-    if job is not None:
-        turn.finish(job, kind, why)
 
 
 def _drop(turn: Turn, job: Job) -> None:

@@ -37,6 +37,8 @@ class Robot:
     blocked_since: float | None = None
     idle_since: float = 0.0
     progress_at: float = 0.0
+    refusals: int = 0
+    """How many pieces of way in turn it has refused."""
 
 
 @dataclass(frozen=True, slots=True)

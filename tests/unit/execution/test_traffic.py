@@ -125,6 +125,34 @@ def test_no_robot_that_can_is_a_refusal():
     assert world.over["a", 1][0] == "refused"
 
 
+def refuse(world, name):
+    """Let a robot that was started anew refuse the pieces that it is sent, as they begin elsewhere."""
+    pieces = [command.id for command in world.sent if command.id in world.state.sent and command.device == name]
+    world.queue[name].clear()
+    why = "The way begins 1.5 m from where it will be."
+    world.tell(*(m.CommandAnswered(piece, "REJECTED", why) for piece in pieces))
+
+
+def test_a_robot_that_was_started_anew_on_its_way_gets_a_way_from_where_it_stands():
+    world = PretendFloor(LAYOUT)
+    world.tell(ask("a", 1, "dropOff01", wants="robot01"))
+    for _ in range(4):
+        world.pass_time(3)
+        refuse(world, "robot01")
+        world.run_until(lambda: len(world.queue["robot01"]) == 0)
+    world.run_until(lambda: ("a", 1) in world.over)
+    assert world.over["a", 1] == ("", "")
+
+
+def test_a_robot_that_refuses_every_way_fails_with_its_reason():
+    world = PretendFloor(LAYOUT)
+    world.tell(ask("a", 1, "dropOff01", wants="robot01"))
+    for refusals in range(3):
+        assert ("a", 1) not in world.over, refusals
+        refuse(world, "robot01")
+    assert world.over["a", 1] == ("refused", "The way begins 1.5 m from where it will be.")
+
+
 def test_a_robot_that_dies_on_its_way_fails_as_offline_and_stays_an_obstacle():
     world = PretendFloor(LAYOUT)
     world.tell(ask("a", 1, "dropOff01", wants="robot01"))
