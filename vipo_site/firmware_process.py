@@ -63,6 +63,7 @@ def write_configuration(state_dir: Path, config: Mapping[str, Any]) -> Path:
         **place_of(device),
         "boot_file": str(folder / f"{device}.boot"),
         "key_file": str(folder / f"{device}.key"),
+        "ledger_file": str(folder / f"{device}.ledger"),
         "log": str(folder / f"{device}.log"),
         **config,
     }

@@ -123,6 +123,7 @@ def configuration(bus: Any, folder: Path, **more: Any) -> dict[str, Any]:
         "ca": bus.authority,
         "boot_file": str(folder / "boot"),
         "key_file": str(folder / "key"),
+        "ledger_file": str(folder / "ledger"),
         **more,
     }
 

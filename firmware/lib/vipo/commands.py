@@ -98,10 +98,13 @@ def check_outside(payload):
 
 
 class Answers:
-    """The last answer to each of the last 16 commands, and to the one that is being carried out."""
+    """The last answer to each of the last 16 commands, and to the one that is being carried out.
 
-    def __init__(self):
-        self._known = []
+    `known` are those of before the start: (id, answer), oldest first.
+    """
+
+    def __init__(self, known):
+        self._known = list(known)
 
     def remember(self, command, message, running=""):
         """Keep an answer; the oldest is forgotten, but never that of the command `running`."""

@@ -13,15 +13,15 @@ from vipo.work import Cancelled, Failure, Work
 class Duties:
     """The commands of one machine; `say(answer)` sends an answer, `changed()` tells a new state."""
 
-    def __init__(self, driver, panel, speed, output, entrance):
+    def __init__(self, driver, panel, speed, output, entrance, ledger):
         self.driver, self.panel, self.speed = driver, panel, speed
-        self.entrance = entrance
+        self.entrance, self._ledger = entrance, ledger
         self.say = self.changed = None
         self.work = None
         self.connected = True
         self._stops = []
         self._output = output or (lambda on: None)
-        self._answers = Answers()
+        self._answers = Answers(ledger.answers)
         self._running = None
 
     @property
@@ -92,6 +92,11 @@ class Duties:
         return check_arguments(self.driver.methods[method], values)
 
     def _begin(self, command, method, values):
+        try:
+            self._ledger.begin(command)
+        except OSError as error:
+            self._answer(command, "REJECTED", "it could not be kept over a power cut: %s" % error)
+            return
         self.work = Work(command, self.speed, lambda: self.stopped, self._switch)
         self._answer(command, "ACCEPTED")
         self._running = asyncio.create_task(self._carry_out(command, method, values))
@@ -117,6 +122,7 @@ class Duties:
             status, why = "FAILED", "the driver has a fault: %r" % error
         if status == "FAILED":
             self.panel.show("Failed", why)
+        self._ledger.end(command, status, why, result)
         self.work = None
         self.shine(failed=status == "FAILED")
         self.changed()

@@ -34,7 +34,7 @@ def make_ready(configuration, board):
         return None
     forget("wifi", "button")
     device = make(configuration, panel, identity, board.output)
-    forget("start", "certificate")
+    forget("start", "certificate", "recall")
     if configuration.get("ca") and not clock_is_set():
         from vipo.wifi import look_for_time
 
@@ -67,7 +67,7 @@ def find_network(configuration, panel, pins):
 
 def make(configuration, panel, identity, output):
     """Return the device."""
-    load("start")
+    load("recall", "start")
     from vipo.start import make_device
 
     return make_device(configuration, panel, identity, output)

@@ -5,7 +5,9 @@ from vipo.configuration import next_boot
 from vipo.device import Device
 from vipo.duties import Duties
 from vipo.entrance import Entrance
+from vipo.ledger import Ledger
 from vipo.mqtt import Client
+from vipo.recall import read_ledger
 
 
 def make_device(configuration, panel, identity, output=None):
@@ -20,7 +22,9 @@ def make_device(configuration, panel, identity, output=None):
         tls=tls_context(configuration["ca"]) if configuration.get("ca") else None,
     )
     speed = float(configuration.get("speed", 1))
-    duties = Duties(driver, panel, speed, output, make_entrance(configuration, client))
+    path = configuration.get("ledger_file", "ledger.txt")
+    ledger = Ledger(path, read_ledger(path))
+    duties = Duties(driver, panel, speed, output, make_entrance(configuration, client), ledger)
     boot = next_boot(configuration.get("boot_file", "boot.txt"))
     return Device(client, duties, description, boot, configuration.get("site", "+"))
 

@@ -8,14 +8,14 @@ import signal
 from tests.integration.breaking.site import Factory, document, operate, step, wait_for
 
 
-def test_a_machine_that_is_killed_comes_back_and_does_its_work(factory: Factory) -> None:
+def test_a_machine_that_is_killed_comes_back_and_does_not_begin_its_work_anew(factory: Factory) -> None:
     run = factory.start(factory.plant({"Mix": document({"mix": operate("paintMixer02", "mixPaint", time=1)})})["Mix"])
     factory.wait_command(run, "mixPaint", "running")
     killed = factory.children()["firmware"]
     os.kill(killed, signal.SIGKILL)
     wait_for("a new firmware", lambda: factory.children().get("firmware") not in (None, killed), 20)
-    factory.wait_run(run, "finished")
-    assert [c["status"] for c in factory.commands(run)] == ["done"]
+    assert "the power was cut while it was under way" in factory.wait_run(run, "failed")["reason"]
+    assert [c["status"] for c in factory.commands(run)] == ["failed"]
 
 
 def test_a_machine_that_freezes_is_offline_and_can_be_caught(factory: Factory) -> None:
