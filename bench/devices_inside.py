@@ -11,7 +11,7 @@ from datetime import UTC, datetime, timedelta
 from queue import Queue
 from threading import Event
 from typing import Any
-from uuid import uuid4
+from uuid import UUID, uuid4
 
 import django
 
@@ -117,9 +117,12 @@ def measure_delays(port: int, password: str) -> Iterator[dict[str, object]]:
     newcomers = [_newcomer(client, heard, number) for number in TRIES]
     yield {"what": "from a new device's description to the browsers", "ms": newcomers}
     site = Device.objects.values_list("site_id", flat=True)[0]
-    yield {"what": "from a command to its device", "ms": [_command(heard, site, n) for n in TRIES]}
-    sent = Command.objects.exclude(sent_at=None).values_list("created_at", "sent_at")
-    yield {"what": "from a command to its going out", "ms": [(out - asked) / MILLISECOND for asked, out in sent]}
+    asked: dict[UUID, datetime] = {}
+    heard_ms = [_ask(heard, site, n, asked) for n in TRIES]
+    sent = Command.objects.exclude(sent_at=None).values_list("id", "created_at", "sent_at")
+    yield {"what": "from a command, its commit included, to its device", "ms": heard_ms}
+    yield {"what": "from a command, its commit included, until it is out", "ms": [_ms(a, b) for _, a, b in sent]}
+    yield {"what": "from a command that was asked until it is out", "ms": [_ms(asked[key], b) for key, _, b in sent]}
     client.stop()
 
 
@@ -135,7 +138,15 @@ def _newcomer(client: MqttClient, heard: Queue[tuple[str, float]], number: int) 
     return _wait_for(heard, description.id, began)
 
 
-def _command(heard: Queue[tuple[str, float]], site: int, number: int) -> float:
+def _ms(begin: datetime, end: datetime) -> float:
+    return (end - begin) / MILLISECOND
+
+
+def _ask(heard: Queue[tuple[str, float]], site: int, number: int, asked: dict[UUID, datetime]) -> float:
+    def note() -> None:
+        asked[row.id] = datetime.now(UTC)
+        live.wake("gateway")
+
     device, now = device_name(number), datetime.now(UTC)
     row = Command(
         id=uuid4(), site_id=site, device=device, method="pick",
@@ -144,7 +155,7 @@ def _command(heard: Queue[tuple[str, float]], site: int, number: int) -> float:
     began = time.perf_counter()
     with transaction.atomic():
         row.save(force_insert=True)
-        transaction.on_commit(lambda: live.wake("gateway"))
+        transaction.on_commit(note)
     return _wait_for(heard, down_topic(device, "pick"), began)
 
 
