@@ -6,7 +6,6 @@ import argparse
 import json
 import sys
 from collections.abc import Iterator
-from contextlib import nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -16,9 +15,8 @@ from registry.describing import Reading, read, write_description
 from registry.faults import Fault
 from registry.rdf_text import BadDescription, form_of
 from registry.shacl import check_rdf, check_reading
-from vipo_site.program_file import UnreadableFile
+from vipo_site.program_file import read_bounded
 
-MOST_BYTES = 20_000_000
 _NAMES = {
     "turtle": "Turtle",
     "n-triples": "N-Triples",
@@ -34,7 +32,7 @@ def describe_file(options: argparse.Namespace) -> int:
     Raises:
         UnreadableFile: the file cannot be read.
     """
-    payload = _read_bytes(options.file)
+    payload = read_bounded(options.file, "description")
     try:
         reading = read(payload)
         faults = check_reading(reading, payload) if options.shacl else ()
@@ -58,18 +56,6 @@ def _faults_of_shapes(payload: bytes) -> tuple[Fault, ...]:
         return check_rdf(payload) if form_of(payload) in ("turtle", "n-triples", "json-ld") else ()
     except BadDescription:
         return ()
-
-
-def _read_bytes(path: Path) -> bytes:
-    """Return what stands in the file (`-`: comes on standard input), of which no more is read than may be."""
-    try:
-        with nullcontext(sys.stdin.buffer) if str(path) == "-" else path.open("rb") as file:
-            payload = file.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise UnreadableFile(f"{path} cannot be read: {error.strerror or error}.") from error
-    if len(payload) > MOST_BYTES:
-        raise UnreadableFile(f"{path} is larger than {MOST_BYTES // 1_000_000} MB. That is no description.")
-    return payload
 
 
 def _tell_faults(options: argparse.Namespace, faults: tuple[Fault, ...]) -> int:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -78,13 +80,24 @@ def _document_of_script(text: str, path: Path, surroundings: Surroundings) -> Ma
     return tree_to_document(parsed.tree, surroundings)
 
 
-def _read_text(path: Path) -> str:
+def read_bounded(path: Path, what: str) -> bytes:
+    """Return what stands in a file (`-`: comes on standard input), of which no more is read than may be.
+
+    Raises UnreadableFile.
+    """
     try:
-        if path.stat().st_size > MOST_BYTES:
-            raise UnreadableFile(f"{path} is larger than {MOST_BYTES // 1_000_000} MB. That is no program.")
-        return path.read_text(encoding="utf-8")
+        with nullcontext(sys.stdin.buffer) if str(path) == "-" else path.open("rb") as file:
+            payload = file.read(MOST_BYTES + 1)
     except OSError as error:
         raise UnreadableFile(f"{path} cannot be read: {error.strerror or error}.") from error
+    if len(payload) > MOST_BYTES:
+        raise UnreadableFile(f"{path} is larger than {MOST_BYTES // 1_000_000} MB. That is no {what}.")
+    return payload
+
+
+def _read_text(path: Path) -> str:
+    try:
+        return read_bounded(path, "program").decode().replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         raise UnreadableFile(f"{path} is not text in UTF-8.") from error
 

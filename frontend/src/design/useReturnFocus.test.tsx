@@ -1,7 +1,7 @@
 // @vitest-environment jsdom
 import { cleanup, render, screen } from "@testing-library/react";
 import { afterEach, expect, test } from "vitest";
-import { useReturnFocus } from "./useReturnFocus";
+import { useFocusAfter, useReturnFocus } from "./useReturnFocus";
 
 afterEach(cleanup);
 
@@ -32,4 +32,23 @@ test.each([false, true])("the focus goes back to what opened the dialog (by a me
   screen.getByLabelText("in it").focus();
   rerender(<Page open={false} menu={false} />);
   expect(document.activeElement?.id).toBe("opener");
+});
+
+function Card() {
+  useFocusAfter(() => document.getElementById("row"));
+  return <button>Approve</button>;
+}
+
+test.each(["Approve", "Other"])("what goes with the focus hands it on, and takes it from nobody (%s)", (focused) => {
+  const page = (open: boolean) => (
+    <>
+      <button id="row">Row</button>
+      <button>Other</button>
+      {open ? <Card /> : null}
+    </>
+  );
+  const { rerender } = render(page(true));
+  screen.getByText(focused).focus();
+  rerender(page(false));
+  expect(document.activeElement?.textContent).toBe(focused === "Approve" ? "Row" : "Other");
 });

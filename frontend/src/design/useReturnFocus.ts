@@ -1,5 +1,5 @@
 /** For a dialog that goes when it is closed: whoever opened it by keyboard goes on from there. */
-import { useEffect, useState } from "react";
+import { useEffect, useRef, useState } from "react";
 
 /** What had the focus; of a menu, which is gone by then, the button that opens it. */
 function opener(): HTMLElement | null {
@@ -10,10 +10,19 @@ function opener(): HTMLElement | null {
 
 export function useReturnFocus(): void {
   const [from] = useState(opener);
+  useFocusAfter(() => from);
+}
+
+/** When the caller goes and takes the focus with it, what `find` finds then has it. */
+export function useFocusAfter(find: () => HTMLElement | null): void {
+  const last = useRef(find);
+  useEffect(() => {
+    last.current = find;
+  });
   useEffect(
     () => () => {
-      if (document.activeElement === document.body) from?.focus({ preventScroll: true });
+      if (document.activeElement === document.body) last.current()?.focus({ preventScroll: true });
     },
-    [from],
+    [],
   );
 }

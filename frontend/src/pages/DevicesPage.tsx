@@ -3,7 +3,7 @@ import { Button } from "@mantine/core";
 import { Cpu, Download } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import { useParams } from "react-router-dom";
+import { Link, useParams } from "react-router-dom";
 import { LoadProblem } from "@/app/LoadProblem";
 import { PageShell } from "@/app/PageShell";
 import { missing } from "@/api/failed";
@@ -76,6 +76,16 @@ function Actions({ site }: { site: Site }) {
   );
 }
 
+/** An address that leads to a device which is not here, or not any more. */
+function NoSuchDevice({ slug, id }: { slug: string; id: string }) {
+  const { t } = useTranslation();
+  return (
+    <p role="alert" className={styles.noSuch}>
+      {t("pages.devices.noSuch", { id })} <Link to={`/sites/${slug}/devices`}>{t("pages.devices.toList")}</Link>
+    </p>
+  );
+}
+
 export function DevicesPage() {
   const { t } = useTranslation();
   const { slug = "", id } = useParams();
@@ -100,6 +110,7 @@ export function DevicesPage() {
         <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), devices.refetch()])} />
       ) : null}
       {!problem && (site.isPending || devices.isPending) ? <TableSkeleton rows={10} /> : null}
+      {id && devices.data && !chosen ? <NoSuchDevice slug={slug} id={id} /> : null}
       {site.data && devices.data ? <Registry site={site.data} devices={devices.data} chosen={chosen?.id} /> : null}
     </PageShell>
   );

@@ -124,6 +124,11 @@ def test_a_script_outside_the_language_gives_code_1(tmp_path: Path, capsys: pyte
     assert json.loads(capsys.readouterr().out)["diagnostics"][0]["code"] == "not_in_language"
 
 
+def test_no_more_is_read_than_a_program_may_have(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "/dev/zero"]) == 2
+    assert capsys.readouterr().err == "/dev/zero is larger than 20 MB. That is no program.\n"
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [

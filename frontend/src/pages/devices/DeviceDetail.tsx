@@ -17,6 +17,7 @@ import { useNow } from "../useNow";
 import { Changes } from "./Changes";
 import { DescriptionTable } from "./DescriptionTable";
 import { jobOf } from "./filter";
+import { useFocusInList } from "./focus";
 import { AskKeyDecision, KeyMenuItems, KeyTrouble, type KeyDecision } from "./KeyActions";
 import { LiveProperties } from "./LiveProperties";
 import { Methods } from "./Methods";
@@ -136,6 +137,7 @@ function Actions({ site, device }: { site: Site; device: Device }) {
 export function DeviceDetail({ site, device }: { site: Site; device: Device }) {
   const { t } = useTranslation();
   const uses = useUsedIn(site.slug, device.id).found?.length ?? 0;
+  useFocusInList(device.id);
   return (
     <aside className={styles.detail} aria-label={device.name}>
       <header className={styles.head}>

@@ -13,6 +13,7 @@ import { DeviceIcon } from "@/map/DeviceIcon";
 import pages from "../pages.module.css";
 import { useNow } from "../useNow";
 import { batteryOf } from "./filter";
+import { rowId } from "./focus";
 import styles from "./devices.module.css";
 
 const COLUMN_CLASSES: Readonly<Record<string, string | undefined>> = {
@@ -46,7 +47,7 @@ function Row({ device, alerts, slug, chosen, now }: RowProps) {
   return (
     <tr data-status={device.status} aria-selected={chosen} className={styles.row}>
       <td className={styles.name}>
-        <Link to={`/sites/${slug}/devices/${device.id}`} className={styles.device}>
+        <Link id={rowId(device.id)} to={`/sites/${slug}/devices/${device.id}`} className={styles.device}>
           <span className={styles.disc} data-status={device.status}>
             <DeviceIcon deviceClass={device.device_class} size={17} />
           </span>

@@ -2,13 +2,19 @@
 import { Button, CopyButton, Modal, TextInput } from "@mantine/core";
 import { Check, Copy } from "lucide-react";
 import { useTranslation } from "react-i18next";
-import { useShownKey } from "./shownKey";
+import { useFocusInList } from "./focus";
+import { useShownKey, type ShownKey } from "./shownKey";
 import styles from "./keys.module.css";
 
 export function KeyShown() {
+  const shown = useShownKey((state) => state.shown);
+  return shown ? <KeyDialog shown={shown} /> : null;
+}
+
+function KeyDialog({ shown }: { shown: ShownKey }) {
   const { t } = useTranslation();
-  const { shown, forget } = useShownKey();
-  if (!shown) return null;
+  const forget = useShownKey((state) => state.forget);
+  useFocusInList(shown.device);
   return (
     <Modal
       opened

@@ -1,5 +1,5 @@
 /** A machine that an admin puts somewhere else on the map, by dragging or by the arrow keys. */
-import { useEffect, useState, type KeyboardEvent, type PointerEvent } from "react";
+import { useEffect, useRef, useState, type KeyboardEvent, type PointerEvent } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, Site, SiteMap } from "@/api/types";
 import { formatNumber } from "@/i18n/format";
@@ -8,7 +8,7 @@ import { nameOnMap } from "@/map/framing";
 import { DeviceGlyph } from "@/map/DeviceToken";
 import { toMetres, toPixels, type Point } from "@/map/projection";
 import { useDecide } from "./decide";
-import { nudge, onMap } from "./placing";
+import { isSame, nudge, onMap } from "./placing";
 import styles from "./keys.module.css";
 
 const HALO = 5;
@@ -99,16 +99,33 @@ function useDragging({ at, setDraft, keep }: DraftPlace) {
   };
 }
 
-/** Where the machine stands for the one who moves it, until the server says the same. */
+/**
+ * Where the machine stands for the one who moves it, until the server says the same.
+ *
+ * What is moved while an earlier place is being kept is kept next.
+ */
 function useDraftPlace(site: Site, map: SiteMap, device: Device): DraftPlace {
   const decide = useDecide(site.slug);
   const [draft, setDraft] = useState<Point | null>(null);
+  const [sent, next] = [useRef<Point | null>(null), useRef<Point | null>(null)];
   const { x, y } = device.location;
-  useEffect(() => setDraft(null), [x, y]);
+  useEffect(() => {
+    setDraft((last) => (last && sent.current && !isSame(last, sent.current) ? last : null));
+  }, [x, y, sent]);
+  const send = (to: Point) => {
+    sent.current = to;
+    const goOn = () => {
+      const then = next.current;
+      next.current = null;
+      if (then && !isSame(then, to)) send(then);
+    };
+    decide.mutate({ do: "move", device, to }, { onError: () => setDraft(null), onSettled: goOn });
+  };
   const keep = () => {
-    if (!draft || decide.isPending) return;
-    if (draft[0] === x && draft[1] === y) setDraft(null);
-    else decide.mutate({ do: "move", device, to: draft }, { onError: () => setDraft(null) });
+    if (!draft) return;
+    if (decide.isPending) next.current = draft;
+    else if (isSame(draft, [x, y])) setDraft(null);
+    else send(draft);
   };
   const place = (point: Point | null) => setDraft(point && onMap(point, map));
   return { at: draft ?? ([x, y] as const), draft, setDraft: place, keep };

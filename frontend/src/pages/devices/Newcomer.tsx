@@ -7,6 +7,7 @@ import { StatusGlyph } from "@/design/StatusGlyph";
 import { formatNumber, withUnit } from "@/i18n/format";
 import { DeviceIcon } from "@/map/DeviceIcon";
 import { useDecide } from "./decide";
+import { useFocusInList } from "./focus";
 import styles from "./devices.module.css";
 
 function Facts({ device }: { device: Device }) {
@@ -36,6 +37,7 @@ function Facts({ device }: { device: Device }) {
 export function Newcomer({ device, site }: { device: Device; site: Site }) {
   const { t } = useTranslation();
   const decide = useDecide(site.slug);
+  useFocusInList(device.id);
   return (
     <section className={styles.newcomer} aria-labelledby="newcomer">
       <h2 id="newcomer">

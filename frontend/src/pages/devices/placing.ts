@@ -19,6 +19,8 @@ export function nudge([x, y]: Point, key: string, leap: boolean): Point | null {
   return [x + way[0] * step, y + way[1] * step];
 }
 
+export const isSame = (a: Point, b: Point): boolean => a[0] === b[0] && a[1] === b[1];
+
 type Extent = Pick<SiteMap, "width" | "height" | "resolution_m" | "origin">;
 
 /** The nearest point on the map, to the centimetre. */
