@@ -89,6 +89,9 @@ _DIALECTS = {
     "sqlite": {"<lock>": "", "<haste>": "", "<hasty>": ""},
 }
 """SQLite lets one write at a time: two that claim at once come one after the other."""
+_CLAIMS = {
+    vendor: reduce(lambda text, part: text.replace(*part), parts.items(), _CLAIM) for vendor, parts in _DIALECTS.items()
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,13 +116,9 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     All that is one statement: a command waits for this, and each question more is a millisecond.
     """
     with _preparing_cursor() as cursor:
-        cursor.execute(_statement(connection.vendor), _parameters(datetime.now(UTC), limit))
+        cursor.execute(_CLAIMS[connection.vendor], _parameters(datetime.now(UTC), limit))
         rows = cursor.fetchall()
     return tuple(_outgoing(*row[2:]) for row in sorted(rows, key=lambda row: row[:2]))
-
-
-def _statement(vendor: str) -> str:
-    return reduce(lambda text, part: text.replace(*part), _DIALECTS[vendor].items(), _CLAIM)
 
 
 @contextmanager
