@@ -1,6 +1,8 @@
-"""Descriptions as hypothesis draws them: all that find_faults believes, in the canonical order."""
+"""Descriptions for tests: a small one, and all that find_faults believes, as hypothesis draws them."""
 
 from __future__ import annotations
+
+from typing import Any
 
 from hypothesis import strategies as st
 
@@ -14,6 +16,18 @@ from registry.capability import (
 )
 from registry.plausibility import find_faults
 from registry.wire import down_topic
+
+THING: dict[str, Any] = {
+    "@context": "https://www.w3.org/2022/wot/td/v1.1",
+    "@type": "vipo:Machine",
+    "id": "urn:vipo:device:m1",
+    "title": "Lamp",
+    "securityDefinitions": {"none": {"scheme": "nosec"}},
+    "security": "none",
+    "vipo:location": [1, 2],
+    "vipo:size": [1, 1, 1],
+}
+"""The smallest Thing Description that is believed."""
 
 IDS = st.from_regex(r"[A-Za-z0-9_.-]{1,20}", fullmatch=True)
 NAMES = st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,12}", fullmatch=True)

@@ -15,7 +15,7 @@ from registry.describing import canonical_hash, read, write_description
 from registry.rdf_text import FORMS, BadDescription, form_of
 from registry.td_schema import check_thing
 from registry.thing import thing_of
-from tests.unit.registry.descriptions import descriptions
+from tests.unit.registry.descriptions import THING, descriptions
 
 FIGURE_5 = (Path(__file__).parents[2] / "fixtures" / "figure-5.txt").read_bytes()
 
@@ -181,16 +181,6 @@ def test_what_could_mean_several_things_is_refused_with_its_line(text: str, line
     assert [(fault.line, fault.column) for fault in refusal.value.faults] == [(line, column)]
 
 
-THING = {
-    "@context": "https://www.w3.org/2022/wot/td/v1.1",
-    "@type": "vipo:Machine",
-    "id": "urn:vipo:device:m1",
-    "title": "Lamp",
-    "securityDefinitions": {"none": {"scheme": "nosec"}},
-    "security": "none",
-    "vipo:location": [1, 2],
-    "vipo:size": [1, 1, 1],
-}
 FORM = {"href": "mqtts://broker.example/vipo/v1/dev/m1/down/dim"}
 
 

@@ -15,6 +15,7 @@ from registry.describing import read
 from registry.fault_sentences import SENTENCES
 from registry.faults import Fault, facts_of, fault, note
 from registry.rdf_text import BadDescription
+from tests.unit.registry.descriptions import THING
 
 ROOT = Path(__file__).parents[3]
 SPEAKERS = ("execution/gateway.py", "vipo_site/broker_connection.py", "vipo_site/broker_spread.py")
@@ -24,20 +25,11 @@ PREFIXES = """@prefix vipo: <urn:vipo:ns#> . @prefix td: <https://www.w3.org/201
 """
 DEVICE = f'{PREFIXES}<urn:a> a vipo:Machine ; dct:identifier "m1" ; vipo:size ( 1 1 1 ) ; vipo:location '
 MESSAGE = 'id: "m1"\nlocation: [1, 2]\nsize: "small"\n'
-THING: dict[str, Any] = {
-    "@context": ["https://www.w3.org/2022/wot/td/v1.1", {"vipo": "urn:vipo:ns#"}],
-    "@type": "vipo:Machine",
-    "id": "urn:vipo:device:m1",
-    "title": "Lamp",
-    "securityDefinitions": {"none": {"scheme": "nosec"}},
-    "security": "none",
-    "vipo:location": [1, 2],
-    "vipo:size": [1, 1, 1],
-}
+NAMED = {**THING, "@context": [THING["@context"], {"vipo": "urn:vipo:ns#"}]}
 
 
 def thing(**more: Any) -> str:
-    return json.dumps({key: value for key, value in {**THING, **more}.items() if value is not None})
+    return json.dumps({key: value for key, value in {**NAMED, **more}.items() if value is not None})
 
 
 BROKEN: list[tuple[str, str, str]] = [

@@ -11,22 +11,13 @@ import pytest
 
 from registry.describing import read
 from registry.rdf_text import BadDescription
+from tests.unit.registry.descriptions import THING
 
 PREFIXES = """@prefix vipo: <urn:vipo:ns#> . @prefix td: <https://www.w3.org/2019/wot/td#> .
 @prefix dct: <http://purl.org/dc/terms/> . @prefix schema: <https://schema.org/> .
 """
 DEVICE = ' <urn:vipo:device:m1> a vipo:Machine ; dct:identifier "m1" ; vipo:location ( 1 2 ) ; vipo:size ( 1 1 1 )'
 MESSAGE: dict[str, Any] = {"id": "m1", "location": [1, 2], "size": [1, 1, 1]}
-THING: dict[str, Any] = {
-    "@context": "https://www.w3.org/2022/wot/td/v1.1",
-    "@type": "vipo:Machine",
-    "id": "urn:vipo:device:m1",
-    "title": "Lamp",
-    "securityDefinitions": {"none": {"scheme": "nosec"}},
-    "security": "none",
-    "vipo:location": [1, 2],
-    "vipo:size": [1, 1, 1],
-}
 LINKED: dict[str, Any] = {
     "@context": "urn:vipo:context",
     "@id": "urn:vipo:device:m1",
