@@ -1,13 +1,13 @@
 # One command for each thing a person does. `make demo` and `make test` set up what they need on a bare machine.
 PYTHON ?= python3.11
 BIN := .venv/bin
-SOURCES := vipo_site registry editor simulation execution connectors firmware/robot_agent tests bench scripts manage.py
+SOURCES := vipo_site vipo_device registry editor simulation execution connectors firmware/robot_agent tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
 .PHONY: demo test check check-static check-frontend check-units bench mutation checks-page openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
-	@exec $(BIN)/python -m vipo_site.demo
+	@exec $(BIN)/python -m vipo_site.demo.main
 
 setup: .venv/.runtime
 setup-dev: .venv/.dev frontend/node_modules/.stamp
@@ -72,7 +72,7 @@ openapi: setup-dev
 	cd frontend && npm run --silent api
 
 checks-page: setup-dev
-	$(BIN)/python -m editor.language.checks_page > docs/language/checks.md.new && mv docs/language/checks.md.new docs/language/checks.md
+	$(BIN)/python -m scripts.checks_page > docs/language/checks.md.new && mv docs/language/checks.md.new docs/language/checks.md
 
 bench: setup-dev
 	$(BIN)/python -m bench

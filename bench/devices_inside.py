@@ -21,15 +21,16 @@ from django.core.management import call_command  # noqa: E402 - Django is set up
 from django.db import transaction  # noqa: E402
 
 from bench.flow import device_name  # noqa: E402
-from execution.intake import Entry  # noqa: E402
+from execution.gateway.ingest import Taker  # noqa: E402
+from execution.gateway.queue import Entry  # noqa: E402
 from execution.models import Command  # noqa: E402
-from execution.taking_in import Taker  # noqa: E402
-from registry import live, services  # noqa: E402
-from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size  # noqa: E402
-from registry.describing import write_description  # noqa: E402
+from registry import services  # noqa: E402
+from registry.live import fanout  # noqa: E402
 from registry.models import Device  # noqa: E402
-from registry.mqtt import Message, MqttClient  # noqa: E402
-from registry.wire import down_topic, up_topic  # noqa: E402
+from vipo_device.descriptions.reader import write_description  # noqa: E402
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size  # noqa: E402
+from vipo_device.protocol.messages import down_topic, up_topic  # noqa: E402
+from vipo_device.protocol.mqtt_client import Message, MqttClient  # noqa: E402
 
 SITE = "hall"
 NEWCOMERS = 5000
@@ -110,7 +111,7 @@ def measure_delays(port: int, password: str) -> Iterator[dict[str, object]]:
     client = MqttClient(host="127.0.0.1", port=port, username="server", password=password, client_id="bench")
     heard: Queue[tuple[str, float]] = Queue()
     client.subscribe("vipo/v1/dev/+/down/#", 1, lambda topic, _p, _r: heard.put((topic, time.perf_counter())))
-    live.listen(lambda _slug, message: heard.put((_about(message), time.perf_counter())))
+    fanout.listen(lambda _slug, message: heard.put((_about(message), time.perf_counter())))
     client.start()
     client.wait_connected(10)
     time.sleep(1)
@@ -145,7 +146,7 @@ def _ms(begin: datetime, end: datetime) -> float:
 def _ask(heard: Queue[tuple[str, float]], site: int, number: int, asked: dict[UUID, datetime]) -> float:
     def note() -> None:
         asked[row.id] = datetime.now(UTC)
-        live.wake("gateway")
+        fanout.wake("gateway")
 
     device, now = device_name(number), datetime.now(UTC)
     row = Command(

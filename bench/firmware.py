@@ -12,7 +12,7 @@ from bench.figures import figure
 from tests.bus import Ear
 from tests.firmware.rig import FIRMWARE, HEAP, ROOT, wait_for
 from tests.servers import run_mosquitto
-from vipo_site.firmware_process import find_micropython
+from vipo_site.demo.firmware_process import find_micropython
 
 COUNT = 70_000
 LIMIT_S = 600

@@ -11,7 +11,7 @@ from bench.blockly import measure_blockly
 from bench.figures import best_cpu_ms, figure
 from bench.programs import make_program, with_step
 from editor.language import Surroundings, compile_document, parse_script, surroundings_from_json
-from editor.language.incremental import EditedProgram
+from editor.language.compiler import EditedProgram
 
 Json = dict[str, Any]
 SITE = Path(__file__).resolve().parent.parent / "examples" / "painting-factory.json"

@@ -11,14 +11,14 @@ from typing import Any
 
 from bench.figures import figure, share
 from editor.language import DeviceFacts, Surroundings, compile_document
-from execution import rehearsal
-from execution.rehearsal import Conditions, rehearse
+from execution.rehearsals import rehearsal
+from execution.rehearsals.rehearsal import Conditions, rehearse
 from execution.traffic import floor
 from execution.traffic.layout import Layout, NoSuchSpot, make_layout
 from execution.traffic.routes import plan_way
-from registry.capability import Description, Pose
 from simulation.world import Scene
 from tests.unit.execution import demo_floor
+from vipo_device.protocol.description import Description, Pose
 
 MACHINES = tuple(device.id for device in demo_floor.devices() if device.kind == "machine")
 VISITS = 3

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isfinite
 
-from registry.wire import AckMessage
+from vipo_device.protocol.messages import AckMessage
 
 REMEMBERED = 16
 OPEN = frozenset({"ACCEPTED", "RUNNING"})

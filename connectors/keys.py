@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from registry.mqtt import MqttClient
+from vipo_device.protocol.mqtt_client import MqttClient
 
 log = logging.getLogger(__name__)
 PATIENCE_S = 2.0

@@ -10,11 +10,18 @@ from django.http import HttpRequest
 from ninja import Field, Router, Schema
 
 from editor import services
-from editor.expression_shapes import ExpressionShape, ExpressionToRead
-from editor.shapes import Compiled, Definition, Document, DrawnScriptShape, Parameters
-from editor.views import LibraryView, ProgramView, VersionView
+from editor.programs.views import LibraryView, ProgramView, VersionView
+from editor.shapes import (
+    Compiled,
+    Definition,
+    Document,
+    DrawnScriptShape,
+    ExpressionShape,
+    ExpressionToRead,
+    Parameters,
+)
 from registry import services as registry
-from registry.access import NotAMember, require
+from registry.people.access import NotAMember, require
 
 router = Router(tags=["editor"])
 

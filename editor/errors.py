@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from registry.errors import VipoError
+from vipo_device.protocol.errors import VipoError
 
 
 class EditorError(VipoError):

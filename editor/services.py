@@ -1,10 +1,10 @@
 """What the other apps may ask of the editor; everything else in this app is its own affair."""
 
-from editor.checking import build_surroundings
 from editor.errors import BadRequest, EditorError, NoSuchProgram
-from editor.expressions import ExpressionView, print_expression, read_expression
-from editor.library import get_function, save_function, search_library
-from editor.programs import (
+from editor.programs.checking import build_surroundings
+from editor.programs.library import get_function, save_function, search_library
+from editor.programs.one_line_values import ExpressionView, print_expression, read_expression
+from editor.programs.programs import (
     compile_version,
     compile_version_to_json,
     create_program,
@@ -18,9 +18,9 @@ from editor.programs import (
     pin_version,
     rename_program,
 )
-from editor.scripts import DrawnScript, draw_script
-from editor.seeding import seed_programs
-from editor.views import AuthorView, LibraryView, ProgramView, VersionView
+from editor.programs.scripts import DrawnScript, draw_script
+from editor.programs.seeding import seed_programs
+from editor.programs.views import AuthorView, LibraryView, ProgramView, VersionView
 
 __all__ = [
     "AuthorView",

@@ -1,4 +1,4 @@
-"""The shapes of documents and compiled programs over HTTP. They are described, not checked: see `registry.shown`."""
+"""The shapes of documents and compiled programs over HTTP: described, not checked (see `registry.api.unchecked`)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from ninja import Field, Schema
 
-from registry.shown import Shown
+from registry.api.unchecked import Shown
 
 Position = tuple[float, float]
 
@@ -190,3 +190,47 @@ class DefinitionShape(Schema):
 Compiled = Annotated[dict[str, Any], Shown(CompiledShape)]
 Definition = Annotated[dict[str, Any], Shown(DefinitionShape)]
 Parameters = Annotated[list[dict[str, Any]], Shown(list[ParameterDefinition])]
+
+
+class ExpressionToRead(Schema):
+    """A line that shall be read (`text`), or a Value that shall be printed as one; the names are those of a step."""
+
+    text: str | None = Field(None, max_length=10_000)
+    value: Any = None
+    step: str = Field("", max_length=100)
+    names: bool = False
+
+
+class LineProblem(Schema):
+    """Why a line means nothing, in each language; the column counts from 1."""
+
+    message: str
+    messages: dict[str, str]
+    column: int
+
+
+class PropertyName(Schema):
+    """How a device's property is written behind the device's name and a dot."""
+
+    name: str
+    written: str
+
+
+class LineName(Schema):
+    """A name that can stand in a line: `kind` is device, place, zone, robot or variable."""
+
+    name: str
+    kind: str
+    id: str
+    properties: list[PropertyName]
+
+
+class ExpressionShape(Schema):
+    """A Value and the line for it, with its type and unit as far as they are known."""
+
+    value: Any
+    text: str
+    type: str
+    unit: str
+    problem: LineProblem | None
+    names: list[LineName]

@@ -1,1 +1,1 @@
-
+"""Carrying programs out: runs, the floor that robots share, commands to devices, rehearsals."""

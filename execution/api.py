@@ -10,7 +10,7 @@ from ninja import Router
 
 from execution import services
 from execution.errors import NotFound, NoWay
-from execution.programs import prepare, site_of_program
+from execution.runs.programs import prepare, site_of_program
 from execution.shapes import (
     AnswerQuestion,
     ArmedShape,
@@ -28,8 +28,8 @@ from execution.shapes import (
     StartRehearsal,
     StartRun,
 )
-from registry.access import NotAMember, require
-from registry.shapes import Stop
+from registry.api.shapes import Stop
+from registry.people.access import NotAMember, require
 
 router = Router(tags=["execution"])
 

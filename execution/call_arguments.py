@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping
 from math import isfinite
 from typing import Any
 
-from registry.capability import Description, MethodSpec, ParameterSpec
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec
 
 MOST_CHARACTERS = 256
 MOST_METRES = 1e6

@@ -12,7 +12,7 @@ ExecutionError
 
 from __future__ import annotations
 
-from registry.errors import VipoError
+from vipo_device.protocol.errors import VipoError
 
 
 class ExecutionError(VipoError):

@@ -9,8 +9,8 @@ from ninja import Field, Router, Schema
 
 from execution import services
 from registry import services as registry
-from registry.access import require
-from registry.api import signed_in
+from registry.api.devices_and_sites import signed_in
+from registry.people.access import require
 
 router = Router(tags=["execution"])
 Version = Annotated[int, Field(ge=0, lt=2**31)]

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from execution.arming import arm_program, disarm_program, list_armed, start_armed
-from execution.calls import call_method, cancel_call, expire_calls, get_call
-from execution.claiming import OutgoingCommand, claim_commands, mark_commands_sent
-from execution.clockwork import run_ticker
-from execution.devices import record_device_change
-from execution.done_flag import record_done_flag
+from execution.commands.claim import OutgoingCommand, claim_commands, mark_commands_sent
+from execution.commands.device_changes import record_device_change
+from execution.commands.done_flag import record_done_flag
+from execution.commands.manual_calls import call_method, cancel_call, expire_calls, get_call
+from execution.commands.outbox import record_ack, resend_commands
 from execution.errors import (
     AlreadyAnswered,
     AnswerNotFitting,
@@ -17,12 +16,13 @@ from execution.errors import (
     NotPossibleNow,
     NotReady,
 )
-from execution.outbox import record_ack, resend_commands
-from execution.planning import plan_routes
-from execution.programs import Prepared
-from execution.questions import answer_question, list_questions, site_of_question
-from execution.rehearsals import get_rehearsal, start_rehearsal
-from execution.runs import (
+from execution.floor.map_change import change_map
+from execution.floor.routes_for_drawing import plan_routes
+from execution.floor.stops import StopView, is_stopped, list_stops, press_stop, reset_stop
+from execution.rehearsals.rehearsals import get_rehearsal, start_rehearsal
+from execution.runs.programs import Prepared
+from execution.runs.questions import answer_question, list_questions, site_of_question
+from execution.runs.runs import (
     cancel_run,
     get_run,
     list_events,
@@ -32,9 +32,8 @@ from execution.runs import (
     site_of_run,
     start_run,
 )
-from execution.site_maps import change_map
-from execution.stops import StopView, is_stopped, list_stops, press_stop, reset_stop
-from execution.ticking import tick
+from execution.runs.triggers import arm_program, disarm_program, list_armed, start_armed
+from execution.ticker.ticker import run_ticker, tick
 
 __all__ = [
     "AlreadyAnswered",

@@ -1,4 +1,4 @@
-"""The shapes of execution's HTTP answers and requests; `execution.views` makes the answers."""
+"""The shapes of execution's HTTP answers and requests; `execution.runs.views` makes the answers."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from ninja import Field, Schema
 
 from editor.shapes import Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
-from registry.shown import Shown
+from registry.api.unchecked import Shown
 
 RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cancelled"]
 StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]
@@ -67,7 +67,7 @@ class WaitReason(Schema):
 
 
 class Cause(Schema):
-    """Why something ended or was not done, for screens to say in their language (execution/reasons.py)."""
+    """Why something ended or was not done, for screens to say in their language (execution/runs/reasons.py)."""
 
     code: str
     args: dict[str, str]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from celery import shared_task
 
 from execution.errors import StepConflict
-from execution.floor_stepping import advance_site as step_site
-from execution.rehearsals import carry_out
-from execution.run_stepping import advance_run as step_run
+from execution.floor.advance import advance_site as step_site
+from execution.rehearsals.rehearsals import carry_out
+from execution.runs.advance import advance_run as step_run
 
 
 @shared_task(name="execution.tasks.advance_run", ignore_result=True)  # type: ignore[untyped-decorator]

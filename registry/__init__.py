@@ -1,1 +1,1 @@
-
+"""People, sites, maps and devices, kept as rows."""

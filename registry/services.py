@@ -1,38 +1,14 @@
 """What the other apps may ask of the registry; everything else in this app is its own affair."""
 
-from registry.alert_causes import AlertCode
-from registry.alert_list import (
-    find_alert,
-    list_alerts,
-    list_open_alerts,
-    mark_alert_seen,
-    mark_all_seen,
-    prune_alerts,
-)
-from registry.alert_notes import flush_alerts, note_alert, note_mended
-from registry.alert_views import AlertView, alert_to_json
-from registry.alert_watch import watch_devices
-from registry.alerts import Raised, end_alert, end_alerts, raise_alert, raise_alerts
-from registry.decisions import (
-    Decided,
-    NotApproved,
-    NotPending,
-    NotRetired,
-    approve_device,
-    expect_device,
-    readmit_device,
-    reconcile_accounts,
-    reject_device,
-    renew_join_key,
-    retire_device,
-    revoke_credential,
-    rotate_credential,
-)
-from registry.described import SaidDescription, ingest_description, ingest_descriptions
-from registry.device_rows import DONE_FLAG_ONLY_SQL, OUT_SQL, BadDevice, NoSuchDevice
-from registry.history import PointView, SeriesView, read_history
-from registry.intake import SaidState, find_unchanged, ingest_states
-from registry.joining import (
+from registry.alerts.alerts import Raised, end_alert, end_alerts, raise_alert, raise_alerts
+from registry.alerts.buffer import flush_alerts, note_alert, note_mended
+from registry.alerts.causes import AlertCode
+from registry.alerts.list import find_alert, list_alerts, list_open_alerts, mark_alert_seen, mark_all_seen, prune_alerts
+from registry.alerts.views import AlertView, alert_to_json
+from registry.alerts.watch import watch_devices
+from registry.devices.descriptions import SaidDescription, ingest_description, ingest_descriptions
+from registry.devices.enrolment import admit_newcomer
+from registry.devices.joining import (
     Login,
     Principal,
     check_device_password,
@@ -50,13 +26,48 @@ from registry.joining import (
     record_problem,
     update_device,
 )
-from registry.knocking import admit_newcomer
-from registry.people import change_password, check_sign_in, create_user, is_known
-from registry.robot_map_intake import ingest_map_part
-from registry.robot_maps import NoRobotMap, RobotMapFacts, RobotMapView, get_robot_map, get_robot_map_facts
-from registry.samples import flush_samples, note_samples, prune_samples
-from registry.site_maps import MapVersionView, compare_robot_map, list_map_versions, restore_map, use_robot_map
-from registry.sites import (
+from registry.devices.legacy_topics import (
+    CONFIRMED_TOPICS_SQL,
+    TopicNotAsked,
+    TopicTaken,
+    confirm_topic,
+    list_granted_topics,
+    withdraw_topic,
+)
+from registry.devices.lifecycle import (
+    Decided,
+    NotApproved,
+    NotPending,
+    NotRetired,
+    approve_device,
+    expect_device,
+    readmit_device,
+    reconcile_accounts,
+    reject_device,
+    renew_join_key,
+    retire_device,
+    revoke_credential,
+    rotate_credential,
+)
+from registry.devices.readings import flush_samples, note_samples, prune_samples
+from registry.devices.readings_history import PointView, SeriesView, read_history
+from registry.devices.rows import DONE_FLAG_ONLY_SQL, OUT_SQL, BadDevice, NoSuchDevice
+from registry.devices.states import SaidState, find_unchanged, ingest_states
+from registry.devices.views import (
+    DeviceEventView,
+    DeviceView,
+    MapView,
+    PlaceView,
+    SiteView,
+    StopView,
+    device_to_json,
+    site_to_json,
+)
+from registry.maps.robot_map_parts import ingest_map_part
+from registry.maps.robot_maps import NoRobotMap, RobotMapFacts, RobotMapView, get_robot_map, get_robot_map_facts
+from registry.maps.versions import MapVersionView, compare_robot_map, list_map_versions, restore_map, use_robot_map
+from registry.people.sign_in import change_password, check_sign_in, create_user, is_known
+from registry.sites.sites import (
     MapChanged,
     NoMap,
     create_site,
@@ -75,25 +86,7 @@ from registry.sites import (
     set_member,
     set_site_stop,
 )
-from registry.sparql import QueryAnswer, run_query
-from registry.topic_claims import (
-    CONFIRMED_TOPICS_SQL,
-    TopicNotAsked,
-    TopicTaken,
-    confirm_topic,
-    list_granted_topics,
-    withdraw_topic,
-)
-from registry.views import (
-    DeviceEventView,
-    DeviceView,
-    MapView,
-    PlaceView,
-    SiteView,
-    StopView,
-    device_to_json,
-    site_to_json,
-)
+from registry.sparql.queries import QueryAnswer, run_query
 
 __all__ = [
     "CONFIRMED_TOPICS_SQL",

@@ -7,9 +7,9 @@ from math import hypot
 import numpy as np
 from numpy.typing import NDArray
 
-from registry.capability import Pose
-from registry.floor import FREE, OCCUPIED, UNKNOWN, Grid, cells_array
-from registry.grid_message import write_grid
+from registry.floorplan.map_message import write_grid
+from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, Grid, cells_array
+from vipo_device.protocol.description import Pose
 
 RANGE_M = 3.5
 """As far as the laser of a TurtleBot 3 (LDS-01) reaches; it looks all round."""

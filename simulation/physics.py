@@ -12,7 +12,7 @@ from math import atan2, cos, sin
 from pathlib import Path
 from typing import Any
 
-from simulation.quiet import without_complaints
+from simulation.native_output import without_complaints
 
 with without_complaints():  # the library greets everybody who loads it
     import pybullet

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil, cos, floor, hypot, sin
 
-from registry.capability import Description
-from registry.floor import Box
+from registry.floorplan.plan import Box
+from vipo_device.protocol.description import Description
 
 REACH_M = 1.0
 WALL = "wall"

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from registry.capability import Description, Pose
-from registry.floor import Grid, wall_boxes
+from registry.floorplan.plan import Grid, wall_boxes
 from simulation.actors import Beginning, Emit, Machine, Motion, Robot, Surroundings
-from simulation.actors.ledger import Answer
 from simulation.proximity import Body, machine_bodies, wall_bodies
 from simulation.world import Scene
+from vipo_device.kit.answers import Answer
+from vipo_device.protocol.description import Description, Pose
 
 WALL_HEIGHT_M = 1.0
 

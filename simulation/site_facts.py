@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from registry import services as registry
-from registry.capability import Description, Pose
 from registry.demo import devices as demo
 from registry.demo.factory import make_grid, read_plan
-from registry.describing import read_description, write_description
-from registry.errors import RegistryError
-from registry.floor import Grid
+from registry.floorplan.plan import Grid
+from vipo_device.descriptions.reader import read_description, write_description
+from vipo_device.protocol.description import Description, Pose
+from vipo_device.protocol.errors import RegistryError
 
 
 class NothingToSimulate(RegistryError):

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from math import floor
 from typing import Protocol
 
-from registry.capability import Pose, Scalar
 from simulation.actors import Motion
-from simulation.nearness import NearnessWatch
+from simulation.near_misses import NearnessWatch
 from simulation.scene import Layout, cast_actors, lay_out
 from simulation.world import Ack, RobotSnapshot, Scene, WorldEvent
+from vipo_device.protocol.description import Pose, Scalar
 
 Drive = tuple[float, float]
 SLOW_TICK_S = 1.0

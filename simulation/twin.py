@@ -14,15 +14,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from queue import Empty, SimpleQueue
 
-from registry.capability import Pose
-from registry.device_line import CameIn, Commanded, ConnectionMaker, LineEvent, Stopped
-from registry.floor import with_devices
-from simulation.face import Face, Look
+from registry.floorplan.plan import with_devices
 from simulation.laser import Mapper
 from simulation.services import DriverName, make_world
 from simulation.site_facts import NothingToSimulate, SiteFacts
 from simulation.twin_memory import TwinMemory, read_memory, take_down, write_memory
+from simulation.virtual_device import Face, Look
 from simulation.world import Ack, Scene, World
+from vipo_device.kit.connection import CameIn, Commanded, ConnectionMaker, LineEvent, Stopped
+from vipo_device.protocol.description import Pose
 
 log = logging.getLogger(__name__)
 TICK_S = 0.05

@@ -11,8 +11,8 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from registry.capability import Pose, Scalar
 from simulation.world import Ack, Scene, World
+from vipo_device.protocol.description import Pose, Scalar
 
 log = logging.getLogger(__name__)
 FORMAT = 1

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, Protocol
 
-from registry.capability import Description, Pose, Scalar
-from registry.floor import Grid
+from registry.floorplan.plan import Grid
+from vipo_device.protocol.description import Description, Pose, Scalar
 
 AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
 

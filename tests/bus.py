@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from registry.mqtt import MqttClient
+from vipo_device.protocol.mqtt_client import MqttClient
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,8 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from registry.account_file import account_file
-from registry.credentials import broker_hash
+from registry.broker.mosquitto_file import account_file
+from vipo_device.protocol.credentials import broker_hash
 
 ROOT = Path(__file__).resolve().parent.parent
 START_LIMIT_S = 30

@@ -17,8 +17,8 @@ from django.conf import settings  # noqa: E402
 from django.urls import path, re_path  # noqa: E402
 from servestatic import ServeStaticASGI  # noqa: E402
 
-from editor.sockets import ProgramSocket  # noqa: E402
-from registry.sockets import SiteSocket  # noqa: E402
+from editor.rooms.socket import ProgramSocket  # noqa: E402
+from registry.api.site_socket import SiteSocket  # noqa: E402
 
 
 async def refuse_socket(_scope: Any, receive: Any, send: Any) -> None:

@@ -66,8 +66,8 @@ INSTALLED_APPS = [
 ]
 MIDDLEWARE = [
     "django.middleware.security.SecurityMiddleware",
-    "vipo_site.headers.SecurityHeaders",
-    "vipo_site.refusals.TellMethods",
+    "vipo_site.http.headers.SecurityHeaders",
+    "vipo_site.http.refusals.TellMethods",
     "django.contrib.sessions.middleware.SessionMiddleware",
     "django.middleware.common.CommonMiddleware",
     "django.middleware.csrf.CsrfViewMiddleware",
@@ -130,7 +130,7 @@ VIPO_MQTT = {
     "ca": os.environ.get("VIPO_MQTT_CA", ""),
     "protocol": "auto" if SERVED else "3.1.1",
 }
-VIPO_BROKER_ACCOUNTS = f"registry.broker_accounts.{'DynamicSecurity' if SERVED else 'AskedAccounts'}"
+VIPO_BROKER_ACCOUNTS = f"registry.broker.accounts.{'DynamicSecurity' if SERVED else 'AskedAccounts'}"
 VIPO_GATEWAY = f"gateway-{os.environ.get('VIPO_GATEWAY') or socket.gethostname()}"
 """What the broker knows a gateway by; two on one machine need names of their own."""
 VIPO_BROKER_URL = os.environ.get("VIPO_BROKER_URL", "" if SERVED else f"mqtt://127.0.0.1:{VIPO_MQTT['port']}/")

@@ -7,9 +7,9 @@ from django.http import HttpRequest, HttpResponse, JsonResponse
 from django.urls import path, re_path
 from django.views.decorators.csrf import ensure_csrf_cookie
 
-from vipo_site.api import api, problem
-from vipo_site.directory import directory_urls
-from vipo_site.health import check_health
+from vipo_site.http.api import api, problem
+from vipo_site.http.health import check_health
+from vipo_site.http.thing_directory import directory_urls
 
 
 @ensure_csrf_cookie
@@ -34,7 +34,7 @@ def no_such_call(request: HttpRequest) -> HttpResponse:
     return problem(404, "not_found", "There is no such call. See docs/api.md.")
 
 
-handler400, handler500 = "vipo_site.refusals.tell_unreadable", "vipo_site.refusals.tell_failure"
+handler400, handler500 = "vipo_site.http.refusals.tell_unreadable", "vipo_site.http.refusals.tell_failure"
 urlpatterns = [
     path("api/", api.urls),
     path("health", health),

@@ -6,10 +6,10 @@ import json
 import re
 from collections.abc import Iterable
 
+from connectors.mtconnect.description import ERROR, EXECUTION, WARNING, Portrait, Reading
 from connectors.mtconnect.documents import Observation
-from connectors.mtconnect.portrait import ERROR, EXECUTION, WARNING, Portrait, Reading
-from registry.capability import DeviceState, Scalar
-from registry.wire import MAX_BYTES, MAX_TEXT
+from vipo_device.protocol.description import DeviceState, Scalar
+from vipo_device.protocol.messages import MAX_BYTES, MAX_TEXT
 
 UNAVAILABLE = "UNAVAILABLE"
 AT_WORK = frozenset(

@@ -10,19 +10,17 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from connectors.vda5050.cancelling import Cancel, is_orphan
-from connectors.vda5050.frame import Point
-from connectors.vda5050.handing_over import growing, next_order
+from connectors.vda5050.cancellation import Cancel, is_orphan
+from connectors.vda5050.coordinates import Point
 from connectors.vda5050.messages import ENDED, Located, VehicleError, VehicleState
-from connectors.vda5050.open_tasks import OpenTasks
+from connectors.vda5050.open_commands import OpenTasks
+from connectors.vda5050.order_sequence import growing, next_order
 from connectors.vda5050.orders import Body, Order, order_from_json, order_to_json
-from connectors.vda5050.pausing import Pausing, pausing_from_json
-from connectors.vda5050.readiness import why_not, works_for_others
-from connectors.vda5050.shown import shown
-from connectors.vda5050.tasks import Task, Vehicle, drives_in_front, read_task, why_astray
-from registry.capability import DeviceState, Pose
-from registry.told import Told
-from registry.wire import AckMessage
+from connectors.vda5050.pauses import Pausing, pausing_from_json
+from connectors.vda5050.properties import shown
+from connectors.vda5050.tasks import Task, Vehicle, drives_in_front, read_task, why_astray, why_not, works_for_others
+from vipo_device.protocol.description import DeviceState, Pose
+from vipo_device.protocol.messages import AckMessage, Told
 
 CONTROLS = ("pause", "resume", "cancel")
 PATIENCE_S = 3.0

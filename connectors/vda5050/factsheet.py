@@ -10,9 +10,9 @@ from math import hypot
 
 from connectors.vda5050.fields import Fields, read_fields
 from connectors.vda5050.messages import VehicleName, read_header
-from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size, ValueType
-from registry.plausibility import find_faults
-from registry.wire import BadMessage, down_topic
+from vipo_device.descriptions.plausibility import find_faults
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size, ValueType
+from vipo_device.protocol.messages import BadMessage, down_topic
 
 HANDLING = ("pick", "drop")
 KEPT_FROM_PEOPLE = frozenset({"initPosition", "move", "pause", "resume", "cancel", *HANDLING})

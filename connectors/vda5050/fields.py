@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
-from registry.wire import BadMessage, parse_json
+from vipo_device.protocol.messages import BadMessage, parse_json
 
 MAX_BYTES = 256 * 1024
 MAX_ITEMS = 1000

@@ -14,9 +14,9 @@ from threading import Event, Lock
 
 from connectors.vda5050.member import Member, Setting, memory_path
 from connectors.vda5050.messages import VehicleName, read_connection, read_state
-from registry.device_line import CameIn, Commanded, LineEvent, Stopped
-from registry.mqtt import MqttClient
-from registry.wire import BadMessage
+from vipo_device.kit.connection import CameIn, Commanded, LineEvent, Stopped
+from vipo_device.protocol.messages import BadMessage
+from vipo_device.protocol.mqtt_client import MqttClient
 
 log = logging.getLogger(__name__)
 SUBTOPICS = ("connection", "factsheet", "state", "visualization")

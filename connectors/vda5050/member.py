@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from connectors.commands import OPEN
+from connectors.vda5050.connection_state import Presence
 from connectors.vda5050.control import Send, VehicleControl
+from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.factsheet import Factsheet, describe, device_id, read_factsheet
-from connectors.vda5050.frame import Frame
-from connectors.vda5050.memory import Memory, read_memory, write_memory
 from connectors.vda5050.messages import (
     Header,
     Located,
@@ -24,13 +24,12 @@ from connectors.vda5050.messages import (
     read_state,
     read_visualization,
 )
+from connectors.vda5050.order_file import Memory, read_memory, write_memory
 from connectors.vda5050.orders import action, instant_actions
-from connectors.vda5050.presence import Presence
 from connectors.vda5050.tasks import Vehicle
-from registry.describing import write_description
-from registry.device_line import ConnectionMaker, DeviceLine, LineEvent
-from registry.told import Told
-from registry.wire import AckMessage
+from vipo_device.descriptions.reader import write_description
+from vipo_device.kit.connection import ConnectionMaker, DeviceLine, LineEvent
+from vipo_device.protocol.messages import AckMessage, Told
 
 log = logging.getLogger(__name__)
 Publish = Callable[[VehicleName, str, bytes], None]

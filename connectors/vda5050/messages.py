@@ -7,8 +7,8 @@ from datetime import UTC, datetime
 from typing import Literal, NamedTuple, cast
 
 from connectors.vda5050.fields import Fields, read_fields
-from registry.capability import Pose
-from registry.wire import BadMessage
+from vipo_device.protocol.description import Pose
+from vipo_device.protocol.messages import BadMessage
 
 Level = Literal["WARNING", "FATAL"]
 DRIVING_MODES = frozenset({"AUTOMATIC", "SEMIAUTOMATIC"})

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, Literal
 
-from connectors.vda5050.frame import Point
+from connectors.vda5050.coordinates import Point
 
 Body = Mapping[str, Any]
 OrderKind = Literal["drive", "act"]

@@ -3,15 +3,15 @@
 `compile_document` is all that most callers need; `compiled_to_json` gives its form for browsers and the command line.
 """
 
-from editor.language.compiled import Compiled, compile_document, compiled_to_json
-from editor.language.diagnostics import Diagnostic, Fix
-from editor.language.drawing import tree_to_document
-from editor.language.nodes import Tree
-from editor.language.parsing import Parsed, parse_script
-from editor.language.plan import Plan
-from editor.language.plan_json import UnreadablePlan, plan_from_json, plan_to_json
-from editor.language.surroundings import DeviceFacts, FloorFacts, PlaceFacts, Surroundings
-from editor.language.surroundings_json import UnreadableSite, surroundings_from_json, surroundings_to_json
+from editor.language.compiler import Compiled, compile_document, compiled_to_json
+from editor.language.drawing.document import tree_to_document
+from editor.language.messages.diagnostics import Diagnostic, Fix
+from editor.language.parsing.script import Parsed, parse_script
+from editor.language.plan.instructions import Plan
+from editor.language.plan.json_form import UnreadablePlan, plan_from_json, plan_to_json
+from editor.language.site.json_form import UnreadableSite, surroundings_from_json, surroundings_to_json
+from editor.language.site.surroundings import DeviceFacts, FloorFacts, PlaceFacts, Surroundings
+from editor.language.tree.nodes import Tree
 
 __all__ = [
     "Compiled",

@@ -10,7 +10,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from execution.traffic import messages as m
-from execution.traffic.driving import (
+from execution.traffic.conflicts import resolve, send_home
+from execution.traffic.dispatch import ABSENCE_S, CALL_LIMIT_S, bind_roles, limit_of, serve
+from execution.traffic.floor_state import FloorState, Job, Robot, Sent, from_json, to_json
+from execution.traffic.layout import Layout
+from execution.traffic.path_release import (
     cut_way,
     drive,
     drop_pieces,
@@ -20,10 +24,6 @@ from execution.traffic.driving import (
     place,
     take_pose,
 )
-from execution.traffic.evading import resolve, send_home
-from execution.traffic.floor_state import FloorState, Job, Robot, Sent, from_json, to_json
-from execution.traffic.layout import Layout
-from execution.traffic.serving import ABSENCE_S, CALL_LIMIT_S, bind_roles, limit_of, serve
 from execution.traffic.turn import Turn
 from execution.traffic.zones import keep_zones
 

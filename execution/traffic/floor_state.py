@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
-from execution.mission import Mission, mission_from_json, mission_to_json
+from execution.machine.floor_task import Mission, mission_from_json, mission_to_json
 from execution.traffic.layout import Node
 from execution.traffic.messages import FloorZone, Reason, zone_from_json
 

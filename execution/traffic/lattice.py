@@ -10,8 +10,8 @@ from math import ceil, hypot
 import numpy as np
 from numpy.typing import NDArray
 
-from registry.capability import Description
-from registry.floor import FloorPlan, Grid
+from registry.floorplan.plan import FloorPlan, Grid
+from vipo_device.protocol.description import Description
 
 SIDE_M = 0.5
 MARGIN_M = 0.1

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from editor.language.surroundings import PlaceFacts
-from execution.mission import Target
+from editor.language.site.surroundings import PlaceFacts
+from execution.machine.floor_task import Target
 from execution.traffic.lattice import Ground, Lattice, Point, make_lattice
-from registry.capability import Description
-from registry.floor import Grid, stations
+from registry.floorplan.plan import Grid, stations
+from vipo_device.protocol.description import Description
 
 BODY_M = 0.6
 """A robot off the lattice keeps others off all cells this near; see docs/execution.md for the sum."""

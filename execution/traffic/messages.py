@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from editor.language.plan import Zone
-from execution.mission import Mission
-from registry.capability import Scalar
+from editor.language.plan.instructions import Zone
+from execution.machine.floor_task import Mission
+from vipo_device.protocol.description import Scalar
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterator, Mapping
 from itertools import chain
 from math import hypot
 
-from execution.places import lies_in
+from execution.machine.places import lies_in
 from execution.traffic.floor_state import Robot
 from execution.traffic.lattice import Point
 from execution.traffic.layout import Layout, Node

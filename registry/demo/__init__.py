@@ -1,0 +1,1 @@
+"""The painting factory of the paper, as the demo's site."""

@@ -6,10 +6,10 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
-from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
 from registry.demo.factory import FOLDER, read_plan
-from registry.describing import write_description
-from registry.wire import down_topic
+from vipo_device.descriptions.reader import write_description
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
+from vipo_device.protocol.messages import down_topic
 
 SITE = "painting-factory"
 DEVICES = FOLDER / "devices"

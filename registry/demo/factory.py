@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from registry.floor import FREE, OCCUPIED, UNKNOWN, Grid
-from registry.ros_map import write_pgm, write_yaml
+from registry.floorplan.map_server import write_pgm, write_yaml
+from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, Grid
 
 FOLDER = Path(__file__).resolve().parent
 RESOLUTION_M = 0.05

@@ -12,9 +12,9 @@ from typing import Any
 from registry import services
 from registry.demo.devices import NEWCOMER, SITE, describe_devices
 from registry.demo.factory import FOLDER, MAP_NAME, read_plan
+from registry.devices.views import PlaceView
+from registry.floorplan.map_server import read_map
 from registry.models import Site, SiteMap, User
-from registry.ros_map import read_map
-from registry.views import PlaceView
 
 SITE_NAME = "Painting Factory"
 PEOPLE = (("admin@vipo.example", "Ada Meyer", "admin"), ("author@vipo.example", "Otto Brandt", "author"))

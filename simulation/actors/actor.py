@@ -6,10 +6,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from registry.capability import Description, PropertySpec, Scalar
-from simulation.actors.arguments import refusal_of_arguments
-from simulation.actors.ledger import REMEMBERED, Answer, Ledger
 from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
+from vipo_device.kit.answers import REMEMBERED, Answer, Ledger
+from vipo_device.kit.arguments import refusal_of_arguments
+from vipo_device.protocol.description import Description, PropertySpec, Scalar
 
 Emit = Callable[[WorldEvent], None]
 CONTROLS = frozenset({"pause", "resume", "cancel"})

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import exp
 
-from registry.capability import Description, PropertySpec, Scalar
 from simulation.actors.actor import Actor, Beginning, Emit
-from simulation.actors.arguments import counted_object, duration_s
-from simulation.actors.ledger import Answer
+from vipo_device.kit.answers import Answer
+from vipo_device.kit.arguments import counted_object, duration_s
+from vipo_device.protocol.description import Description, PropertySpec, Scalar
 
 AMBIENT_C = 22.0
 SLOTS = 8

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot
 
-from registry.capability import Description, Scalar
 from simulation.actors.actor import Actor, Beginning, Emit
-from simulation.actors.arguments import counted_object, duration_s, is_number, read_path
 from simulation.actors.follower import Follower, Motion
-from simulation.actors.ledger import Answer
 from simulation.actors.machine import Machine
 from simulation.proximity import body_of
+from vipo_device.kit.answers import Answer
+from vipo_device.kit.arguments import counted_object, duration_s, is_number, read_path
+from vipo_device.protocol.description import Description, Scalar
 
 DEFAULT_SPEED_M_S = 0.5
 DEFAULT_RADIUS_M = 0.18

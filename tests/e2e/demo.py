@@ -91,7 +91,7 @@ def running_demo(state: Path, speed: float = 10) -> Iterator[Demo]:
         (state / "micropython").symlink_to(fetched)
     with log.open("wb") as output:
         process = subprocess.Popen(
-            [sys.executable, "-m", "vipo_site.demo"],
+            [sys.executable, "-m", "vipo_site.demo.main"],
             cwd=ROOT,
             env=environment,
             stdout=output,

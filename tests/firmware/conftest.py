@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.firmware.rig import ROOT, interpreter_command
-from vipo_site.firmware_process import find_micropython
+from vipo_site.demo.firmware_process import find_micropython
 
 
 @pytest.fixture(scope="session")

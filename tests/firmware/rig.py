@@ -16,7 +16,7 @@ from typing import Any
 
 from tests.bus import Ear, Heard
 from tests.servers import free_port, run_mosquitto
-from vipo_site.broker import EmbeddedBroker, start_broker
+from vipo_site.embedded_broker.server import EmbeddedBroker, start_broker
 
 ROOT = Path(__file__).resolve().parents[2]
 FIRMWARE = ROOT / "firmware"
@@ -67,7 +67,7 @@ def running_bus(kind: str, folder: Path) -> Iterator[Any]:
 
 @contextmanager
 def listening(bus: Any) -> Iterator[Ear]:
-    from registry.mqtt import tls_context
+    from vipo_device.protocol.mqtt_client import tls_context
 
     with Ear(bus.port, ACCOUNTS["server"], tls=tls_context(bus.authority) if bus.authority else None) as ear:
         yield ear

@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from registry.capability import Description
 from registry.demo.devices import describe_devices
-from registry.describing import read
-from registry.shacl import check_rdf
 from tests.firmware.rig import FIRMWARE, HEAP
+from vipo_device.descriptions.reader import read
+from vipo_device.descriptions.shacl import check_rdf
+from vipo_device.protocol.description import Description
 
 DEMO = {"mixer": "paintMixer02", "oven": "curingOven01", "painter": "paintMachine01"}
 

@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 
-from registry.mqtt import tls_context
 from tests.bus import Ear
 from tests.firmware.rig import (
     ACCOUNTS,
@@ -25,6 +24,7 @@ from tests.firmware.rig import (
     wait_for,
 )
 from tests.servers import run_mosquitto, write_mosquitto_files
+from vipo_device.protocol.mqtt_client import tls_context
 
 JOIN_KEY, NEXT_KEY, STRAY_KEY = "j" * 32, "n" * 40, "s" * 40
 DOOR = {"server": ACCOUNTS["server"], "join:hall": JOIN_KEY}

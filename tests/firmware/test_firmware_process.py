@@ -13,7 +13,6 @@ from typing import Any
 import pytest
 
 from registry.demo.devices import DEVICES
-from registry.describing import canonical_hash, read
 from tests.firmware.conftest import find_interpreter
 from tests.firmware.rig import (
     ACCOUNTS,
@@ -28,7 +27,8 @@ from tests.firmware.rig import (
     wait_for,
 )
 from tests.servers import run_mosquitto
-from vipo_site.firmware_process import firmware_command
+from vipo_device.descriptions.reader import canonical_hash, read
+from vipo_site.demo.firmware_process import firmware_command
 
 UP = f"vipo/v1/dev/{DEVICE}/up/"
 DOWN = f"vipo/v1/dev/{DEVICE}/down/"

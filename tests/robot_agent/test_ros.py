@@ -16,14 +16,14 @@ from typing import Any
 
 import pytest
 
-from registry.describing import read_description
-from registry.floor import Grid
-from registry.grid_message import join_parts, read_grid_part
+from registry.floorplan.map_message import join_parts, read_grid_part
+from registry.floorplan.plan import Grid
 from tests.bus import Ear
 from tests.integration.connectors.vehicles import Server
 from tests.robot_agent.bridge_stand_in import BridgeStandIn
 from tests.robot_agent.pretend_robot import HEIGHT, WIDTH, map_cells
 from tests.servers import ROOT, Mosquitto, answers, free_port, run_mosquitto, wait_until
+from vipo_device.descriptions.reader import read_description
 
 AGENT = ROOT / "firmware" / "robot_agent"
 HERE = Path(__file__).parent

@@ -13,13 +13,13 @@ from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
 from connectors.mtconnect.agent import Agent, read_address
-from connectors.mtconnect.plant import Plant, Setting
-from connectors.mtconnect.portrait import Stand
-from connectors.vipo_side import device_connections
-from registry.capability import Pose, Size
-from registry.errors import RegistryError
-from registry.stopping import stop_on_signals
-from registry.wire import is_device_id
+from connectors.mtconnect.connector import Plant, Setting
+from connectors.mtconnect.description import Stand
+from connectors.settings import device_connections
+from vipo_device.kit.shutdown import stop_on_signals
+from vipo_device.protocol.description import Pose, Size
+from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.messages import is_device_id
 
 STOP_LIMIT_S = 8
 LEAST_INTERVAL_S, MOST_INTERVAL_S = 0.1, 60.0

@@ -15,14 +15,14 @@ from urllib.parse import unquote, urlsplit
 from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
+from connectors.settings import device_connections
+from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.fleet import Fleet
-from connectors.vda5050.frame import Frame
 from connectors.vda5050.member import Setting
-from connectors.vipo_side import device_connections
-from registry.errors import RegistryError
-from registry.mqtt import MqttClient, tls_context
-from registry.stopping import stop_on_signals
-from registry.wire import is_device_id
+from vipo_device.kit.shutdown import stop_on_signals
+from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.messages import is_device_id
+from vipo_device.protocol.mqtt_client import MqttClient, tls_context
 
 STOP_LIMIT_S = 8
 

@@ -9,7 +9,7 @@ from typing import Any
 from django.conf import settings
 from django.core.management.base import BaseCommand
 
-from execution.gateway import Gateway
+from execution.gateway.gateway import Gateway
 
 
 class Command(BaseCommand):

@@ -8,7 +8,7 @@ from typing import Any
 
 from django.core.management.base import BaseCommand
 
-from execution.clockwork import run_ticker
+from execution.ticker.ticker import run_ticker
 
 
 class Command(BaseCommand):

@@ -17,7 +17,7 @@ export interface paths {
          * Mark Seen
          * @description Say that the asker has seen an alert; of several people the first one stays named.
          */
-        post: operations["registry_alerts_api_mark_seen"];
+        post: operations["registry_api_alerts_mark_seen"];
         delete?: never;
         options?: never;
         head?: never;
@@ -95,7 +95,7 @@ export interface paths {
          * Show Me
          * @description Say who is signed in; strangers get the token that signing in needs.
          */
-        get: operations["registry_api_show_me"];
+        get: operations["registry_api_devices_and_sites_show_me"];
         put?: never;
         post?: never;
         delete?: never;
@@ -449,7 +449,7 @@ export interface paths {
          * Sign In
          * @description Begin a session.
          */
-        post: operations["registry_api_sign_in"];
+        post: operations["registry_api_devices_and_sites_sign_in"];
         delete?: never;
         options?: never;
         head?: never;
@@ -469,7 +469,7 @@ export interface paths {
          * Sign Out
          * @description End the session.
          */
-        post: operations["registry_api_sign_out"];
+        post: operations["registry_api_devices_and_sites_sign_out"];
         delete?: never;
         options?: never;
         head?: never;
@@ -487,13 +487,13 @@ export interface paths {
          * List Sites
          * @description List the sites where the asker is a member.
          */
-        get: operations["registry_api_list_sites"];
+        get: operations["registry_api_devices_and_sites_list_sites"];
         put?: never;
         /**
          * Upload Site
          * @description Make a site from a ROS map; the asker becomes its admin.
          */
-        post: operations["registry_api_upload_site"];
+        post: operations["registry_api_devices_and_sites_upload_site"];
         delete?: never;
         options?: never;
         head?: never;
@@ -711,7 +711,7 @@ export interface paths {
          * Show Site
          * @description Show a site.
          */
-        get: operations["registry_api_show_site"];
+        get: operations["registry_api_devices_and_sites_show_site"];
         put?: never;
         post?: never;
         delete?: never;
@@ -731,7 +731,7 @@ export interface paths {
          * List Alerts
          * @description List a site's alerts, the latest first: those that are not over, or those in one `state`; 1,000 at most.
          */
-        get: operations["registry_alerts_api_list_alerts"];
+        get: operations["registry_api_alerts_list_alerts"];
         put?: never;
         post?: never;
         delete?: never;
@@ -753,7 +753,7 @@ export interface paths {
          * Mark All Seen
          * @description Say that the asker has seen all open alerts of a site; answers with those that are not over.
          */
-        post: operations["registry_alerts_api_mark_all_seen"];
+        post: operations["registry_api_alerts_mark_all_seen"];
         delete?: never;
         options?: never;
         head?: never;
@@ -773,7 +773,7 @@ export interface paths {
          * Look At Description
          * @description Say what VIPO would make of a description, and what is wrong with it; nothing is kept.
          */
-        post: operations["registry_onboarding_api_look_at_description"];
+        post: operations["registry_api_onboarding_look_at_description"];
         delete?: never;
         options?: never;
         head?: never;
@@ -791,7 +791,7 @@ export interface paths {
          * List Devices
          * @description List a site's devices, also those that wait for approval; retired ones only when asked for by `lifecycle`.
          */
-        get: operations["registry_api_list_devices"];
+        get: operations["registry_api_devices_and_sites_list_devices"];
         put?: never;
         post?: never;
         delete?: never;
@@ -811,7 +811,7 @@ export interface paths {
          * Export Devices
          * @description Give the descriptions of all devices of a site as one Turtle file.
          */
-        get: operations["registry_onboarding_api_export_devices"];
+        get: operations["registry_api_onboarding_export_devices"];
         put?: never;
         post?: never;
         delete?: never;
@@ -831,7 +831,7 @@ export interface paths {
          * Show Device
          * @description Show a device.
          */
-        get: operations["registry_api_show_device"];
+        get: operations["registry_api_devices_and_sites_show_device"];
         put?: never;
         post?: never;
         delete?: never;
@@ -841,7 +841,7 @@ export interface paths {
          * Edit
          * @description Rename a device, or say where it stands.
          */
-        patch: operations["registry_api_edit"];
+        patch: operations["registry_api_devices_and_sites_edit"];
         trace?: never;
     };
     "/api/sites/{slug}/devices/{device_id}/approve": {
@@ -857,7 +857,7 @@ export interface paths {
          * Approve
          * @description Let a pending device take part, and tell its new key this once.
          */
-        post: operations["registry_api_approve"];
+        post: operations["registry_api_devices_and_sites_approve"];
         delete?: never;
         options?: never;
         head?: never;
@@ -877,12 +877,12 @@ export interface paths {
          * Rotate
          * @description Give an approved device a new key, told this once; the old one ends.
          */
-        post: operations["registry_api_rotate"];
+        post: operations["registry_api_devices_and_sites_rotate"];
         /**
          * Revoke
          * @description Take an approved device's key away; its connection ends at once.
          */
-        delete: operations["registry_api_revoke"];
+        delete: operations["registry_api_devices_and_sites_revoke"];
         options?: never;
         head?: never;
         patch?: never;
@@ -899,7 +899,7 @@ export interface paths {
          * Show History
          * @description Show what happened to a device, newest first.
          */
-        get: operations["registry_api_show_history"];
+        get: operations["registry_api_devices_and_sites_show_history"];
         put?: never;
         post?: never;
         delete?: never;
@@ -919,7 +919,7 @@ export interface paths {
          * Show History
          * @description Show what a property was since a time, at most seven days back, in so many points at most (1 to 500).
          */
-        get: operations["registry_history_api_show_history"];
+        get: operations["registry_api_history_show_history"];
         put?: never;
         post?: never;
         delete?: never;
@@ -939,7 +939,7 @@ export interface paths {
          * Show Robot Map
          * @description Show the newest map that a robot has sent, without its cells.
          */
-        get: operations["registry_maps_api_show_robot_map"];
+        get: operations["registry_api_maps_show_robot_map"];
         put?: never;
         post?: never;
         delete?: never;
@@ -959,7 +959,7 @@ export interface paths {
          * Download Robot Pgm
          * @description Send the image of a robot's map in the ROS form.
          */
-        get: operations["registry_maps_api_download_robot_pgm"];
+        get: operations["registry_api_maps_download_robot_pgm"];
         put?: never;
         post?: never;
         delete?: never;
@@ -979,7 +979,7 @@ export interface paths {
          * Download Robot Yaml
          * @description Send the header of a robot's map in the ROS form.
          */
-        get: operations["registry_maps_api_download_robot_yaml"];
+        get: operations["registry_api_maps_download_robot_yaml"];
         put?: never;
         post?: never;
         delete?: never;
@@ -999,7 +999,7 @@ export interface paths {
          * Show Robot Cells
          * @description Send the cells of a robot's map: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown.
          */
-        get: operations["registry_maps_api_show_robot_cells"];
+        get: operations["registry_api_maps_show_robot_cells"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1019,7 +1019,7 @@ export interface paths {
          * Show Difference
          * @description Show what would change at the site if the robot's map became its own.
          */
-        get: operations["registry_maps_api_show_difference"];
+        get: operations["registry_api_maps_show_difference"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1039,7 +1039,7 @@ export interface paths {
          * Show Rdf
          * @description Send a device's description as `turtle`, `n-triples`, `json-ld`, `td` or the `paper`'s message.
          */
-        get: operations["registry_api_show_rdf"];
+        get: operations["registry_api_devices_and_sites_show_rdf"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1061,7 +1061,7 @@ export interface paths {
          * Readmit
          * @description Let a retired or rejected device's id come back as a newcomer.
          */
-        post: operations["registry_api_readmit"];
+        post: operations["registry_api_devices_and_sites_readmit"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1081,7 +1081,7 @@ export interface paths {
          * Reject
          * @description Turn a pending device away.
          */
-        post: operations["registry_api_reject"];
+        post: operations["registry_api_devices_and_sites_reject"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1101,7 +1101,7 @@ export interface paths {
          * Retire
          * @description Take an approved device out; its history stays, and its id cannot come back until it is readmitted.
          */
-        post: operations["registry_api_retire"];
+        post: operations["registry_api_devices_and_sites_retire"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1121,7 +1121,7 @@ export interface paths {
          * Confirm
          * @description Let an approved device be told a method on the topic outside of `vipo/` that it asks for.
          */
-        post: operations["registry_api_confirm"];
+        post: operations["registry_api_devices_and_sites_confirm"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1141,7 +1141,7 @@ export interface paths {
          * Withdraw
          * @description Take the confirmation of a topic back; the device asks for it again.
          */
-        post: operations["registry_api_withdraw"];
+        post: operations["registry_api_devices_and_sites_withdraw"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1161,7 +1161,7 @@ export interface paths {
          * Renew Join Key
          * @description Make a new join key for a site's newcomers, and tell it this once; the old one ends.
          */
-        post: operations["registry_onboarding_api_renew_join_key"];
+        post: operations["registry_api_onboarding_renew_join_key"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1199,7 +1199,7 @@ export interface paths {
          * Show Map
          * @description Show a site's map without its cells.
          */
-        get: operations["registry_maps_api_show_map"];
+        get: operations["registry_api_maps_show_map"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1219,7 +1219,7 @@ export interface paths {
          * Download Pgm
          * @description Send the map's image in the ROS form.
          */
-        get: operations["registry_maps_api_download_pgm"];
+        get: operations["registry_api_maps_download_pgm"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1239,7 +1239,7 @@ export interface paths {
          * Download Yaml
          * @description Send the map's header in the ROS form.
          */
-        get: operations["registry_maps_api_download_yaml"];
+        get: operations["registry_api_maps_download_yaml"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1259,7 +1259,7 @@ export interface paths {
          * Show Cells
          * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown.
          */
-        get: operations["registry_maps_api_show_cells"];
+        get: operations["registry_api_maps_show_cells"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1319,7 +1319,7 @@ export interface paths {
          * List Versions
          * @description List the versions of a site's map, the one that holds first; the newest 50 are kept.
          */
-        get: operations["registry_maps_api_list_versions"];
+        get: operations["registry_api_maps_list_versions"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1339,7 +1339,7 @@ export interface paths {
          * Current
          * @description Send MTConnectStreams: how the devices are; with `at` how they were, with `interval` again and again.
          */
-        get: operations["registry_mtconnect_api_current"];
+        get: operations["registry_api_mtconnect_current"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1359,7 +1359,7 @@ export interface paths {
          * Probe
          * @description Send MTConnectDevices: the site's approved devices and what they tell.
          */
-        get: operations["registry_mtconnect_api_probe"];
+        get: operations["registry_api_mtconnect_probe"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1379,7 +1379,7 @@ export interface paths {
          * Sample
          * @description Send MTConnectStreams: what the devices have said, from the sequence number `from` on, `count` at most.
          */
-        get: operations["registry_mtconnect_api_sample"];
+        get: operations["registry_api_mtconnect_sample"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1399,7 +1399,7 @@ export interface paths {
          * Current Of Device
          * @description Send MTConnectStreams of one device: how it is.
          */
-        get: operations["registry_mtconnect_api_current_of_device"];
+        get: operations["registry_api_mtconnect_current_of_device"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1419,7 +1419,7 @@ export interface paths {
          * Probe Device
          * @description Send MTConnectDevices of one device, named by its id or uuid.
          */
-        get: operations["registry_mtconnect_api_probe_device"];
+        get: operations["registry_api_mtconnect_probe_device"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1439,7 +1439,7 @@ export interface paths {
          * Sample Of Device
          * @description Send MTConnectStreams of one device: what it has said.
          */
-        get: operations["registry_mtconnect_api_sample_of_device"];
+        get: operations["registry_api_mtconnect_sample_of_device"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1461,7 +1461,7 @@ export interface paths {
          * Add Newcomer
          * @description Reserve an id for a device that will come, and tell its key this once; it still waits for approval then.
          */
-        post: operations["registry_onboarding_api_add_newcomer"];
+        post: operations["registry_api_onboarding_add_newcomer"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1503,13 +1503,13 @@ export interface paths {
          * Ask
          * @description Answer a SPARQL query over the site's descriptions; as `format`, or else the header Accept, says.
          */
-        get: operations["registry_sparql_api_ask"];
+        get: operations["registry_api_sparql_ask"];
         put?: never;
         /**
          * Post Query
          * @description Answer a query that comes as `application/sparql-query`, or as the field `query` of a form.
          */
-        post: operations["registry_sparql_api_post_query"];
+        post: operations["registry_api_sparql_post_query"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1527,7 +1527,7 @@ export interface paths {
          * List Things
          * @description List the site's approved devices as Thing Descriptions, a part at a time; the header Link names the next part.
          */
-        get: operations["registry_things_api_list_things"];
+        get: operations["registry_api_things_list_things"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1547,7 +1547,7 @@ export interface paths {
          * Watch Things
          * @description Send `thing_created`, `thing_updated` and `thing_deleted` as they happen; with `diff` what changed, too.
          */
-        get: operations["registry_things_api_watch_things"];
+        get: operations["registry_api_things_watch_things"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1567,7 +1567,7 @@ export interface paths {
          * Show Thing
          * @description Send a device's Thing Description; `thing` is its id, with or without `urn:vipo:device:`.
          */
-        get: operations["registry_things_api_show_thing"];
+        get: operations["registry_api_things_show_thing"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1577,14 +1577,14 @@ export interface paths {
          * Patch Thing
          * @description Change a Thing's `title` or `vipo:location` by a JSON merge patch; the rest the device says itself.
          */
-        patch: operations["registry_things_api_patch_thing"];
+        patch: operations["registry_api_things_patch_thing"];
         trace?: never;
     };
 }
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
-        /** @description What a device is doing, for screens in other languages; `args` by code as in registry/doing.py. */
+        /** @description What a device is doing, for screens in other languages; `args` by code as in registry/devices/activity.py. */
         Activity: {
             args: {
                 [key: string]: boolean | number | string | null;
@@ -1729,7 +1729,7 @@ export interface components {
             status: "pending" | "sent" | "accepted" | "running" | "done" | "failed" | "rejected" | "cancelled" | "timed_out";
             why: string;
         };
-        /** @description Why something ended or was not done, for screens to say in their language (execution/reasons.py). */
+        /** @description Why something ended or was not done, for screens to say in their language (execution/runs/reasons.py). */
         Cause: {
             args: {
                 [key: string]: string;
@@ -2670,7 +2670,7 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
-    registry_alerts_api_mark_seen: {
+    registry_api_alerts_mark_seen: {
         parameters: {
             query?: never;
             header?: never;
@@ -2796,7 +2796,7 @@ export interface operations {
             };
         };
     };
-    registry_api_show_me: {
+    registry_api_devices_and_sites_show_me: {
         parameters: {
             query?: never;
             header?: never;
@@ -3446,7 +3446,7 @@ export interface operations {
             };
         };
     };
-    registry_api_sign_in: {
+    registry_api_devices_and_sites_sign_in: {
         parameters: {
             query?: never;
             header?: never;
@@ -3479,7 +3479,7 @@ export interface operations {
             };
         };
     };
-    registry_api_sign_out: {
+    registry_api_devices_and_sites_sign_out: {
         parameters: {
             query?: never;
             header?: never;
@@ -3508,7 +3508,7 @@ export interface operations {
             };
         };
     };
-    registry_api_list_sites: {
+    registry_api_devices_and_sites_list_sites: {
         parameters: {
             query?: never;
             header?: never;
@@ -3537,7 +3537,7 @@ export interface operations {
             };
         };
     };
-    registry_api_upload_site: {
+    registry_api_devices_and_sites_upload_site: {
         parameters: {
             query?: never;
             header?: never;
@@ -3902,7 +3902,7 @@ export interface operations {
             };
         };
     };
-    registry_api_show_site: {
+    registry_api_devices_and_sites_show_site: {
         parameters: {
             query?: never;
             header?: never;
@@ -3933,7 +3933,7 @@ export interface operations {
             };
         };
     };
-    registry_alerts_api_list_alerts: {
+    registry_api_alerts_list_alerts: {
         parameters: {
             query?: {
                 state?: ("open" | "seen" | "over") | null;
@@ -3966,7 +3966,7 @@ export interface operations {
             };
         };
     };
-    registry_alerts_api_mark_all_seen: {
+    registry_api_alerts_mark_all_seen: {
         parameters: {
             query?: never;
             header?: never;
@@ -3997,7 +3997,7 @@ export interface operations {
             };
         };
     };
-    registry_onboarding_api_look_at_description: {
+    registry_api_onboarding_look_at_description: {
         parameters: {
             query?: never;
             header?: never;
@@ -4032,7 +4032,7 @@ export interface operations {
             };
         };
     };
-    registry_api_list_devices: {
+    registry_api_devices_and_sites_list_devices: {
         parameters: {
             query?: {
                 lifecycle?: ("pending" | "approved" | "retired") | null;
@@ -4065,7 +4065,7 @@ export interface operations {
             };
         };
     };
-    registry_onboarding_api_export_devices: {
+    registry_api_onboarding_export_devices: {
         parameters: {
             query?: never;
             header?: never;
@@ -4096,7 +4096,7 @@ export interface operations {
             };
         };
     };
-    registry_api_show_device: {
+    registry_api_devices_and_sites_show_device: {
         parameters: {
             query?: never;
             header?: never;
@@ -4128,7 +4128,7 @@ export interface operations {
             };
         };
     };
-    registry_api_edit: {
+    registry_api_devices_and_sites_edit: {
         parameters: {
             query?: never;
             header?: never;
@@ -4164,7 +4164,7 @@ export interface operations {
             };
         };
     };
-    registry_api_approve: {
+    registry_api_devices_and_sites_approve: {
         parameters: {
             query?: never;
             header?: never;
@@ -4196,7 +4196,7 @@ export interface operations {
             };
         };
     };
-    registry_api_rotate: {
+    registry_api_devices_and_sites_rotate: {
         parameters: {
             query?: never;
             header?: never;
@@ -4228,7 +4228,7 @@ export interface operations {
             };
         };
     };
-    registry_api_revoke: {
+    registry_api_devices_and_sites_revoke: {
         parameters: {
             query?: never;
             header?: never;
@@ -4260,7 +4260,7 @@ export interface operations {
             };
         };
     };
-    registry_api_show_history: {
+    registry_api_devices_and_sites_show_history: {
         parameters: {
             query?: never;
             header?: never;
@@ -4292,7 +4292,7 @@ export interface operations {
             };
         };
     };
-    registry_history_api_show_history: {
+    registry_api_history_show_history: {
         parameters: {
             query: {
                 property: string;
@@ -4328,7 +4328,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_show_robot_map: {
+    registry_api_maps_show_robot_map: {
         parameters: {
             query?: never;
             header?: never;
@@ -4360,7 +4360,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_download_robot_pgm: {
+    registry_api_maps_download_robot_pgm: {
         parameters: {
             query?: never;
             header?: never;
@@ -4392,7 +4392,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_download_robot_yaml: {
+    registry_api_maps_download_robot_yaml: {
         parameters: {
             query?: never;
             header?: never;
@@ -4424,7 +4424,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_show_robot_cells: {
+    registry_api_maps_show_robot_cells: {
         parameters: {
             query?: never;
             header?: never;
@@ -4456,7 +4456,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_show_difference: {
+    registry_api_maps_show_difference: {
         parameters: {
             query?: never;
             header?: never;
@@ -4488,7 +4488,7 @@ export interface operations {
             };
         };
     };
-    registry_api_show_rdf: {
+    registry_api_devices_and_sites_show_rdf: {
         parameters: {
             query?: {
                 format?: "turtle" | "n-triples" | "json-ld" | "td" | "paper";
@@ -4526,7 +4526,7 @@ export interface operations {
             };
         };
     };
-    registry_api_readmit: {
+    registry_api_devices_and_sites_readmit: {
         parameters: {
             query?: never;
             header?: never;
@@ -4558,7 +4558,7 @@ export interface operations {
             };
         };
     };
-    registry_api_reject: {
+    registry_api_devices_and_sites_reject: {
         parameters: {
             query?: never;
             header?: never;
@@ -4590,7 +4590,7 @@ export interface operations {
             };
         };
     };
-    registry_api_retire: {
+    registry_api_devices_and_sites_retire: {
         parameters: {
             query?: never;
             header?: never;
@@ -4622,7 +4622,7 @@ export interface operations {
             };
         };
     };
-    registry_api_confirm: {
+    registry_api_devices_and_sites_confirm: {
         parameters: {
             query?: never;
             header?: never;
@@ -4658,7 +4658,7 @@ export interface operations {
             };
         };
     };
-    registry_api_withdraw: {
+    registry_api_devices_and_sites_withdraw: {
         parameters: {
             query?: never;
             header?: never;
@@ -4694,7 +4694,7 @@ export interface operations {
             };
         };
     };
-    registry_onboarding_api_renew_join_key: {
+    registry_api_onboarding_renew_join_key: {
         parameters: {
             query?: never;
             header?: never;
@@ -4760,7 +4760,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_show_map: {
+    registry_api_maps_show_map: {
         parameters: {
             query?: never;
             header?: never;
@@ -4791,7 +4791,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_download_pgm: {
+    registry_api_maps_download_pgm: {
         parameters: {
             query?: never;
             header?: never;
@@ -4822,7 +4822,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_download_yaml: {
+    registry_api_maps_download_yaml: {
         parameters: {
             query?: never;
             header?: never;
@@ -4853,7 +4853,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_show_cells: {
+    registry_api_maps_show_cells: {
         parameters: {
             query?: never;
             header?: never;
@@ -4954,7 +4954,7 @@ export interface operations {
             };
         };
     };
-    registry_maps_api_list_versions: {
+    registry_api_maps_list_versions: {
         parameters: {
             query?: never;
             header?: never;
@@ -4985,7 +4985,7 @@ export interface operations {
             };
         };
     };
-    registry_mtconnect_api_current: {
+    registry_api_mtconnect_current: {
         parameters: {
             query?: {
                 path?: string | null;
@@ -5021,7 +5021,7 @@ export interface operations {
             };
         };
     };
-    registry_mtconnect_api_probe: {
+    registry_api_mtconnect_probe: {
         parameters: {
             query?: never;
             header?: never;
@@ -5052,7 +5052,7 @@ export interface operations {
             };
         };
     };
-    registry_mtconnect_api_sample: {
+    registry_api_mtconnect_sample: {
         parameters: {
             query?: {
                 path?: string | null;
@@ -5090,7 +5090,7 @@ export interface operations {
             };
         };
     };
-    registry_mtconnect_api_current_of_device: {
+    registry_api_mtconnect_current_of_device: {
         parameters: {
             query?: {
                 path?: string | null;
@@ -5127,7 +5127,7 @@ export interface operations {
             };
         };
     };
-    registry_mtconnect_api_probe_device: {
+    registry_api_mtconnect_probe_device: {
         parameters: {
             query?: never;
             header?: never;
@@ -5159,7 +5159,7 @@ export interface operations {
             };
         };
     };
-    registry_mtconnect_api_sample_of_device: {
+    registry_api_mtconnect_sample_of_device: {
         parameters: {
             query?: {
                 path?: string | null;
@@ -5198,7 +5198,7 @@ export interface operations {
             };
         };
     };
-    registry_onboarding_api_add_newcomer: {
+    registry_api_onboarding_add_newcomer: {
         parameters: {
             query?: never;
             header?: never;
@@ -5299,7 +5299,7 @@ export interface operations {
             };
         };
     };
-    registry_sparql_api_ask: {
+    registry_api_sparql_ask: {
         parameters: {
             query?: {
                 query?: string;
@@ -5338,7 +5338,7 @@ export interface operations {
             };
         };
     };
-    registry_sparql_api_post_query: {
+    registry_api_sparql_post_query: {
         parameters: {
             query?: {
                 format?: ("json" | "xml" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
@@ -5376,7 +5376,7 @@ export interface operations {
             };
         };
     };
-    registry_things_api_list_things: {
+    registry_api_things_list_things: {
         parameters: {
             query?: {
                 offset?: number;
@@ -5413,7 +5413,7 @@ export interface operations {
             };
         };
     };
-    registry_things_api_watch_things: {
+    registry_api_things_watch_things: {
         parameters: {
             query?: {
                 type?: ("thing_created" | "thing_updated" | "thing_deleted")[] | null;
@@ -5447,7 +5447,7 @@ export interface operations {
             };
         };
     };
-    registry_things_api_show_thing: {
+    registry_api_things_show_thing: {
         parameters: {
             query?: never;
             header?: never;
@@ -5479,7 +5479,7 @@ export interface operations {
             };
         };
     };
-    registry_things_api_patch_thing: {
+    registry_api_things_patch_thing: {
         parameters: {
             query?: never;
             header?: never;

@@ -11,14 +11,14 @@ from typing import Any
 from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
-from registry.device_line import ConnectionMaker
-from registry.errors import RegistryError
-from registry.mqtt import MqttClient, Will, tls_context
-from registry.stopping import stop_on_signals
-from simulation.entrance import Door, Entrance
-from simulation.new_keys import KeyFile, take_new_keys
 from simulation.site_facts import SiteFacts, read_site_facts
 from simulation.twin import Twin, TwinPlan
+from vipo_device.kit.connection import ConnectionMaker
+from vipo_device.kit.enrolment import Door, Entrance
+from vipo_device.kit.keyring import KeyFile, take_new_keys
+from vipo_device.kit.shutdown import stop_on_signals
+from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.mqtt_client import MqttClient, Will, tls_context
 
 log = logging.getLogger(__name__)
 STOP_LIMIT_S = 20

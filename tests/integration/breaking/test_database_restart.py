@@ -24,7 +24,7 @@ from pytest_django import DjangoDbBlocker
 from execution import services as execution
 from execution.models import Command
 from registry import services
-from registry.live import make_live
+from registry.live.fanout import make_live
 from registry.models import Device, DeviceEvent, Site
 from tests.bus import Ear
 from tests.integration.breaking.site import wait_for

@@ -12,8 +12,8 @@ from datetime import UTC, datetime
 from math import atan2, hypot
 from typing import Any
 
-from registry.mqtt import MqttClient
 from tests.integration.connectors.factsheet import FACTSHEET
+from vipo_device.protocol.mqtt_client import MqttClient
 
 VERSION = "2.1.0"
 TICK_S = 0.05

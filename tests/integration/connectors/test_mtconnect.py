@@ -13,16 +13,16 @@ import pytest
 
 from connectors.mtconnect import agent as asking
 from connectors.mtconnect.agent import Agent, AgentAway, read_address
+from connectors.mtconnect.connector import FollowerEnded, Plant, Setting
+from connectors.mtconnect.description import Stand
 from connectors.mtconnect.documents import BadDocument, Document
 from connectors.mtconnect.follower import Follower, Heard, Probed, Said
-from connectors.mtconnect.plant import FollowerEnded, Plant, Setting
-from connectors.mtconnect.portrait import Stand
-from registry.capability import Pose, Size
-from registry.describing import read_description
 from tests.bus import Ear
 from tests.integration.connectors.agents import Handler, MachineConnector, Misbehaviour, ScriptedAgent
 from tests.integration.connectors.vehicles import Server
 from tests.servers import run_mosquitto
+from vipo_device.descriptions.reader import read_description
+from vipo_device.protocol.description import Pose, Size
 
 LATHE = "M8010-1"
 BOMB = b'<!DOCTYPE a [<!ENTITY b "bbbb"><!ENTITY c "&b;&b;&b;&b;">]><a>&c;</a>'

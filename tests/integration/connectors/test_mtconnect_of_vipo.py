@@ -14,13 +14,14 @@ from django.utils import timezone
 
 from connectors.mtconnect.agent import Agent, AgentAway, read_address
 from connectors.mtconnect.condition import MachineCondition
+from connectors.mtconnect.description import Stand, portray
 from connectors.mtconnect.follower import Follower, Heard, Probed, Said
-from connectors.mtconnect.portrait import Stand, portray
-from registry import samples, services
-from registry.capability import Pose, PropertySpec, Size
+from registry import services
+from registry.devices import readings as samples
+from registry.devices.readings import SampleBuffer
 from registry.models import Device, User
-from registry.samples import SampleBuffer
 from tests.integration.registry.conftest import MIXER, come, describe, hall, say
+from vipo_device.protocol.description import Pose, PropertySpec, Size
 
 __all__ = ["hall"]
 PROPERTIES = (PropertySpec("width", "number", "M"), PropertySpec("lid", "text"), PropertySpec("error", "text"))

@@ -8,7 +8,6 @@ from contextlib import ExitStack
 
 import pytest
 
-from registry.describing import read_description
 from tests.bus import Ear
 from tests.integration.connectors.modern_vehicle import VERSION, ModernVehicle
 from tests.integration.connectors.vehicles import (
@@ -19,6 +18,7 @@ from tests.integration.connectors.vehicles import (
     run_plain_broker,
 )
 from tests.servers import run_mosquitto
+from vipo_device.descriptions.reader import read_description
 
 SERIALS = ("1", "2", "3", "4", "5", "6", "7", "modern")
 ACCOUNTS = {"server": "secret of the server", "join:hall": "the key of the door"} | {

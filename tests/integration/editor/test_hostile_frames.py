@@ -10,8 +10,8 @@ import pytest
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
-from editor import wire
-from editor.document import SharedDocument, empty_document, encode_document
+from editor.rooms import yjs_protocol
+from editor.rooms.document import SharedDocument, empty_document, encode_document
 from tests.integration.editor.conftest import Web
 
 
@@ -75,25 +75,25 @@ async def test_text_closes_with_4400_and_says_why(web: Web) -> None:
 
 async def test_a_frame_above_the_limit_closes_with_4413(web: Web) -> None:
     async with join(web) as socket:
-        await socket.send(wire.encode_update(bytes(wire.MOST_FRAME_BYTES + 1)))
+        await socket.send(yjs_protocol.encode_update(bytes(yjs_protocol.MOST_FRAME_BYTES + 1)))
         assert await code_of_close(socket) == 4413
 
 
 async def test_noise_instead_of_a_change_harms_nobody(web: Web) -> None:
     program = web.new_program()
     async with join(web, "second", program) as good, join(web, "author", program) as bad:
-        await good.send(wire.encode_step_2(step("kept")))
-        await bad.send(wire.encode_step_2(b"\x00\x00"))
+        await good.send(yjs_protocol.encode_step_2(step("kept")))
+        await bad.send(yjs_protocol.encode_step_2(b"\x00\x00"))
         for position in range(4, 12):
             noise = bytearray(step("broken"))
             noise[position] ^= 0x55
-            await bad.send(wire.encode_update(bytes(noise)))
-        await bad.send(wire.encode_update(b"\x05\xff\xff\xff\x0f"))
+            await bad.send(yjs_protocol.encode_update(bytes(noise)))
+        await bad.send(yjs_protocol.encode_update(b"\x05\xff\xff\xff\x0f"))
         assert await code_of_close(bad) == 4400
-        await good.send(wire.encode_update(step("later")))
-        await good.send(wire.encode_step_1(b"\x00"))
+        await good.send(yjs_protocol.encode_update(step("later")))
+        await good.send(yjs_protocol.encode_step_1(b"\x00"))
         answer = await read_until(good, b"\x00\x01")
-    steps = SharedDocument([wire.decode_frame(answer).update]).to_json()["steps"]  # type: ignore[union-attr]
+    steps = SharedDocument([yjs_protocol.decode_frame(answer).update]).to_json()["steps"]  # type: ignore[union-attr]
     assert {"kept", "later"} <= set(steps)
 
 
@@ -101,14 +101,14 @@ async def test_changes_that_never_follow_a_step_2_are_held_and_then_refused(web:
     program = web.new_program()
     async with join(web, "author", program) as socket:
         for number in range(500):
-            await socket.send(wire.encode_update(step(f"s{number}")))
-        await socket.send(wire.encode_step_1(b"\x00"))
+            await socket.send(yjs_protocol.encode_update(step(f"s{number}")))
+        await socket.send(yjs_protocol.encode_step_1(b"\x00"))
         answer = await read_until(socket, b"\x00\x01")
-        assert SharedDocument([wire.decode_frame(answer).update]).to_json()["steps"] == {}  # type: ignore[union-attr]
+        assert SharedDocument([yjs_protocol.decode_frame(answer).update]).to_json()["steps"] == {}  # type: ignore[union-attr]
         closing = asyncio.create_task(code_of_close(socket))
         with suppress(ConnectionClosed):
             for number in range(600):
-                await socket.send(wire.encode_update(step(f"t{number}")))
+                await socket.send(yjs_protocol.encode_update(step(f"t{number}")))
                 await asyncio.sleep(0)
         assert await closing in {4400, 4429}
 
@@ -123,25 +123,25 @@ async def test_a_flood_closes_with_4429(web: Web) -> None:
 async def test_nobody_speaks_for_another_client(web: Web) -> None:
     program = web.new_program()
     async with join(web, "second", program) as good, join(web, "author", program) as bad:
-        await good.send(wire.encode_awareness([wire.AwarenessEntry(7, 1, {"cursor": [1, 1]})]))
+        await good.send(yjs_protocol.encode_awareness([yjs_protocol.AwarenessEntry(7, 1, {"cursor": [1, 1]})]))
         await read_until(bad, b"\x01")
-        await bad.send(wire.encode_awareness([wire.AwarenessEntry(7, 99, None)]))
-        await bad.send(wire.encode_awareness([wire.AwarenessEntry(8, 1, {"user": {"name": "Root"}})]))
-        seen = wire.decode_frame(await read_until(good, b"\x01"))
+        await bad.send(yjs_protocol.encode_awareness([yjs_protocol.AwarenessEntry(7, 99, None)]))
+        await bad.send(yjs_protocol.encode_awareness([yjs_protocol.AwarenessEntry(8, 1, {"user": {"name": "Root"}})]))
+        seen = yjs_protocol.decode_frame(await read_until(good, b"\x01"))
         await bad.send(b"\x03")
         clocks: dict[int, int] = {}
         while 8 not in clocks:  # the good client's own frame may still be on its way to the bad one
-            everybody = wire.decode_frame(await read_until(bad, b"\x01"))
-            assert isinstance(everybody, wire.Awareness)
+            everybody = yjs_protocol.decode_frame(await read_until(bad, b"\x01"))
+            assert isinstance(everybody, yjs_protocol.Awareness)
             clocks |= {e.client: e.clock for e in everybody.entries}
-    assert isinstance(seen, wire.Awareness)
+    assert isinstance(seen, yjs_protocol.Awareness)
     assert [(e.client, e.state["user"]["name"]) for e in seen.entries if e.state] == [(8, "Ada author")]
     assert clocks == {7: 1, 8: 1}
 
 
 async def test_awareness_above_four_kilobytes_closes_with_4413(web: Web) -> None:
     async with join(web) as socket:
-        await socket.send(wire.encode_awareness([wire.AwarenessEntry(1, 1, {"text": "x" * 5000})]))
+        await socket.send(yjs_protocol.encode_awareness([yjs_protocol.AwarenessEntry(1, 1, {"text": "x" * 5000})]))
         assert await code_of_close(socket) == 4413
 
 
@@ -176,7 +176,7 @@ async def test_a_change_is_compiled_and_told_to_who_watches_the_site(web: Web) -
     program = web.new_program()
     site = f"ws://127.0.0.1:{web.port}/ws/site/hall"
     async with connect(site, additional_headers=web.headers("viewer")) as watcher, join(web, program=program) as socket:
-        await socket.send(wire.encode_step_2(step("s1")))
+        await socket.send(yjs_protocol.encode_step_2(step("s1")))
         async with asyncio.timeout(10):
             while True:
                 text = await watcher.recv()

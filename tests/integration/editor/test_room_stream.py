@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from editor.stream import BEGINNING, Batch, MemoryStream, Note, RedisStream, RoomStream, StreamLost
+from editor.rooms.stream import BEGINNING, Batch, MemoryStream, Note, RedisStream, RoomStream, StreamLost
 from tests.servers import Redis, run_redis
 
 

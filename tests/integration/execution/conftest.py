@@ -8,19 +8,19 @@ from uuid import uuid4
 import pytest
 
 from editor.language import plan_to_json
-from execution import inbox, services
-from execution.floor_stepping import advance_site
+from execution import mailbox, services
+from execution.floor.advance import advance_site
 from execution.models import Command, FloorState, InboxEvent, Run, Timer
-from execution.run_stepping import advance_run
-from execution.ticking import fire_timers
+from execution.runs.advance import advance_run
+from execution.ticker.ticker import fire_timers
 from registry import services as registry
-from registry.capability import description_to_json
 from registry.demo.factory import make_grid, read_plan
+from registry.devices.views import PlaceView
 from registry.models import Device
-from registry.views import PlaceView
 from simulation.services import make_world
 from simulation.world import Ack, PropertyChanged, Scene
 from tests.unit.execution import demo_floor
+from vipo_device.protocol.description import description_to_json
 
 SITE = "painting-factory"
 DEVICES = [replace(d, speed_m_s=2.0) if d.kind == "robot" else d for d in demo_floor.devices()]
@@ -58,7 +58,7 @@ class Shop:
         for _ in range(100):
             targets = set(InboxEvent.objects.filter(taken_at=None).values_list("target", flat=True))
             pending = Run.objects.filter(status="pending").values_list("id", flat=True)
-            targets |= {inbox.run_target(run) for run in pending}
+            targets |= {mailbox.run_target(run) for run in pending}
             if not targets:
                 return
             for target in sorted(targets):

@@ -9,18 +9,18 @@ from uuid import uuid4
 import pytest
 
 from execution import services
-from execution.alerting import note_complaint
-from execution.intake import Entry
+from execution.gateway.ingest import Taker
+from execution.gateway.queue import Entry
 from execution.models import Command, Run
-from execution.taking_in import Taker
-from execution.ticking import Ticker
-from registry import alert_notes
+from execution.ticker.alerts import note_complaint
+from execution.ticker.ticker import Ticker
 from registry import services as registry
-from registry.alert_notes import NoteBuffer
-from registry.capability import Description, Pose, Size
-from registry.describing import write_description
+from registry.alerts import buffer
+from registry.alerts.buffer import NoteBuffer
 from registry.models import Device, Site
-from registry.mqtt import Message
+from vipo_device.descriptions.reader import write_description
+from vipo_device.protocol.description import Description, Pose, Size
+from vipo_device.protocol.mqtt_client import Message
 
 MIXER = Description("mixer", "Mixer", "machine", "mixer", Pose(1, 1), Size(1, 1, 1), site="hall")
 NOW = datetime.now(UTC)
@@ -28,7 +28,7 @@ NOW = datetime.now(UTC)
 
 @pytest.fixture
 def hall(db, monkeypatch):
-    monkeypatch.setattr(alert_notes, "_buffer", NoteBuffer())
+    monkeypatch.setattr(buffer, "_buffer", NoteBuffer())
     registry.create_site(name="Hall", slug="hall")
     describe(MIXER)
     Device.objects.update(lifecycle="approved", online=True)

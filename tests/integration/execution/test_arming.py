@@ -6,9 +6,20 @@ from uuid import uuid4
 import pytest
 
 from editor.language import plan_to_json
-from editor.language.plan import Constant, End, EventEnd, EventEntry, Instruction, Operation, Plan, Reading, Wait
-from execution import arming, services
+from editor.language.plan.instructions import (
+    Constant,
+    End,
+    EventEnd,
+    EventEntry,
+    Instruction,
+    Operation,
+    Plan,
+    Reading,
+    Wait,
+)
+from execution import services
 from execution.models import ArmedProgram, Run, RunEvent
+from execution.runs import triggers
 from registry.models import Device
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -73,7 +84,7 @@ def test_two_tickers_that_see_the_same_start_one_run(factory):
     arm()
     seen = [ArmedProgram.objects.select_related("site").get() for _ in range(3)]
     heat(90)
-    assert sum(arming._look_at(row, datetime.now(UTC)) for row in seen) == 1
+    assert sum(triggers._look_at(row, datetime.now(UTC)) for row in seen) == 1
     assert Run.objects.count() == 1
 
 

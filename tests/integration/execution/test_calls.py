@@ -11,16 +11,16 @@ import pytest
 from django.db import OperationalError
 from django.test import Client
 
-from editor.language.plan import Call, Constant, End, Instruction, Move, PlaceRef, Plan, RoleBinding
+from editor.language.plan.instructions import Call, Constant, End, Instruction, Move, PlaceRef, Plan, RoleBinding
 from execution import services
-from execution.calls import NO_ANSWER, expire_calls
-from execution.floor_stepping import advance_site
+from execution.commands.manual_calls import NO_ANSWER, expire_calls
+from execution.commands.outbox import end_commands_of_those_out
+from execution.floor.advance import advance_site
 from execution.models import Command, InboxEvent
-from execution.outbox import end_commands_of_those_out
 from registry import services as registry
 from registry.demo.devices import DEVICES
 from registry.models import Device, Membership, User
-from vipo_site.cli import main
+from vipo_site.cli.main import main
 
 pytestmark = pytest.mark.django_db(transaction=True)
 SITE = "painting-factory"
@@ -329,8 +329,8 @@ def test_the_command_line_waits_for_the_outcome(factory, status, code):
 
 
 def test_a_call_that_nothing_sends_is_given_up_by_the_command_line_itself(factory, monkeypatch):
-    monkeypatch.setattr("execution.calls.EXPIRY_S", 0.05)
-    monkeypatch.setattr("vipo_site.call_device.GRACE", timedelta())
+    monkeypatch.setattr("execution.commands.manual_calls.EXPIRY_S", 0.05)
+    monkeypatch.setattr("vipo_site.cli.call.GRACE", timedelta())
     told = "paintMixer01: mixPaint is timed out: It was never sent. Look whether VIPO and its gateway run.\n"
     assert vipo("paintMixer01", "mixPaint", "time=2") == (1, told, "")
     assert Command.objects.get().status == "timed_out"
@@ -340,7 +340,7 @@ def test_who_interrupts_the_command_line_learns_that_the_device_may_go_on(factor
     def press_ctrl_c(_seconds):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("vipo_site.call_device.time.sleep", press_ctrl_c)
+    monkeypatch.setattr("vipo_site.cli.call.time.sleep", press_ctrl_c)
     code, out, err = vipo("paintMixer01", "mixPaint", "time=2")
     made = Command.objects.get()
     cancel = f"POST /api/sites/{SITE}/calls/{made.id}/cancel"

@@ -10,11 +10,11 @@ from uuid import uuid4
 import pytest
 
 from execution import services
-from execution.intake import Entry
+from execution.gateway.ingest import Taker
+from execution.gateway.queue import Entry
 from execution.models import Command
-from execution.taking_in import Taker
 from registry import services as registry
-from registry.mqtt import Message
+from vipo_device.protocol.mqtt_client import Message
 
 FIGURE = (Path(__file__).parents[2] / "fixtures" / "figure-5.txt").read_bytes() + b"site: hall\n"
 NAME = "paintMixer02"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from editor.language.plan import (
+from editor.language.plan.instructions import (
     Call,
     Constant,
     End,
@@ -18,7 +18,7 @@ from editor.language.plan import (
 )
 from execution import services
 from execution.models import Run, RunEvent
-from execution.run_stepping import advance_run
+from execution.runs.advance import advance_run
 from registry.models import Device
 
 pytestmark = pytest.mark.django_db(transaction=True)

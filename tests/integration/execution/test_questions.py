@@ -5,7 +5,7 @@ from uuid import uuid4
 
 import pytest
 
-from editor.language.plan import (
+from editor.language.plan.instructions import (
     AnswerSpec,
     AskPerson,
     Assign,

@@ -4,9 +4,9 @@ import sys
 from pathlib import Path
 
 from editor.language import plan_to_json
-from editor.language.plan import Constant, End, Instruction, Plan, Wait
-from execution.rehearsal import rehearse_program
-from execution.rehearsal_job import scene_to_json
+from editor.language.plan.instructions import Constant, End, Instruction, Plan, Wait
+from execution.rehearsals.child_process import scene_to_json
+from execution.rehearsals.rehearsal import rehearse_program
 from simulation.world import Scene
 from tests.unit.execution import demo_floor
 
@@ -32,7 +32,7 @@ def test_the_child_process_writes_progress_and_the_result():
     plan = Plan((Instruction(Wait(Constant(30)), "w"), Instruction(End())))
     job = {"plan": plan_to_json(plan), "scene": scene_to_json(scene(), demo_floor.places()), "driver": "kinematic"}
     child = subprocess.run(
-        [sys.executable, "-m", "execution.rehearsal_job"],
+        [sys.executable, "-m", "execution.rehearsals.child_process"],
         input=json.dumps(job), capture_output=True, text=True, cwd=ROOT, timeout=120,
     )  # fmt: skip
     lines = [json.loads(line) for line in child.stdout.splitlines()]
@@ -44,7 +44,11 @@ def test_the_child_process_writes_progress_and_the_result():
 
 def test_a_broken_job_is_answered_with_a_sentence():
     child = subprocess.run(
-        [sys.executable, "-m", "execution.rehearsal_job"], input="{}", capture_output=True, text=True, cwd=ROOT
+        [sys.executable, "-m", "execution.rehearsals.child_process"],
+        input="{}",
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
     )
     assert child.returncode == 1
     assert json.loads(child.stdout)["error"].startswith("The rehearsal broke off")

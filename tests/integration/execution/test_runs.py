@@ -1,10 +1,22 @@
 import pytest
 
-from editor.language.plan import Call, Constant, Drop, End, Instruction, Move, Pick, PlaceRef, Plan, RoleBinding, Wait
+from editor.language.plan.instructions import (
+    Call,
+    Constant,
+    Drop,
+    End,
+    Instruction,
+    Move,
+    Pick,
+    PlaceRef,
+    Plan,
+    RoleBinding,
+    Wait,
+)
 from execution import services
 from execution.models import Command, InboxEvent, Run, RunEvent
-from execution.run_stepping import advance_run
-from execution.views import run_to_json
+from execution.runs.advance import advance_run
+from execution.runs.views import run_to_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 SHELF, BOOTH = PlaceRef(device="itemInventory01"), PlaceRef(device="paintMachine01")

@@ -4,7 +4,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from editor.language.plan import (
+from editor.language.plan.instructions import (
     Branch,
     Call,
     Constant,

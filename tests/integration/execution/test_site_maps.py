@@ -7,12 +7,12 @@ import pytest
 from django.test import Client
 
 from editor import services as editor
-from editor.language.plan import End, Instruction, Move, PlaceRef, Plan
+from editor.language.plan.instructions import End, Instruction, Move, PlaceRef, Plan
 from execution import services
 from execution.models import Command, FloorState, Run
-from registry import live
 from registry import services as registry
-from registry.floor import Grid
+from registry.floorplan.plan import Grid
+from registry.live import fanout
 from registry.models import Device, SiteMap
 from tests.integration.execution.test_api import ERRAND, ROLES, SITE, member, send
 from tests.integration.execution.test_runs import ANY, CARRY, status
@@ -60,7 +60,7 @@ def test_a_robots_map_becomes_the_sites_and_the_one_before_can_be_chosen_again(f
     client, news = member("admin"), []
     before = client.get(f"/api/sites/{SITE}/map").json()
     devices = client.get(f"/api/sites/{SITE}/devices").json()
-    stop = live.listen(lambda _, message: news.append(message))
+    stop = fanout.listen(lambda _, message: news.append(message))
     assert use(client).json() == {"version": 2}
     after = client.get(f"/api/sites/{SITE}/map").json()
     assert (after["version"], after["width"]) == (2, PLAN.width + 2 * MARGIN)
@@ -208,7 +208,7 @@ def test_a_robots_map_is_shown_as_the_sites_is(factory):
 
 
 def test_only_the_newest_fifty_versions_are_kept(factory, monkeypatch):
-    monkeypatch.setattr("registry.sites.MOST_VERSIONS", 3)
+    monkeypatch.setattr("registry.sites.sites.MOST_VERSIONS", 3)
     for _ in range(4):
         registry.save_map(site=SITE, grid=PLAN)
     assert list(SiteMap.objects.order_by("version").values_list("version", flat=True)) == [3, 4, 5]

@@ -10,13 +10,13 @@ from typing import Any
 import pytest
 from django.db import DatabaseError
 
-from execution.intake import Entry
-from execution.taking_in import Taker
+from execution.gateway.ingest import Taker
+from execution.gateway.queue import Entry
 from registry import services
-from registry.capability import Description, Pose, Size
-from registry.describing import write_description
 from registry.models import DeviceEvent
-from registry.mqtt import Message
+from vipo_device.descriptions.reader import write_description
+from vipo_device.protocol.description import Description, Pose, Size
+from vipo_device.protocol.mqtt_client import Message
 
 pytestmark = pytest.mark.django_db
 

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 
 from registry import services
-from registry.capability import Description, MethodSpec, Pose, PropertySpec, Size
-from registry.describing import write_description
-from registry.floor import Grid
+from registry.floorplan.plan import Grid
 from registry.models import User
+from vipo_device.descriptions.reader import write_description
+from vipo_device.protocol.description import Description, MethodSpec, Pose, PropertySpec, Size
 
 NOW = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
 PASSWORD = "correct-horse-9"

@@ -6,7 +6,7 @@ import pytest
 from django.test import Client
 
 from registry.models import Membership, User
-from vipo_site.cli import main
+from vipo_site.cli.main import main
 
 NEW = "reader@vipo.example"
 

@@ -13,14 +13,16 @@ from django.db import connection
 from django.test import Client
 from django.test.utils import CaptureQueriesContext
 
-from registry import alert_list, alert_notes, live, services
-from registry.alert_notes import AGAIN_S, NoteBuffer
-from registry.alert_rows import DeviceAlert
-from registry.alerts import Raised
-from registry.describing import write_description
-from registry.models import Device, User
+from registry import services
+from registry.alerts import buffer as alert_notes
+from registry.alerts import list as alert_list
+from registry.alerts.alerts import Raised
+from registry.alerts.buffer import AGAIN_S, NoteBuffer
+from registry.live import fanout
+from registry.models import Device, DeviceAlert, User
 from registry.services import BadDevice
-from vipo_site.cli import main
+from vipo_device.descriptions.reader import write_description
+from vipo_site.cli.main import main
 
 from .conftest import MIXER, NOW, ROBOT, ROLES, come, describe, say
 
@@ -41,7 +43,7 @@ def mixer(hall: str, monkeypatch: pytest.MonkeyPatch) -> str:
 @pytest.fixture
 def heard(mixer: str) -> Iterator[list[Any]]:
     messages: list[Any] = []
-    stop = live.listen(lambda slug, message: messages.append(message))
+    stop = fanout.listen(lambda slug, message: messages.append(message))
     yield messages
     stop()
 

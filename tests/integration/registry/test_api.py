@@ -11,9 +11,9 @@ from django.core.files.uploadedfile import SimpleUploadedFile
 from django.test import Client
 
 from registry import services
-from registry.describing import read_description
 from registry.models import Membership, Site, User
-from registry.rdf_text import CONTENT_TYPES
+from vipo_device.descriptions.forms import CONTENT_TYPES
+from vipo_device.descriptions.reader import read_description
 
 from .conftest import MIXER, NOW, PASSWORD, ROLES, come, describe, say
 

@@ -11,11 +11,11 @@ import pytest
 from django.test import Client
 
 from registry import services
-from registry.credentials import secret_hash
-from registry.joining import Login
+from registry.devices.joining import Login
 from registry.models import Device, User
 from registry.services import BadDevice, NotApproved, NotRetired
-from registry.wire import BadMessage
+from vipo_device.protocol.credentials import secret_hash
+from vipo_device.protocol.messages import BadMessage
 
 from .conftest import NOW, come, describe, say
 
@@ -146,7 +146,7 @@ def test_a_knock_without_a_proper_key_is_refused(hall: str, payload: bytes) -> N
 
 
 def test_knocks_do_not_fill_the_registry(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("registry.knocking.MOST_NEWCOMERS", 2)
+    monkeypatch.setattr("registry.devices.enrolment.MOST_NEWCOMERS", 2)
     assert knock(KEY, "a")
     assert knock(KEY, "b")
     with pytest.raises(BadDevice, match="Decide about some of them first"):

@@ -11,12 +11,13 @@ import pytest
 from django.db import connection
 from django.test.utils import CaptureQueriesContext
 
-from registry import live, services
-from registry.capability import Description
-from registry.describing import write_description
+from registry import services
+from registry.live import fanout
 from registry.models import Device, DeviceEvent
-from registry.rdf_text import BadDescription
 from registry.services import BadDevice, DeviceView, SaidDescription
+from vipo_device.descriptions.forms import BadDescription
+from vipo_device.descriptions.reader import write_description
+from vipo_device.protocol.description import Description
 
 from .conftest import MIXER, NOW, ROBOT, come, describe
 
@@ -34,7 +35,7 @@ def many(count: int, name: str) -> list[SaidDescription]:
 @pytest.fixture
 def heard(hall: str) -> Iterator[list[Any]]:
     messages: list[Any] = []
-    stop = live.listen(lambda slug, message: messages.append((slug, message)))
+    stop = fanout.listen(lambda slug, message: messages.append((slug, message)))
     yield messages
     stop()
 

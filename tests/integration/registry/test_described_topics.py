@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from registry import services
-from registry.capability import MethodSpec
 from registry.services import DeviceView
+from vipo_device.protocol.description import MethodSpec
 
 from .conftest import MIXER
 from .test_described import said

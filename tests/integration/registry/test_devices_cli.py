@@ -9,8 +9,8 @@ from datetime import timedelta
 import pytest
 
 from registry import services
-from registry.capability import MethodSpec
-from vipo_site.cli import main
+from vipo_device.protocol.description import MethodSpec
+from vipo_site.cli.main import main
 
 from .conftest import MIXER, NOW, ROBOT, come, describe
 

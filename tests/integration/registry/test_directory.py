@@ -13,7 +13,7 @@ from django.test import Client
 
 from registry import services
 from registry.models import Device
-from registry.td_schema import check_thing
+from vipo_device.descriptions.td_schema import check_thing
 
 from .conftest import MIXER, PASSWORD, ROLES, describe
 

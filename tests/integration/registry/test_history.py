@@ -10,10 +10,11 @@ from typing import Any
 import pytest
 from django.test import Client
 
-from registry import samples, services
-from registry.capability import PropertySpec
+from registry import services
+from registry.devices import readings as samples
+from registry.devices.readings import Bucket, SampleBuffer
 from registry.models import Device, Sample, User
-from registry.samples import Bucket, SampleBuffer
+from vipo_device.protocol.description import PropertySpec
 
 from .conftest import MIXER, NOW, ROLES, come, describe, say
 

@@ -10,12 +10,13 @@ from typing import Any
 
 import pytest
 
-from registry import live, services
-from registry.describing import write_description
+from registry import services
+from registry.devices.views import changed_fields, changed_state
+from registry.live import fanout
 from registry.models import Device, DeviceEvent
 from registry.services import SaidState
-from registry.views import changed_fields, changed_state
-from registry.wire import BadMessage
+from vipo_device.descriptions.reader import write_description
+from vipo_device.protocol.messages import BadMessage
 
 from .conftest import MIXER, NOW, ROBOT, come, describe
 
@@ -31,7 +32,7 @@ def said(device_id: str, payload: bytes, *, retained: bool = False) -> SaidState
 @pytest.fixture
 def heard(hall: str) -> Iterator[list[Any]]:
     messages: list[Any] = []
-    stop = live.listen(lambda slug, message: messages.append((slug, message)))
+    stop = fanout.listen(lambda slug, message: messages.append((slug, message)))
     yield messages
     stop()
 

@@ -8,15 +8,17 @@ from typing import Any
 
 import pytest
 
-from registry import described, live, services
-from registry.capability import MethodSpec, Pose
-from registry.credentials import secret_hash
-from registry.describing import read, write_description
-from registry.knocking import MOST_NEWCOMERS
+from registry import services
+from registry.devices import descriptions
+from registry.devices.enrolment import MOST_NEWCOMERS
+from registry.live import fanout
 from registry.models import Device, DeviceEvent, Site, User
-from registry.rdf_text import CONTENT_TYPES, FORMS, BadDescription
 from registry.services import BadDevice, NoSuchDevice, NotPending, Principal
-from registry.wire import BadMessage
+from vipo_device.descriptions.forms import CONTENT_TYPES, FORMS, BadDescription
+from vipo_device.descriptions.reader import read, write_description
+from vipo_device.protocol.credentials import secret_hash
+from vipo_device.protocol.description import MethodSpec, Pose
+from vipo_device.protocol.messages import BadMessage
 
 from .conftest import MIXER, NOW, ROBOT, come, describe, say
 
@@ -27,7 +29,7 @@ JOIN = "j" * 32
 @pytest.fixture
 def heard(hall: str) -> Iterator[list[Any]]:
     messages: list[Any] = []
-    stop = live.listen(lambda slug, message: messages.append((slug, message)))
+    stop = fanout.listen(lambda slug, message: messages.append((slug, message)))
     yield messages
     stop()
 
@@ -118,7 +120,7 @@ def test_all_that_was_mended_stands_in_the_history(hall: str) -> None:
 
 def test_an_unchanged_description_is_not_parsed_again(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
     describe()
-    monkeypatch.setattr(described, "read", lambda *a, **k: pytest.fail("parsed again"))
+    monkeypatch.setattr(descriptions, "read", lambda *a, **k: pytest.fail("parsed again"))
     assert describe().last_seen_at == NOW
 
 

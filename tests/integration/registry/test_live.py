@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from registry import live as port
-from registry.live import Live, RedisLive, make_live
+from registry.live import fanout as port
+from registry.live.fanout import Live, RedisLive, make_live
 from tests.servers import run_redis
 
 

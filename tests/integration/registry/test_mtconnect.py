@@ -12,11 +12,12 @@ from django.test import Client
 from django.utils import timezone
 from lxml import etree
 
-from registry import samples, services
-from registry.capability import PropertySpec
+from registry import services
+from registry.devices import readings as samples
+from registry.devices.readings import SampleBuffer
 from registry.models import Device, User
-from registry.mtconnect_items import MEASURES
-from registry.samples import SampleBuffer
+from registry.mtconnect.data_items import MEASURES
+from vipo_device.protocol.description import PropertySpec
 
 from .conftest import MIXER, ROBOT, ROLES, come, describe, say
 

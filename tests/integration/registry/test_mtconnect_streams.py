@@ -14,12 +14,14 @@ from django.test import Client
 from django.utils import timezone
 from lxml import etree
 
-from registry import mtconnect_agent, mtconnect_streams, samples, services
+from registry import services
+from registry.devices import readings
+from registry.devices.readings import SampleBuffer
 from registry.models import Device, Membership, User
-from registry.mtconnect_agent import Question
-from registry.mtconnect_streams import BOUNDARY, Listener, Rhythm, stream_documents
-from registry.samples import SampleBuffer
-from registry.sessions import Session
+from registry.mtconnect import agent, streams
+from registry.mtconnect.agent import Question
+from registry.mtconnect.streams import BOUNDARY, Listener, Rhythm, stream_documents
+from registry.people.sessions import Session
 
 from .conftest import come, describe, say
 
@@ -29,8 +31,8 @@ ADDRESS = "/api/sites/hall/mtconnect"
 
 @pytest.fixture
 def mixer(hall: str, monkeypatch: pytest.MonkeyPatch) -> str:
-    monkeypatch.setattr(samples, "_buffer", SampleBuffer())
-    monkeypatch.setattr(mtconnect_streams, "LEAST_PAUSE_S", 0.02)
+    monkeypatch.setattr(readings, "_buffer", SampleBuffer())
+    monkeypatch.setattr(streams, "LEAST_PAUSE_S", 0.02)
     describe()
     Device.objects.update(lifecycle="approved")
     come(at=timezone.now())
@@ -49,9 +51,9 @@ def listen(*, is_sample: bool = True, heartbeat_s: float = 30.0, device: str = "
     client, question = Client(), Question(device)
     client.force_login(User.objects.get(email="viewer@vipo.example"))
     session = Session(client.cookies["sessionid"].value, int(client.session["_auth_user_id"]))
-    write = mtconnect_agent.sample_of_site if is_sample else mtconnect_agent.current_of_site
+    write = agent.sample_of_site if is_sample else agent.current_of_site
     listener = Listener(session, "hall", write, question, is_sample=is_sample)
-    first = write(mtconnect_agent.agent_of(site="hall", now=timezone.now()), question)
+    first = write(agent.agent_of(site="hall", now=timezone.now()), question)
     return stream_documents(listener, Rhythm(0.02, heartbeat_s), first)
 
 
@@ -78,8 +80,8 @@ async def test_what_is_told_comes_as_it_is_told_and_a_heartbeat_when_nothing_is(
         await heard(parts)
         empty = await heard(parts)
         assert empty.find(".//{*}ComponentStream") is None
-        assert empty.find("{*}Header").get("nextSequence") == str(await sync_to_async(mtconnect_agent.next_number)())
-    assert not mtconnect_streams._open
+        assert empty.find("{*}Header").get("nextSequence") == str(await sync_to_async(agent.next_number)())
+    assert not streams._open
 
 
 async def test_current_comes_again_and_again(mixer: str) -> None:
@@ -110,7 +112,7 @@ async def test_a_stream_of_a_device_that_is_retired_says_so_and_ends(mixer: str)
 
 
 async def test_a_stream_ends_when_it_has_sent_enough(mixer: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(mtconnect_streams, "MOST_BYTES", 100)
+    monkeypatch.setattr(streams, "MOST_BYTES", 100)
     async with aclosing(await sync_to_async(listen)(is_sample=False)) as parts:
         assert len([part async for part in parts]) == 2
 
@@ -130,7 +132,7 @@ def test_only_so_many_streams_are_open_at_once(
     client = Client()
     client.force_login(user)
     key = f"person {user.pk}" if key == "person" else key
-    monkeypatch.setitem(mtconnect_streams._open, key, getattr(mtconnect_streams, most))
+    monkeypatch.setitem(streams._open, key, getattr(streams, most))
     answer = client.get(f"{ADDRESS}/sample?interval=100")
     error = etree.fromstring(answer.content).find(".//{*}Error")
     assert (answer.status_code, error.get("errorCode")) == (429, "TOO_MANY")

@@ -12,11 +12,10 @@ from django.test import Client, override_settings
 from rdflib import Graph
 
 from registry import services
-from registry.describing import read_description, write_description
-from registry.expecting import expect_newcomer
-from registry.knocking import FORGOTTEN_AFTER, MOST_NEWCOMERS
+from registry.devices.enrolment import FORGOTTEN_AFTER, MOST_NEWCOMERS, expect_newcomer
 from registry.models import Device, User
 from registry.services import BadDevice
+from vipo_device.descriptions.reader import read_description, write_description
 
 from .conftest import MIXER, NOW, ROBOT, ROLES, come, describe
 

@@ -10,12 +10,12 @@ from typing import Any
 import pytest
 from django.db.models import Sum
 
-from registry import robot_map_intake, services
-from registry.floor import Grid
-from registry.models import Device, DeviceEvent
-from registry.robot_map_rows import RobotMap, RobotMapDraft, RobotMapPart
-from registry.wire import BadMessage
+from registry import services
+from registry.floorplan.plan import Grid
+from registry.maps import robot_map_parts
+from registry.models import Device, DeviceEvent, RobotMap, RobotMapDraft, RobotMapPart
 from tests.unit.robot_agent.agent import RobotGrid, write_grid
+from vipo_device.protocol.messages import BadMessage
 
 from .conftest import MIXER, NOW, ROBOT, come, describe
 
@@ -127,7 +127,7 @@ def test_whole_maps_that_come_too_fast_are_not_unpacked(robot: str) -> None:
 
 
 def test_a_map_of_too_many_packed_bytes_is_forgotten(robot: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(robot_map_intake, "MOST_PACKED", 20_000)
+    monkeypatch.setattr(robot_map_parts, "MOST_PACKED", 20_000)
     said = messages()
     with pytest.raises(BadMessage, match="The map has more than 20000 packed bytes"):
         hear(*said)

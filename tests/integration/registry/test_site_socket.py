@@ -14,9 +14,11 @@ from django.contrib.sessions.backends.db import SessionStore
 from django.test import Client
 from django.urls import path
 
-from registry import live, services, sockets
+from registry import services
+from registry.api import site_socket
+from registry.api.site_socket import SiteSocket
+from registry.live import fanout
 from registry.models import User
-from registry.sockets import SiteSocket
 
 from .conftest import ROLES
 
@@ -44,8 +46,8 @@ async def close_code(socket: WebsocketCommunicator) -> int:
 async def test_members_hear_their_site_and_no_other(person: Callable[[str], User], role: str) -> None:
     async with opened(await database_sync_to_async(person)(role)) as socket:
         assert await socket.receive_json_from(5) == {"type": "hello", "site": "hall"}
-        live.publish("other", {"type": "programs"})
-        live.publish("hall", {"type": "run", "run": {"id": 1}})
+        fanout.publish("other", {"type": "programs"})
+        fanout.publish("hall", {"type": "run", "run": {"id": 1}})
         assert await socket.receive_json_from(5) == {"type": "run", "run": {"id": 1}}
 
 
@@ -55,7 +57,7 @@ async def test_what_only_concerns_admins_is_told_to_admins_alone(person: Callabl
     async with opened(await database_sync_to_async(person)(role)) as socket:
         await socket.receive_json_from(5)
         for message in told:
-            live.publish("hall", message)
+            fanout.publish("hall", message)
         expected = told if role == "admin" else told[1:]
         assert [await socket.receive_json_from(5) for _ in expected] == expected
 
@@ -71,9 +73,9 @@ async def test_a_device_is_sent_at_most_ten_times_a_second_and_the_latest_wins(p
     async with opened(await database_sync_to_async(person)("viewer")) as socket:
         await socket.receive_json_from(5)
         for number in range(200):
-            live.publish("hall", {"type": "device", "device": {"id": "r1", "location": {"x": number}}})
+            fanout.publish("hall", {"type": "device", "device": {"id": "r1", "location": {"x": number}}})
             if number == 7:
-                live.publish("hall", {"type": "device", "device": {"id": "r1", "status": "busy"}})
+                fanout.publish("hall", {"type": "device", "device": {"id": "r1", "status": "busy"}})
             await asyncio.sleep(0.003)
         merged: dict[str, Any] = {}
         count = 0
@@ -87,8 +89,8 @@ async def test_a_device_is_sent_at_most_ten_times_a_second_and_the_latest_wins(p
 async def test_a_device_that_was_removed_is_not_heard_of_again(person: Callable[[str], User]) -> None:
     async with opened(await database_sync_to_async(person)("viewer")) as socket:
         await socket.receive_json_from(5)
-        live.publish("hall", {"type": "device", "device": {"id": "r1", "status": "busy"}})
-        live.publish("hall", {"type": "device_removed", "id": "r1"})
+        fanout.publish("hall", {"type": "device", "device": {"id": "r1", "status": "busy"}})
+        fanout.publish("hall", {"type": "device_removed", "id": "r1"})
         messages = [await socket.receive_json_from(5)]
         while messages[-1]["type"] != "device_removed":
             messages.append(await socket.receive_json_from(5))
@@ -102,7 +104,7 @@ async def test_somebody_who_is_no_member_any_more_is_closed_out(person: Callable
             await staying.receive_json_from(5)
             await database_sync_to_async(services.remove_member)(site="hall", email="viewer@vipo.example")
             assert await close_code(leaving) == 4403
-            live.publish("hall", {"type": "programs"})
+            fanout.publish("hall", {"type": "programs"})
             assert await staying.receive_json_from(5) == {"type": "programs"}
 
 
@@ -120,18 +122,18 @@ async def test_who_signs_out_is_closed_out_everywhere_and_others_stay(person: Ca
         answer = await database_sync_to_async(browsers["viewer"].post)("/api/sign-out")
         assert answer.status_code == 200
         assert await close_code(leaving) == 4401
-        live.publish("hall", {"type": "programs"})
+        fanout.publish("hall", {"type": "programs"})
         assert await staying.receive_json_from(5) == {"type": "programs"}
 
 
 async def test_a_browser_that_reads_too_slowly_is_closed(
     person: Callable[[str], User], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sockets, "MOST_WAITING", 5)
+    monkeypatch.setattr(site_socket, "MOST_WAITING", 5)
     async with opened(await database_sync_to_async(person)("viewer")) as socket:
         await socket.receive_json_from(5)
         for number in range(50):
-            live.publish("hall", {"type": "run_event", "event": {"n": number}})
+            fanout.publish("hall", {"type": "run_event", "event": {"n": number}})
         assert await close_code(socket) == 4503
 
 
@@ -140,12 +142,12 @@ async def test_what_a_browser_sends_is_not_listened_to(person: Callable[[str], U
         await socket.receive_json_from(5)
         await socket.send_to(text_data="{" * 1000)
         await socket.send_to(bytes_data=b"\xff" * 1000)
-        live.publish("hall", {"type": "programs"})
+        fanout.publish("hall", {"type": "programs"})
         assert await socket.receive_json_from(5) == {"type": "programs"}
 
 
 async def test_a_quiet_site_still_sends_a_beat(person: Callable[[str], User], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sockets, "BEAT_S", 0.05)
+    monkeypatch.setattr(site_socket, "BEAT_S", 0.05)
     async with opened(await database_sync_to_async(person)("viewer")) as socket:
         await socket.receive_json_from(5)
         assert [await socket.receive_json_from(5) for _ in range(2)] == [{"type": "beat"}, {"type": "beat"}]

@@ -15,10 +15,10 @@ from xml.etree import ElementTree
 import pytest
 from django.test import Client
 
-from registry import sparql
-from registry.capability import PropertySpec
 from registry.models import User
-from registry.sparql_engine import Refused, answer, check_query, graph_of_devices
+from registry.sparql import queries
+from registry.sparql.engine import Refused, answer, check_query, graph_of_devices
+from vipo_device.protocol.description import PropertySpec
 
 from .conftest import MIXER, ROBOT, ROLES, come, describe, say
 
@@ -95,7 +95,7 @@ def test_the_dearest_form_comes_first(
         jobs.append(json.loads(job))
         return 0, b"text/csv\nx\n"
 
-    monkeypatch.setattr(sparql, "_run", run)
+    monkeypatch.setattr(queries, "_run", run)
     told = asked.get(ADDRESS, {"query": NAMES}, headers={"Accept": accept})
     assert jobs[0]["forms"] == forms
     assert "Accept" in told["Vary"]
@@ -128,7 +128,7 @@ def test_a_forms_fields_are_those_of_the_protocol(asked: Client) -> None:
 def test_every_member_may_ask_and_strangers_learn_nothing(
     asked: Client, role: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sparql, "_run", lambda job: (0, b"text/csv\nx\n"))
+    monkeypatch.setattr(queries, "_run", lambda job: (0, b"text/csv\nx\n"))
     expected = {"stranger": 404, "nobody": 401}.get(role, 200)
     assert signed_in(role).get(ADDRESS, {"query": NAMES}).status_code == expected
     answer = signed_in(role).post(ADDRESS, NAMES, content_type="application/sparql-query")
@@ -192,7 +192,7 @@ HOSTILE = {
 def test_a_hostile_query_is_ended_and_nothing_is_left_of_it(
     asked: Client, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sparql, "CPU_S", 0)  # the rest of the second in which the engine has started
+    monkeypatch.setattr(queries, "CPU_S", 0)  # the rest of the second in which the engine has started
     begun: list[subprocess.Popen[bytes]] = []
     real = subprocess.Popen
 
@@ -200,7 +200,7 @@ def test_a_hostile_query_is_ended_and_nothing_is_left_of_it(
         begun.append(real(*arguments, **options))
         return begun[-1]
 
-    monkeypatch.setattr(sparql.subprocess, "Popen", remember)
+    monkeypatch.setattr(queries.subprocess, "Popen", remember)
     answer = asked.get(ADDRESS, {"query": HOSTILE[name]})
     assert (answer.status_code, answer.json()["code"]) in {(422, "query_too_large"), (400, "bad_query")}
     assert answer.json()["detail"].startswith(("The query ", "The result ", "This is no SPARQL query "))
@@ -208,8 +208,8 @@ def test_a_hostile_query_is_ended_and_nothing_is_left_of_it(
 
 
 def test_memory_is_limited(asked: Client, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sparql, "CPU_S", 20)
-    monkeypatch.setattr(sparql, "MEMORY_BYTES", 300_000_000)
+    monkeypatch.setattr(queries, "CPU_S", 20)
+    monkeypatch.setattr(queries, "MEMORY_BYTES", 300_000_000)
     answer = asked.get(ADDRESS, {"query": HOSTILE["texts that double"]})
     told = "The query needs more memory than it may have. Ask for less at once."
     assert (answer.status_code, answer.json()["detail"]) == (422, told)
@@ -217,7 +217,7 @@ def test_memory_is_limited(asked: Client, monkeypatch: pytest.MonkeyPatch) -> No
 
 @pytest.mark.django_db(transaction=True)
 def test_the_server_answers_others_while_a_hostile_query_runs(asked: Client, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sparql, "CPU_S", 1)
+    monkeypatch.setattr(queries, "CPU_S", 1)
     told: list[int] = []
     client = signed_in("operator")
     hostile = {"query": HOSTILE["a regular expression that explodes"]}
@@ -233,9 +233,9 @@ def test_the_server_answers_others_while_a_hostile_query_runs(asked: Client, mon
 
 
 def test_only_two_are_answered_at_once(asked: Client, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sparql, "PATIENCE_S", 0.0)
-    monkeypatch.setattr(sparql, "_slots", threading.BoundedSemaphore(1))
-    with sparql._slots:
+    monkeypatch.setattr(queries, "PATIENCE_S", 0.0)
+    monkeypatch.setattr(queries, "_slots", threading.BoundedSemaphore(1))
+    with queries._slots:
         answer = asked.get(ADDRESS, {"query": NAMES})
     assert (answer.status_code, answer.json()["code"]) == (429, "too_many_queries")
     assert json.loads(asked.get(ADDRESS, {"query": NAMES}).content)["head"]["vars"] == ["id", "name"]

@@ -10,9 +10,9 @@ import pytest
 from django.test import Client
 
 from registry import services
-from registry.capability import Pose
 from registry.models import Device, DeviceEvent, User
-from registry.td_schema import check_thing
+from vipo_device.descriptions.td_schema import check_thing
+from vipo_device.protocol.description import Pose
 
 from .conftest import MIXER, ROBOT, ROLES, describe
 

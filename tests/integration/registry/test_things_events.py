@@ -15,14 +15,15 @@ from django.contrib.auth import BACKEND_SESSION_KEY, HASH_SESSION_KEY, SESSION_K
 from django.contrib.sessions.backends.db import SessionStore
 from django.test import Client
 
-from registry import services, thing_log, things_events
-from registry.capability import PropertySpec
-from registry.models import Device, User
-from registry.sessions import Session
-from registry.td_schema import check_thing
-from registry.thing_rows import ThingEvent
-from registry.things import EVENTS
-from registry.things_events import Listener, stream_events
+from registry import services
+from registry.devices import thing_events
+from registry.devices.things import EVENTS
+from registry.models import Device, ThingEvent, User
+from registry.people.sessions import Session
+from registry.thing_directory import event_stream
+from registry.thing_directory.event_stream import Listener, stream_events
+from vipo_device.descriptions.td_schema import check_thing
+from vipo_device.protocol.description import PropertySpec
 
 from .conftest import MIXER, NOW, PASSWORD, ROBOT, come, describe, say
 
@@ -130,12 +131,12 @@ async def test_who_comes_again_misses_nothing(things: str) -> None:
 async def test_who_was_away_for_too_long_is_told_to_read_all_again(
     things: str, monkeypatch: pytest.MonkeyPatch, last_id: str
 ) -> None:
-    monkeypatch.setattr(thing_log, "MOST_KEPT", 2)
+    monkeypatch.setattr(thing_events, "MOST_KEPT", 2)
     for number in range(4):
         await rename(f"n{number}")
     assert await sync_to_async(ThingEvent.objects.count)() == 2
     async with aclosing(await stream(last_id=last_id)) as events:
-        newest = str(await sync_to_async(thing_log.newest_news)())
+        newest = str(await sync_to_async(thing_events.newest_news)())
         opening = (await anext(events)).decode()
         assert opening == f"id: {newest}\nretry: 2000\n\nid: {newest}\nevent: reset\ndata: {{}}\n\n"
         await rename("after")
@@ -149,7 +150,7 @@ async def test_who_loses_a_site_hears_no_more_of_it(things: str) -> None:
         await sync_to_async(services.remove_member)(site="hall", email="viewer@vipo.example")
         assert [text async for text in one] == []
         assert (await heard(all_sites))["event"] == "reset"
-    assert things_events._open.total() == 0
+    assert event_stream._open.total() == 0
 
 
 async def test_who_signs_out_hears_no_more(things: str) -> None:
@@ -166,8 +167,8 @@ async def test_who_signs_out_hears_no_more(things: str) -> None:
 async def test_a_stream_ends_when_it_has_sent_enough_and_goes_on_from_there(
     things: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(things_events, "MOST_BYTES", 1)
-    first = str(await sync_to_async(thing_log.newest_news)())
+    monkeypatch.setattr(event_stream, "MOST_BYTES", 1)
+    first = str(await sync_to_async(thing_events.newest_news)())
     await rename("Left")
     await rename("Right")
     async with aclosing(await stream(last_id=first, diff=True)) as events:
@@ -180,13 +181,13 @@ async def test_only_so_many_streams_are_open_at_once(things: str, monkeypatch: p
     client = Client()
     await sync_to_async(client.force_login)(viewer)
     for path, person in (("/events", viewer.pk), ("/api/sites/hall/things/events", 0)):
-        monkeypatch.setattr(things_events, "_open", things_events.Counter({person: things_events.MOST_STREAMS}))
+        monkeypatch.setattr(event_stream, "_open", event_stream.Counter({person: event_stream.MOST_STREAMS}))
         answer = await sync_to_async(client.get)(path)
         assert (answer.status_code, answer.json()["code"]) == (429, "too_many_streams")
 
 
 async def test_a_browser_that_knows_the_last_event_names_it_in_the_header(things: str) -> None:
-    last = await sync_to_async(thing_log.newest_news)()
+    last = await sync_to_async(thing_events.newest_news)()
     await rename("Left")
     client = Client()
     await sync_to_async(client.login)(username="viewer@vipo.example", password=PASSWORD)

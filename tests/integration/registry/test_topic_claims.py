@@ -10,10 +10,9 @@ import pytest
 from django.test import Client
 
 from registry import services
-from registry.capability import Description, MethodSpec
-from registry.models import Device, User
+from registry.models import Device, TopicClaim, User
 from registry.services import TopicNotAsked, TopicTaken
-from registry.topic_rows import TopicClaim
+from vipo_device.protocol.description import Description, MethodSpec
 
 from .conftest import MIXER, NOW, describe
 

@@ -16,16 +16,16 @@ from pathlib import Path
 
 import pytest
 
-from registry.capability import Pose
-from registry.describing import read_description
-from registry.floor import FREE, UNKNOWN
-from registry.grid_message import join_parts, read_grid_part
-from registry.mqtt import MqttClient, Will
-from registry.wire import parse_presence, parse_state
+from registry.floorplan.map_message import join_parts, read_grid_part
+from registry.floorplan.plan import FREE, UNKNOWN
 from simulation.site_facts import demo_facts
 from simulation.twin import Twin, TwinPlan
 from tests.bus import Ear, Heard
 from tests.servers import Mosquitto, run_mosquitto
+from vipo_device.descriptions.reader import read_description
+from vipo_device.protocol.description import Pose
+from vipo_device.protocol.messages import parse_presence, parse_state
+from vipo_device.protocol.mqtt_client import MqttClient, Will
 
 ROOT = Path(__file__).resolve().parents[3]
 FACTS = demo_facts()

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from execution.gateway import Gateway
+from execution.gateway.gateway import Gateway
 from registry import services
 from registry.models import DeviceEvent
 from simulation.management.commands.twin import connections
@@ -29,7 +29,7 @@ OVEN, KEY = "curingOven01", "the-first-key-of-the-oven-01"
 @pytest.fixture
 def keys(bus: Bus, gateway: Gateway, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """The file of keys of a running twin whose oven takes part."""
-    monkeypatch.setattr("simulation.entrance.PAUSE_S", (0.1, 0.2))
+    monkeypatch.setattr("vipo_device.kit.enrolment.PAUSE_S", (0.1, 0.2))
     services.expect_device(site=SITE, device_id=OVEN, credential=KEY)
     file = tmp_path / "devices.json"
     file.write_text(json.dumps({OVEN: KEY, "another": "its key"}))

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from registry.mqtt import MqttClient
 from tests.servers import Mosquitto
+from vipo_device.protocol.mqtt_client import MqttClient
 
 SITE, SERVER_WORD, JOIN = "hall", "the server's word", "j" * 32
 

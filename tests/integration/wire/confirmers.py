@@ -19,10 +19,9 @@ from django.core.management import call_command  # noqa: E402 - Django is set up
 from django.db import connection  # noqa: E402
 
 from registry import services  # noqa: E402
-from registry.capability import Description, MethodSpec, Pose, Size  # noqa: E402
-from registry.describing import write_description  # noqa: E402
-from registry.models import Device  # noqa: E402
-from registry.topic_rows import TopicClaim  # noqa: E402
+from registry.models import Device, TopicClaim  # noqa: E402
+from vipo_device.descriptions.reader import write_description  # noqa: E402
+from vipo_device.protocol.description import Description, MethodSpec, Pose, Size  # noqa: E402
 
 ROUNDS, DEVICES = 20, ("mixer1", "mixer2")
 

@@ -14,12 +14,13 @@ from django.core.management import call_command
 from django.db import connections
 from pytest_django import DjangoDbBlocker
 
-from execution.gateway import Gateway
-from registry import broker_accounts, services
+from execution.gateway.gateway import Gateway
+from registry import services
+from registry.broker import accounts
 from tests.bus import Ear
 from tests.integration.wire.bus import JOIN, SERVER_WORD, SITE, Bus
 from tests.servers import run_mosquitto
-from vipo_site.broker import start_broker
+from vipo_site.embedded_broker.server import start_broker
 
 
 @contextmanager
@@ -60,10 +61,10 @@ def bus(request: pytest.FixtureRequest, database: Path, tmp_path: Path, settings
     services.create_site(name="Hall", slug=SITE)
     services.set_join_key(site=SITE, join_key=JOIN)
     settings.VIPO_DEFAULT_SITE = SITE
-    broker_accounts.accounts.cache_clear()
+    accounts.accounts.cache_clear()
     told = {"host": "127.0.0.1", "username": "server", "password": SERVER_WORD, "tls": False}
     if request.param == "mosquitto":
-        settings.VIPO_BROKER_ACCOUNTS = "registry.broker_accounts.DynamicSecurity"
+        settings.VIPO_BROKER_ACCOUNTS = "registry.broker.accounts.DynamicSecurity"
         with run_mosquitto(tmp_path, {"server": SERVER_WORD, f"join:{SITE}": JOIN}) as mosquitto:
             settings.VIPO_MQTT = {**told, "port": mosquitto.port}
             yield Bus("mosquitto", mosquitto.port, mosquitto.device_port, mosquitto)
@@ -72,7 +73,7 @@ def bus(request: pytest.FixtureRequest, database: Path, tmp_path: Path, settings
         settings.VIPO_MQTT = {**told, "port": broker.port}
         yield Bus("amqtt", broker.port, broker.port)
         broker.stop()
-    broker_accounts.accounts.cache_clear()
+    accounts.accounts.cache_clear()
 
 
 @pytest.fixture

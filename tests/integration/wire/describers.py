@@ -20,13 +20,13 @@ django.setup()
 from django.core.management import call_command  # noqa: E402 - Django is set up first
 from django.db import connection  # noqa: E402
 
-from execution.intake import Entry  # noqa: E402
-from execution.taking_in import Taker  # noqa: E402
+from execution.gateway.ingest import Taker  # noqa: E402
+from execution.gateway.queue import Entry  # noqa: E402
 from registry import services  # noqa: E402
-from registry.capability import Description, Pose, Size  # noqa: E402
-from registry.describing import write_description  # noqa: E402
 from registry.models import Device  # noqa: E402
-from registry.mqtt import Message  # noqa: E402
+from vipo_device.descriptions.reader import write_description  # noqa: E402
+from vipo_device.protocol.description import Description, Pose, Size  # noqa: E402
+from vipo_device.protocol.mqtt_client import Message  # noqa: E402
 
 DEVICES, ROUNDS = [f"mixer{number:02}" for number in range(30)], 12
 

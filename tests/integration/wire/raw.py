@@ -8,8 +8,8 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
-from vipo_site.broker import EmbeddedBroker
-from vipo_site.doorkeeping import Line, PasswordDoorkeeper
+from vipo_site.embedded_broker.access_control import Line, PasswordDoorkeeper
+from vipo_site.embedded_broker.server import EmbeddedBroker
 
 
 def field(data: bytes | str) -> bytes:

@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from execution.gateway import Gateway
+from execution.gateway.gateway import Gateway
 from registry import services
-from simulation.new_keys import KeyFile, take_new_keys
 from tests.integration.wire.bus import JOIN, SITE, Bus, wait
+from vipo_device.kit.keyring import KeyFile, take_new_keys
 
 pytestmark = pytest.mark.servers
 KEY = "first-key-of-the-mixer-0001"

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from registry.mqtt import MqttClient
 from tests.bus import Ear
-from vipo_site.broker import EmbeddedBroker, PortInUse, start_broker
+from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_site.embedded_broker.server import EmbeddedBroker, PortInUse, start_broker
 
 WORDS = {"robot01": "one", "mixer01": "two"}
 

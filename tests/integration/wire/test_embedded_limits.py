@@ -15,8 +15,8 @@ import pytest
 from registry import services
 from tests.bus import Ear
 from tests.integration.wire.raw import Notebook, Raw, connect, field, packet, publish, raw, subscribe
-from vipo_site.broker import EmbeddedBroker
-from vipo_site.doorkeeping import RegistryDoorkeeper
+from vipo_site.embedded_broker.access_control import RegistryDoorkeeper
+from vipo_site.embedded_broker.server import EmbeddedBroker
 
 WORD, SERVER_WORD = "word", "secret"
 UP, DOWN = "vipo/v1/dev/loud01/up/", "vipo/v1/dev/loud01/down/"
@@ -174,7 +174,7 @@ def test_connections_that_never_begin_make_room_for_those_that_do(
     silent = [Raw(broker, b"\x10") for _ in range(150)]
     others_go_on(broker, ear, "here")
     assert [each.closed() for each in silent[:50]] == [True] * 50
-    monkeypatch.setattr("vipo_site.broker_core.CONNECT_TIMEOUT_S", 0.3)
+    monkeypatch.setattr("vipo_site.embedded_broker.broker.CONNECT_TIMEOUT_S", 0.3)
     drip = Raw(broker, b"\x10\x40")
     with suppress(OSError):
         for _ in range(20):
@@ -245,7 +245,7 @@ def test_who_is_refused_is_told_to_the_log_with_the_reason(
 def test_a_client_that_reads_nothing_is_ended(
     broker: EmbeddedBroker, ear: Ear, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("vipo_site.broker_connection.STUCK_S", 0.5)
+    monkeypatch.setattr("vipo_site.embedded_broker.connection.STUCK_S", 0.5)
     with raw(broker, connect("loud01", WORD, keepalive_s=0, will=(UP + "presence", "gone"))) as deaf:
         deaf.send(subscribe(1, DOWN + "#", qos=0))
         assert deaf.read() == (0x90, b"\x00\x01\x00")

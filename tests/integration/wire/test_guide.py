@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from execution.gateway import Gateway
+from execution.gateway.gateway import Gateway
 from registry import services
 from tests.integration.wire.bus import SITE, Bus, wait
 

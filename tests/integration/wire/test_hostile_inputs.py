@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from execution.gateway import Gateway
+from execution.gateway.gateway import Gateway
 from registry import services
 from registry.models import DeviceEvent
-from registry.mqtt import MqttClient
 from tests.integration.wire.bus import JOIN, SITE, Bus, wait
+from vipo_device.protocol.mqtt_client import MqttClient
 
 pytestmark = pytest.mark.servers
 KEYS = {"loud01": "the-key-of-the-loud-one-1", "calm01": "the-key-of-the-calm-one-1"}

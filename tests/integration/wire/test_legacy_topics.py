@@ -12,12 +12,12 @@ import pytest
 
 from execution import services as execution
 from execution.errors import NotPossibleNow
-from execution.gateway import Gateway
+from execution.gateway.gateway import Gateway
 from registry import services
-from registry.describing import read_description, write_description
-from registry.mqtt import MqttClient
-from registry.wire import down_topic, up_topic
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus, wait
+from vipo_device.descriptions.reader import read_description, write_description
+from vipo_device.protocol.messages import down_topic, up_topic
+from vipo_device.protocol.mqtt_client import MqttClient
 
 pytestmark = pytest.mark.servers
 TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_text()

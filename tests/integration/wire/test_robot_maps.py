@@ -13,11 +13,10 @@ from pathlib import Path
 import pytest
 from django.conf import LazySettings
 
-from execution.gateway import Gateway
+from execution.gateway.gateway import Gateway
 from registry import services
-from registry.floor import Grid
-from registry.models import DeviceEvent
-from registry.robot_map_rows import RobotMapPart
+from registry.floorplan.plan import Grid
+from registry.models import DeviceEvent, RobotMapPart
 from tests.bus import Ear
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus, wait
 from tests.unit.robot_agent.agent import Agent, Config, Navigation, RobotGrid, write_grid

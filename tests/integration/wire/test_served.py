@@ -8,8 +8,8 @@ from typing import Any
 import httpx
 import pytest
 
-from registry.mqtt import MqttClient, tls_context
 from tests.integration.wire.served import WORKER, Served, running_served
+from vipo_device.protocol.mqtt_client import MqttClient, tls_context
 
 pytestmark = pytest.mark.servers
 SITE = "/api/sites/painting-factory"

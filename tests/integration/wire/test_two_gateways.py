@@ -17,9 +17,9 @@ from django.conf import LazySettings
 
 from execution import services as execution
 from registry import services
-from registry.mqtt import MqttClient
 from tests.bus import Ear
 from tests.integration.wire.bus import SERVER_WORD, SITE, Bus, wait
+from vipo_device.protocol.mqtt_client import MqttClient
 
 pytestmark = [pytest.mark.servers, pytest.mark.parametrize("bus", ["mosquitto"], indirect=True)]
 NAMES = tuple(f"mixer{number:02}" for number in range(1, 7))

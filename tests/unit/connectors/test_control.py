@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 from connectors.vda5050.control import VehicleControl
-from connectors.vda5050.frame import Frame
+from connectors.vda5050.coordinates import Frame
 from tests.unit.connectors.vehicle import Bench, ahead, ids, make_vehicle
 
 ORDER = "vipo-n1"

@@ -13,12 +13,12 @@ from django.core.management.base import CommandError
 
 from connectors.keys import Doorstep, KeyRing
 from connectors.management.commands.vda5050 import make_fleet, read_origin, vehicle_client
+from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS, Fleet, Said
-from connectors.vda5050.frame import Frame
 from connectors.vda5050.member import Setting
 from connectors.vda5050.messages import VehicleName
-from registry.mqtt import MISSES_TOLD, MqttClient
 from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
+from vipo_device.protocol.mqtt_client import MISSES_TOLD, MqttClient
 
 
 @pytest.fixture

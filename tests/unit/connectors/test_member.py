@@ -10,14 +10,14 @@ from typing import Any
 
 import pytest
 
+from connectors.vda5050.connection_state import PATIENCE_S
 from connectors.vda5050.control import Send
-from connectors.vda5050.frame import Frame
+from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.member import Member, Setting
-from connectors.vda5050.presence import PATIENCE_S
-from registry.device_line import Will
-from registry.mqtt import MqttClient
 from tests.integration.connectors.factsheet import FACTSHEET
 from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
+from vipo_device.kit.connection import Will
+from vipo_device.protocol.mqtt_client import MqttClient
 
 
 def away(device: str, will: Will) -> MqttClient:

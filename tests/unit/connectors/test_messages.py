@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from connectors.vda5050.factsheet import device_id, read_factsheet
 from connectors.vda5050.messages import Header, VehicleName, read_connection, read_state, read_visualization
 from connectors.vda5050.orders import instant_actions
-from registry.wire import BadMessage, is_device_id
 from tests.integration.connectors.factsheet import FACTSHEET
 from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
+from vipo_device.protocol.messages import BadMessage, is_device_id
 
 JUNK = st.one_of(
     st.none(), st.booleans(), st.integers(), st.floats(allow_nan=False, allow_infinity=False), st.text(max_size=5),

@@ -15,12 +15,12 @@ from connectors.keys import KeyRing
 from connectors.management.commands.mtconnect import make_agent, read_stand
 from connectors.mtconnect.agent import BadAddress, read_address
 from connectors.mtconnect.condition import MachineCondition
+from connectors.mtconnect.description import Stand, device_id, portray
 from connectors.mtconnect.documents import MOST_BYTES, BadDocument, Devices, Machine, Refusal, Streams, read_document
-from connectors.mtconnect.portrait import Stand, device_id, portray
-from registry.capability import Pose, Size
-from registry.describing import read_description
-from registry.wire import MAX_BYTES, parse_state, state_payload
 from tests.unit.connectors import mtconnect_words as words
+from vipo_device.descriptions.reader import read_description
+from vipo_device.protocol.description import Pose, Size
+from vipo_device.protocol.messages import MAX_BYTES, parse_state, state_payload
 
 STAND = Stand(Pose(1.0, 2.0), Size(2.0, 1.5, 2.0))
 BOMB = b'<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b "bbbb"><!ENTITY c "&b;&b;&b;&b;">]>'

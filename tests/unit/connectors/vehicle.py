@@ -8,14 +8,13 @@ from itertools import count
 from typing import Any
 
 from connectors.vda5050.control import Send, VehicleControl
+from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.factsheet import describe, read_factsheet
-from connectors.vda5050.frame import Frame
 from connectors.vda5050.messages import VehicleName, VehicleState, read_state
 from connectors.vda5050.tasks import Vehicle
-from registry.capability import Pose
-from registry.told import Told
-from registry.wire import AckMessage
 from tests.integration.connectors.factsheet import FACTSHEET
+from vipo_device.protocol.description import Pose
+from vipo_device.protocol.messages import AckMessage, Told
 
 NAME = VehicleName("Acme", "1")
 HEADER = {

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 
 from pycrdt import Doc, Map
 
-from editor import wire
-from editor.document import SharedDocument
-from editor.member import Member, Person
-from editor.room import Room
+from editor.rooms import yjs_protocol
+from editor.rooms.document import SharedDocument
+from editor.rooms.member import Member, Person
+from editor.rooms.room import Room
 
 
 def nobody() -> None:
@@ -43,18 +43,18 @@ class Client:
         self.document.get("steps", type=Map)[step] = Map({"kind": "wait", "pos": [x, 0], "params": Map({})})
         return self.document.get_update(before)
 
-    def read(self) -> list[wire.Message]:
+    def read(self) -> list[yjs_protocol.Message]:
         """Take the frames that were sent, answer the questions among them, apply the changes."""
         read = []
         while self.member.outbox:
             frame = self.member.outbox.popleft()
-            if frame[0] in (wire.SAVED, wire.REFUSAL):
+            if frame[0] in (yjs_protocol.SAVED, yjs_protocol.REFUSAL):
                 continue
-            message = wire.decode_frame(frame)
+            message = yjs_protocol.decode_frame(frame)
             read.append(message)
-            if isinstance(message, wire.SyncStep1):
-                self.send(wire.encode_step_2(self.document.get_update(message.state)))
-            elif isinstance(message, wire.SyncStep2 | wire.Update):
+            if isinstance(message, yjs_protocol.SyncStep1):
+                self.send(yjs_protocol.encode_step_2(self.document.get_update(message.state)))
+            elif isinstance(message, yjs_protocol.SyncStep2 | yjs_protocol.Update):
                 self.document.apply_update(message.update)
         return read
 

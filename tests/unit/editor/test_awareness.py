@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from editor.awareness import MOST_CLIENTS_PER_MEMBER, AwarenessBoard
-from editor.member import Close, Member, Person
-from editor.wire import AwarenessEntry
+from editor.rooms.awareness import MOST_CLIENTS_PER_MEMBER, AwarenessBoard
+from editor.rooms.member import Close, Member, Person
+from editor.rooms.yjs_protocol import AwarenessEntry
 from tests.unit.editor.people import nobody
 
 

@@ -8,14 +8,7 @@ from typing import Any
 import pytest
 from pycrdt import Doc, Map
 
-from editor.document import (
-    BadUpdate,
-    SharedDocument,
-    digest_of,
-    empty_document,
-    encode_document,
-    merge,
-)
+from editor.rooms.document import BadUpdate, SharedDocument, digest_of, empty_document, encode_document, merge
 
 PLAIN: dict[str, Any] = {
     "format": 1,

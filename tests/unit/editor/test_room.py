@@ -6,17 +6,17 @@ import random
 
 import pytest
 
-from editor import wire
-from editor.member import FRAMES_PER_S, Close, Member, Person
-from editor.room import MOST_MEMBERS, Room
-from editor.stream import Entry, Note
+from editor.rooms import yjs_protocol
+from editor.rooms.member import FRAMES_PER_S, Close, Member, Person
+from editor.rooms.room import MOST_MEMBERS, Room
+from editor.rooms.stream import Entry, Note
 from tests.unit.editor.people import Client, nobody, room
 
 
 def test_a_new_connection_is_asked_for_what_it_has() -> None:
     here = room()
     client = Client(here)
-    assert [type(message) for message in client.read()] == [wire.SyncStep1]
+    assert [type(message) for message in client.read()] == [yjs_protocol.SyncStep1]
 
 
 def test_a_change_reaches_the_others_and_not_its_sender() -> None:
@@ -24,7 +24,7 @@ def test_a_change_reaches_the_others_and_not_its_sender() -> None:
     ada, bob = Client(here), Client(here, number=2)
     ada.read()
     bob.read()
-    ada.send(wire.encode_update(ada.edit("s1", 3)))
+    ada.send(yjs_protocol.encode_update(ada.edit("s1", 3)))
     assert ada.read() == []
     bob.read()
     assert bob.steps() == {"s1": {"kind": "wait", "pos": [3, 0], "params": {}}}
@@ -35,9 +35,9 @@ def test_updates_wait_for_the_step_2_of_their_client() -> None:
     here = room()
     ada = Client(here)
     first, second = ada.edit("s1", 1), ada.edit("s2", 2)
-    ada.send(wire.encode_update(second))
+    ada.send(yjs_protocol.encode_update(second))
     assert (here.document.step_count(), len(here.to_keep)) == (0, 0)
-    ada.send(wire.encode_step_2(first))
+    ada.send(yjs_protocol.encode_step_2(first))
     assert here.document.to_json()["steps"].keys() == {"s1", "s2"}
 
 
@@ -46,7 +46,7 @@ def test_a_change_after_a_hole_is_not_let_in_and_the_client_is_asked() -> None:
     ada = Client(here)
     ada.read()
     lost, later = ada.edit("s1", 1), ada.edit("s1", 2)
-    ada.send(wire.encode_update(later))
+    ada.send(yjs_protocol.encode_update(later))
     assert (here.document.to_json()["steps"], list(here.to_keep)) == ({}, [])
     ada.read()
     assert here.document.to_json()["steps"] == ada.steps()
@@ -57,12 +57,12 @@ def test_a_reader_is_answered_and_never_heard() -> None:
     here = room()
     author, reader = Client(here), Client(here, can_write=False, number=2)
     author.read()
-    author.send(wire.encode_update(author.edit("s1", 1)))
+    author.send(yjs_protocol.encode_update(author.edit("s1", 1)))
     reader.read()
-    reader.send(wire.encode_step_2(reader.edit("bad", 1)))
-    reader.send(wire.encode_update(reader.edit("worse", 1)))
-    reader.send(wire.encode_step_1(b"\x00"))
-    assert [type(message) for message in reader.read()] == [wire.SyncStep2]
+    reader.send(yjs_protocol.encode_step_2(reader.edit("bad", 1)))
+    reader.send(yjs_protocol.encode_update(reader.edit("worse", 1)))
+    reader.send(yjs_protocol.encode_step_1(b"\x00"))
+    assert [type(message) for message in reader.read()] == [yjs_protocol.SyncStep2]
     assert list(here.document.to_json()["steps"]) == ["s1"]
     assert len(here.to_keep) == 1
 
@@ -95,7 +95,7 @@ def test_what_fails_half_way_leaves_no_trace() -> None:
     here = room()
     ada = Client(here)
     ada.read()
-    ada.send(wire.encode_update(ada.edit("s1", 1)))
+    ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
     before = here.document.to_json()
     base = here.document.encode()
     dice, refused = random.Random(7), 0
@@ -109,7 +109,7 @@ def test_what_fails_half_way_leaves_no_trace() -> None:
 
 def is_refused(client: Client, update: bytes) -> bool:
     try:
-        client.room.receive(Member(client.person, can_write=True, wake=nobody), wire.encode_step_2(update), 0.0)
+        client.room.receive(Member(client.person, can_write=True, wake=nobody), yjs_protocol.encode_step_2(update), 0.0)
     except Close as close:
         return close.code == Close.MALFORMED
     return False
@@ -119,12 +119,12 @@ def test_saved_carries_the_state_it_speaks_of() -> None:
     here = room()
     ada = Client(here)
     ada.read()
-    ada.send(wire.encode_update(ada.edit("s1", 1)))
+    ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
     here.tell_saved(12, here.document.state())
     frame = ada.member.outbox.pop()
-    reader = wire.Reader(frame)
-    assert (reader.integer(), reader.integer()) == (wire.SAVED, 12)
-    assert wire.decode_state_vector(reader.sized(100))[1] > 0
+    reader = yjs_protocol.Reader(frame)
+    assert (reader.integer(), reader.integer()) == (yjs_protocol.SAVED, 12)
+    assert yjs_protocol.decode_state_vector(reader.sized(100))[1] > 0
 
 
 def test_a_connection_that_does_not_read_is_sent_away() -> None:
@@ -141,9 +141,9 @@ def test_a_connection_that_reads_a_lot_stays() -> None:
     here = room()
     keen = Client(here)
     for _ in range(100):
-        keen.member.post(wire.encode_update(bytes(500_000)))
+        keen.member.post(yjs_protocol.encode_update(bytes(500_000)))
         keen.member.outbox.clear()
-        keen.send(wire.encode_step_1(b"\x00"))
+        keen.send(yjs_protocol.encode_step_1(b"\x00"))
         keen.read()
     assert keen.member.closing is None
 
@@ -179,10 +179,10 @@ def test_two_processes_hold_the_same_and_each_keeps_only_its_own() -> None:
     ada, bob = Client(a), Client(b, Person(2, "Bob", "B"), number=2)
     ada.read()
     bob.read()
-    ada.send(wire.encode_update(ada.edit("s1", 1)))
+    ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
     both.carry()
     bob.read()
-    bob.send(wire.encode_update(bob.edit("s1", 2)))
+    bob.send(yjs_protocol.encode_update(bob.edit("s1", 2)))
     both.carry()
     ada.read()
     assert a.document.digest() == b.document.digest()
@@ -197,7 +197,7 @@ def test_what_the_stream_lost_is_found_by_comparing() -> None:
     ada.read()
     bob.read()
     for client, name in ((ada, "s1"), (bob, "s2")):
-        client.send(wire.encode_update(client.edit(name, 1)))
+        client.send(yjs_protocol.encode_update(client.edit(name, 1)))
     both.carry(lose=True)
     assert a.document.digest() != b.document.digest()
     a.say_state()
@@ -211,11 +211,11 @@ def test_a_lost_deletion_is_found_by_its_hash() -> None:
     a, b = both.pair()
     ada = Client(a)
     ada.read()
-    ada.send(wire.encode_update(ada.edit("s1", 1)))
+    ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
     both.carry()
     state = ada.document.get_state()
     del ada.document.get("steps", type=type(ada.document["steps"]))["s1"]
-    ada.send(wire.encode_step_2(ada.document.get_update(state)))
+    ada.send(yjs_protocol.encode_step_2(ada.document.get_update(state)))
     both.carry(lose=True)
     assert list(b.document.to_json()["steps"]) == ["s1"]
     b.say_state()

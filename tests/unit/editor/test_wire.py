@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from editor import wire
+from editor.rooms import yjs_protocol
 
 NUMBERS = st.integers(0, 2**53 - 1)
 
 
 @given(NUMBERS)
 def test_numbers_come_back(number: int) -> None:
-    reader = wire.Reader(wire.encode_integer(number))
+    reader = yjs_protocol.Reader(yjs_protocol.encode_integer(number))
     assert reader.integer() == number
     reader.end()
 
@@ -23,34 +23,44 @@ def test_numbers_come_back(number: int) -> None:
 @given(st.binary(max_size=300))
 def test_no_bytes_make_it_fail_otherwise_than_by_refusing(data: bytes) -> None:
     try:
-        message = wire.decode_frame(data)
-    except wire.BadFrame:
+        message = yjs_protocol.decode_frame(data)
+    except yjs_protocol.BadFrame:
         return
-    assert isinstance(message, wire.SyncStep1 | wire.SyncStep2 | wire.Update | wire.Awareness | wire.QueryAwareness)
+    assert isinstance(
+        message,
+        yjs_protocol.SyncStep1
+        | yjs_protocol.SyncStep2
+        | yjs_protocol.Update
+        | yjs_protocol.Awareness
+        | yjs_protocol.QueryAwareness,
+    )
 
 
 @given(st.dictionaries(NUMBERS, NUMBERS, max_size=20))
 def test_state_vectors_come_back(clocks: dict[int, int]) -> None:
-    assert wire.decode_state_vector(wire.encode_state_vector(clocks)) == clocks
+    assert yjs_protocol.decode_state_vector(yjs_protocol.encode_state_vector(clocks)) == clocks
 
 
 @given(st.binary(max_size=100))
 def test_sync_messages_come_back(data: bytes) -> None:
-    assert wire.decode_frame(wire.encode_update(data)) == wire.Update(data)
-    assert wire.decode_frame(wire.encode_step_2(data)) == wire.SyncStep2(data)
+    assert yjs_protocol.decode_frame(yjs_protocol.encode_update(data)) == yjs_protocol.Update(data)
+    assert yjs_protocol.decode_frame(yjs_protocol.encode_step_2(data)) == yjs_protocol.SyncStep2(data)
 
 
 def test_awareness_comes_back() -> None:
-    entries = (wire.AwarenessEntry(2**32, 7, {"cursor": [1.5, None], "name": "Ä"}), wire.AwarenessEntry(1, 0, None))
-    assert wire.decode_frame(wire.encode_awareness(entries)) == wire.Awareness(entries)
+    entries = (
+        yjs_protocol.AwarenessEntry(2**32, 7, {"cursor": [1.5, None], "name": "Ä"}),
+        yjs_protocol.AwarenessEntry(1, 0, None),
+    )
+    assert yjs_protocol.decode_frame(yjs_protocol.encode_awareness(entries)) == yjs_protocol.Awareness(entries)
 
 
 @pytest.mark.parametrize("byte", [0xFF, 0x80])
 def test_a_number_without_end_is_refused_at_once(byte: int) -> None:
     frame = bytes([byte]) * 2_000_000
     begun = time.perf_counter()
-    with pytest.raises(wire.BadFrame, match="longer than 53 bits"):
-        wire.decode_frame(frame)
+    with pytest.raises(yjs_protocol.BadFrame, match="longer than 53 bits"):
+        yjs_protocol.decode_frame(frame)
     assert time.perf_counter() - begun < 0.05
 
 
@@ -67,12 +77,12 @@ def test_a_number_without_end_is_refused_at_once(byte: int) -> None:
     ],
 )
 def test_a_refusal_says_what_is_wrong(frame: bytes, why: str) -> None:
-    with pytest.raises(wire.BadFrame, match=why):
-        wire.decode_frame(frame)
+    with pytest.raises(yjs_protocol.BadFrame, match=why):
+        yjs_protocol.decode_frame(frame)
 
 
 def test_deep_json_is_refused() -> None:
     deep = b"[" * 60_000
-    body = b"\x01\x01\x01" + wire.encode_integer(len(deep)) + deep
-    with pytest.raises(wire.BadFrame, match="not JSON"):
-        wire.decode_frame(b"\x01" + wire.encode_integer(len(body)) + body)
+    body = b"\x01\x01\x01" + yjs_protocol.encode_integer(len(deep)) + deep
+    with pytest.raises(yjs_protocol.BadFrame, match="not JSON"):
+        yjs_protocol.decode_frame(b"\x01" + yjs_protocol.encode_integer(len(body)) + body)

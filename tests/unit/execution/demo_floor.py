@@ -2,11 +2,11 @@
 
 from functools import cache
 
-from editor.language.surroundings import PlaceFacts
+from editor.language.site.surroundings import PlaceFacts
 from execution.traffic.layout import Layout, make_layout
-from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
 from registry.demo.factory import make_grid, read_plan
-from registry.floor import Grid
+from registry.floorplan.plan import Grid
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
 
 OBJECT = (ParameterSpec("object", "object"), ParameterSpec("value", "number"))
 TIME = (ParameterSpec("time", "number", "MIN", 1, 60),)

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from editor.language.plan import Constant, Expression, Located, Operation, Quantity, Reading, Variable
-from editor.language.values import COMPARISONS, FUNCTIONS
-from execution.expressions import EvaluationError, NoReading, evaluate, evaluate_number, is_true
-from execution.places import lies_in
+from editor.language.expressions.values import COMPARISONS, FUNCTIONS
+from editor.language.plan.instructions import Constant, Expression, Located, Operation, Quantity, Reading, Variable
+from execution.machine.evaluation import EvaluationError, NoReading, evaluate, evaluate_number, is_true
+from execution.machine.places import lies_in
 
 FACTS: dict[tuple[str, str], Any] = {
     ("oven", "temperature"): 62.5,

@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from editor.language.plan import (
+from editor.language.plan.instructions import (
     Assign,
     Branch,
     Call,
@@ -27,9 +27,9 @@ from editor.language.plan import (
     Wait,
     WaitUntil,
 )
-from execution import machine
-from execution import run_messages as r
-from execution.mission import Mission, Target
+from execution.machine import machine
+from execution.machine import messages as r
+from execution.machine.floor_task import Mission, Target
 
 OVEN = PlaceRef(device="oven")
 SHELF = PlaceRef(device="shelf")

@@ -1,6 +1,6 @@
 """How a run ends: `final` handlers, an early End, branches that are called off."""
 
-from editor.language.plan import (
+from editor.language.plan.instructions import (
     Constant,
     End,
     Fork,
@@ -15,8 +15,8 @@ from editor.language.plan import (
     TryEnd,
     Wait,
 )
-from execution import machine
-from execution import run_messages as r
+from execution.machine import machine
+from execution.machine import messages as r
 
 OVEN, SHELF = PlaceRef(device="oven"), PlaceRef(device="shelf")
 

@@ -2,7 +2,7 @@
 
 import json
 
-from editor.language.plan import (
+from editor.language.plan.instructions import (
     AnswerSpec,
     AskPerson,
     Assign,
@@ -25,8 +25,8 @@ from editor.language.plan import (
     Variable,
     Wait,
 )
-from execution import machine
-from execution import run_messages as r
+from execution.machine import machine
+from execution.machine import messages as r
 
 OVEN = PlaceRef(device="oven")
 HOT = Operation(">", (Reading(Constant("oven"), "temperature"), Constant(80)))
@@ -201,7 +201,7 @@ def test_a_state_that_the_former_version_stored_goes_on():
 
 
 def test_recursion_through_branches_is_bounded_too():
-    from editor.language.plan import Fork, Join
+    from editor.language.plan.instructions import Fork, Join
 
     program = plan(Fork((2,), 1), End(), Invoke(0, "again", {}), Join())
     state, _ = machine.start(program, {})

@@ -5,9 +5,9 @@ import json
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from editor.language import plan as p
-from execution import machine
-from execution import run_messages as r
+from editor.language.plan import instructions as p
+from execution.machine import machine
+from execution.machine import messages as r
 
 SIZE = 12
 OPEN = {"running", "paused"}

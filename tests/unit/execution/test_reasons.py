@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 
 from execution.models import RunEvent
-from execution.reasons import SAID, SENTENCES, cause_of
-from execution.views import event_to_json
+from execution.runs.reasons import SAID, SENTENCES, cause_of
+from execution.runs.views import event_to_json
 
 ROOT = Path(__file__).parents[3]
-SOURCES = sorted([*(ROOT / "execution").glob("*.py"), *(ROOT / "execution" / "traffic").glob("*.py")])
+SOURCES = sorted((ROOT / "execution").rglob("*.py"))
 GIVERS = {"Failure", "Wake", "EvaluationError", "NoReading", "NoSuchSpot", "finish", "_give_up"}
 OTHERS = {"rehearsal.py"}
 """Rehearsals give up with errors that have codes of their own."""

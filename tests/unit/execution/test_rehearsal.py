@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from editor.language.plan import (
+from editor.language.plan.instructions import (
     AnswerSpec,
     AskPerson,
     Branch,
@@ -29,8 +29,8 @@ from editor.language.plan import (
     WaitUntil,
     Zone,
 )
-from execution.monitor import FootprintMonitor
-from execution.rehearsal import Conditions, rehearse
+from execution.rehearsals.footprint_monitor import FootprintMonitor
+from execution.rehearsals.rehearsal import Conditions, rehearse
 from simulation.world import Fault, Scene
 from tests.unit.execution import demo_floor
 

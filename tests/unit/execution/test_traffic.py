@@ -5,7 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from execution.mission import Mission, Target
+from execution.machine.floor_task import Mission, Target
 from execution.traffic import floor
 from execution.traffic import messages as m
 from execution.traffic.layout import NoSuchSpot, make_layout

@@ -1,9 +1,9 @@
 """A script with nearly every construct, from text to the end of its rehearsal."""
 
 from editor.language import compile_document, parse_script, plan_from_json, plan_to_json, tree_to_document
-from editor.language.surroundings import DeviceFacts, Surroundings
-from execution.rehearsal import Conditions, rehearse
-from registry.floor import FloorPlan
+from editor.language.site.surroundings import DeviceFacts, Surroundings
+from execution.rehearsals.rehearsal import Conditions, rehearse
+from registry.floorplan.plan import FloorPlan
 from simulation.world import Scene
 from tests.unit.execution import demo_floor
 

@@ -5,8 +5,8 @@ from math import hypot
 
 import pytest
 
-from execution.mission import Mission, Target
-from execution.places import lies_in
+from execution.machine.floor_task import Mission, Target
+from execution.machine.places import lies_in
 from execution.traffic import messages as m
 from tests.unit.execution import demo_floor
 from tests.unit.execution.pretend import PretendFloor

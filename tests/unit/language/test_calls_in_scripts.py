@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from editor.language import parse_script
-from editor.language.collecting import without_collector
-from editor.language.parsing_expressions import calls_in
+from editor.language.compiler import without_collector
+from editor.language.parsing.expressions import calls_in
 from tests.unit.language.site import factory
 
-MODULES = sorted((Path(__file__).resolve().parents[3] / "editor" / "language").glob("*.py"))
+MODULES = sorted((Path(__file__).resolve().parents[3] / "editor" / "language").rglob("*.py"))
 ODD = """
 match f(1):
     case g(a=h.i) if j():
@@ -23,7 +23,7 @@ r = lambda s=t(): f'{u()!r:{v()}}'
 
 
 @pytest.mark.parametrize(
-    "text", [ODD, *(path.read_text() for path in MODULES)], ids=["odd", *(p.stem for p in MODULES)]
+    "text", [ODD, *(path.read_text() for path in MODULES)], ids=["odd", *(f"{p.parent.name}/{p.stem}" for p in MODULES)]
 )
 def test_every_call_is_found(text: str) -> None:
     module = ast.parse(text)

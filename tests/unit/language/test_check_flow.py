@@ -7,11 +7,12 @@ from dataclasses import replace
 
 import pytest
 
-from editor.language.check_context import Context
-from editor.language.check_flow import check_flow, ways_of_functions
-from editor.language.check_parallel import check_parallel
-from editor.language.check_variables import check_variables
-from editor.language.nodes import (
+from editor.language.checks.context import Context
+from editor.language.checks.flow import check_flow, ways_of_functions
+from editor.language.checks.parallel import check_parallel
+from editor.language.checks.variables import check_variables
+from editor.language.plan.instructions import Constant, Expression, Operation, Reading, Variable
+from editor.language.tree.nodes import (
     Ask,
     Block,
     Break,
@@ -34,7 +35,6 @@ from editor.language.nodes import (
     WaitUntil,
     While,
 )
-from editor.language.plan import Constant, Expression, Operation, Reading, Variable
 from tests.unit.language.site import factory
 
 HOT = Operation(">", (Reading(Constant("curingOven01"), "temperature"), Constant(60)))

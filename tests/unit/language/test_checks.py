@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 from editor.language import PlaceFacts, Surroundings, compile_document, parse_script
-from editor.language.plan import Call, Drop, Fork, Invoke, Jump, Move, Pick
+from editor.language.plan.instructions import Call, Drop, Fork, Invoke, Jump, Move, Pick
 from tests.unit.language.site import factory
 
 

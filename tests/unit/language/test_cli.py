@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.unit.language.site import ROOT
-from vipo_site.cli import main
+from vipo_site.cli.main import main
 
 EXAMPLES = ROOT / "examples"
 SITE = str(EXAMPLES / "painting-factory.json")

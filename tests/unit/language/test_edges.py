@@ -8,14 +8,14 @@ from typing import Any
 import pytest
 
 from editor.language import Surroundings, compile_document, parse_script, tree_to_document
-from editor.language.nodes import MISSING
-from editor.language.parsing import LONGEST_SCRIPT
-from editor.language.plan import Constant, Operation, Reading
-from editor.language.possible_values import ANY, Range, range_of
-from editor.language.units import conversion, convert
-from editor.language.values import LARGEST, is_number, read_value
-from registry.capability import ParameterSpec
+from editor.language.expressions.ranges import ANY, Range, range_of
+from editor.language.expressions.units import conversion, convert
+from editor.language.expressions.values import LARGEST, is_number, read_value
+from editor.language.parsing.script import LONGEST_SCRIPT
+from editor.language.plan.instructions import Constant, Operation, Reading
+from editor.language.tree.nodes import MISSING
 from tests.unit.language.site import factory, with_device
+from vipo_device.protocol.description import ParameterSpec
 
 EMPTY = "class Task(object):\n    def new_task(self):\n        pass\n"
 CARRY = {"role": "robot", "object": "box", "quantity": 1}

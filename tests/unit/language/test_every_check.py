@@ -6,10 +6,10 @@ from functools import lru_cache
 
 import pytest
 
-from editor.language.checks_page import CASES, ROOT, read_case, read_site, write_page
-from editor.language.meanings import GROUPS, MEANINGS
-from editor.language.surroundings import Surroundings
-from editor.language.texts import TEXTS
+from editor.language.messages.en import TEXTS
+from editor.language.site.surroundings import Surroundings
+from scripts.check_meanings import GROUPS, MEANINGS
+from scripts.checks_page import CASES, ROOT, read_case, read_site, write_page
 
 
 @lru_cache(maxsize=1)

@@ -10,13 +10,13 @@ from typing import Any
 import pytest
 
 from editor.language import compile_document, parse_script, tree_to_document
-from editor.language.outline import BRANCHES
-from execution.program_site import read_site
-from execution.rehearsal import Conditions, rehearse, rehearse_program
+from editor.language.document.outline import BRANCHES
+from execution.rehearsals.program_site import read_site
+from execution.rehearsals.rehearsal import Conditions, rehearse, rehearse_program
 from simulation.world import Fault
 from tests.unit.language.site import ROOT
-from vipo_site.cli import main
-from vipo_site.program_file import read_program_file
+from vipo_site.cli.main import main
+from vipo_site.cli.program_file import read_program_file
 
 SITE = "painting-factory"
 PROGRAMS = sorted(path for path in (ROOT / "examples").glob("*.json") if path.stem != SITE)

@@ -8,9 +8,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from editor.language import Surroundings, compile_document
-from editor.language.incremental import EditedProgram
-from editor.language.last_outline import LastOutline
-from editor.language.outline import make_outline
+from editor.language.compiler import EditedProgram
+from editor.language.document.incremental_outline import LastOutline
+from editor.language.document.outline import make_outline
 from tests.unit.language.site import factory, with_device
 from tests.unit.language.sound_programs import sound_documents
 from tests.unit.language.strategies import BRANCHES, PARAMS, documents

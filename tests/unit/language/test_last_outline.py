@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from editor.language.last_outline import LastOutline
-from editor.language.outline import DEEPEST_STEP, make_outline
+from editor.language.document.incremental_outline import LastOutline
+from editor.language.document.outline import DEEPEST_STEP, make_outline
 
 Json = dict[str, Any]
 

@@ -6,8 +6,9 @@ import re
 
 import pytest
 
-from editor.language import mistakes, parse_script
-from editor.language.phrases import refused_in_german
+from editor.language import parse_script
+from editor.language.messages import mistakes
+from editor.language.messages.phrases import refused_in_german
 from tests.unit.language.site import factory
 from tests.unit.language.test_parsing import script
 

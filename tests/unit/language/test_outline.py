@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from editor.language.outline import make_outline
+from editor.language.document.outline import make_outline
 from tests.cases.make_outline_cases import FOLDER, cases, text_of
 
 FILES = sorted(FOLDER.glob("*.json"))

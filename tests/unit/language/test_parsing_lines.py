@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from editor.language import compile_document, parse_script
-from editor.language.parsing import parse_whole
-from editor.language.parsing_lines import parse_lines
+from editor.language.parsing.lines import parse_lines
+from editor.language.parsing.script import parse_whole
 from tests.unit.language.site import factory
 from tests.unit.language.strategies import documents
 

@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from editor.language.line_scope import make_line_scope
-from editor.language.one_line import parse_line
-from editor.language.plan import Expression
-from editor.language.possible_values import possible
-from editor.language.surroundings import Surroundings
-from editor.language.values import read_value
-from execution.expressions import EvaluationError, is_true
-from registry.capability import PropertySpec
+from editor.language.expressions.ranges import possible
+from editor.language.expressions.values import read_value
+from editor.language.parsing.line_scope import make_line_scope
+from editor.language.parsing.one_line import parse_line
+from editor.language.plan.instructions import Expression
+from editor.language.site.surroundings import Surroundings
+from execution.machine.evaluation import EvaluationError, is_true
 from tests.unit.language.site import factory
+from vipo_device.protocol.description import PropertySpec
 
 PROPERTIES = (
     PropertySpec("temperature", "number", "DEG_C", 15, 250),

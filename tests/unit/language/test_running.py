@@ -7,9 +7,9 @@ import json
 import pytest
 
 from editor.language import compile_document
-from editor.language.plan import Plan
-from execution import machine
-from execution import run_messages as m
+from editor.language.plan.instructions import Plan
+from execution.machine import machine
+from execution.machine import messages as m
 from tests.unit.language.site import ROOT, factory
 
 HOT = {("curingOven01", "temperature"): 80}

@@ -9,9 +9,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from editor.language import compile_document, parse_script, plan_from_json, plan_to_json, tree_to_document
-from editor.language.plan import Plan
-from execution import machine
-from execution import run_messages as m
+from editor.language.plan.instructions import Plan
+from execution.machine import machine
+from execution.machine import messages as m
 from tests.unit.language.site import factory
 from tests.unit.language.sound_programs import sound_documents
 

@@ -8,9 +8,12 @@ from string import Formatter
 
 import pytest
 
-from editor.language import parsing
-from editor.language.diagnostics import Fix, Problem, TextArguments, put_into_words
-from editor.language.phrases import (
+from editor.language import checks
+from editor.language.expressions.typing import TYPE_WORDS
+from editor.language.messages.de import FIX_TEXTS_DE, TEXTS_DE
+from editor.language.messages.diagnostics import Fix, Problem, TextArguments, put_into_words
+from editor.language.messages.en import FIX_TEXTS, NOT_NOW, TEXTS
+from editor.language.messages.phrases import (
     Amounts,
     Driver,
     Options,
@@ -23,9 +26,7 @@ from editor.language.phrases import (
     Span,
     number_text,
 )
-from editor.language.texts import FIX_TEXTS, NOT_NOW, TEXTS
-from editor.language.texts_de import FIX_TEXTS_DE, TEXTS_DE
-from editor.language.typing_of_values import TYPE_WORDS
+from editor.language.parsing import script
 
 
 def placeholders(text: str) -> set[str]:
@@ -109,7 +110,7 @@ def test_what_only_the_site_as_it_is_prevents_is_told_apart() -> None:
     assert put_into_words(Problem("retired_device", args={"device": "Curing Oven"}), None).when == "ever"
 
 
-PARSERS = sorted(Path(parsing.__file__).parent.glob("parsing*.py"))
+PARSERS = sorted(Path(script.__file__).parent.glob("[!_]*.py"))
 
 
 def refusals(path: Path) -> Iterator[str]:
@@ -130,7 +131,7 @@ def test_what_the_parser_says_has_its_german(path: Path) -> None:
     assert [english for english in said if Refusal(english).say("de") == english] == []
 
 
-CHECKERS = sorted(Path(parsing.__file__).parent.glob("check*.py"))
+CHECKERS = sorted(Path(checks.__file__).parent.glob("[!_]*.py"))
 
 
 @pytest.mark.parametrize("path", CHECKERS, ids=lambda path: path.stem)

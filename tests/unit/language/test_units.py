@@ -2,7 +2,15 @@
 
 import pytest
 
-from editor.language.units import UNITS, DifferentDimensions, conversion, convert, is_unit, unit_code, unit_symbol
+from editor.language.expressions.units import (
+    UNITS,
+    DifferentDimensions,
+    conversion,
+    convert,
+    is_unit,
+    unit_code,
+    unit_symbol,
+)
 
 
 @pytest.mark.parametrize("code", UNITS)

@@ -6,16 +6,9 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from registry.capability import (
-    Description,
-    MethodSpec,
-    ParameterSpec,
-    Pose,
-    PropertySpec,
-    Size,
-)
-from registry.plausibility import find_faults
-from registry.wire import down_topic
+from vipo_device.descriptions.plausibility import find_faults
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
+from vipo_device.protocol.messages import down_topic
 
 THING: dict[str, Any] = {
     "@context": "https://www.w3.org/2022/wot/td/v1.1",

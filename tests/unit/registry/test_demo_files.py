@@ -4,7 +4,7 @@ from pathlib import Path
 
 from registry.demo.devices import DEVICES, describe_devices, write_devices
 from registry.demo.factory import FOLDER, make_grid, read_plan, write_map
-from registry.floor import FloorPlan, cells_array, stations
+from registry.floorplan.plan import FloorPlan, cells_array, stations
 
 
 def test_the_committed_map_is_the_one_that_is_made(tmp_path: Path) -> None:

@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
 from registry.demo.devices import describe_devices
-from registry.describing import canonical_hash, read, write_description
-from registry.rdf_text import FORMS, BadDescription, form_of
-from registry.td_schema import check_thing
-from registry.thing import thing_of
 from tests.unit.registry.descriptions import THING, descriptions
+from vipo_device.descriptions.forms import FORMS, BadDescription, form_of
+from vipo_device.descriptions.reader import canonical_hash, read, write_description
+from vipo_device.descriptions.td_schema import check_thing
+from vipo_device.descriptions.thing_description import thing_of
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
 
 FIGURE_5 = (Path(__file__).parents[2] / "fixtures" / "figure-5.txt").read_bytes()
 

@@ -2,9 +2,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from registry.capability import ParameterSpec, Pose, PropertySpec, description_to_json
 from registry.demo.devices import describe_devices
-from registry.differences import Change, list_changes
+from vipo_device.descriptions.changes import Change, list_changes
+from vipo_device.protocol.description import ParameterSpec, Pose, PropertySpec, description_to_json
 
 MIXER = next(d for d in describe_devices() if d.id == "paintMixer02")
 BEFORE = description_to_json(MIXER)

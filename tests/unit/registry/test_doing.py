@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from registry.capability import Description, Pose, Size
-from registry.doing import Doing, Seen, doing_of
+from registry.devices.activity import Doing, Seen, doing_of
+from vipo_device.protocol.description import Description, Pose, Size
 
 MIXER = Description("mixer", "Mixer", "machine", "mixer", Pose(0, 0), Size(1, 1, 1), gives=("box",))
 ROBOT = replace(MIXER, kind="robot", gives=())

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from registry.capability import Description, MethodSpec, Pose, PropertySpec, Size
-from registry.event_words import MOST_PARTS, PARTS, SENTENCES, described, said
+from registry.devices.history_texts import MOST_PARTS, PARTS, SENTENCES, described, said
+from vipo_device.protocol.description import Description, MethodSpec, Pose, PropertySpec, Size
 
 MIXER = Description("mixer", "Mixer", "machine", "mixer", Pose(0, 0), Size(1, 1, 1))
 CATALOGUES = Path(__file__).parents[3] / "frontend" / "src" / "i18n"

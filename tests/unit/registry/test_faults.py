@@ -11,15 +11,23 @@ from typing import Any
 
 import pytest
 
-from registry.describing import read
-from registry.fault_sentences import SENTENCES
-from registry.faults import Fault, facts_of, fault, note
-from registry.rdf_text import BadDescription
 from tests.unit.registry.descriptions import THING
+from vipo_device.descriptions.forms import BadDescription
+from vipo_device.descriptions.reader import read
+from vipo_device.protocol.fault_texts import SENTENCES
+from vipo_device.protocol.faults import Fault, facts_of, fault, note
 
 ROOT = Path(__file__).parents[3]
-SPEAKERS = ("execution/gateway.py", "vipo_site/broker_connection.py", "vipo_site/broker_spread.py")
-SOURCES = [*(ROOT / "registry").glob("*.py"), *(ROOT / name for name in SPEAKERS)]
+SPEAKERS = (
+    "execution/gateway/gateway.py",
+    "vipo_site/embedded_broker/connection.py",
+    "vipo_site/embedded_broker/routing.py",
+)
+SOURCES = [
+    *(ROOT / "registry").rglob("*.py"),
+    *(ROOT / "vipo_device").rglob("*.py"),
+    *(ROOT / name for name in SPEAKERS),
+]
 PREFIXES = """@prefix vipo: <urn:vipo:ns#> . @prefix td: <https://www.w3.org/2019/wot/td#> .
 @prefix dct: <http://purl.org/dc/terms/> . @prefix qudt: <http://qudt.org/schema/qudt/> .
 """

@@ -4,8 +4,7 @@ from math import pi
 
 import numpy as np
 
-from registry.capability import Description, Pose, Size
-from registry.floor import (
+from registry.floorplan.plan import (
     FloorPlan,
     Grid,
     cells_array,
@@ -16,6 +15,7 @@ from registry.floor import (
     wall_boxes,
     with_devices,
 )
+from vipo_device.protocol.description import Description, Pose, Size
 
 
 def grid_of(rows: list[str], resolution_m: float = 1.0) -> Grid:

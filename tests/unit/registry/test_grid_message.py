@@ -12,10 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from registry.floor import Grid
-from registry.grid_message import join_parts, plain_grid, read_grid_part
-from registry.wire import BadMessage
+from registry.floorplan.map_message import join_parts, plain_grid, read_grid_part
+from registry.floorplan.plan import Grid
 from tests.servers import ROOT
+from vipo_device.protocol.messages import BadMessage
 
 CELLS = bytes([0, 100, 255, 7, 0, 100])
 KEYS = ("boot", "map", "part", "parts", "size", "resolution", "origin", "cells")

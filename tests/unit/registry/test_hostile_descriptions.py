@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from registry.describing import read
-from registry.rdf_text import BadDescription
 from tests.unit.registry.descriptions import THING
+from vipo_device.descriptions.forms import BadDescription
+from vipo_device.descriptions.reader import read
 
 PREFIXES = """@prefix vipo: <urn:vipo:ns#> . @prefix td: <https://www.w3.org/2019/wot/td#> .
 @prefix dct: <http://purl.org/dc/terms/> . @prefix schema: <https://schema.org/> .

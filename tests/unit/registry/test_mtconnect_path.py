@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from registry.mtconnect_path import MOST_CHARACTERS, BadPath, Node, choose, read_path
+from registry.mtconnect.xpath import MOST_CHARACTERS, BadPath, Node, choose, read_path
 
 
 def item(key: str, **more: str) -> Node:

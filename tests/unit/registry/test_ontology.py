@@ -10,7 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from registry.capability import (
+from registry.demo.devices import describe_devices
+from vipo_device.descriptions.forms import BadDescription
+from vipo_device.descriptions.plausibility import find_faults
+from vipo_device.descriptions.reader import canonical_hash, read_description, write_description
+from vipo_device.protocol.description import (
     Description,
     MethodSpec,
     ParameterSpec,
@@ -20,11 +24,7 @@ from registry.capability import (
     description_from_json,
     description_to_json,
 )
-from registry.demo.devices import describe_devices
-from registry.describing import canonical_hash, read_description, write_description
-from registry.faults import fault
-from registry.plausibility import find_faults
-from registry.rdf_text import BadDescription
+from vipo_device.protocol.faults import fault
 
 MIXER = Description(
     "mixer1",

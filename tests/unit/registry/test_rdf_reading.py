@@ -16,10 +16,10 @@ from rdflib.compare import isomorphic
 from rdflib.plugins.parsers.jsonld import to_rdf
 
 from registry.demo.devices import describe_devices
-from registry.describing import write_description
-from registry.ontology import graph_of_triples
-from registry.rdf_reading import NOWHERE, read_json_ld, read_turtle
-from registry.rdf_text import BadDescription, check_turtle, plain_text
+from vipo_device.descriptions.forms import BadDescription, check_turtle, plain_text
+from vipo_device.descriptions.rdf_reader import NOWHERE, read_json_ld, read_turtle
+from vipo_device.descriptions.rdf_writer import graph_of_triples
+from vipo_device.descriptions.reader import write_description
 
 ADDRESSES = st.sampled_from(
     ["urn:vipo:ns#a", "https://schema.org/b", "urn:x:ä", "relative:/c", "http://a.example/?q#f"]

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from registry.floor import Grid, cells_array
-from registry.ros_map import BadMap, read_header, read_map, write_pgm, write_yaml
+from registry.floorplan.map_server import BadMap, read_header, read_map, write_pgm, write_yaml
+from registry.floorplan.plan import Grid, cells_array
 
 HEADER = (
     b"image: a.pgm\nresolution: 0.05\norigin: [-1.0, -2.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"

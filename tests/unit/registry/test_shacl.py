@@ -3,14 +3,14 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 
-from registry.capability import Description
 from registry.demo.devices import describe_devices
-from registry.describing import read, write_description
-from registry.rdf_text import BadDescription
-from registry.shacl import check_rdf, check_reading
 from tests.unit.registry.descriptions import descriptions
 from tests.unit.registry.test_describing import FIGURE_5
 from tests.unit.registry.test_hostile_descriptions import linked, turtle
+from vipo_device.descriptions.forms import BadDescription
+from vipo_device.descriptions.reader import read, write_description
+from vipo_device.descriptions.shacl import check_rdf, check_reading
+from vipo_device.protocol.description import Description
 
 OWN = "vipo/v1/dev/m1/down/a"
 

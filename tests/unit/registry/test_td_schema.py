@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from registry import td_schema
 from registry.demo.devices import describe_devices
-from registry.describing import write_description
-from registry.rdf_text import BadDescription
+from vipo_device.descriptions import td_schema
+from vipo_device.descriptions.forms import BadDescription
+from vipo_device.descriptions.reader import write_description
 
 THINGS = [json.loads(write_description(device, "td")) for device in describe_devices()]
 WORDS = [

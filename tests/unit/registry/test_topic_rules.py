@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from registry.topic_rules import find_topic_fault, is_own
+from vipo_device.protocol.topics import find_topic_fault, is_own
 
 HOSTILE = (
     *("vipo/v1/dev/m2/down/a", "vipo/v1/dev/m1/up/state", "vipo/v1/site/hall/stop", "vipo/v1/srv/status", "vipo"),

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from registry.capability import DeviceState, Pose
-from registry.wire import (
+from vipo_device.protocol.description import DeviceState, Pose
+from vipo_device.protocol.messages import (
     AckMessage,
     BadMessage,
     Presence,

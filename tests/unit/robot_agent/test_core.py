@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
-from registry.describing import read_description
-from registry.grid_message import join_parts, read_grid_part
-from registry.wire import MAX_BYTES
+from registry.floorplan.map_message import join_parts, read_grid_part
 from tests.unit.robot_agent.agent import BadConfig, Core, Facts, Go, Halt, Told, describe, make_config, write_grid
 from tests.unit.robot_agent.agent import Grid as RobotGrid
+from vipo_device.descriptions.reader import read_description
+from vipo_device.protocol.messages import MAX_BYTES
 
 
 class Bench:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from registry.capability import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
-from registry.floor import Grid
+from registry.floorplan.plan import Grid
 from simulation.world import Scene
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
 
 WIDTH, HEIGHT, CELL_M = 240, 160, 0.05
 GOODS = (ParameterSpec("object", "object"), ParameterSpec("value", "number"))

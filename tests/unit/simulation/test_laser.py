@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from registry.capability import Pose
-from registry.floor import FREE, OCCUPIED, UNKNOWN, Grid, cells_array
-from registry.grid_message import join_parts, read_grid_part
-from registry.wire import MAX_BYTES
+from registry.floorplan.map_message import join_parts, read_grid_part
+from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, Grid, cells_array
 from simulation.laser import RANGE_M, LaserMap, Mapper
+from vipo_device.protocol.description import Pose
+from vipo_device.protocol.messages import MAX_BYTES
 
 SIDE = 100
 

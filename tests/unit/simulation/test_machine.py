@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from registry.capability import Description
 from simulation.actors import Beginning, Machine
 from simulation.actors.machine import first_stock
 from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
 from tests.unit.simulation.stage_set import BENCH, OVEN, ROLLERS, SHELF
+from vipo_device.protocol.description import Description
 
 
 class Watched:

@@ -14,7 +14,7 @@ MIXER = DEVICES / "paintMixer02.ttl"
 
 def test_without_a_database_it_is_said_what_to_set(tmp_path: Path) -> None:
     environment = {**os.environ, "VIPO_STATE_DIR": str(tmp_path), "VIPO_MODE": "embedded"}
-    command = [sys.executable, "-m", "vipo_site.cli", "devices"]
+    command = [sys.executable, "-m", "vipo_site.cli.main", "devices"]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
@@ -26,7 +26,7 @@ def test_without_a_database_it_is_said_what_to_set(tmp_path: Path) -> None:
 def test_a_setting_that_is_missing_is_named(tmp_path: Path) -> None:
     environment = {**os.environ, "VIPO_STATE_DIR": str(tmp_path), "VIPO_MODE": "served"}
     environment.pop("VIPO_SECRET_KEY", None)
-    command = [sys.executable, "-m", "vipo_site.cli", "devices"]
+    command = [sys.executable, "-m", "vipo_site.cli.main", "devices"]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120)
     told = "VIPO_SECRET_KEY is not set; the served mode needs it (see docs/operations.md).\n"
     assert (done.returncode, done.stdout, done.stderr) == (2, "", told)
@@ -34,7 +34,7 @@ def test_a_setting_that_is_missing_is_named(tmp_path: Path) -> None:
 
 def test_whoever_stops_reading_hears_no_complaint() -> None:
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
-    command = [sys.executable, "-m", "vipo_site.cli", "describe", str(MIXER)]
+    command = [sys.executable, "-m", "vipo_site.cli.main", "describe", str(MIXER)]
     for reader, code, told in ((os.pipe(), 0, ""), (None, 2, "This cannot be done: No space left on device.\n")):
         out = os.open("/dev/full", os.O_WRONLY) if reader is None else reader[1]
         if reader is not None:

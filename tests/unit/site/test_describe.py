@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from registry.demo.devices import DEVICES, describe_devices
-from registry.describing import read
-from registry.rdf_text import FORMS
-from vipo_site.cli import main
+from vipo_device.descriptions.forms import FORMS
+from vipo_device.descriptions.reader import read
+from vipo_site.cli.main import main
 
 MIXER = DEVICES / "paintMixer02.ttl"
 FIGURE_5 = Path(__file__).parents[2] / "fixtures" / "figure-5.txt"

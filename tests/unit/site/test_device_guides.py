@@ -8,13 +8,13 @@ import shlex
 from pathlib import Path
 
 from connectors.management.commands.vda5050 import Command
-from registry import wire
 from tests.unit.robot_agent.agent import make_config
+from vipo_device.protocol import messages
 
 ROOT = Path(__file__).resolve().parents[3]
 DOCS = ROOT / "docs"
 MESSAGE = re.compile(r"^(vipo/v1/\S+) {2,}(\{.*\})$", re.MULTILINE)
-PARSERS = {"presence": wire.parse_presence, "state": wire.parse_state, "ack": wire.parse_ack}
+PARSERS = {"presence": messages.parse_presence, "state": messages.parse_state, "ack": messages.parse_ack}
 
 
 def blocks(page: str, form: str) -> list[str]:
@@ -24,20 +24,20 @@ def blocks(page: str, form: str) -> list[str]:
 def test_the_protocols_messages_are_read_as_they_stand() -> None:
     kinds = []
     for topic, payload in MESSAGE.findall("\n".join(blocks("protocol.md", "json"))):
-        body = wire.parse_json(payload.replace("…", "0").encode())
-        device = wire.read_up_topic(topic)
+        body = messages.parse_json(payload.replace("…", "0").encode())
+        device = messages.read_up_topic(topic)
         if device is not None and device[1] in PARSERS:
             PARSERS[device[1]](payload.encode())
         elif "/down/" in topic:
-            assert json.loads(wire.command_payload(body["id"], body["v"], body["ttl_s"])) == body
+            assert json.loads(messages.command_payload(body["id"], body["v"], body["ttl_s"])) == body
         kinds.append(device[1] if device else topic.split("/")[-2])
     assert set(kinds) >= {"presence", "ack", "down", "map", "srv"}
 
 
 def test_the_protocols_states_and_answers_without_a_topic_are_read() -> None:
     lines = [line for block in blocks("protocol.md", "json") for line in block.splitlines() if line.startswith('{"')]
-    states = [wire.parse_state(line.encode()) for line in lines if '"seq"' in line]
-    answers = [wire.parse_ack(line.encode()) for line in lines if '"st"' in line]
+    states = [messages.parse_state(line.encode()) for line in lines if '"seq"' in line]
+    answers = [messages.parse_ack(line.encode()) for line in lines if '"st"' in line]
     assert [state.seq for state in states] == [31]
     assert [answer.status for answer in answers] == ["REJECTED", "DONE"]
 

@@ -14,11 +14,11 @@ import registry.shapes
 import vipo_site.openapi
 from editor.language import compile_document, compiled_to_json
 from editor.shapes import CompiledShape, DocumentShape
-from execution.rehearsal import rehearse_program
+from execution.rehearsals.rehearsal import rehearse_program
 from execution.shapes import RehearsalResultShape
-from vipo_site.api import api
-from vipo_site.openapi import describe
-from vipo_site.program_file import read_program_file
+from vipo_site.cli.program_file import read_program_file
+from vipo_site.http.api import api
+from vipo_site.http.openapi import describe
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -63,7 +63,7 @@ def test_every_answer_has_a_shape():
 
 
 def test_no_two_shapes_have_one_name():
-    modules = (registry.shapes, editor.api, editor.shapes, execution.shapes, vipo_site.openapi)
+    modules = (registry.api.shapes, editor.api, editor.shapes, execution.shapes, vipo_site.http.openapi)
     shapes = {s for m in modules for s in vars(m).values() if isinstance(s, type) and issubclass(s, Schema)}
     assert [name for name, count in Counter(shape.__name__ for shape in shapes).items() if count > 1] == []
 

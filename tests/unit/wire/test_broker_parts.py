@@ -8,8 +8,8 @@ from amqtt.broker import Broker
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vipo_site.broker_outbox import Letter, Outbox, Room
-from vipo_site.broker_topics import KeptTopics, Subscriptions
+from vipo_site.embedded_broker.client_queue import Letter, Outbox, Room
+from vipo_site.embedded_broker.subscriptions import KeptTopics, Subscriptions
 
 LEVELS = st.lists(st.sampled_from(["a", "b", "", "$x"]), min_size=1, max_size=4)
 FILTERS = st.lists(st.sampled_from(["a", "b", "", "+", "$x"]), min_size=1, max_size=4)

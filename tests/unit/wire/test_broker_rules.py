@@ -7,8 +7,8 @@ import hashlib
 
 import pytest
 
-from registry.credentials import broker_hash
-from vipo_site.doorkeeping import may_publish, may_subscribe
+from vipo_device.protocol.credentials import broker_hash
+from vipo_site.embedded_broker.access_control import may_publish, may_subscribe
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from execution.intake import COMPLAINT_EVERY_S, Complaints, Entry, Inbox, TokenBucket
-from registry.mqtt import Message
+from execution.gateway.queue import COMPLAINT_EVERY_S, Complaints, Entry, Inbox, TokenBucket
+from vipo_device.protocol.mqtt_client import Message
 
 
 def entry(device: str, kind: str, payload: bytes = b"") -> Entry:

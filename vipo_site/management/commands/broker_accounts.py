@@ -11,8 +11,8 @@ from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from registry import services
-from registry.account_file import account_file
-from registry.credentials import broker_hash
+from registry.broker.mosquitto_file import account_file
+from vipo_device.protocol.credentials import broker_hash
 
 
 class Command(BaseCommand):

@@ -9,8 +9,8 @@ from typing import Any
 from django.conf import settings
 from django.core.management.base import BaseCommand
 
-from vipo_site.api import api
-from vipo_site.openapi import describe
+from vipo_site.http.api import api
+from vipo_site.http.openapi import describe
 
 
 class Command(BaseCommand):

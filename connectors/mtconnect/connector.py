@@ -1,0 +1,193 @@
+"""The connector: an agent's machines, each a device of VIPO's that says how it is."""
+
+from __future__ import annotations
+
+import logging
+from collections import defaultdict
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from datetime import datetime
+from queue import Empty, Full, Queue
+from threading import Event, Thread
+from time import monotonic
+
+from connectors.mtconnect.agent import Agent
+from connectors.mtconnect.condition import MachineCondition
+from connectors.mtconnect.description import Portrait, Stand, portray
+from connectors.mtconnect.documents import BadDocument, Machine, Observation
+from connectors.mtconnect.follower import Follower, Gone, Heard, Probed, Said
+from vipo_device.kit.connection import CameIn, Commanded, ConnectionMaker, DeviceLine, LineEvent
+from vipo_device.protocol.messages import AckMessage, Told
+
+log = logging.getLogger(__name__)
+TICK_S = 0.25
+PATIENCE_S = 5.0
+MOST_WAITING = 1_000
+MOST_DEVICES = 200
+GAP_M = 1.0
+ONLY_READ = "This machine is only read over MTConnect; it cannot be told anything."
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """What all machines of a connector share; the first one stands at `stand`, the others in a row beside it."""
+
+    site: str
+    stand: Stand
+    interval_s: float
+    connect: ConnectionMaker
+    clock: Callable[[], datetime]
+
+
+class FollowerEnded(RuntimeError):
+    """The thread that asks the agent has ended by a fault: better no connector than one that tells old values."""
+
+
+class Member:
+    """One machine: its device's connection, and what is known of it."""
+
+    def __init__(self, portrait: Portrait, setting: Setting, boot: int, hear: Callable[[LineEvent], None]) -> None:
+        self.id = portrait.description.id
+        self._portrait, self._condition = portrait, MachineCondition(portrait)
+        self._line = DeviceLine(self.id, setting.site, boot, hear)
+        self._is_known = self._online = False
+        self._line.connect(setting.connect)
+
+    def describe(self, portrait: Portrait) -> None:
+        """Take in what the machine tells from now on; how it is follows."""
+        if portrait != self._portrait:
+            self._portrait, self._condition = portrait, MachineCondition(portrait)
+            self.introduce()
+
+    def take(self, said: list[Observation], now_s: float, *, is_whole: bool) -> None:
+        """Take in what the agent said of the machine; what is not whole is of no use before that was."""
+        if is_whole:
+            self._condition.forget()
+            self._is_known = True
+        self._condition.take(said)
+        self.speak(now_s)
+
+    def lose(self) -> None:
+        """Know nothing of the machine any more: its agent is away, or does not name it."""
+        self._condition.forget()
+        self._is_known = False
+        self._be_present()
+
+    def introduce(self) -> None:
+        """Say to the server who the machine is."""
+        self._line.introduce(self._portrait.turtle, online=self._online)
+
+    def answer(self, told: Told) -> None:
+        """Refuse what the machine is told."""
+        self._line.answer(AckMessage(told.command, "REJECTED", ONLY_READ))
+
+    def speak(self, now_s: float) -> None:
+        """Say how the machine is, if that is due."""
+        self._be_present()
+        if self._online:
+            self._line.report(self._condition.look, now_s)
+
+    def leave(self) -> None:
+        """Say goodbye to VIPO."""
+        self._line.close()
+
+    def _be_present(self) -> None:
+        online = self._is_known and self._condition.is_available
+        if online != self._online:
+            self._online = online
+            self._line.say_presence(online=online)
+
+
+class Plant:
+    """Threads that listen only put into the inbox; everything else happens on the thread of `run`."""
+
+    def __init__(self, agent: Agent, setting: Setting) -> None:
+        self._agent, self._setting = agent, setting
+        self._inbox: Queue[Heard | LineEvent] = Queue(MOST_WAITING)
+        self._members: dict[str, Member] = {}
+        self._by_device: dict[str, Member] = {}
+        self._boot = int(setting.clock().timestamp())
+
+    def run(self, stopping: Event) -> None:
+        """Serve until `stopping` is set; then say that the machines are not to be seen any more."""
+        follower = Follower(self._agent, self._setting.interval_s, self._inbox.put)
+        thread = Thread(target=follower.run, args=(stopping,), name="follower", daemon=True)
+        thread.start()
+        try:
+            self._serve(stopping, thread)
+        finally:
+            with ThreadPoolExecutor(max_workers=max(1, len(self._members))) as pool:
+                list(pool.map(Member.leave, self._members.values()))
+
+    def _serve(self, stopping: Event, follower: Thread) -> None:
+        ticked_s = 0.0
+        while not stopping.is_set():
+            if not follower.is_alive():
+                raise FollowerEnded("Nothing follows the agent any more; why stands above. Start the connector anew.")
+            with suppress(Empty):
+                self._take(self._inbox.get(timeout=TICK_S))
+            if (now := monotonic()) - ticked_s >= TICK_S:
+                ticked_s = now
+                for member in self._members.values():
+                    member.speak(now)
+
+    def _take(self, event: Heard | LineEvent) -> None:
+        match event:
+            case Probed(machines=machines):
+                self._meet(machines)
+            case Said():
+                self._tell(event)
+            case Gone():
+                for member in self._members.values():
+                    member.lose()
+            case CameIn(device=device):
+                self._by_device[device].introduce()
+            case Commanded(device=device, told=told):
+                self._by_device[device].answer(told)
+
+    def _meet(self, machines: tuple[Machine, ...]) -> None:
+        """Make devices of machines that are new, describe the others anew; who is not named any more goes offline."""
+        named = {machine.uuid: machine for machine in machines}
+        for uuid, member in self._members.items():
+            if uuid not in named:
+                member.lose()
+        for place, (uuid, machine) in enumerate(named.items()):
+            try:
+                portrait = portray(machine, self._setting.site, self._stand(place))
+            except BadDocument as error:
+                log.warning("%s", error)
+                continue
+            self._welcome(uuid, portrait)
+
+    def _welcome(self, uuid: str, portrait: Portrait) -> None:
+        if portrait.left_out:
+            device, most = portrait.description.id, len(portrait.readings)
+            log.warning("%s tells more than a device can: %d shown, %d not.", device, most, portrait.left_out)
+        if uuid in self._members:
+            self._members[uuid].describe(portrait)
+            return
+        if len(self._members) >= MOST_DEVICES:
+            log.warning("%s is one machine too many: a connector serves %d.", portrait.description.id, MOST_DEVICES)
+            return
+        member = Member(portrait, self._setting, self._boot, self._hear_line)
+        self._members[uuid] = self._by_device[member.id] = member
+
+    def _stand(self, place: int) -> Stand:
+        stand = self._setting.stand
+        pose = replace(stand.pose, x=stand.pose.x + place * (stand.size.x + GAP_M))
+        return Stand(pose, stand.size)
+
+    def _tell(self, said: Said) -> None:
+        by_machine: defaultdict[str, list[Observation]] = defaultdict(list)
+        for observation in said.observations:
+            by_machine[observation.machine].append(observation)
+        now = monotonic()
+        for uuid, member in self._members.items():
+            if said.is_whole or uuid in by_machine:
+                member.take(by_machine[uuid], now, is_whole=said.is_whole)
+
+    def _hear_line(self, event: LineEvent) -> None:
+        with suppress(Full):
+            self._inbox.put(event, timeout=PATIENCE_S)

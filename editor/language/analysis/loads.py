@@ -1,0 +1,326 @@
+"""What each robot carries, followed along all ways through the program.
+
+For every role and kind of object two numbers are kept: how many it carries at least and at most. Where ways meet
+the range widens; in a loop, and after a failure, what changed is not known any more and nothing is said of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from editor.language.analysis.memo import Memory, Told
+from editor.language.expressions.values import is_number
+from editor.language.messages.diagnostics import Problem
+from editor.language.messages.phrases import Argument
+from editor.language.plan.instructions import Constant, Expression, Variable
+from editor.language.tree import nodes as n
+from editor.language.tree.traversal import walk
+from editor.language.tree.variables import set_by
+
+ANY = (0, None)
+Range = tuple[int, int | None]
+"""At least, at most; None: nobody can tell."""
+Carried = Mapping[tuple[str, str], Range]
+"""(role, object) → how many; what is not in it is not carried."""
+MOST_CALLS = 500
+"""Function calls that are followed; beyond them nothing is known, which is better than slow."""
+DEEPEST_CALL = 12
+_EVERYTHING = "*"
+
+
+@dataclass(slots=True)
+class _Follower:
+    """The walk; `silent` while a loop is walked only to see what it changes."""
+
+    functions: Mapping[str, n.Function]
+    capacity: Callable[[str], int]
+    robot: Callable[[str], Argument]
+    found: list[tuple[Problem, int]] = field(default_factory=list)
+    silent: bool = False
+    calls: int = 0
+    depth: int = 0
+    breaks: list[list[Carried]] = field(default_factory=list)
+    """For each loop around, innermost last, what is carried at the steps that leave it."""
+    returns: list[list[Carried]] = field(default_factory=list)
+    """The same for the functions being followed."""
+    known: Memory | None = None
+    met: int = 0
+    """Calls that were met, also those that were not followed."""
+
+    def block(self, block: n.Block, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
+        """Return what is carried after a block; None where its end is never reached."""
+        after: Carried | None = carried
+        known = None if self.silent or self.depth else self.known
+        for node in block:
+            follow = _FOLLOW.get(node.__class__)
+            if follow is None:
+                continue
+            if after is None:
+                break
+            if known is None or node.__class__ not in n.COMPOSITES:
+                after = follow(self, node, after, values)
+            else:
+                after = self._followed(node, after, known)
+        return after
+
+    def _followed(self, node: n.Node, carried: Carried, memory: Memory) -> Carried | None:
+        """Follow a step outside of functions that holds others; what depends on nothing else is remembered."""
+        known: tuple[Carried | None, Told] | None = memory.recall(node, carried)
+        if known is None:
+            told, ways_out = len(self.found), (self.met, len(self.breaks[-1]) if self.breaks else 0)
+            after = _FOLLOW[type(node)](self, node, carried, {})
+            known = after, tuple(self.found[told:])
+            if ways_out == (self.met, len(self.breaks[-1]) if self.breaks else 0):
+                memory.keep(node, known, carried)
+        else:
+            self.found.extend(known[1])
+        return known[0]
+
+    def tell(self, node: n.Pick | n.Drop, code: str, args: dict[str, Argument]) -> None:
+        if not self.silent:
+            problem = Problem(code, node.step, "quantity", {"robot": self.robot(node.role), **args})
+            self.found.append((problem, id(node)))
+
+
+def _known(expression: Expression, values: Mapping[str, Expression]) -> object:
+    """Return the value that an expression has here, None when it depends on the run."""
+    if isinstance(expression, Variable):
+        expression = values.get(expression.name, expression)
+    return expression.value if isinstance(expression, Constant) else None
+
+
+def _load(
+    node: n.Pick | n.Drop, carried: Carried, values: Mapping[str, Expression]
+) -> tuple[tuple[str, str], int] | None:
+    """Return what is loaded and how many, None when that depends on the run or is wrong anyway."""
+    thing, quantity = _known(node.object, values), _known(node.quantity, values)
+    if not isinstance(thing, str) or not is_number(quantity) or quantity <= 0 or quantity != int(quantity):
+        return None
+    return (node.role, thing), int(quantity)
+
+
+def _pick(follower: _Follower, node: n.Pick, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    load = _load(node, carried, values)
+    if load is None:
+        return _forget(carried, frozenset({node.role}))
+    key, quantity = load
+    capacity = follower.capacity(node.role)
+    if capacity and quantity > capacity:  # told already; what is really carried cannot be known
+        return _forget(carried, frozenset({node.role}))
+    mine = [(thing, count) for (role, thing), count in carried.items() if role == node.role and thing != _EVERYTHING]
+    least, most = _total([count for _, count in mine])
+    if capacity:
+        if least + quantity > capacity:
+            load_text = ", ".join(f"{count[0]} {thing}" for thing, count in sorted(mine) if count[0])
+            follower.tell(node, "carrying_too_much", {"carried": load_text, "capacity": capacity})
+        elif most is not None and most + quantity > capacity and (node.role, _EVERYTHING) not in carried:
+            follower.tell(node, "may_carry_too_much", {"capacity": capacity})
+    before = _count(carried, key)
+    after = (min(before[0] + quantity, capacity or quantity), None if before[1] is None else before[1] + quantity)
+    return {**carried, key: after}
+
+
+def _total(counts: Iterable[Range]) -> Range:
+    """Return how many there are in all."""
+    least, most = 0, 0
+    known = True
+    for count in counts:
+        least += count[0]
+        most += count[1] or 0
+        known = known and count[1] is not None
+    return least, most if known else None
+
+
+def _drop(follower: _Follower, node: n.Drop, carried: Carried, values: Mapping[str, Expression]) -> Carried:
+    load = _load(node, carried, values)
+    if load is None:
+        return _forget(carried, frozenset({node.role}))
+    key, quantity = load
+    before = _count(carried, key)
+    if before[1] is not None:
+        args: dict[str, Argument] = {"object": key[1], "quantity": quantity, "carried": before[1]}
+        if before[1] < quantity:
+            follower.tell(node, "drops_nothing", args)
+        elif before[0] < quantity:
+            follower.tell(node, "may_drop_nothing", args)
+    after = (max(before[0] - quantity, 0), None if before[1] is None else max(before[1] - quantity, 0))
+    return {**carried, key: after}
+
+
+def _if(follower: _Follower, node: n.If, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
+    return _either(follower.block(node.then, carried, values), follower.block(node.otherwise, carried, values))
+
+
+def _loop(
+    follower: _Follower, node: n.While | n.Repeat | n.ForEach, carried: Carried, values: Mapping[str, Expression]
+) -> Carried | None:
+    """Walk the body once in silence to see what it changes, then with what is known in every round."""
+    if isinstance(node, n.ForEach):
+        values = {name: value for name, value in values.items() if name != node.variable}
+    if follower.silent:
+        return _forget(carried, _roles(follower, node.body))
+    follower.silent = True
+    once, _ = _round(follower, node.body, carried, values)
+    follower.silent = False
+    entry = carried if once is None else _in_every_round(carried, once)
+    after, ways_out = _round(follower, node.body, entry, values)
+    over = _either(entry, after)
+    for way_out in ways_out:
+        over = _either(over, way_out)
+    return over
+
+
+def _in_every_round(before: Carried, after: Carried) -> Carried:
+    """Return what is known at the beginning of a round, given what one round changes."""
+    steady = {key: count if _count(after, key) == count else ANY for key, count in before.items()}
+    grown = {key: ANY for key, count in after.items() if key not in before and count != (0, 0)}
+    return {**steady, **grown}
+
+
+def _round(
+    follower: _Follower, body: n.Block, carried: Carried, values: Mapping[str, Expression]
+) -> tuple[Carried | None, list[Carried]]:
+    """Return what is carried after one round, and where a step leaves the loop."""
+    follower.breaks.append([])
+    after = follower.block(body, carried, values)
+    return after, follower.breaks.pop()
+
+
+def _try(follower: _Follower, node: n.Try, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
+    """The catch begins anywhere in the body, the final part anywhere in both; it changes every way out."""
+    ways_out = [*follower.breaks[-1:], *follower.returns[-1:]]
+    marks = [len(way_out) for way_out in ways_out]
+    after = follower.block(node.body, carried, values)
+    failed = _forget(carried, _roles(follower, node.body))
+    if node.catches:
+        after = _either(after, follower.block(node.catch, failed, values))
+    if not node.final:
+        return after
+    roles = _roles(follower, node.final)
+    for way_out, mark in zip(ways_out, marks, strict=True):
+        way_out[mark:] = [_forget(left, roles) for left in way_out[mark:]]
+    final = follower.block(node.final, _forget(failed, _roles(follower, node.catch)), values)
+    if after is None or final is None:
+        return None
+    kept = {key: count for key, count in after.items() if key[0] not in roles}
+    return {**kept, **{key: count for key, count in final.items() if key[0] in roles}}
+
+
+def _parallel(
+    follower: _Follower, node: n.Parallel, carried: Carried, values: Mapping[str, Expression]
+) -> Carried | None:
+    result = dict(carried)
+    for branch in node.branches:
+        after = follower.block(branch, carried, values)
+        if after is None:
+            return None
+        result.update({key: count for key, count in after.items() if carried.get(key) != count})
+    return result
+
+
+def _call(follower: _Follower, node: n.Call, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
+    follower.met += 1
+    function = follower.functions.get(node.function)
+    if function is None:
+        return carried
+    if follower.calls >= MOST_CALLS or follower.depth >= DEEPEST_CALL:
+        return _forget(carried, frozenset(role for role, _ in carried) | _roles(follower, function.body))
+    given = {name: values.get(v.name, v) if isinstance(v, Variable) else v for name, v in node.arguments}
+    defaults = {p.name: Constant(p.default) for p in function.parameters if p.default is not None}
+    changed = {set_by(inner) for inner in walk(function.body)}
+    known = {name: value for name, value in {**defaults, **given}.items() if name not in changed}
+    follower.calls += 1
+    follower.depth += 1
+    breaks, follower.breaks = follower.breaks, []
+    follower.returns.append([])
+    result = follower.block(function.body, carried, known)
+    for returned in follower.returns.pop():
+        result = _either(result, returned)
+    follower.breaks = breaks
+    follower.depth -= 1
+    return result
+
+
+def _break(follower: _Follower, node: n.Break, carried: Carried, values: Mapping[str, Expression]) -> None:
+    if follower.breaks:
+        follower.breaks[-1].append(carried)
+
+
+def _return(follower: _Follower, node: n.Return, carried: Carried, values: Mapping[str, Expression]) -> None:
+    if follower.returns:
+        follower.returns[-1].append(carried)
+
+
+def _end(follower: _Follower, node: n.End, carried: Carried, values: Mapping[str, Expression]) -> None:
+    """Nothing follows."""
+
+
+def _roles(follower: _Follower, block: n.Block) -> frozenset[str]:
+    """Return the roles that may carry something else after the block; a call may change every one."""
+    nodes = walk(block)
+    roles = {node.role for node in nodes if isinstance(node, n.LOADS)}
+    if any(node.__class__ is n.Call for node in nodes):
+        bodies = (function.body for function in follower.functions.values())
+        roles |= {node.role for body in bodies for node in walk(body) if isinstance(node, n.LOADS)}
+    return frozenset(roles)
+
+
+_FOLLOW: Mapping[type[n.Node], Callable[..., Carried | None]] = {
+    n.Pick: _pick,
+    n.Drop: _drop,
+    n.If: _if,
+    n.While: _loop,
+    n.Repeat: _loop,
+    n.ForEach: _loop,
+    n.Break: _break,
+    n.Return: _return,
+    n.End: _end,
+    n.Try: _try,
+    n.Parallel: _parallel,
+    n.Call: _call,
+}
+
+
+def _count(carried: Carried, key: tuple[str, str]) -> Range:
+    """Return how many of an object a robot carries."""
+    return carried.get(key, ANY if (key[0], _EVERYTHING) in carried else (0, 0))
+
+
+def _forget(carried: Carried, roles: frozenset[str]) -> Carried:
+    """Return what is known when anything may have happened to these roles' loads."""
+    kept = {key: count for key, count in carried.items() if key[0] not in roles}
+    known = {key: ANY for key in carried if key[0] in roles}
+    return {**kept, **known, **{(role, _EVERYTHING): ANY for role in roles}}
+
+
+def _either(first: Carried | None, second: Carried | None) -> Carried | None:
+    """Return what holds after one or the other; a way that leads nowhere has no say."""
+    if first is second or second is None:
+        return first
+    if first is None:
+        return second
+    merged: dict[tuple[str, str], Range] = {}
+    for key in {**first, **second}:
+        a, b = _count(first, key), _count(second, key)
+        merged[key] = (min(a[0], b[0]), None if a[1] is None or b[1] is None else max(a[1], b[1]))
+    return merged
+
+
+def follow_loads(
+    tree: n.Tree, capacity: Callable[[str], int], robot: Callable[[str], Argument], known: Memory | None = None
+) -> list[tuple[Problem, int]]:
+    """Return what is wrong with what robots carry, each with its node's identity.
+
+    `capacity` tells how many objects a role's robot holds (0: not known), `robot` what to call it; `known` has what
+    was found at the last look.
+    """
+    functions = {function.method: function for function in tree.functions}
+    follower = _Follower(functions, capacity, robot, known=known)
+    if known is not None:
+        drivers = frozenset(node.role for f in tree.functions for node in walk(f.body) if isinstance(node, n.LOADS))
+        known.begin((drivers, [(role.name, capacity(role.name), robot(role.name)) for role in tree.roles]))
+    follower.block(tree.body, {}, {})
+    for event in tree.events:
+        follower.block(event.body, _forget({}, frozenset(role.name for role in tree.roles)), {})
+    return follower.found

@@ -1,0 +1,1 @@
+"""What is wrong with a program, or odd about it, by subject."""

@@ -1,0 +1,354 @@
+"""The checks: what is wrong with a program, or odd about it; one small function for each construct."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import cast
+
+from editor.language.analysis.loads import follow_loads
+from editor.language.analysis.memo import Memories, Told
+from editor.language.checks.context import Context
+from editor.language.checks.devices import check_load_place, check_place, check_role, usable_device
+from editor.language.checks.floor import check_floor
+from editor.language.checks.flow import check_flow, check_leaving
+from editor.language.checks.library import check_library
+from editor.language.checks.parallel import check_branches, check_parallel
+from editor.language.checks.values import check_argument, check_condition, check_quantity, check_value, has_missing
+from editor.language.checks.variables import check_variables
+from editor.language.document.outline import PROGRAM, Outline
+from editor.language.expressions.typing import NUMBER, SECONDS, TEXT, Kind, constant_value, plain_type
+from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
+from editor.language.messages.phrases import Options, Span
+from editor.language.plan.instructions import Constant
+from editor.language.reading.document import Reading
+from editor.language.site.surroundings import Surroundings, what_programs_see
+from editor.language.tree import nodes as n
+from editor.language.tree.scopes import program_variables
+from editor.language.tree.traversal import needed_of_roles, walk
+from editor.language.tree.variable_types import kinds_of_function, kinds_of_program
+from editor.language.tree.zones import read_zones
+from vipo_device.protocol.description import ParameterSpec
+
+
+def check(
+    reading: Reading,
+    tree: n.Tree,
+    surroundings: Surroundings,
+    document: object = None,
+    memories: Memories | None = None,
+) -> list[tuple[Problem, int]]:
+    """Return the problems of a program, each with the identity of its node (0: none); the order is always the same.
+
+    `tree` is the reading's tree with the moves that were put in, `document` what was read; `memories` have what was
+    found at the last look.
+    """
+    context = Context(tree, surroundings, memories=memories)
+    context.zones = frozenset(zone.id for zone in read_zones(document))
+    found = context.found
+    found.extend((problem, 0) for problem in reading.problems)
+    already = {(problem.step, problem.field) for problem in reading.problems}
+    _check_steps(context)
+    context.found = [
+        (p, key) for p, key in found if not (p.code.startswith("missing") and (p.step, p.field) in already)
+    ]
+    _check_roles(context)
+    check_leaving(context)
+    check_flow(context)
+    check_variables(context)
+    check_parallel(context)
+    check_library(context, document)
+    check_floor(context, document)
+    context.found.extend(follow_loads(tree, context.capacity, context.robot_name, memories.loads if memories else None))
+    _check_left_over(context, reading)
+    return context.found
+
+
+def _check_steps(context: Context) -> None:
+    """Check every step for itself, with what is known where it stands."""
+    tree, site = context.tree, context.surroundings
+    kinds = kinds_of_program(tree, program_variables(tree), site)
+    if context.memories is not None:
+        context.memories.begin_checks(_all_around(context))
+    _check_block(context, PROGRAM, tree.body, kinds)
+    for event in tree.events:
+        _check_block(context, event.step, event.body, kinds)
+        check_condition(context, cast("n.Node", event), event.condition, "condition")  # an event has a step as nodes do
+    for function in tree.functions:
+        context.result = Kind(plain_type(function.result_type), function.result_unit)
+        _check_block(context, function.method, function.body, kinds_of_function(tree, function, kinds, site))
+    context.result = Kind()
+
+
+def _all_around(context: Context) -> object:
+    """Return all that the check of a step looks at beside the step, but for where robots are and other steps."""
+    functions = [(f.id, f.name, replace(f, body=())) for f in context.tree.functions]
+    roles = [(role.id, role) for role in context.tree.roles]
+    return functions, roles, context.zones, what_programs_see(context.surroundings)
+
+
+def _check_block(context: Context, name: str, block: n.Block, kinds: Mapping[str, Kind]) -> None:
+    nodes = context.tree.walked(block)
+    if context.tree.holds(n.ForEach):
+        loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
+        kinds = {name: kind for name, kind in kinds.items() if name not in loops}
+    context.variables = kinds
+    if context.memories is None:
+        for node in nodes:
+            CHECKS[type(node)](context, node)
+        return
+    known = context.memories.of_block(name, (context.variables, context.result))
+    for node in nodes:
+        told: Told | None = known.recall(node)
+        if told is None:
+            before = len(context.found)
+            CHECKS[type(node)](context, node)
+            if not _looks_around(node):
+                known.keep(node, tuple(context.found[before:]))
+        else:
+            context.found.extend(told)
+
+
+_LOOK_AROUND = (n.Call, n.Parallel)
+
+
+def _looks_around(node: n.Node) -> bool:
+    """Tell whether the check of a step looks at other steps, or at where robots are."""
+    return isinstance(node, _LOOK_AROUND) or (isinstance(node, n.Move) and node.to.device is None)
+
+
+def _bodies(tree: n.Tree) -> tuple[n.Block, ...]:
+    return (tree.body, *(function.body for function in tree.functions), *(event.body for event in tree.events))
+
+
+def _move(context: Context, node: n.Move) -> None:
+    if not node.added:
+        check_place(context, node, node.to, "to", "missing_destination")
+
+
+def _pick(context: Context, node: n.Pick) -> None:
+    check_load_place(context, node, gives=True)
+    check_quantity(context, node)
+
+
+def _drop(context: Context, node: n.Drop) -> None:
+    check_load_place(context, node, gives=False)
+    if node.place_field != "target":  # a Pick-and-Drop says what it carries once, with its pick
+        check_quantity(context, node)
+
+
+def _operate(context: Context, node: n.Operate) -> None:
+    device = usable_device(context, node, node.device, "device", "missing_machine")
+    if device is None:
+        return
+    known = Options(tuple(method.name for method in device.methods))
+    if not node.method:
+        fix = None
+        if len(device.methods) == 1:
+            only = device.methods[0].name
+            fix = Fix("choose", node.step, "method", only, {"value": only})
+        context.tell(node, "missing_method", "method", {"device": device.name, "options": known}, fix)
+        return
+    method = device.method(node.method)
+    if method is None:
+        details: TextArguments = {"device": device.name, "method": node.method, "options": known}
+        context.tell(node, "unknown_method", "method", details)
+        return
+    given = dict(node.arguments)
+    for parameter in method.parameters:
+        value = given.pop(parameter.name, n.MISSING)
+        check_argument(context, node, parameter, value, node.method, "missing_argument")
+    options = Options(tuple(parameter.name for parameter in method.parameters))
+    for name in given:
+        details = {"method": node.method, "argument": name, "options": options}
+        fix = Fix("remove", node.step, f"args.{name}", None, {"value": name})
+        context.tell(node, "unknown_argument", f"args.{name}", details, fix)
+
+
+def _wait(context: Context, node: n.Wait) -> None:
+    if has_missing(node.seconds):
+        context.tell(node, "missing_seconds", "duration")
+    else:
+        check_value(context, node, node.seconds, "duration", SECONDS, "The time to wait")
+        _check_time(context, node, node.seconds, "duration", "The time to wait")
+
+
+def _wait_until(context: Context, node: n.WaitUntil) -> None:
+    check_condition(context, node, node.condition, "until")
+    if node.timeout_s is not None:
+        check_value(context, node, node.timeout_s, "timeout", NUMBER, "The time limit")
+        _check_time(context, node, node.timeout_s, "timeout", "The time limit")
+
+
+def _check_time(context: Context, node: n.Node, value: object, field: str, subject: str) -> None:
+    if isinstance(value, Constant) and isinstance(value.value, int | float) and value.value < 0:
+        context.tell(node, "out_of_range", field, {"subject": subject, "range": Span(0, None, "s")})
+
+
+def _if(context: Context, node: n.If) -> None:
+    check_condition(context, node, node.condition, "condition")
+    always = constant_value(node.condition)
+    if always is False:
+        context.tell(node, "never_runs", "condition")
+    elif always is True and node.otherwise:
+        context.tell(node, "always_true", "condition")
+
+
+def _while(context: Context, node: n.While) -> None:
+    check_condition(context, node, node.condition, "condition")
+    if has_missing(node.condition):
+        return
+    if constant_value(node.condition) is False:
+        context.tell(node, "never_runs", "condition")
+
+
+def _try(context: Context, node: n.Try) -> None:
+    """A Try asks for nothing: no kinds mean any, and an empty catch is allowed."""
+
+
+def _parallel(context: Context, node: n.Parallel) -> None:
+    check_branches(context, node)
+
+
+def _only_function(context: Context, node: n.Call) -> Fix | None:
+    """Return the fix that chooses the program's only function, if the call does not stand in it."""
+    if len(context.tree.functions) != 1:
+        return None
+    only = context.tree.functions[0]
+    if any(inner is node for inner in walk(only.body)):
+        return None
+    return Fix("choose", node.step, "function", only.id, {"value": only.name or only.method})
+
+
+def _call(context: Context, node: n.Call) -> None:
+    function = context.functions.get(node.function)
+    if function is None:
+        if not any(p.step == node.step and p.code == "unknown_function" for p, _ in context.found):
+            context.tell(node, "missing_function", "function", fix=_only_function(context, node))
+        return
+    given = dict(node.arguments)
+    for parameter in function.parameters:
+        value = given.get(parameter.name, n.MISSING)
+        kind = parameter.type if parameter.type in {"number", "text", "boolean", "object", "device", "place"} else ""
+        if value != n.MISSING or parameter.default is None:
+            spec = ParameterSpec(parameter.name, kind or "text", parameter.unit)  # type: ignore[arg-type]
+            name = function.name or function.method
+            check_argument(context, node, spec, value, name, "missing_function_argument", typed=bool(kind))
+
+    if node.result and not function.result_type:
+        fix = Fix("remove", node.step, "result", None, {"value": node.result})
+        context.tell(node, "gives_nothing", "result", {"function": function.name or function.method}, fix)
+
+
+def _repeat(context: Context, node: n.Repeat) -> None:
+    if has_missing(node.times):
+        context.tell(node, "missing_times", "times")
+    elif check_value(context, node, node.times, "times", NUMBER, "How many times"):
+        times = constant_value(node.times)
+        if isinstance(times, int | float) and (times < 0 or times != int(times)):
+            context.tell(node, "times_not_whole", "times", fix=fix_value(node.step, "times", max(0, round(times))))
+
+
+def _for_each(context: Context, node: n.ForEach) -> None:
+    if not node.variable:
+        context.tell(node, "missing_variable", "variable")
+    if not node.items or any(map(has_missing, node.items)):
+        context.tell(node, "missing_items", "items")
+    for item in node.items:
+        if not has_missing(item):
+            check_value(context, node, item, "items", Kind(), "A value")
+
+
+def _set(context: Context, node: n.Set) -> None:
+    if not node.variable:
+        context.tell(node, "missing_variable", "variable")
+    if has_missing(node.value):
+        context.tell(node, "missing_value", "value")
+    else:
+        known = context.variables.get(node.variable, Kind())
+        check_value(context, node, node.value, "value", known, "The variable")
+
+
+def _ask(context: Context, node: n.Ask) -> None:
+    if has_missing(node.question):
+        context.tell(node, "missing_question", "question")
+    else:
+        check_value(context, node, node.question, "question", TEXT, "The question")
+    if node.answer.type == "choice" and len(node.answer.options) < 2:
+        context.tell(node, "missing_options", "answer")
+    if node.timeout_s is not None:
+        check_value(context, node, node.timeout_s, "timeout", SECONDS, "The time limit")
+        _check_time(context, node, node.timeout_s, "timeout", "The time limit")
+
+
+def _notify(context: Context, node: n.Notify) -> None:
+    if has_missing(node.message):
+        context.tell(node, "missing_message", "message")
+    else:
+        check_value(context, node, node.message, "message", TEXT, "The message")
+
+
+def _return(context: Context, node: n.Return) -> None:
+    if node.value is not None:
+        if has_missing(node.value):
+            context.tell(node, "missing_value", "value")
+        else:
+            check_value(context, node, node.value, "value", context.result, "The result")
+
+
+def _leave(context: Context, node: n.End | n.Break) -> None:
+    """What these leave is checked for all of them at once."""
+
+
+CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
+    n.Move: _move,
+    n.Pick: _pick,
+    n.Drop: _drop,
+    n.Operate: _operate,
+    n.Wait: _wait,
+    n.WaitUntil: _wait_until,
+    n.If: _if,
+    n.While: _while,
+    n.Parallel: _parallel,
+    n.Try: _try,
+    n.Call: _call,
+    n.Repeat: _repeat,
+    n.ForEach: _for_each,
+    n.Set: _set,
+    n.Ask: _ask,
+    n.Notify: _notify,
+    n.End: _leave,
+    n.Return: _return,
+    n.Break: _leave,
+}
+
+
+def _check_roles(context: Context) -> None:
+    """Check every robot at the first step that uses it."""
+    tree = context.tree
+    needed = needed_of_roles(tree, tree.functions)
+    first: dict[str, n.Node] = {}
+    for block in _bodies(tree):
+        for node in tree.walked(block):
+            if isinstance(node, n.DRIVES) and node.role not in first:
+                first[node.role] = node
+    for role in tree.roles:
+        check_role(context, first[role.name], role, needed[role.name])
+
+
+def _check_left_over(context: Context, reading: Reading) -> None:
+    outline = reading.outline
+    if not context.tree.body:
+        context.found.append((Problem("empty_program"), 0))
+    for step in outline.drafts:
+        context.found.append((_left_over(outline, step), 0))
+    for step in outline.unknown:
+        context.found.append((Problem("unknown_kind", step, "kind", fix=Fix("delete_step", step, "delete", None)), 0))
+
+
+def _left_over(outline: Outline, step: str) -> Problem:
+    """Return what to say of a step that is no part of the program; one that is joined to nothing may be joined."""
+    if step in outline.too_deep:
+        return Problem("too_deep", step, "place", fix=Fix("delete_step", step, "delete", None))
+    branch = "events" if outline.kinds[step] == "on_event" else "body"
+    return Problem("draft", step, "place", fix=Fix("join_at_end", step, "place", [PROGRAM, branch]))

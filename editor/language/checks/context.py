@@ -1,0 +1,99 @@
+"""What the checks share: the tree, the site, and the problems found so far."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from editor.language.analysis.memo import Memories
+from editor.language.expressions.typing import UNKNOWN_KIND, Kind
+from editor.language.messages.diagnostics import Fix, Problem, TextArguments
+from editor.language.messages.phrases import Driver, Robot
+from editor.language.site.surroundings import DeviceFacts, Surroundings
+from editor.language.tree import nodes as n
+from vipo_device.protocol.description import Description
+
+_NUMBER_AT_THE_END = re.compile(r"[\s_-]*\d+$")
+
+
+@dataclass(slots=True)
+class Context:
+    """One checking of one program."""
+
+    tree: n.Tree
+    surroundings: Surroundings
+    variables: Mapping[str, Kind] = field(default_factory=dict)
+    """What is known of the parameters and variables that can be seen in the block being checked."""
+    result: Kind = UNKNOWN_KIND
+    """What the function being checked gives back."""
+    zones: frozenset[str] = frozenset()
+    """The ids of the zones that the document has."""
+    found: list[tuple[Problem, int]] = field(default_factory=list)
+    functions: Mapping[str, n.Function] = field(init=False)
+    roles: Mapping[str, n.Role] = field(init=False)
+    memories: Memories | None = None
+    """What was found at the last look."""
+    stations: dict[tuple[str, str], tuple[n.Point | None, ...]] = field(default_factory=dict)
+    """Where each robot of a role would stand to serve a device, as far as it was asked for."""
+    _robots: dict[str, tuple[Description, ...]] = field(default_factory=dict)
+    _names: dict[str, Robot] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.functions = {function.method: function for function in self.tree.functions}
+        self.roles = {role.name: role for role in self.tree.roles}
+
+    def tell(
+        self, node: n.Node, code: str, field_name: str, args: TextArguments | None = None, fix: Fix | None = None
+    ) -> None:
+        """Note a problem with a field of a node's step."""
+        self.found.append((Problem(code, node.step, field_name, args or {}, fix), id(node)))
+
+    def tell_step(
+        self, step: str, code: str, field_name: str, args: TextArguments | None = None, fix: Fix | None = None
+    ) -> None:
+        """Note a problem with a step that has no node of its own."""
+        self.found.append((Problem(code, step, field_name, args or {}, fix), 0))
+
+    def robots(self, role: str) -> tuple[Description, ...]:
+        """Return the robots that can take the role."""
+        if role not in self._robots:
+            found = self.surroundings.devices.values()
+            fitting = (facts.description for facts in found if self.fits(facts, self.roles[role]))
+            self._robots[role] = tuple(sorted(fitting, key=lambda description: description.id))
+        return self._robots[role]
+
+    def fits(self, facts: DeviceFacts, role: n.Role) -> bool:
+        """Tell whether a device can take a role, now or when it is back."""
+        description = facts.description
+        if role.device is not None:
+            return description.id == role.device
+        able = all(description.method(method) for method in role.can)
+        return description.kind == "robot" and facts.lifecycle == "approved" and able
+
+    def capacity(self, role: str) -> int:
+        """Return how many objects the role's robot holds at most; 0 when that is not known."""
+        return max((robot.capacity for robot in self.robots(role)), default=0)
+
+    def robot_name(self, role: str) -> Robot:
+        """Return what to call the role's robot: its name, or that of its sort where any will do."""
+        if role not in self._names:
+            self._names[role] = self._robot_name(role)
+        return self._names[role]
+
+    def _robot_name(self, role: str) -> Robot:
+        robots, device = self.robots(role), self.roles[role].device
+        if device is not None:
+            return Robot(robots[0].name if robots else device)
+        sorts = {_NUMBER_AT_THE_END.sub("", robot.name) for robot in robots}
+        return Robot(sorts.pop() if len(sorts) == 1 else "", sort=True)
+
+    def driver_name(self, role: str) -> Driver:
+        """Return what to call the one robot that has the role, in the middle of a sentence."""
+        bound = self.roles[role].device is not None
+        return Driver(self.robot_name(role).name if bound else self.roles[role].name, bound)
+
+    def robot_key(self, role: str) -> tuple[str, str]:
+        """Return what tells robots apart: the device for a bound role, else the role."""
+        device = self.roles[role].device
+        return ("role", role) if device is None else ("device", device)

@@ -1,0 +1,128 @@
+"""Checks of devices and places: whether they exist, can do what is asked, and can be reached."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from editor.language.checks.context import Context
+from editor.language.messages.diagnostics import Fix, TextArguments
+from editor.language.messages.phrases import Options
+from editor.language.plan.instructions import Constant, Expression, PlaceRef, Reading
+from editor.language.site.surroundings import DeviceFacts
+from editor.language.tree import nodes as n
+from vipo_device.protocol.description import Description
+
+
+def known_device(context: Context, node: n.Node, device_id: str, field: str) -> DeviceFacts | None:
+    """Return a device that the program may use, now or later; what is wrong with it is told."""
+    facts = context.surroundings.devices.get(device_id)
+    if facts is None:
+        context.tell(node, "unknown_device", field, {"device": device_id})
+        return None
+    name = {"device": facts.description.name}
+    if facts.lifecycle == "pending":
+        context.tell(node, "pending_device", field, name)
+    elif facts.lifecycle == "retired":
+        context.tell(node, "retired_device", field, name)
+    elif not facts.online:
+        context.tell(node, "offline_device", field, name)
+    return facts
+
+
+def usable_device(
+    context: Context, node: n.Node, place: PlaceRef, field: str, missing_code: str
+) -> Description | None:  # fmt: skip
+    """Return the description of the machine that a step names, if it is known before the run."""
+    if place.device is not None:
+        facts = known_device(context, node, place.device, field)
+        return None if facts is None else facts.description
+    if place.value is None:
+        context.tell(node, missing_code, field)
+    return None
+
+
+def check_load_place(context: Context, node: n.Pick | n.Drop, *, gives: bool) -> None:
+    """Check where a pick or a drop happens: a machine that gives or takes the object."""
+    missing = "missing_source" if gives else "missing_target"
+    device = usable_device(context, node, node.at, node.place_field, missing)
+    if device is None:
+        return
+    if device.kind == "robot":
+        context.tell(node, "robot_as_place", node.place_field, {"device": device.name})
+        return
+    thing = node.object.value if isinstance(node.object, Constant) else None
+    things = device.gives if gives else device.takes
+    if isinstance(thing, str) and thing not in things:
+        details: TextArguments = {"device": device.name, "object": thing, "options": Options(things)}
+        fix = None
+        if len(things) == 1 and gives:
+            fix = Fix("set_to", node.step, "object", things[0], {"value": things[0]})
+        context.tell(node, "not_given" if gives else "not_taken", node.place_field, details, fix)
+
+
+def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, missing_code: str) -> None:
+    """Check where a robot is sent."""
+    if place.device is not None:
+        known_device(context, node, place.device, field)
+    elif place.place is not None:
+        facts = context.surroundings.places.get(place.place)
+        if facts is None:
+            context.tell(node, "unknown_place", field, {"place": place.place})
+        else:
+            _check_floor(context, node, (facts.x, facts.y), field)
+    elif place.point is not None:
+        _check_floor(context, node, place.point, field)
+    elif place.value is None:
+        context.tell(node, missing_code, field)
+
+
+def _check_floor(context: Context, node: n.Move, point: n.Point, field: str) -> None:
+    """Check that the robot fits at a point and finds a way to it; for any robot it is enough that one does."""
+    floor, robots = context.surroundings.floor, context.robots(node.role)
+    if floor is None:
+        return
+    if not floor.is_inside(*point):
+        context.tell(node, "place_outside", field)
+        return
+    if not robots:
+        return
+    name = {"robot": context.robot_name(node.role)}
+    if not any(floor.is_free(*point, robot.radius_m) for robot in robots):
+        context.tell(node, "place_blocked", field, name)
+    elif not any(floor.is_reachable((r.pose.x, r.pose.y), point, r.radius_m) for r in robots):
+        context.tell(node, "place_unreachable", field, name)
+
+
+def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
+    """Check the readings among the parts of an expression against what the devices report."""
+    for part in parts:
+        if not isinstance(part, Reading) or not isinstance(part.device, Constant):
+            continue
+        facts = known_device(context, node, str(part.device.value), field)
+        if facts is not None and facts.description.property(part.property) is None:
+            description = facts.description
+            options = Options(tuple(spec.name for spec in description.properties))
+            details: TextArguments = {"device": description.name, "property": part.property, "options": options}
+            context.tell(node, "unknown_property", field, details)
+
+
+def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, ...]) -> None:
+    """Check that there is a robot for a role; it is told at the first step that needs it."""
+    if role.device is not None:
+        facts = known_device(context, node, role.device, "role")
+        if facts is None:
+            return
+        description = facts.description
+        if description.kind != "robot":
+            context.tell(node, "not_a_robot", "role", {"device": description.name, "role": role.name})
+            return
+        for method in needed:
+            if description.method(method) is None:
+                context.tell(node, "cannot_do", "role", {"device": description.name, "method": method})
+        return
+    robots = context.robots(role.name)
+    methods: TextArguments = {"methods": Options(role.can, "and")}
+    if not robots:
+        context.tell(node, "no_robot_can", "role", methods)
+    elif not any(context.surroundings.devices[robot.id].online for robot in robots):
+        context.tell(node, "no_robot_online", "role", methods)

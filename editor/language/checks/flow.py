@@ -1,0 +1,317 @@
+"""Checks of the ways through a program: what is never reached, what never ends, which function gives no value."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+from editor.language.analysis.memo import Memory, Told
+from editor.language.checks.context import Context
+from editor.language.expressions.typing import constant_value
+from editor.language.expressions.values import parts_of
+from editor.language.messages.diagnostics import Fix
+from editor.language.plan.instructions import Constant, Expression, Located, Operation, Reading, Variable
+from editor.language.tree import nodes as n
+from editor.language.tree.traversal import callees_first, functions_in_circles, walk
+from editor.language.tree.variables import set_in, sets_of_functions
+
+Ways = frozenset[str]
+"""How a block can be left: `on` to what follows, `break`, `return`, `end`; without any it never ends."""
+ON, NOWAY = frozenset({"on"}), Ways()
+_STATES_TIME = frozenset({"now", "distance", "nearest"})
+
+
+@dataclass(slots=True)
+class _Flow:
+    """One look at all ways; `context` is None while the functions are only being understood."""
+
+    functions: dict[str, Ways] = field(default_factory=dict)
+    context: Context | None = None
+    sets: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    """The variables that each function sets."""
+    beside: frozenset[str] = frozenset()
+    """Variables that events or the branches of a Parallel set; they may change at any time."""
+    known: Memory | None = None
+    calls: int = 0
+
+    def block(self, block: n.Block) -> Ways:
+        """Return how the block can be left."""
+        ways = ON
+        for index, node in enumerate(block):
+            follow = _FOLLOW.get(type(node))
+            if follow is None:
+                continue
+            after = self._followed(node) if node.__class__ in n.COMPOSITES else follow(self, node)
+            ways = (ways - ON) | after
+            if "on" not in ways:
+                self._tell_unreached(block, index)
+                break
+        return ways
+
+    def _followed(self, node: n.Node) -> Ways:
+        """Follow a step that holds others; without calls what is found depends on nothing else."""
+        if self.context is None or self.known is None:
+            return _FOLLOW[type(node)](self, node)
+        known: tuple[Ways, Told] | None = self.known.recall(node)
+        if known is None:
+            calls, told = self.calls, len(self.context.found)
+            known = _FOLLOW[type(node)](self, node), tuple(self.context.found[told:])
+            if calls == self.calls:
+                self.known.keep(node, known)
+        else:
+            self.context.found.extend(known[1])
+        return known[0]
+
+    def _tell_unreached(self, block: n.Block, last: int) -> None:
+        rest = [node for node in block[last + 1 :] if node.step != block[last].step]
+        if self.context is not None and rest:
+            step = rest[0].step
+            self.context.tell(rest[0], "never_reached", "", fix=Fix("delete_step", step, "delete", None))
+
+
+def _if(flow: _Flow, node: n.If) -> Ways:
+    then, otherwise = flow.block(node.then), flow.block(node.otherwise)
+    always = constant_value(node.condition)
+    if isinstance(always, bool):
+        return then if always else otherwise
+    return then | otherwise
+
+
+def _while(flow: _Flow, node: n.While) -> Ways:
+    inside = flow.block(node.body)
+    always = constant_value(node.condition)
+    out = (inside - {"on", "break"}) | (ON if "break" in inside else NOWAY)
+    if flow.context is not None and not out:
+        if always is True:
+            flow.context.tell(node, "never_ends", "condition")
+        elif always is None and not _may_change(flow, node):
+            flow.context.tell(node, "may_never_end", "condition")
+    return out if always is True else out | ON
+
+
+def _may_change(flow: _Flow, node: n.While) -> bool:
+    """Tell whether the condition can become false: what it looks at is measured, or set while the loop runs."""
+    parts = tuple(parts_of(node.condition))
+    names = {part.name for part in parts if isinstance(part, Variable)}
+    missing = any(isinstance(part, Constant) and part.value is None for part in parts)
+    if missing or any(_is_measured(part) for part in parts) or names & flow.beside:
+        return True
+    return flow.context is None or bool(names & set_in(node.body, flow.sets))
+
+
+def _is_measured(part: Expression) -> bool:
+    if isinstance(part, Operation):
+        return part.operator in _STATES_TIME
+    return isinstance(part, Reading) or (isinstance(part, Located) and (part.role or part.zone) is not None)
+
+
+def _repeat(flow: _Flow, node: n.Repeat | n.ForEach) -> Ways:
+    inside = flow.block(node.body)
+    out = (inside - {"break"}) | (ON if "break" in inside else NOWAY)
+    return out if _runs_at_least_once(node) else out | ON
+
+
+def _runs_at_least_once(node: n.Repeat | n.ForEach) -> bool:
+    if isinstance(node, n.ForEach):
+        return bool(node.items)
+    times = constant_value(node.times)
+    return isinstance(times, int | float) and times >= 1
+
+
+def _parallel(flow: _Flow, node: n.Parallel) -> Ways:
+    branches = [flow.block(branch) for branch in node.branches]
+    ends = {"end"} if any("end" in ways for ways in branches) else set()
+    return frozenset(ends | ({"on"} if all("on" in ways for ways in branches) else set()))
+
+
+def _try(flow: _Flow, node: n.Try) -> Ways:
+    ways = flow.block(node.body)
+    if node.catches:
+        ways |= flow.block(node.catch)
+    final = flow.block(node.final)
+    return ways | (final - ON) if "on" in final else final
+
+
+def _call(flow: _Flow, node: n.Call) -> Ways:
+    flow.calls += 1
+    ways = flow.functions.get(node.function)
+    if ways is None:
+        return ON
+    return (ON if ways & {"on", "return"} else NOWAY) | (ways & {"end"})
+
+
+def _leave(way: str) -> Callable[[_Flow, n.Node], Ways]:
+    return lambda flow, node: frozenset({way})
+
+
+_FOLLOW: Mapping[type[n.Node], Callable[..., Ways]] = {
+    n.If: _if,
+    n.While: _while,
+    n.Repeat: _repeat,
+    n.ForEach: _repeat,
+    n.Parallel: _parallel,
+    n.Try: _try,
+    n.Call: _call,
+    n.End: _leave("end"),
+    n.Return: _leave("return"),
+    n.Break: _leave("break"),
+}
+
+
+def ways_of_functions(tree: n.Tree) -> dict[str, Ways]:
+    """Return how each function can be left; a call of itself that never comes back leads nowhere."""
+    flow = _Flow({function.method: NOWAY for function in tree.functions})
+    changed, functions = bool(tree.functions), callees_first(tree)
+    while changed:
+        changed = False
+        for function in functions:
+            ways = flow.block(function.body)
+            if ways != flow.functions[function.method]:
+                flow.functions[function.method] = ways
+                changed = True
+    return flow.functions
+
+
+def check_flow(context: Context) -> None:
+    """Check all ways through the program, its events and its functions."""
+    tree = context.tree
+    sets = sets_of_functions(tree)
+    flow = _Flow(ways_of_functions(tree), context, sets, _set_beside(tree, sets))
+    if context.memories is not None:
+        flow.known = context.memories.flow
+        flow.known.begin((flow.beside, sets))
+    for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
+        flow.block(block)
+    if tree.functions:
+        _check_endless_calls(context, flow.functions)
+        _check_results(context, flow.functions)
+        _check_use(context)
+
+
+def _set_beside(tree: n.Tree, sets: Mapping[str, frozenset[str]]) -> frozenset[str]:
+    names = frozenset[str]()
+    for event in tree.events:
+        names |= set_in(event.body, sets)
+    if not tree.holds(n.Parallel):
+        return names
+    for block in (tree.body, *(function.body for function in tree.functions)):
+        for node in tree.walked(block):
+            if isinstance(node, n.Parallel):
+                names = names.union(*(set_in(branch, sets) for branch in node.branches))
+    return names
+
+
+def _check_endless_calls(context: Context, ways: Mapping[str, Ways]) -> None:
+    """A function that calls itself must have a way on which it does not."""
+    endless = {method for method in functions_in_circles(context.tree) if not ways[method]}
+    for function in context.tree.functions:
+        if function.method in endless:
+            name = {"function": function.name or function.method}
+            for node in walk(function.body):
+                if isinstance(node, n.Call) and node.function in endless:
+                    context.tell(node, "calls_itself", "function", name)
+
+
+def _check_results(context: Context, ways: Mapping[str, Ways]) -> None:
+    """A function that gives a value gives one on every way, and whoever calls it takes the value."""
+    for function in context.tree.functions:
+        if not function.result_type:
+            continue
+        name = {"function": function.name or function.method}
+        bare: list[n.Node] = [node for node in walk(function.body) if isinstance(node, n.Return) and node.value is None]
+        if "on" in ways[function.method] and function.body:
+            bare.append(function.body[-1])
+        for node in bare:
+            context.tell(node, "no_value_on_some_way", "", name)
+    for node in _all_nodes(context.tree):
+        called = context.functions.get(node.function) if isinstance(node, n.Call) else None
+        if isinstance(node, n.Call) and called is not None and called.result_type:
+            if not node.result:
+                context.tell(node, "unused_result", "result", {"function": called.name or called.method})
+            if not called.body:
+                context.tell(node, "no_value_on_some_way", "", {"function": called.name or called.method})
+
+
+def _all_nodes(tree: n.Tree) -> list[n.Node]:
+    blocks = (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions))
+    return [node for block in blocks for node in walk(block)]
+
+
+def _check_use(context: Context) -> None:
+    """Tell of functions that nothing calls, at their first step."""
+    tree = context.tree
+    left = [tree.body, *(event.body for event in tree.events)]
+    called: set[str] = set()
+    while left:
+        for node in walk(left.pop()):
+            if isinstance(node, n.Call) and node.function in context.functions and node.function not in called:
+                called.add(node.function)
+                left.append(context.functions[node.function].body)
+    for function in tree.functions:
+        if function.method not in called and function.body:
+            context.tell(function.body[0], "unused_function", "", {"function": function.name or function.method})
+
+
+@dataclass(frozen=True, slots=True)
+class _Around:
+    """What stands around a step; `None` where there is none, else the code of what would be left on the way there."""
+
+    function: n.Function | None = None
+    barrier: str = ""
+    """What keeps a return from leaving the function."""
+    loop: str | None = None
+    """What keeps a break from leaving the innermost loop; empty: nothing does."""
+
+    def behind(self, code: str) -> _Around:
+        """Return what stands around the steps in something that no step may leave."""
+        return replace(self, barrier=code, loop=None if self.loop is None else code)
+
+
+def check_leaving(context: Context) -> None:
+    """Check every break and every return of the program."""
+    tree = context.tree
+    if not tree.holds(n.Break, n.Return):
+        return
+    for block in (tree.body, *(event.body for event in tree.events)):
+        _block(context, block, _Around())
+    for function in tree.functions:
+        _block(context, function.body, _Around(function))
+
+
+def _block(context: Context, block: n.Block, around: _Around) -> None:
+    for node in block:
+        match node:
+            case n.Break():
+                _break(context, node, around)
+            case n.Return():
+                _return(context, node, around)
+            case n.While(body=body) | n.Repeat(body=body) | n.ForEach(body=body):
+                _block(context, body, replace(around, loop=""))
+            case n.Parallel(branches=branches):
+                for branch in branches:
+                    _block(context, branch, around.behind("leaves_parallel"))
+            case n.Try(body=body, catch=catch, final=final):
+                _block(context, body, around)
+                _block(context, catch, around)
+                _block(context, final, around.behind("leaves_finally"))
+            case n.If(then=then, otherwise=otherwise):
+                _block(context, then, around)
+                _block(context, otherwise, around)
+
+
+def _break(context: Context, node: n.Break, around: _Around) -> None:
+    if around.loop is None:
+        context.tell(node, "break_outside_loop", "")
+    elif around.loop:
+        context.tell(node, around.loop, "")
+
+
+def _return(context: Context, node: n.Return, around: _Around) -> None:
+    function = around.function
+    if function is None:
+        context.tell(node, "return_outside_function", "", fix=Fix("make_end", node.step, "kind", "end"))
+    elif around.barrier:
+        context.tell(node, around.barrier, "")
+    elif node.value is not None and not function.result_type:
+        fix = Fix("remove", node.step, "value", None, {"value": "value"})
+        context.tell(node, "returns_unasked", "value", {"function": function.name or function.method}, fix)

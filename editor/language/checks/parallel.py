@@ -1,0 +1,126 @@
+"""Checks of what happens at once: branches that fight over a robot, or wait for each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import combinations
+
+from editor.language.checks.context import Context
+from editor.language.expressions.typing import constant_value
+from editor.language.expressions.values import parts_of
+from editor.language.messages.diagnostics import Fix
+from editor.language.plan.instructions import Constant, Expression, Operation, Variable
+from editor.language.tree import nodes as n
+from editor.language.tree.traversal import roles_used, walk
+from editor.language.tree.variables import set_by
+
+
+def check_branches(context: Context, node: n.Parallel) -> None:
+    """Two branches cannot drive the same robot."""
+    drivers = [_drivers(context, branch) for branch in node.branches]
+    for (first, mine), (second, theirs) in combinations(enumerate(drivers), 2):
+        for key in sorted(mine.keys() & theirs.keys()):
+            names = {"first": _letter(first), "second": _letter(second)}
+            robot = context.driver_name(theirs[key])
+            context.tell(
+                node,
+                "shared_robot",
+                "branches",
+                {**names, "robot": robot},
+                _own_robot(context, node, second, theirs[key]),
+            )
+
+
+def _own_robot(context: Context, node: n.Parallel, branch: int, role: str) -> Fix | None:
+    """Return the fix that gives a branch a role of its own; not where functions decide who drives."""
+    if any(isinstance(inner, n.Call) for inner in walk(node.branches[branch])):
+        return None
+    letter = _letter(branch)
+    value = {"branch": letter, "role": context.roles[role].id or role}
+    return Fix("own_robot", node.step, "robot_of", value, {"value": letter})
+
+
+def _letter(index: int) -> str:
+    return chr(97 + index)
+
+
+def _drivers(context: Context, block: n.Block) -> dict[tuple[str, str], str]:
+    """Return what tells the robots apart that a block drives, also by its functions, with their roles."""
+    return {context.robot_key(role): role for role in roles_used(block, context.tree)}
+
+
+def check_parallel(context: Context) -> None:
+    """Check the events against the program beside which they run, and branches that wait for each other."""
+    tree = context.tree
+    main = _drivers(context, tree.body) if tree.events else {}
+    for event in tree.events:
+        if event.starts == "branch":
+            for key, role in sorted(_drivers(context, event.body).items()):
+                if key in main:
+                    context.tell_step(event.step, "event_shares_robot", "", {"robot": context.driver_name(role)})
+    if tree.holds(n.Parallel):
+        for node in _all_nodes(tree):
+            if isinstance(node, n.Parallel):
+                _check_waiting(context, node)
+
+
+@dataclass(frozen=True, slots=True)
+class _Wait:
+    """A wait without a limit, at the top of a branch, that only a variable's new value can end."""
+
+    branch: int
+    index: int
+    variable: str
+    node: n.WaitUntil
+
+
+def _check_waiting(context: Context, node: n.Parallel) -> None:
+    """Tell of two branches of which each sets what the other waits for only after its own waiting."""
+    waits = [wait for index, branch in enumerate(node.branches) for wait in _waits(index, branch)]
+    for first, second in combinations(waits, 2):
+        if first.branch == second.branch:
+            continue
+        if _only_after(context, node, first, second) and _only_after(context, node, second, first):
+            letters = {"first": _letter(first.branch), "second": _letter(second.branch)}
+            names = {**letters, "variable": first.variable, "other": second.variable}
+            context.tell(node, "branches_wait", "branches", names)
+
+
+def _waits(branch: int, block: n.Block) -> Iterator[_Wait]:
+    for index, node in enumerate(block):
+        if isinstance(node, n.WaitUntil) and node.timeout_s is None:
+            names = {part.name for part in parts_of(node.condition) if isinstance(part, Variable)}
+            if len(names) == 1:
+                yield _Wait(branch, index, names.pop(), node)
+
+
+def _only_after(context: Context, node: n.Parallel, wait: _Wait, other: _Wait) -> bool:
+    """Tell whether nothing can end the wait but what stands in the other branch behind its own wait."""
+    late = {id(inner) for inner in walk(node.branches[other.branch][other.index + 1 :])}
+    known = {parameter.name for parameter in context.tree.parameters}
+    if wait.variable in known:
+        return False
+    setters = [inner for inner in _all_nodes(context.tree) if set_by(inner) == wait.variable]
+    early = [inner for inner in setters if id(inner) not in late]
+    ends = any(id(inner) in late for inner in setters)
+    return ends and all(isinstance(inner, n.Set) and _keeps_waiting(wait, inner.value) for inner in early)
+
+
+def _keeps_waiting(wait: _Wait, value: Expression) -> bool:
+    return constant_value(_with(wait.node.condition, {wait.variable: value})) is False
+
+
+def _with(expression: Expression, values: Mapping[str, Expression]) -> Expression:
+    """Return the expression with constants in the place of variables."""
+    if isinstance(expression, Variable):
+        value = values.get(expression.name, expression)
+        return value if isinstance(value, Constant) else expression
+    if isinstance(expression, Operation):
+        return Operation(expression.operator, tuple(_with(argument, values) for argument in expression.arguments))
+    return expression
+
+
+def _all_nodes(tree: n.Tree) -> Iterator[n.Node]:
+    for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
+        yield from tree.walked(block)

@@ -1,0 +1,206 @@
+"""Checks of values: what is missing, of the wrong type or unit, or out of its range."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from editor.language.checks.context import Context
+from editor.language.checks.devices import check_readings, known_device
+from editor.language.expressions.ranges import first_limited_reading, possible
+from editor.language.expressions.typing import (
+    BOOLEAN,
+    NUMBER,
+    TEXT,
+    TYPE_WORDS,
+    UNKNOWN_KIND,
+    Kind,
+    Typing,
+    constant_value,
+    plain_type,
+    property_spec,
+    unit_word,
+)
+from editor.language.expressions.unit_conversion import settle_units
+from editor.language.expressions.units import same_dimension
+from editor.language.expressions.values import is_number, parts_of
+from editor.language.messages.diagnostics import TextArguments, fix_value
+from editor.language.messages.phrases import Amounts, Options, Plural, Span
+from editor.language.plan.instructions import Constant, Expression, Located, Operation, Reading
+from editor.language.tree import nodes as n
+from vipo_device.protocol.description import ParameterSpec
+
+
+def has_missing(expression: Expression) -> bool:
+    """Tell whether the expression, or a part of it, is still to be entered."""
+    if isinstance(expression, Constant):
+        return expression.value is None
+    if isinstance(expression, Operation):
+        return any(map(has_missing, expression.arguments))
+    return isinstance(expression, Reading) and has_missing(expression.device)
+
+
+def check_value(
+    context: Context, node: n.Node, value: Expression, field: str, wanted: Kind, subject: str
+) -> bool:  # fmt: skip
+    """Check what a value reads and of which type and unit it is; tell whether it is good."""
+    before = len(context.found)
+    if not isinstance(value, Constant):
+        parts = parts_of(value)
+        check_readings(context, node, parts, field)
+        _check_things(context, node, parts, field)
+    typing = Typing(context.surroundings, context.variables, [])
+    kind = typing.kind_of(value)
+    for mismatch in typing.mismatches:
+        context.tell(node, mismatch.code, field, mismatch.args)
+    if kind.type and wanted.type and kind.type != plain_type(wanted.type):
+        details = {"subject": subject, "wanted": TYPE_WORDS[wanted.type], "given": TYPE_WORDS[kind.type]}
+        context.tell(node, "wrong_type", field, details)
+    elif kind.unit and wanted.unit and not same_dimension(kind.unit, wanted.unit):
+        units = {"subject": subject, "wanted": unit_word(wanted.unit), "given": unit_word(kind.unit)}
+        context.tell(node, "wrong_unit", field, units)
+    return len(context.found) == before
+
+
+def _check_things(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
+    """Check that the devices, places and zones that an expression speaks of exist."""
+    for part in parts:
+        if not isinstance(part, Located):
+            continue
+        if part.device is not None:
+            known_device(context, node, part.device, field)
+        elif part.place is not None and part.place not in context.surroundings.places:
+            context.tell(node, "unknown_place", field, {"place": part.place})
+        elif part.zone is not None and part.zone not in context.zones:
+            context.tell(node, "unknown_zone", field, {"zone": part.zone})
+
+
+def settled(context: Context, value: Expression, unit: str) -> Expression:
+    """Return a value as it is in a unit when the program runs."""
+    return settle_units(value, unit, Typing(context.surroundings, context.variables, []))
+
+
+def check_condition(context: Context, node: n.Node, condition: Expression, field: str) -> None:
+    """Check a condition: it must be there, and give yes or no."""
+    if has_missing(condition):
+        context.tell(node, "missing_condition", field)
+    elif check_value(context, node, condition, field, BOOLEAN, "A condition"):
+        _check_possible(context, node, condition, field)
+
+
+def _check_possible(context: Context, node: n.Node, condition: Expression, field: str) -> None:
+    """Tell of a condition that can never hold, or always does, in the ranges that its devices declare."""
+    verdict = possible(condition, context.surroundings, context.variables)
+    if verdict is None:
+        return
+    if isinstance(node, n.WaitUntil) and verdict is False and node.timeout_s is None:
+        context.tell(node, "waits_for_ever", field)
+    elif constant_value(condition) is None:
+        reading = first_limited_reading(condition, context.surroundings)
+        if verdict is False and _each_is_possible(context, condition):
+            context.tell(node, "contradiction", field)
+        elif reading is not None:
+            code = "always_true_in_range" if verdict else "never_true_in_range"
+            context.tell(node, code, field, _declared(context, reading))
+
+
+def _each_is_possible(context: Context, condition: Expression) -> bool:
+    """Tell whether conditions that never hold together could each hold alone."""
+    if not isinstance(condition, Operation) or condition.operator != "and":
+        return False
+    site, variables = context.surroundings, context.variables
+    return all(possible(argument, site, variables) is not False for argument in condition.arguments)
+
+
+def _declared(context: Context, reading: Reading) -> TextArguments:
+    """Return what a device declares of its property, for a sentence."""
+    spec = property_spec(reading, context.surroundings)
+    device = reading.device.value if isinstance(reading.device, Constant) else ""
+    facts = context.surroundings.devices.get(str(device))
+    limits: Options | Span = Options(())
+    if spec is not None:
+        span = Span(spec.minimum, spec.maximum, unit_word(spec.unit))
+        limits = Options(spec.options, "or") if spec.options else span
+    name = str(device) if facts is None else facts.description.name
+    return {"device": name, "property": reading.property, "range": limits}
+
+
+def check_argument(  # noqa: PLR0913 - one argument is checked in the light of all of these
+    context: Context,
+    node: n.Node,
+    parameter: ParameterSpec,
+    value: Expression,
+    method: str,
+    missing_code: str,
+    *,
+    typed: bool = True,
+) -> None:
+    """Check one argument of a method or a function against what is declared of it."""
+    field = f"args.{parameter.name}"
+    if has_missing(value):
+        if parameter.required or value != n.MISSING:
+            limits = Span(parameter.minimum, parameter.maximum, unit_word(parameter.unit), ": ")
+            details = {"argument": parameter.name, "method": method, "function": method}
+            fix = None if parameter.minimum is None else fix_value(node.step, field, parameter.minimum)
+            context.tell(node, missing_code, field, {**details, "range": limits}, fix)
+        return
+    wanted = Kind(parameter.type, parameter.unit) if typed else UNKNOWN_KIND
+    if not check_value(context, node, value, field, wanted, parameter.name.capitalize()):
+        return
+    value = settled(context, value, parameter.unit)
+    if isinstance(value, Constant):
+        _check_limits(context, node, parameter, value, field)
+
+
+def _check_limits(context: Context, node: n.Node, parameter: ParameterSpec, value: Constant, field: str) -> None:
+    given, subject = value.value, parameter.name.capitalize()
+    if parameter.options and given not in parameter.options:
+        context.tell(node, "not_an_option", field, {"subject": subject, "options": Options(parameter.options)})
+    if not is_number(given):
+        return
+    nearest = given
+    if parameter.minimum is not None:
+        nearest = max(nearest, parameter.minimum)
+    if parameter.maximum is not None:
+        nearest = min(nearest, parameter.maximum)
+    if nearest != given:
+        limits = Span(parameter.minimum, parameter.maximum, unit_word(parameter.unit))
+        fix = fix_value(node.step, field, int(nearest) if float(nearest).is_integer() else nearest)
+        context.tell(node, "out_of_range", field, {"subject": subject, "range": limits}, fix)
+
+
+def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
+    """Check how many of what is carried."""
+    _check_object(context, node)
+    capacity = context.capacity(node.role)
+    robot = context.robot_name(node.role)
+    if has_missing(node.quantity):
+        thing = node.object.value if isinstance(node.object, Constant) else None
+        details = {"things": Plural(thing if isinstance(thing, str) else "")}
+        fix = fix_value(node.step, "quantity", 1)
+        context.tell(node, "missing_quantity", "quantity", {**details, "robot": robot, "range": Amounts(capacity)}, fix)
+        return
+    if not check_value(context, node, node.quantity, "quantity", NUMBER, "The quantity"):
+        return
+    quantity = node.quantity.value if isinstance(node.quantity, Constant) else None
+    if not is_number(quantity):
+        return
+    if quantity <= 0 or quantity != int(quantity):
+        context.tell(node, "quantity_not_positive", "quantity", {}, fix_value(node.step, "quantity", 1))
+    elif capacity and quantity > capacity:
+        fix = fix_value(node.step, "quantity", capacity)
+        context.tell(node, "quantity_above_capacity", "quantity", {"robot": robot, "range": Amounts(capacity)}, fix)
+
+
+def _check_object(context: Context, node: n.Pick | n.Drop) -> None:
+    if not has_missing(node.object):
+        check_value(context, node, node.object, "object", TEXT, "The object")
+        return
+    facts = context.surroundings.devices.get(node.at.device or "")
+    if facts is None:
+        things = sorted({thing for f in context.surroundings.devices.values() for thing in f.description.gives})
+    else:
+        things = list(facts.description.gives if isinstance(node, n.Pick) else facts.description.takes)
+    fix = fix_value(node.step, "object", things[0]) if len(things) == 1 else None
+    context.tell(
+        node, "missing_object", "object", {"options": Options(tuple(things), "or", "there is nothing here")}, fix
+    )

@@ -1,0 +1,211 @@
+"""A document compiled: what the editor shows and what a run carries out, from one reading."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from editor.language.analysis.memo import Memories, Memory
+from editor.language.analysis.positions import add_moves
+from editor.language.checks.checks import check
+from editor.language.document.migrations import climb
+from editor.language.messages.diagnostics import Diagnostic, Fix, Problem, arguments_to_json, put_into_words
+from editor.language.messages.phrases import LANGUAGES
+from editor.language.plan.compiler import compile_tree
+from editor.language.plan.instructions import Plan
+from editor.language.printing.script import Script, print_tree
+from editor.language.reading.document import Reading, read_document
+from editor.language.site.surroundings import Surroundings
+from editor.language.tree.nodes import COMPOSITES, Block, Tree, blocks_of
+from editor.language.tree.nodes import Move as MoveNode
+from editor.language.tree.numbering import number_steps, numbers_in_script
+from editor.language.tree.zones import read_zones, zone_names
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """A program's forms. `lines` has the step of each script line ("" for glue); `plan` is None while there are errors.
+
+    `numbers` and `order` follow the reading order; drafts stand last in `order` and have no number.
+    """
+
+    tree: Tree
+    script: str
+    lines: tuple[str, ...]
+    numbers: Mapping[str, str]
+    diagnostics: tuple[Diagnostic, ...]
+    plan: Plan | None
+    added_moves: tuple[str, ...]
+    order: tuple[str, ...]
+    depth: Mapping[str, int]
+
+
+def compile_document(document: object, surroundings: Surroundings) -> Compiled:
+    """Compile a document (plain JSON, of any format so far) for a site. Nothing in the document makes this raise."""
+    with without_collector():
+        return look_at(document, surroundings).compiled()
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """A document read and checked; how it is shown and carried out is worked out when it is asked for."""
+
+    document: object
+    surroundings: Surroundings
+    reading: Reading
+    tree: Tree
+    found: list[tuple[Problem, int]]
+    """The problems, each with the identity of its node."""
+    printed: Memory | None
+
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """Return the problems in words, in reading order."""
+        if not self.found:
+            return ()
+        numbers = numbers_in_script(self.tree)
+        return _in_words(self.found, numbers, self._script(numbers))
+
+    def compiled(self, *, with_plan: bool = True) -> Compiled:
+        """Return all forms of the program; the plan may be left out."""
+        tree, numbering = self.tree, number_steps(self.tree)
+        numbers, script = numbering.numbers, self._script(numbering.numbers)
+        diagnostics = _in_words(self.found, numbers, script)
+        faulty = any(diagnostic.severity == "error" for diagnostic in diagnostics)
+        plan = None
+        if with_plan and not faulty:
+            plan = compile_tree(tree, self.surroundings, script.line_of, read_zones(self.document))
+        outline = self.reading.outline
+        drafts = outline.with_inner((*outline.drafts, *outline.unknown))
+        order = (*numbers, *drafts)
+        depth = {**{step: numbering.depths[step] for step in numbers}, **drafts}
+        added = _added_moves(tree)
+        return Compiled(tree, script.text, script.lines, numbers, diagnostics, plan, added, order, depth)
+
+    def _script(self, numbers: Mapping[str, str]) -> Script:
+        return print_tree(self.tree, self.surroundings, numbers, zone_names(self.document), self.printed)
+
+
+def look_at(document: object, surroundings: Surroundings, memories: Memories | None = None) -> Look:
+    """Read and check a document; what the memories hold of the last look is used, and they then hold this one."""
+    reading = read_document(climb(document), memories.read if memories else None)
+    tree = add_moves(reading.tree, _standing(surroundings), memories.positions if memories else None)
+    found = check(reading, tree, surroundings, document, memories)
+    return Look(document, surroundings, reading, tree, found, memories.printed if memories else None)
+
+
+def _standing(surroundings: Surroundings) -> dict[str, str]:
+    return {
+        name: facts.standing_at for name, facts in surroundings.devices.items() if facts.standing_at is not None
+    }  # fmt: skip
+
+
+def _added_moves(tree: Tree) -> tuple[str, ...]:
+    found: dict[str, None] = {}
+    left: list[Block] = [tree.body, *(f.body for f in tree.functions), *(event.body for event in tree.events)]
+    for block in left:
+        for node in block:
+            if isinstance(node, MoveNode):
+                if node.added:
+                    found[node.step] = None
+            elif node.__class__ in COMPOSITES:
+                left.extend(inner for inner in blocks_of(node) if inner)
+    return tuple(found)
+
+
+def _in_words(
+    problems: list[tuple[Problem, int]], numbers: Mapping[str, str], script: Script
+) -> tuple[Diagnostic, ...]:
+    """Put problems into words, in reading order; each stands at its node's line, or at its step's first."""
+    if not problems:
+        return ()
+    places = {step: index for index, step in enumerate(numbers)}
+    elsewhere = {problem.step for problem, node in problems if node not in script.line_of} - {""}
+    first_lines: dict[str, int] = {}
+    for line, step in enumerate(script.lines, start=1) if elsewhere else ():
+        if step in elsewhere:
+            first_lines.setdefault(step, line)
+    unique: dict[tuple[str, str, str], tuple[tuple[int, str, int], Diagnostic]] = {}
+    for index, (problem, node) in enumerate(problems):
+        shown: int | None = script.line_of.get(node) or first_lines.get(problem.step)
+        key = (places.get(problem.step, len(places)), problem.step, index)
+        unique.setdefault((problem.code, problem.step, problem.field), (key, put_into_words(problem, shown)))
+    return tuple(diagnostic for _, diagnostic in sorted(unique.values(), key=lambda pair: pair[0]))
+
+
+def compiled_to_json(compiled: Compiled, revision: int = 0) -> dict[str, object]:
+    """Return the form that goes to browsers, sockets and `vipo … --json`, as docs/architecture.md has it."""
+    return {
+        "revision": revision,
+        "script": compiled.script,
+        "lines": list(compiled.lines),
+        "numbers": dict(compiled.numbers),
+        "diagnostics": [diagnostic_to_json(diagnostic) for diagnostic in compiled.diagnostics],
+        "added_moves": list(compiled.added_moves),
+        "order": list(compiled.order),
+        "depth": dict(compiled.depth),
+    }
+
+
+def diagnostic_to_json(diagnostic: Diagnostic) -> dict[str, object]:
+    """Return a diagnostic as plain JSON."""
+    return {
+        "code": diagnostic.code,
+        "severity": diagnostic.severity,
+        "step": diagnostic.step,
+        "field": diagnostic.field,
+        "message": diagnostic.message,
+        "messages": diagnostic.messages,
+        "when": diagnostic.when,
+        "args": arguments_to_json(diagnostic.args),
+        "line": diagnostic.line,
+        "fix": None if diagnostic.fix is None else _fix_to_json(diagnostic.fix),
+    }
+
+
+def _fix_to_json(fix: Fix) -> dict[str, object]:
+    return {
+        "label": fix.label,
+        "labels": {language: fix.label_in(language) for language in LANGUAGES},
+        "label_code": fix.label_code,
+        "step": fix.step,
+        "field": fix.field,
+        "value": fix.value,
+    }
+
+
+class EditedProgram:
+    """One program, looked at again and again; it says of each document just what `compile_document` says.
+
+    Documents are plain JSON and are not changed in place: a step that is the same object as at the last look is
+    the same step. What is remembered is no more than what the last look needed. Not to be used from two threads
+    at once.
+    """
+
+    def __init__(self) -> None:
+        """Know nothing yet."""
+        self._memories = Memories()
+
+    def look(self, document: object, surroundings: Surroundings) -> Look:
+        """Read and check the document as it is now."""
+        return look_at(document, surroundings, self._memories)
+
+    def compile(self, document: object, surroundings: Surroundings) -> Compiled:
+        """Return all forms of the program as it is now."""
+        return self.look(document, surroundings).compiled()
+
+
+@contextmanager
+def without_collector() -> Iterator[None]:
+    """Make objects without looking for circles among them; memory is given back by counting references as ever.
+
+    It looks through all that is new again and again while a large tree grows, for a third of the whole time.
+    """
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()

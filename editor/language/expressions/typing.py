@@ -1,0 +1,266 @@
+"""What kind of value an expression gives, and whether its parts go together."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Mapping, Sequence
+from functools import reduce
+from typing import TYPE_CHECKING, Any
+
+from editor.language.expressions.units import UNITS, same_dimension, unit_symbol
+from editor.language.expressions.values import COMPARISONS, parts_of
+from editor.language.plan.instructions import Constant, Expression, Located, Operation, Quantity, Reading, Variable
+from editor.language.site.surroundings import Surroundings
+from vipo_device.protocol.description import PropertySpec
+
+if TYPE_CHECKING:
+    from dataclasses import dataclass
+else:
+    from editor.language.expressions.frozen import dataclass
+
+TYPE_WORDS: Mapping[str, str] = {
+    "number": "a number", "text": "a text", "boolean": "yes or no", "list": "a list", "object": "a kind of object",
+    "device": "a device", "place": "a place", "location": "a place", "zone": "a zone", "point": "a point",
+}  # fmt: skip
+_NUMBERS = (int, float)
+_COMPARISONS = frozenset(COMPARISONS)
+_TEXT_LIKE = frozenset({"object", "device", "place", "location"})
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """The type of a value (empty: not known) and its unit (empty: none, or not known)."""
+
+    type: str = ""
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Mismatch:
+    """Something that does not go together: a diagnostic's code with its arguments."""
+
+    code: str
+    args: Mapping[str, str]
+
+
+UNKNOWN_KIND = Kind()
+NUMBER, TEXT, BOOLEAN = Kind("number"), Kind("text"), Kind("boolean")
+ZONE, POINT, LIST = Kind("zone"), Kind("point"), Kind("list")
+METRES, SECONDS = Kind("number", "M"), Kind("number", "SEC")
+
+
+def unit_word(unit: str) -> str:
+    """Return how people write a unit."""
+    return unit_symbol(unit)
+
+
+def property_spec(reading: Reading, surroundings: Surroundings) -> PropertySpec | None:
+    """Return what the device says of the property that is read, if it says anything."""
+    if not isinstance(reading.device, Constant):
+        return None
+    facts = surroundings.devices.get(str(reading.device.value))
+    if facts is not None:
+        for spec in facts.description.properties:
+            if spec.name == reading.property:
+                return spec
+    return None
+
+
+@dataclass(slots=True)
+class Typing:
+    """Types expressions for one site; what does not go together is gathered in `mismatches`."""
+
+    surroundings: Surroundings
+    variables: Mapping[str, Kind]
+    mismatches: list[Mismatch]
+
+    def kind_of(self, expression: Expression) -> Kind:
+        """Return the kind of value that the expression gives."""
+        return _KINDS[expression.__class__](self, expression)
+
+    def constant(self, expression: Constant) -> Kind:
+        """Return the kind of a value that is written out."""
+        value = expression.value
+        if isinstance(value, bool):
+            return BOOLEAN
+        if isinstance(value, _NUMBERS):
+            return NUMBER
+        if isinstance(value, str):
+            return TEXT
+        return LIST if isinstance(value, tuple) else UNKNOWN_KIND
+
+    def variable(self, expression: Variable) -> Kind:
+        """Return the kind of a parameter or a variable."""
+        return self.variables.get(expression.name, UNKNOWN_KIND)
+
+    def reading(self, expression: Reading) -> Kind:
+        """Return the kind of a device's property."""
+        spec = property_spec(expression, self.surroundings)
+        return UNKNOWN_KIND if spec is None else Kind(plain_type(spec.type), spec.unit)
+
+    def quantity(self, expression: Quantity) -> Kind:
+        """Return the kind of a number with a unit."""
+        if expression.unit not in UNITS:
+            self.mismatches.append(Mismatch("unknown_unit", {"unit": expression.unit}))
+        return Kind("number", expression.unit)
+
+    def located(self, expression: Located) -> Kind:
+        """Return the kind of something that has a place."""
+        if expression.zone is not None:
+            return ZONE
+        return TEXT if expression.point is None else POINT
+
+    def operation(self, expression: Operation) -> Kind:
+        """Return the kind of what an operation gives."""
+        name, arguments = expression.operator, expression.arguments
+        kinds = [self.kind_of(argument) for argument in arguments]
+        if name in {"and", "or", "not", "count"}:
+            for kind in kinds:
+                self._need(kind, "boolean", f"“{name}”")
+            return NUMBER if name == "count" else BOOLEAN
+        if name in _COMPARISONS:
+            self._compare(name, expression, kinds[0], kinds[1])
+            return BOOLEAN
+        if name in {"distance", "nearest"}:
+            for argument, kind in zip(arguments, kinds, strict=True):
+                self._need_place(argument, kind, name)
+            return METRES if name == "distance" else TEXT
+        if name in {"text", "now"}:
+            return TEXT if name == "text" else SECONDS
+        return self._reckoned(expression, kinds)
+
+    def _reckoned(self, expression: Operation, kinds: list[Kind]) -> Kind:
+        """Return the kind of a number that is worked out from numbers."""
+        name = expression.operator
+        for kind in kinds:
+            self._need(kind, "number", f"“{name}”")
+        if name in {"*", "/"}:
+            return Kind("number", _unit_of_product(name, kinds[0].unit, kinds[1].unit))
+        self._same_unit(kinds)
+        return Kind("number", common_unit(expression.arguments, kinds))
+
+    def _need_place(self, argument: Expression, kind: Kind, name: str) -> None:
+        """Only a point, or something that is known by its id, has a place."""
+        written = isinstance(argument, Constant) or (isinstance(argument, Operation) and argument.operator != "nearest")
+        if kind.type not in {"", "text", "point"} or (written and kind.type):
+            words = {"subject": f"“{name}”", "wanted": TYPE_WORDS["place"], "given": TYPE_WORDS[kind.type]}
+            self.mismatches.append(Mismatch("wrong_type", words))
+
+    def _need(self, kind: Kind, wanted: str, subject: str) -> None:
+        if kind.type not in {"", wanted}:
+            given = TYPE_WORDS[kind.type]
+            self.mismatches.append(
+                Mismatch("wrong_type", {"subject": subject, "wanted": TYPE_WORDS[wanted], "given": given})
+            )
+
+    def _compare(self, name: str, expression: Operation, left: Kind, right: Kind) -> None:
+        if right.type == "zone" and name in {"in", "not in"}:
+            self._need_place(expression.arguments[0], left, name)
+            return
+        if not left.type or not right.type:
+            return
+        if name in {"in", "not in"}:
+            fits = right.type == "list" or (left.type == right.type == "text")
+        elif name in {"==", "!="}:
+            fits = left.type == right.type and left.type not in {"zone", "point"}
+        else:
+            fits = left.type == right.type and left.type in {"number", "text"}
+        if not fits:
+            words = {"left": TYPE_WORDS[left.type], "right": TYPE_WORDS[right.type], "operator": f"“{name}”"}
+            self.mismatches.append(Mismatch("not_comparable", {**words, "left": words["left"].capitalize()}))
+        elif left.unit and right.unit and left.type == "number":
+            self._same_unit([left, right])
+
+    def _same_unit(self, kinds: list[Kind]) -> None:
+        units = [kind.unit for kind in kinds if kind.unit]
+        other = next((unit for unit in units if not same_dimension(unit, units[0])), None)
+        if other is not None:
+            words = {"subject": "The first value", "wanted": unit_word(units[0]), "given": unit_word(other)}
+            self.mismatches.append(Mismatch("wrong_unit", words))
+
+
+_KINDS: Mapping[type[Expression], Callable[[Typing, Any], Kind]] = {
+    Constant: Typing.constant,
+    Variable: Typing.variable,
+    Reading: Typing.reading,
+    Quantity: Typing.quantity,
+    Located: Typing.located,
+    Operation: Typing.operation,
+}
+
+
+def common_unit(arguments: Sequence[Expression], kinds: Sequence[Kind]) -> str:
+    """Return the unit in which values meet: that of the first one that is measured or given, else the first."""
+    units = [kind.unit for kind in kinds if kind.unit]
+    if len(set(units)) <= 1:
+        return units[0] if units else ""
+    paired = zip(arguments, kinds, strict=True)
+    return next((kind.unit for argument, kind in paired if kind.unit and not is_written(argument)), units[0])
+
+
+def is_written(expression: Expression) -> bool:
+    """Tell whether nothing in an expression is measured or given: it says the same whenever it is asked."""
+    return all(
+        isinstance(part, Constant | Quantity) or (isinstance(part, Operation) and part.operator != "now")
+        for part in parts_of(expression)
+    )
+
+
+def _unit_of_product(name: str, left: str, right: str) -> str:
+    if name == "*":
+        return left or right if not (left and right) else ""
+    return left if not right else ""
+
+
+def plain_type(name: str) -> str:
+    """Return the type that a value of this declared type has when it is compared."""
+    return "text" if name in _TEXT_LIKE else name
+
+
+def is_measured(expression: Expression) -> bool:
+    """Tell whether the expression looks at anything that changes by itself: a device, a place, the time."""
+    return any(
+        isinstance(part, Reading) or (isinstance(part, Operation) and part.operator in {"now", "distance", "nearest"})
+        or (isinstance(part, Located) and part.role is not None)
+        for part in parts_of(expression)
+    )  # fmt: skip
+
+
+_COMPUTE: Mapping[str, Callable[[Any, Any], Any]] = {
+    "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
+    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "min": min, "max": max,
+    "in": lambda part, whole: operator.contains(whole, part),
+    "not in": lambda part, whole: not operator.contains(whole, part),
+    "and": lambda a, b: a and b, "or": lambda a, b: a or b,
+}  # fmt: skip
+_COMPUTE_ONE: Mapping[str, Callable[[Any], Any]] = {
+    "-": operator.neg, "not": operator.not_, "abs": abs, "round": round,
+}  # fmt: skip
+
+
+def constant_value(expression: Expression) -> object:
+    """Return what an expression without readings and parameters is always worth; None when that cannot be said."""
+    if _depends(expression):
+        return None
+    try:
+        return _compute(expression)
+    except (TypeError, ArithmeticError, ValueError, LookupError):
+        return None
+
+
+def _depends(expression: Expression) -> bool:
+    """Tell whether anything in an expression is measured or given, so that nothing need be worked out."""
+    if isinstance(expression, Operation):
+        return any(map(_depends, expression.arguments))
+    return not isinstance(expression, Constant)
+
+
+def _compute(expression: Expression) -> object:
+    match expression:
+        case Constant(value=value):
+            return value
+        case Operation(operator=name, arguments=(only,)):
+            return _COMPUTE_ONE[name](_compute(only))
+        case Operation(operator=name, arguments=arguments):
+            return reduce(_COMPUTE[name], [_compute(argument) for argument in arguments])
+    raise LookupError("It depends on what is measured or given.")

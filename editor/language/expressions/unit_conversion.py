@@ -1,0 +1,132 @@
+"""Units are settled when a program is compiled: what meets is brought into one unit, and no plan has a Quantity."""
+
+from __future__ import annotations
+
+from editor.language.expressions.typing import Kind, Typing, common_unit, is_written
+from editor.language.expressions.units import conversion, convert, same_dimension, tidy, unit_symbol
+from editor.language.expressions.values import ARITHMETIC, COMPARISONS, is_number
+from editor.language.plan.instructions import Constant, Expression, Located, Operation, Quantity, Reading
+from editor.language.site.surroundings import Surroundings
+
+_WITH_UNITS = frozenset({"now", "distance", "nearest", "text"})
+_MEETING = frozenset({*COMPARISONS, "+", "-", "min", "max", "abs", "round"})
+
+
+def settle_units(expression: Expression, wanted_unit: str, typing: Typing) -> Expression:
+    """Return an expression without quantities, in the wanted unit if one is wanted (empty: in its own)."""
+    if isinstance(expression, Constant):
+        return expression
+    settled = expression if _units_in(expression) <= 1 else _settle(expression, typing)
+    return _into(settled, _kind(expression, typing).unit, wanted_unit) if wanted_unit else settled
+
+
+def _units_in(expression: Expression) -> int:
+    """Return how many parts of an expression are measured; nothing is converted where it is one, or none.
+
+    What may bring a unit by itself counts as two.
+    """
+    if isinstance(expression, Constant):
+        return 0
+    if isinstance(expression, Operation) and expression.operator not in _WITH_UNITS:
+        return sum(map(_units_in, expression.arguments))
+    return 1 if isinstance(expression, Reading) and isinstance(expression.device, Constant) else 2
+
+
+def _kind(expression: Expression, typing: Typing) -> Kind:
+    return Typing(typing.surroundings, typing.variables, []).kind_of(expression)
+
+
+def _settle(expression: Expression, typing: Typing) -> Expression:
+    """Return the expression without quantities, in its own unit."""
+    match expression:
+        case Quantity(value=value):
+            return Constant(value)
+        case Operation(operator=name, arguments=arguments):
+            if name == "text":
+                return Operation(name, tuple(_in_words(argument, typing) for argument in arguments))
+            if name in {"distance", "nearest"} or _is_in_zone(expression):
+                return Operation(name, _placed(name, arguments, typing))
+            if name in _MEETING:
+                return _folded(Operation(name, _met(name, arguments, typing)), expression)
+            return _folded(Operation(name, tuple(_settle(argument, typing) for argument in arguments)), expression)
+    return expression
+
+
+def _met(name: str, arguments: tuple[Expression, ...], typing: Typing) -> tuple[Expression, ...]:
+    """Return values that meet, all in one unit."""
+    kinds = [_kind(argument, typing) for argument in arguments]
+    unit = common_unit(arguments, kinds)
+    settled = []
+    for index, (argument, kind) in enumerate(zip(arguments, kinds, strict=True)):
+        aside = name in {"+", "-"} and len(arguments) == 2 and _is_difference(index, arguments)
+        settled.append(_into(_settle(argument, typing), kind.unit, unit, difference=aside))
+    return tuple(settled)
+
+
+def _is_difference(index: int, arguments: tuple[Expression, ...]) -> bool:
+    """Of two temperatures that are added or subtracted the second is a difference, or else the one written out."""
+    if is_written(arguments[0]) and not is_written(arguments[1]):
+        return index == 0
+    return index == 1
+
+
+def _in_words(part: Expression, typing: Typing) -> Expression:
+    if isinstance(part, Quantity):
+        return Constant(f"{tidy(part.value)} {unit_symbol(part.unit)}")
+    return _settle(part, typing)
+
+
+def _is_in_zone(expression: Operation) -> bool:
+    last = expression.arguments[-1] if expression.arguments else None
+    return isinstance(last, Located) and last.zone is not None
+
+
+def _placed(name: str, arguments: tuple[Expression, ...], typing: Typing) -> tuple[Expression, ...]:
+    """Return things with a place; a named place of the map is its point wherever only its place is asked for."""
+    fixed = len(arguments) if name == "distance" else 1
+    return tuple(
+        _point_of(argument, typing.surroundings) if index < fixed else _settle(argument, typing)
+        for index, argument in enumerate(arguments)
+    )
+
+
+def _point_of(argument: Expression, surroundings: Surroundings) -> Expression:
+    place = surroundings.places.get(argument.place or "") if isinstance(argument, Located) else None
+    return argument if place is None else Located(point=(place.x, place.y))
+
+
+def _folded(settled: Operation, before: Expression) -> Expression:
+    """Work out plain reckoning with quantities, so that a plan holds the number."""
+    numbers = [a.value for a in settled.arguments if isinstance(a, Constant) and is_number(a.value)]
+    if settled.operator not in ARITHMETIC or settled == before or len(numbers) != 2 or len(settled.arguments) != 2:
+        return settled
+    left, right = numbers
+    match settled.operator:
+        case "+":
+            return Constant(tidy(left + right))
+        case "-":
+            return Constant(tidy(left - right))
+        case "*":
+            return Constant(tidy(left * right))
+    return settled if right == 0 else Constant(tidy(left / right))
+
+
+def _into(expression: Expression, source: str, target: str, *, difference: bool = False) -> Expression:
+    """Return an expression that is in one unit in another one."""
+    if not source or not target or source == target or not same_dimension(source, target):
+        return expression
+    factor, offset = conversion(source, target)
+    if isinstance(expression, Constant) and is_number(expression.value):
+        value = expression.value
+        return Constant(tidy(value * factor) if difference else convert(value, source, target))
+    scaled = _scaled(expression, factor)
+    return scaled if difference or not offset else Operation("+", (scaled, Constant(offset)))
+
+
+def _scaled(expression: Expression, factor: float) -> Expression:
+    if factor == 1:
+        return expression
+    inverse = tidy(1 / factor)
+    if factor < 1 and isinstance(inverse, int):
+        return Operation("/", (expression, Constant(inverse)))
+    return Operation("*", (expression, Constant(factor)))

@@ -1,0 +1,1 @@
+"""What the language says to people, in each language, as data."""

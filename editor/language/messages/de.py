@@ -1,0 +1,178 @@
+"""The sentences of the checks in German, by the codes and with the arguments of `texts.py`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+TEXTS_DE: Final[Mapping[str, str]] = {
+    # something is still to be entered
+    "missing_quantity": "Geben Sie ein, wie viele {things} zu tragen sind. {robot} trägt {range} auf einmal.",
+    "missing_object": "Wählen Sie, was zu tragen ist: {options}.",
+    "missing_source": "Wählen Sie, wo der Roboter etwas holt.",
+    "missing_target": "Wählen Sie, wo der Roboter etwas abgibt.",
+    "missing_destination": "Wählen Sie, wohin der Roboter fährt.",
+    "missing_machine": "Wählen Sie die Maschine, die das tut.",
+    "missing_method": "Wählen Sie, was {device} tut: {options}.",
+    "missing_argument": "Geben Sie {argument} für {method} ein{range}.",
+    "missing_condition": "Geben Sie die Bedingung ein, die entscheidet.",
+    "missing_seconds": "Geben Sie ein, wie lange gewartet wird, in Sekunden, oder worauf.",
+    "missing_function": "Wählen Sie die Funktion, die aufgerufen wird.",
+    "missing_function_argument": "Geben Sie {argument} für {function} ein.",
+    "missing_times": "Geben Sie ein, wie oft diese Schritte wiederholt werden.",
+    "missing_items": "Geben Sie ein, was der Reihe nach durchgegangen wird.",
+    "missing_variable": "Geben Sie der Variable einen Namen.",
+    "missing_value": "Geben Sie den Wert ein.",
+    "missing_question": "Geben Sie die Frage ein.",
+    "missing_options": "Geben Sie mindestens zwei Antworten zur Wahl ein.",
+    "missing_message": "Geben Sie ein, was mitgeteilt wird.",
+    "empty_program": "Dieses Programm hat noch keine Schritte. Beginnen Sie mit Holen und Bringen.",
+    # it speaks of something that does not exist
+    "unknown_device": "An diesem Standort gibt es kein Gerät {device}. Wählen Sie ein anderes.",
+    "unknown_place": "Auf dieser Karte gibt es keinen Ort {place}. Wählen Sie einen anderen.",
+    "unknown_method": "{device} kann {method} nicht. Es kann: {options}.",
+    "unknown_property": "{device} meldet {property} nicht. Es meldet: {options}.",
+    "unknown_argument": "{method} kennt {argument} nicht. Einzugeben ist: {options}.",
+    "unknown_function": "Diese Funktion gibt es nicht mehr. Wählen Sie eine andere.",
+    "unknown_parameter": "Hier gibt es keinen Wert mit dem Namen {parameter}. Wählen oder schreiben Sie einen anderen.",
+    "unknown_role": "Dieses Programm hat keinen Roboter mit dem Namen {role}. Wählen Sie einen anderen.",
+    "unknown_kind": "Diese Art von Schritt kennt diese Version von VIPO nicht. Löschen Sie ihn.",
+    "newer_format": "Dieses Programm stammt aus einem neueren VIPO. Aktualisieren Sie dieses, um es auszuführen.",
+    # it cannot ever work
+    "pending_device": "{device} wartet auf Zulassung. Ein Administrator kann es im Register zulassen.",
+    "retired_device": "{device} ist nicht mehr in Betrieb. Wählen Sie ein anderes Gerät.",
+    "not_a_robot": "{device} ist kein Roboter. Wählen Sie einen Roboter für {role}.",
+    "robot_as_place": "{device} ist ein Roboter und kann Objekte weder geben noch nehmen. Wählen Sie eine Maschine.",
+    "cannot_do": "{device} kann {method} nicht. Wählen Sie einen Roboter, der das kann.",
+    "no_robot_can": "Kein Roboter an diesem Standort kann {methods}.",
+    "not_given": "{device} gibt {object} nicht her. Es gibt: {options}.",
+    "not_taken": "{device} nimmt {object} nicht an. Es nimmt: {options}.",
+    "wrong_type": "{subject}: Hier wird {wanted} gebraucht, und das ist {given}.",
+    "not_comparable": "{left} und {right} lassen sich nicht mit {operator} vergleichen.",
+    "wrong_unit": "{subject} ist in {wanted}, und dieser Wert ist in {given}.",
+    "out_of_range": "{subject} muss {range} sein.",
+    "not_an_option": "{subject} ist eines von: {options}.",
+    "quantity_not_positive": "Die Menge muss eine ganze Zahl über 0 sein.",
+    "quantity_above_capacity": "{robot} trägt {range} auf einmal. Geben Sie weniger ein, oder fahren Sie zweimal.",
+    "carrying_too_much": "{robot} trägt hier schon {carried} und fasst höchstens {capacity}.",
+    "may_carry_too_much": "{robot} trägt hier vielleicht schon zu viel. Höchstens {capacity} passen.",
+    "drops_nothing": "{robot} trägt hier {carried} {object} und kann nicht {quantity} abgeben.",
+    "may_drop_nothing": "{robot} trägt auf einem der Wege zu diesem Schritt weniger als {quantity} {object}.",
+    "place_outside": "Dieser Ort liegt außerhalb der Karte. Ziehen Sie ihn hinein.",
+    "place_blocked": "{robot} passt hier nicht hin: Eine Wand oder eine Maschine ist zu nah.",
+    "place_unreachable": "{robot} findet keinen Weg zu diesem Ort.",
+    "calls_itself": "{function} ruft auf jedem Weg sich selbst auf und käme nie zum Ende.",
+    "times_not_whole": "Wie oft, ist eine ganze Zahl ab 0.",
+    "return_outside_function": "Nur eine Funktion kann etwas zurückgeben. Beenden Sie stattdessen das Programm.",
+    "break_outside_loop": "Um diesen Schritt gibt es keine Schleife, die er verlassen könnte.",
+    "leaves_parallel": "Dieser Schritt würde einen parallelen Zweig verlassen. Lassen Sie den Zweig zu Ende gehen.",
+    "leaves_finally": "Dieser Schritt würde ein Finally verlassen, das immer ganz ausgeführt wird.",
+    "gives_nothing": "{function} gibt nichts zurück. Nehmen Sie nichts davon, oder geben Sie ihr ein Ergebnis.",
+    "returns_unasked": "{function} hat kein Ergebnis. Geben Sie der Funktion eines, oder entfernen Sie diesen Wert.",
+    "shared_robot": "Die Zweige {first} und {second} fahren beide {robot}. Geben Sie einem einen anderen Roboter.",
+    # it works, but perhaps not as it is meant
+    "offline_device": "{device} ist offline. Das Programm kann laufen, wenn es wieder da ist.",
+    "no_robot_online": "Kein Roboter, der {methods} kann, ist online. Das Programm kann laufen, wenn einer da ist.",
+    "may_never_end": "Nichts Gemessenes entscheidet hier; diese Schritte wiederholen sich vielleicht ohne Ende.",
+    "never_runs": "Diese Bedingung ist nie wahr; diese Schritte laufen also nie.",
+    "always_true": "Diese Bedingung ist immer wahr; der andere Zweig läuft also nie.",
+    "draft": "Dieser Schritt hängt an nichts und läuft nicht. Verbinden oder löschen Sie ihn.",
+    "too_deep": "Dieser Schritt liegt zu tief in anderen und läuft nicht. Machen Sie aus einigen eine Funktion.",
+    # the ways through a program
+    "never_reached": "Dieser Schritt wird nie erreicht: Was davor kommt, endet immer hier oder geht ewig weiter.",
+    "never_ends": (
+        "Diese Schritte wiederholen sich ewig: Die Bedingung ist immer wahr, und kein Schritt "
+        "verlässt die Schleife."
+    ),
+    "no_value_on_some_way": (
+        "{function} gibt einen Wert zurück, aber nicht auf jedem Weg. Beenden Sie diesen Weg "
+        "mit einem Wert."
+    ),
+    "unused_result": "Was {function} zurückgibt, wird nicht behalten. Wählen Sie eine Variable dafür.",
+    "unused_function": "Nichts ruft {function} auf; diese Schritte laufen also nie.",
+    "unused_variable": "{variable} wird hier gesetzt und nie verwendet.",
+    "unset_variable": "{variable} hat hier noch keinen Wert. Setzen Sie die Variable vorher.",
+    "may_be_unset": (
+        "{variable} hat auf einem der Wege zu diesem Schritt noch keinen Wert. Setzen Sie die "
+        "Variable vorher."
+    ),
+    "event_shares_robot": (
+        "Das läuft neben dem Programm, und beide fahren {robot}. Geben Sie einem einen "
+        "anderen Roboter."
+    ),
+    "branches_wait": (
+        "Die Zweige {first} und {second} warten aufeinander, auf {variable} und {other}. "
+        "Setzen Sie eines davon vor dem Warten."
+    ),
+    # functions of the library
+    "version_gone": (
+        "Version {version} von {function} ist nicht mehr in der Bibliothek. Die Kopie in "
+        "diesem Programm geht weiterhin."
+    ),
+    "newer_version": "Die Bibliothek hat Version {newest} von {function}; dieses Programm verwendet Version {version}.",
+    "signature_changed": (
+        "Version {newest} von {function} in der Bibliothek braucht andere Werte: "
+        "{parameters}. Holen Sie sie und geben Sie diese neu ein."
+    ),
+    # values: units, zones and ranges
+    "unknown_unit": "{unit} ist keine Einheit, die VIPO kennt. Wählen Sie eine andere.",
+    "unknown_zone": "Es gibt keine Zone {zone} in diesem Programm. Zeichnen Sie sie, oder wählen Sie eine andere.",
+    "never_true_in_range": "{property} von {device} ist immer {range}; deshalb gilt das nie.",
+    "always_true_in_range": "{property} von {device} ist immer {range}; deshalb gilt das immer.",
+    "contradiction": "Diese Bedingungen schließen einander aus; deshalb gilt das nie.",
+    "waits_for_ever": "Das tritt nie ein; das Programm wartet für immer. Ändern Sie es, oder setzen Sie eine Grenze.",
+    # machines on the floor, and zones
+    "station_unreachable": "{robot} findet keinen Weg zu {device} oder keinen Platz daneben.",
+    "place_in_keep_out": (
+        "Dieser Ort liegt in {zone}, wo kein Roboter hineinfährt. Wählen Sie einen anderen, "
+        "oder ändern Sie die Zone."
+    ),
+    "zone_too_small": "{zone} ist kleiner als {robot} und bewirkt deshalb nichts. Vergrößern Sie die Zone.",
+    # a script that was written by hand
+    "not_python": "Zeile {line}, Spalte {column}: Das kann nicht gelesen werden. {detail}",
+    "not_in_language": "Zeile {line}, Spalte {column}: {found} gehört nicht zur Sprache. {instead}",
+}  # fmt: skip
+
+FIX_TEXTS_DE: Final[Mapping[str, str]] = {
+    "set_to": "Auf {value} setzen",
+    "choose": "{value} wählen",
+    "remove": "{value} entfernen",
+    "join_at_end": "Am Ende des Programms anhängen",
+    "delete_step": "Schritt löschen",
+    "own_robot": "Zweig {value} bekommt einen eigenen Roboter",
+    "use_version": "Version {value} nehmen",
+    "make_end": "Stattdessen das Programm beenden",
+}
+
+
+WORDS_DE: Final[Mapping[str, str]] = {
+    "and": "und",
+    "or": "oder",
+    "nothing": "nichts",
+    "there is nothing here": "hier gibt es nichts",
+    "objects": "Objekte",
+    # types of values
+    "a number": "eine Zahl",
+    "a text": "ein Text",
+    "yes or no": "ja oder nein",
+    "a list": "eine Liste",
+    "a kind of object": "eine Objektart",
+    "a device": "ein Gerät",
+    "a place": "ein Ort",
+    "a robot": "ein Roboter",
+    "a zone": "eine Zone",
+    "a point": "ein Punkt",
+    # what a sentence speaks of
+    "A condition": "Eine Bedingung",
+    "The quantity": "Die Menge",
+    "The object": "Das Objekt",
+    "The time to wait": "Die Wartezeit",
+    "The time limit": "Die Zeitgrenze",
+    "How many times": "Wie oft",
+    "A value": "Ein Wert",
+    "The variable": "Die Variable",
+    "The question": "Die Frage",
+    "The message": "Die Nachricht",
+    "The result": "Das Ergebnis",
+    "The first value": "Der erste Wert",
+}

@@ -1,0 +1,344 @@
+"""Python expressions → expressions of the language, by walking their `ast`; anything else is refused."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Final, Literal
+
+from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
+from editor.language.expressions.units import UNITS, unit_code
+from editor.language.expressions.values import DEEPEST_EXPRESSION, FUNCTIONS, arity_fits, is_number, operation, plain
+from editor.language.messages.mistakes import instead_of_call, instead_of_expression
+from editor.language.plan.instructions import Constant, Expression, Located, PlaceRef, Quantity, Reading, Variable
+from editor.language.site.surroundings import Surroundings
+from editor.language.tree.nodes import MISSING, NOWHERE, Point
+from vipo_device.protocol.description import Description, Scalar
+
+_BINARY: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
+_COMPARE: Mapping[type[ast.cmpop], str] = {
+    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
+    ast.In: "in", ast.NotIn: "not in",
+}  # fmt: skip
+
+
+_NO_SCALARS: Final = (bytes, complex, type(Ellipsis))
+
+
+class Refused(Exception):
+    """A piece of Python that the language does not have; `instead` says what to write."""
+
+    def __init__(self, node: ast.AST, found: str, instead: str) -> None:
+        super().__init__(found)
+        self.line, self.column = getattr(node, "lineno", 1), getattr(node, "col_offset", 0) + 1
+        self.end_line = getattr(node, "end_lineno", None) or self.line
+        self.end_column = (getattr(node, "end_col_offset", None) or self.column) + 1
+        self.found, self.instead = found, instead
+
+
+@dataclass(frozen=True, slots=True)
+class Binding:
+    """What `run` gives to an attribute of the task."""
+
+    kind: Literal["get", "any", "place", "parameter", "zone"]
+    id: str = ""
+    can: tuple[str, ...] = ()
+    at: str | None = None
+    default: Scalar = None
+    type: str = ""
+    unit: str = ""
+
+
+@dataclass(slots=True)
+class Scope:
+    """The names that can be used, and the site."""
+
+    surroundings: Surroundings
+    bindings: dict[str, Binding] = field(default_factory=dict)
+    locals: frozenset[str] = frozenset()
+    variables: frozenset[str] = frozenset()
+    """The variables of the program, which are attributes of the task."""
+    robots: Callable[[], frozenset[str]] = frozenset
+    """The attributes that some step drives as a robot."""
+
+    def description(self, device_id: str | None) -> Description | None:
+        """Return a device's description, if the site has the device."""
+        facts = self.surroundings.devices.get(device_id or "")
+        return None if facts is None else facts.description
+
+
+def quoted(node: ast.AST) -> str:
+    """Return a piece of the script for a message, shortened."""
+    text = ast.unparse(node).splitlines()[0]
+    return f"“{text[:60]}…”" if len(text) > 60 else f"“{text}”"
+
+
+def attribute_of_self(node: ast.AST) -> str | None:
+    """Return x of `self.x`."""
+    if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "self":
+        return node.attr
+    return None
+
+
+def parse_expression(node: ast.expr, scope: Scope, depth: int = 0) -> Expression:
+    """Return the expression that a piece of Python stands for; None is a value still to be entered.
+
+    Raises:
+        Refused: it is not part of the language.
+    """
+    if depth > DEEPEST_EXPRESSION + 1:
+        raise Refused(node, "An expression as deep as this", "Write it in several steps.")
+    parse = _PARSERS.get(type(node))
+    if parse is None:
+        use = "Use readings of devices, parameters, numbers, texts and comparisons."
+        raise Refused(node, quoted(node), instead_of_expression(node) or use)
+    return parse(node, scope, depth + 1)
+
+
+def parse_scalar(node: ast.expr) -> Scalar:
+    """Return a value that is written out.
+
+    Raises:
+        Refused: it is anything else.
+    """
+    minus = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub)
+    inner = node.operand if isinstance(node, ast.UnaryOp) and minus else node
+    if not isinstance(inner, ast.Constant) or (minus and not is_number(inner.value)):
+        raise Refused(node, quoted(node), "Write a number, a text, True or False here.")
+    value = inner.value
+    scalar = None if isinstance(value, _NO_SCALARS) else plain(value)
+    if scalar is None and value is not None:
+        raise Refused(node, quoted(node), "Write a number below 10¹⁵, a text, True or False here.")
+    return -scalar if minus and is_number(scalar) else scalar
+
+
+def _constant(node: ast.Constant, scope: Scope, depth: int) -> Expression:
+    scalar = parse_scalar(node)
+    return MISSING if scalar is None else Constant(scalar)
+
+
+def _list(node: ast.Tuple | ast.List, scope: Scope, depth: int) -> Expression:
+    scalars = tuple(parse_scalar(item) for item in node.elts)
+    if not scalars or None in scalars:
+        raise Refused(node, quoted(node), "Write at least one value between the brackets.")
+    return Constant(scalars)
+
+
+def _name(node: ast.Name, scope: Scope, depth: int) -> Expression:
+    if node.id not in scope.locals:
+        raise Refused(
+            node, quoted(node), "Use a parameter of this function, or a reading such as self.oven.temperature."
+        )
+    return Variable(node.id)
+
+
+def _attribute(node: ast.Attribute, scope: Scope, depth: int) -> Expression:
+    name = attribute_of_self(node)
+    if name is not None:
+        return _own_attribute(node, name, scope)
+    device = parse_thing(node.value, scope)
+    description = scope.description(device.device)
+    names = [] if description is None else [spec.name for spec in description.properties]
+    found = next((n for n in names if snake_case(n) == node.attr and member_name(n, names)), None)
+    if found is None:
+        options = ", ".join(filter(None, (member_name(n, names) for n in names))) or "nothing"
+        raise Refused(node, quoted(node), f"What can be read here: {options}.")
+    return Reading(Constant(device.device), found)
+
+
+def _own_attribute(node: ast.Attribute, name: str, scope: Scope) -> Expression:
+    """Return what `self.name` stands for: a variable, or something that has a place."""
+    binding = scope.bindings.get(name)
+    if name in scope.variables or (binding is not None and binding.kind == "parameter"):
+        if name in scope.locals:
+            raise Refused(node, quoted(node), f"Here {name} is something else, which hides it. Write {name}.")
+        return Variable(name)
+    if name in scope.robots():
+        return Located(role=name)
+    match binding:
+        case Binding(kind="get", id=device):
+            return Located(device=device)
+        case Binding(kind="place", id=place):
+            return Located(place=place)
+        case Binding(kind="zone", id=zone):
+            return Located(zone=zone)
+    raise Refused(node, quoted(node), f'Give it in run: self.{name} = ctx.parameter("{name}", 0, Number).')
+
+
+def _call(node: ast.Call, scope: Scope, depth: int) -> Expression:
+    function = node.func
+    if isinstance(function, ast.Name) and not node.keywords:
+        if function.id in _MAKERS:
+            return _MAKERS[function.id](node)
+        if function.id in FUNCTIONS:
+            return _function(node, function.id, scope, depth)
+    if isinstance(function, ast.Attribute) and function.attr == "read" and len(node.args) == 1:
+        device, name = parse_thing(function.value, scope), parse_scalar(node.args[0])
+        if isinstance(name, str) and name and device.device is not None:
+            return Reading(Constant(device.device), name)
+        if isinstance(name, str) and name and device.value is not None:
+            return Reading(device.value, name)
+    instead = instead_of_call(node)
+    if instead is not None:
+        raise Refused(node, quoted(node), instead)
+    known = ", ".join((*FUNCTIONS, *_MAKERS))
+    raise Refused(node, quoted(node), f"In expressions only these can be called: {known}.")
+
+
+def _function(node: ast.Call, name: str, scope: Scope, depth: int) -> Expression:
+    if not arity_fits(name, len(node.args)):
+        least, most = FUNCTIONS[name]
+        wanted = str(least) if least == most else f"{least} or more"
+        raise Refused(node, quoted(node), f"{name} takes {wanted} value(s).")
+    return operation(name, tuple(parse_expression(argument, scope, depth) for argument in node.args))
+
+
+def _quantity(node: ast.Call) -> Expression:
+    match [parse_scalar(argument) for argument in node.args]:
+        case [value, str(unit)] if is_number(value) and unit:
+            return Quantity(value, unit_code(unit))
+    units = ", ".join(unit.symbol for unit in UNITS.values())
+    raise Refused(node, quoted(node), f'Write quantity(10, "min"), with one of these units: {units}.')
+
+
+def _point(node: ast.Call) -> Expression:
+    match [parse_scalar(argument) for argument in node.args]:
+        case [x, y] if is_number(x) and is_number(y):
+            return Located(point=(x, y))
+    raise Refused(node, quoted(node), "Write a point as point(3.5, -8), in metres.")
+
+
+_MAKERS: Mapping[str, Callable[[ast.Call], Expression]] = {"quantity": _quantity, "point": _point}
+
+
+def _formatted(node: ast.JoinedStr, scope: Scope, depth: int) -> Expression:
+    """Return the text that an f-string stands for."""
+    return operation("text", tuple(_part(part, scope, depth) for part in node.values))
+
+
+def _part(part: ast.expr, scope: Scope, depth: int) -> Expression:
+    if isinstance(part, ast.FormattedValue):
+        if part.conversion != -1 or part.format_spec is not None:
+            raise Refused(part, quoted(part.value), "Between { and } write only the value.")
+        return parse_expression(part.value, scope, depth)
+    return parse_expression(part, scope, depth)
+
+
+def _bool_operation(node: ast.BoolOp, scope: Scope, depth: int) -> Expression:
+    name = "and" if isinstance(node.op, ast.And) else "or"
+    return operation(name, tuple(parse_expression(value, scope, depth) for value in node.values))
+
+
+def _unary_operation(node: ast.UnaryOp, scope: Scope, depth: int) -> Expression:
+    if not isinstance(node.op, ast.Not | ast.USub):
+        raise Refused(node, quoted(node), "Use “not” or “-”.")
+    argument = parse_expression(node.operand, scope, depth)
+    return operation("not" if isinstance(node.op, ast.Not) else "-", (argument,))
+
+
+def _binary_operation(node: ast.BinOp, scope: Scope, depth: int) -> Expression:
+    name = _BINARY.get(type(node.op))
+    if name is None:
+        raise Refused(node, quoted(node), "Use +, -, * or /.")
+    return operation(name, (parse_expression(node.left, scope, depth), parse_expression(node.right, scope, depth)))
+
+
+def _comparison(node: ast.Compare, scope: Scope, depth: int) -> Expression:
+    name = _COMPARE.get(type(node.ops[0]))
+    if name is None or len(node.ops) != 1:
+        raise Refused(node, quoted(node), "Compare two values at a time, and join comparisons with “and”.")
+    left = parse_expression(node.left, scope, depth)
+    return operation(name, (left, parse_expression(node.comparators[0], scope, depth)))
+
+
+_PARSERS: Mapping[type[ast.expr], Callable[..., Expression]] = {
+    ast.Constant: _constant,
+    ast.Tuple: _list,
+    ast.List: _list,
+    ast.Name: _name,
+    ast.Attribute: _attribute,
+    ast.Call: _call,
+    ast.BoolOp: _bool_operation,
+    ast.UnaryOp: _unary_operation,
+    ast.BinOp: _binary_operation,
+    ast.Compare: _comparison,
+    ast.JoinedStr: _formatted,
+}
+
+
+def parse_thing(node: ast.expr, scope: Scope) -> PlaceRef:
+    """Return the device or place that `self.oven`, a parameter, a point or None stands for.
+
+    Raises:
+        Refused: it stands for something else.
+    """
+    name = attribute_of_self(node)
+    binding = scope.bindings.get(name) if name is not None else None
+    if binding is not None and binding.kind == "get":
+        return PlaceRef(device=binding.id)
+    if binding is not None and binding.kind == "place":
+        return PlaceRef(place=binding.id)
+    if name is not None and (name in scope.variables or (binding is not None and binding.kind == "parameter")):
+        return PlaceRef(value=Variable(name))
+    if isinstance(node, ast.Name) and node.id in scope.locals:
+        return PlaceRef(value=Variable(node.id))
+    if isinstance(node, ast.Constant) and node.value is None:
+        return NOWHERE
+    if isinstance(node, ast.Tuple):
+        return PlaceRef(point=parse_point(node))
+    raise Refused(node, quoted(node), 'Give it in run: self.oven = ctx.get("curingOven01").')
+
+
+def parse_point(node: ast.expr) -> Point:
+    """Return a point in metres that is written as (x, y).
+
+    Raises:
+        Refused: it is written otherwise.
+    """
+    if isinstance(node, ast.Tuple) and len(node.elts) == 2:
+        x, y = parse_scalar(node.elts[0]), parse_scalar(node.elts[1])
+        if is_number(x) and is_number(y):
+            return (x, y)
+    raise Refused(node, quoted(node), "Write a point as (x, y) in metres.")
+
+
+def parse_place(node: ast.expr, scope: Scope) -> PlaceRef:
+    """Return where a robot goes: `self.oven.location`, a point, or None.
+
+    Raises:
+        Refused: it is something else.
+    """
+    if isinstance(node, ast.Attribute) and node.attr == "location":
+        return parse_thing(node.value, scope)
+    if isinstance(node, ast.Tuple) or (isinstance(node, ast.Constant) and node.value is None):
+        return parse_thing(node, scope)
+    raise Refused(node, quoted(node), "Write where it goes as self.oven.location, or as a point (x, y).")
+
+
+def calls_in(module: ast.Module) -> list[ast.Call]:
+    """Return every call in a script, in any order."""
+    found: list[ast.Call] = []
+    left: list[ast.AST] = [module]
+    while left:
+        node = left.pop()
+        if node.__class__ is ast.Call:
+            found.append(node)
+        for name in node._fields:
+            value = getattr(node, name, None)
+            if value.__class__ is list:
+                left.extend(item for item in value if isinstance(item, ast.AST))
+            elif isinstance(value, ast.AST) and value.__class__ not in _BARE:
+                left.append(value)
+    return found
+
+
+_BARE: Final = frozenset({ast.Load, ast.Store, ast.Constant, ast.Name})
+"""What a syntax tree has most of; nothing stands in it."""
+
+
+def robots_driven(calls: Iterable[ast.Call]) -> frozenset[str]:
+    """Return the attributes of the task that some step drives as a robot: x of `self.x.pick(…)`."""
+    functions = (call.func for call in calls)
+    driving = (f.value for f in functions if isinstance(f, ast.Attribute) and f.attr in ROBOT_METHODS)
+    return frozenset(name for name in map(attribute_of_self, driving) if name is not None)

@@ -1,0 +1,184 @@
+"""One grammar for people: a value as one line of text, read and printed; the script's, without `self.`."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from editor.language.drawing.merge import with_document_names
+from editor.language.expressions.names import member_name
+from editor.language.expressions.printing import quantity_text, scalar_text, write_expression
+from editor.language.expressions.quoting import quote
+from editor.language.expressions.typing import Kind, Typing
+from editor.language.expressions.units import UNITS, unit_symbol
+from editor.language.expressions.values import FUNCTIONS, UnknownParameter, read_value, with_role_ids, write_value
+from editor.language.messages.one_line import LINE_TEXTS
+from editor.language.messages.phrases import LANGUAGES, Refusal
+from editor.language.parsing.expressions import Refused, parse_expression
+from editor.language.parsing.line_scope import LineScope
+from editor.language.parsing.line_sugar import Desugared, desugar
+from editor.language.plan.instructions import Expression, Located, Quantity
+from editor.language.tree.nodes import MISSING
+
+LONGEST_LINE = 2000
+_CALLED = frozenset({*FUNCTIONS, "quantity", "point"})
+_YES_NO = {"true": True, "yes": True, "false": False, "no": False}
+_USE_A_DEVICE = "Write for example: oven.temperature."
+_SYNTAX = (
+    ("was never closed", "open_bracket"),
+    ("unterminated", "open_text"),
+    ("unmatched", "closing_bracket"),
+    ("f-string", "bad_braces"),
+)
+
+
+class NotUnderstood(Exception):
+    """A line that is no value of the language: where (the column counts from 1), and why in each language."""
+
+    def __init__(self, column: int, code: str, **args: str) -> None:
+        self.column = column
+        self.messages: dict[str, str] = {
+            language: LINE_TEXTS[code][language].format_map(
+                {name: _bare(Refusal(argument).say(language)) for name, argument in args.items()}
+            )
+            for language in LANGUAGES
+        }
+        super().__init__(self.messages["en"])
+
+
+def parse_line(text: str, line: LineScope) -> object:
+    """Return the Value of the document that a line stands for; an empty line is a missing value.
+
+    Raises:
+        NotUnderstood: it is no value of the language.
+    """
+    names = {written: name for name, written in line.names.items()}
+    value = write_value(_parse(text, line))
+    return with_document_names(with_role_ids(value, line.role_ids), names)
+
+
+def print_line(value: object, line: LineScope) -> str:
+    """Return a Value of the document as one line; one that is missing, or speaks of what is gone, is empty."""
+    expression = _read(value, line)
+    return "" if expression == MISSING else write_expression(expression, _LineNames(line))
+
+
+def kind_of_line(value: object, line: LineScope) -> Kind:
+    """Return what kind of value a Value of the document gives."""
+    return Typing(line.scope.surroundings, line.kinds, []).kind_of(_read(value, line))
+
+
+def _read(value: object, line: LineScope) -> Expression:
+    try:
+        return read_value(value, line.names, line.robot_of)
+    except UnknownParameter:
+        return MISSING
+
+
+@dataclass(frozen=True, slots=True)
+class _LineNames:
+    """How names are written in a line."""
+
+    line: LineScope
+
+    def variable(self, name: str) -> str:
+        return name
+
+    def reading(self, device: str, property_name: str) -> str:
+        description = self.line.scope.description(device)
+        known = [] if description is None else [spec.name for spec in description.properties]
+        member, name = member_name(property_name, known), self.line.thing("get", device)
+        return f"{name}.{member}" if member else f"{name}.read({quote(property_name)})"
+
+    def located(self, located: Located) -> str:
+        if located.role is not None:
+            return located.role
+        if located.device is not None:
+            return self.line.thing("get", located.device)
+        if located.place is not None:
+            return self.line.thing("place", located.place)
+        return self.line.thing("zone", located.zone or "")
+
+    def quantity(self, quantity: Quantity) -> str:
+        if quantity.unit not in UNITS:
+            return quantity_text(quantity)
+        return f"{scalar_text(quantity.value)} {unit_symbol(quantity.unit)}"
+
+
+def _parse(text: str, line: LineScope) -> Expression:
+    if len(text) > LONGEST_LINE:
+        raise NotUnderstood(LONGEST_LINE, "too_long")
+    if not text.strip():
+        return MISSING
+    margin = len(text) - len(text.lstrip())
+    source = desugar(text.strip())
+    try:
+        tree = ast.parse(source.text, mode="eval")
+    except SyntaxError as error:
+        at = (error.offset or len(source.text) + 1) - 1
+        raise NotUnderstood(margin + _column(source, at), _unfinished(error)) from error
+    except (ValueError, RecursionError, MemoryError) as error:
+        raise NotUnderstood(1, "not_complete") from error
+    try:
+        return parse_expression(_Named(line, source, margin).visit(tree.body), line.scope)
+    except Refused as refused:
+        instead = _USE_A_DEVICE if refused.instead.startswith("Give it in run") else refused.instead
+        column = margin + _column(source, _characters(source.text, refused.column - 1))
+        raise NotUnderstood(column, "not_in_value", found=refused.found, instead=instead) from refused
+    except RecursionError as error:
+        raise NotUnderstood(1, "not_complete") from error
+
+
+def _column(source: Desugared, position: int) -> int:
+    return source.origin(max(position, 0)) + 1
+
+
+def _characters(text: str, offset: int) -> int:
+    """Return the position in characters of an offset in UTF-8, which is what Python's trees have."""
+    return len(text.encode()[:offset].decode(errors="ignore"))
+
+
+def _unfinished(error: SyntaxError) -> str:
+    return next((code for sign, code in _SYNTAX if sign in (error.msg or "")), "not_complete")
+
+
+def _bare(text: str) -> str:
+    return text.replace("self.", "")
+
+
+class _Named(ast.NodeTransformer):
+    """Puts the task before names, as in the script; a name that means nothing here is refused."""
+
+    def __init__(self, line: LineScope, source: Desugared, margin: int) -> None:
+        self.line, self.source, self.margin = line, source, margin
+        self.known = frozenset(line.known_names())
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """Functions are not of the task."""
+        if isinstance(node.func, ast.Name) and node.func.id in _CALLED:
+            node.args = [self.visit(argument) for argument in node.args]
+            return node
+        return self.generic_visit(node)
+
+    def visit_Name(self, node: ast.Name) -> ast.AST:
+        """Return the attribute of the task that a name stands for."""
+        if node.id == "self":
+            return node
+        if node.id in self.known:
+            return ast.copy_location(ast.Attribute(_SELF, node.id, ast.Load()), node)
+        if node.id.lower() in _YES_NO:
+            return ast.copy_location(ast.Constant(_YES_NO[node.id.lower()]), node)
+        column = self.margin + _column(self.source, _characters(self.source.text, node.col_offset))
+        near = _alike(node.id, sorted({*self.known, *_CALLED}))
+        code = "unknown_name_like" if near else "unknown_name"
+        raise NotUnderstood(column, code, name=node.id, options=", ".join(near))
+
+
+def _alike(name: str, known: list[str]) -> list[str]:
+    """Return known names that may be meant: those that are nearly the same, or have it as a part."""
+    parts = [other for other in known if len(name) > 2 and name.lower() in other]
+    return list(dict.fromkeys([*get_close_matches(name, known, 3, 0.75), *parts]))[:3]
+
+
+_SELF = ast.Name("self", ast.Load())

@@ -1,0 +1,96 @@
+"""Variables in a script: `self.x` for those of the program, bare names for those of a function or a loop."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from editor.language.expressions.names import attribute_name, local_name
+from editor.language.parsing.expressions import Refused, Scope, attribute_of_self, quoted
+
+Methods = Mapping[str, ast.FunctionDef]
+_PER_LOOP = (ast.For, ast.While, ast.If, ast.Try)
+
+
+@dataclass(frozen=True, slots=True)
+class Assigned:
+    """The names that a method and the branches of its Parallels assign: attributes of the task, and bare ones."""
+
+    attributes: frozenset[str]
+    bare: frozenset[str]
+
+
+def names_assigned(method: ast.FunctionDef, methods: Methods) -> Assigned:
+    """Return what a method assigns; the variable of a loop counts nowhere in that loop."""
+    targets = list(_targets(method.body, methods, frozenset(), {method.name}))
+    attributes = frozenset(name for name in map(attribute_of_self, targets) if name is not None)
+    return Assigned(attributes, frozenset(target.id for target in targets if isinstance(target, ast.Name)))
+
+
+def _targets(
+    statements: Iterable[ast.stmt], methods: Methods, loops: frozenset[str], seen: set[str]
+) -> Iterator[ast.expr]:
+    for statement in statements:
+        inside = loops
+        match statement:
+            case ast.Assign(targets=[target]) | ast.AugAssign(target=target):
+                if not (isinstance(target, ast.Name) and target.id in loops):
+                    yield target
+            case ast.For(target=ast.Name(id=name)):
+                inside = loops | {name}
+            case ast.Expr(value=ast.Call() as call) if attribute_of_self(call.func) == "parallel":
+                for branch in map(attribute_of_self, call.args):
+                    if branch is not None and branch in methods and branch not in seen:
+                        seen.add(branch)
+                        yield from _targets(methods[branch].body, methods, loops, seen)
+        for inner in _blocks_of(statement):
+            yield from _targets(inner, methods, inside, seen)
+
+
+def _blocks_of(statement: ast.stmt) -> Iterator[list[ast.stmt]]:
+    if isinstance(statement, _PER_LOOP):
+        yield statement.body
+        yield statement.orelse
+    if isinstance(statement, ast.Try):
+        yield from (handler.body for handler in statement.handlers)
+        yield statement.finalbody
+
+
+def parse_target(node: ast.expr, scope: Scope, methods: Methods) -> str:
+    """Return the name of the variable that is assigned.
+
+    Raises:
+        Refused: nothing can be assigned there.
+    """
+    if isinstance(node, ast.Name) and node.id in scope.locals:
+        check_local(node.id, node)
+        return node.id
+    if isinstance(node, ast.Name):
+        known = (
+            "the program sets it, too" if node.id in scope.variables else "only functions have variables of their own"
+        )
+        raise Refused(node, f"The variable {quoted(node)}", f"Write self.{node.id}: {known}.")
+    name = attribute_of_self(node)
+    if name is None:
+        raise Refused(node, f"A change of {quoted(node)}", "Only variables can be set: self.count = 1.")
+    binding = scope.bindings.get(name)
+    if (binding is not None and binding.kind != "parameter") or name in methods:
+        raise Refused(node, f"A change of {quoted(node)}", "This name stands for something else. Choose another.")
+    if name in scope.locals:
+        raise Refused(node, f"The variable {quoted(node)}", f"Here {name} is something else. Write {name}.")
+    if name not in scope.variables:
+        raise Refused(node, f"The variable {quoted(node)}", f"It belongs to this function alone. Write {name}.")
+    if attribute_name(name, ()) != name:
+        raise Refused(node, f"The name {name}", f"Call it {attribute_name(name, ())}.")
+    return name
+
+
+def check_local(name: str, node: ast.AST) -> None:
+    """Check a name that belongs to a function or a loop.
+
+    Raises:
+        Refused: the language uses it for something else.
+    """
+    if local_name(name, ()) != name:
+        raise Refused(node, f"The name {name}", f"Call it {local_name(name, ())}.")

@@ -1,0 +1,1 @@
+"""Tree → plan: the flat instructions that a run carries out."""

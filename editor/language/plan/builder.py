@@ -1,0 +1,197 @@
+"""The plan while it is being built: instructions, jumps that are still open, and what stands around a step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import zip_longest
+
+from editor.language.expressions.typing import UNKNOWN_KIND, Kind, Typing
+from editor.language.expressions.unit_conversion import settle_units
+from editor.language.plan import instructions as p
+from editor.language.site.surroundings import Surroundings
+from editor.language.tree import nodes as n
+from vipo_device.protocol.description import Description
+
+Leaves = tuple[str, ...]
+Compiler = Callable[..., None]
+
+
+@dataclass(slots=True, eq=False)
+class Guard:
+    """A guarded stretch around the step being compiled; one with a `flag` has a final part with ways out."""
+
+    flag: str = ""
+    exits: list[tuple[int, int]] = field(default_factory=list)
+    """Addresses of the jumps into the final part, each with the address where the way goes on behind it."""
+
+
+@dataclass(slots=True, eq=False)
+class Loop:
+    """A loop around the step being compiled, with the addresses of the jumps that leave it."""
+
+    jumps: list[int] = field(default_factory=list)
+
+
+@dataclass(slots=True, eq=False)
+class Composite:
+    """A step that holds the one being compiled."""
+
+    step: str
+
+
+Around = Guard | Loop | Composite
+
+
+@dataclass(slots=True)
+class Builder:
+    """The instructions so far; jumps are written when their address is known."""
+
+    tree: n.Tree
+    surroundings: Surroundings
+    line_of: Mapping[int, int]
+    compilers: Mapping[type[n.Node], Compiler]
+    shared: frozenset[str]
+    """The variables of the program."""
+    kinds: Mapping[str, Kind] = field(default_factory=dict)
+    """What is known of the variables that can be seen here."""
+    instructions: list[p.Instruction] = field(default_factory=list)
+    calls: list[tuple[int, str]] = field(default_factory=list)
+    """Addresses of calls, with the functions that they call; filled in at the end."""
+    around: list[Around] = field(default_factory=list)
+    own: frozenset[str] = frozenset()
+    """The parameters and variables of the function being compiled."""
+    renamed: dict[str, str] = field(default_factory=dict)
+    """The variables of the loops around, each with its hidden name."""
+    function: n.Function | None = None
+    hidden: dict[str, int] = field(default_factory=dict)
+    methods: dict[str, frozenset[str]] = field(default_factory=dict)
+    """What devices can do, as far as it was asked for."""
+    readings: set[tuple[str, str]] = field(default_factory=set)
+    """The (device, property) pairs that the values of the plan look at."""
+
+    def here(self) -> int:
+        """Return the address of the next instruction."""
+        return len(self.instructions)
+
+    def add(
+        self,
+        do: p.Action,
+        node: n.Node | n.Event | None = None,
+        enters: tuple[str, ...] = (),
+        leaves: Leaves = (),
+    ) -> int:
+        """Add an instruction and return its address."""
+        instructions = self.instructions
+        if node is None:
+            instructions.append(p.Instruction(do, "", 0, enters, leaves))
+        else:
+            instructions.append(p.Instruction(do, node.step, self.line_of.get(id(node), 0), enters, leaves))
+        return len(instructions) - 1
+
+    def patch(self, address: int, do: p.Action) -> None:
+        """Write an instruction again, now that its target is known."""
+        before = self.instructions[address]
+        self.instructions[address] = p.Instruction(do, before.step, before.line, before.enters, before.leaves)
+
+    def block(self, block: n.Block) -> None:
+        """Compile the nodes of a block; the last node of each step tells that it is over."""
+        compilers = self.compilers
+        for node, following in zip_longest(block, block[1:]):
+            last = following is None or following.step != node.step
+            compilers[node.__class__](self, node, (node.step,) if last else ())
+
+    def leave(self, node: n.Node) -> None:
+        """Mark a composite step as over, where its ways out meet."""
+        self.add(p.Jump(self.here() + 1), node, leaves=(node.step,))
+
+    def inside(self, *around: Around) -> Inside:
+        """Compile what stands in a step; without a step it stands in a function, a branch or an event of its own."""
+        return Inside(self, [*self.around, *around] if around else [])
+
+    def describe(self, place: p.PlaceRef) -> Description | None:
+        """Return the description of the device that stands for a place, if it is one of the site."""
+        facts = self.surroundings.devices.get(place.device or "")
+        return None if facts is None else facts.description
+
+    def can(self, device: Description, method: str) -> bool:
+        """Tell whether a device has a method."""
+        known = self.methods.get(device.id)
+        if known is None:
+            known = self.methods[device.id] = frozenset(each.name for each in device.methods)
+        return method in known
+
+    def hide(self, name: str) -> str:
+        """Return a name for a variable that only the plan knows."""
+        count = self.hidden.get(name, 0) + 1
+        self.hidden[name] = count
+        return f"#{name}" if count == 1 else f"#{name}_{count}"
+
+    def is_shared(self, name: str) -> bool:
+        """Tell whether a variable belongs to the program, not to the function that runs."""
+        return name in self.shared and name not in self.own and name not in self.renamed
+
+    def name(self, variable: str) -> str:
+        """Return the name that a variable has in the plan."""
+        return self.renamed.get(variable, variable)
+
+    def value(self, expression: p.Expression, unit: str = "") -> p.Expression:
+        """Return an expression as a plan has it: without quantities, in the wanted unit if one is wanted."""
+        if isinstance(expression, p.Constant):
+            return expression
+        typing = Typing(self.surroundings, self.kinds, [])
+        settled = self._named(settle_units(expression, unit, typing))
+        self._note_readings(settled)
+        return settled
+
+    def _note_readings(self, expression: p.Expression) -> None:
+        if isinstance(expression, p.Operation):
+            for argument in expression.arguments:
+                self._note_readings(argument)
+        elif isinstance(expression, p.Reading) and isinstance(expression.device, p.Constant):
+            self.readings.add((str(expression.device.value), expression.property))
+
+    def given(self, expression: p.Expression | None, unit: str = "") -> p.Expression | None:
+        """Return an expression that may be left out as a plan has it."""
+        return None if expression is None else self.value(expression, unit)
+
+    def unit_of(self, variable: str) -> str:
+        """Return the unit that a variable is kept in, empty when it is not known."""
+        return self.kinds.get(variable, UNKNOWN_KIND).unit
+
+    def _named(self, expression: p.Expression) -> p.Expression:
+        return rename_variables(expression, self.renamed) if self.renamed else expression
+
+    def place(self, place: p.PlaceRef) -> p.PlaceRef:
+        """Return a place as a plan has it."""
+        if place.value is None or not self.renamed:
+            return place
+        return replace(place, value=self._named(place.value))
+
+
+@dataclass(slots=True)
+class Inside:
+    """A stretch of the plan that is built with other things around it."""
+
+    builder: Builder
+    around: list[Around]
+
+    def __enter__(self) -> None:
+        """Begin the stretch."""
+        self.builder.around, self.around = self.around, self.builder.around
+
+    def __exit__(self, *failure: object) -> None:
+        """End it, with the things around that were there before."""
+        self.builder.around = self.around
+
+
+def rename_variables(expression: p.Expression, renamed: Mapping[str, str]) -> p.Expression:
+    """Return an expression with other names for some variables."""
+    match expression:
+        case p.Variable(name=name):
+            return p.Variable(renamed[name]) if name in renamed else expression
+        case p.Reading(device=device, property=name):
+            return p.Reading(rename_variables(device, renamed), name)
+        case p.Operation(operator=operator, arguments=arguments):
+            return p.Operation(operator, tuple(rename_variables(argument, renamed) for argument in arguments))
+    return expression

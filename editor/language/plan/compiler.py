@@ -1,0 +1,210 @@
+"""Tree → plan: flat instructions for the run machine; one small function for each construct."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from editor.language.expressions.values import rename_roles
+from editor.language.plan import control_flow as flow
+from editor.language.plan import instructions as p
+from editor.language.plan.builder import Builder, Compiler, Leaves
+from editor.language.site.surroundings import Surroundings
+from editor.language.tree import nodes as n
+from editor.language.tree.scopes import local_variables, program_variables
+from editor.language.tree.variable_types import kinds_of_function, kinds_of_program
+
+
+def _move(builder: Builder, node: n.Move, leaves: Leaves) -> None:
+    builder.add(p.Move(node.role, builder.place(node.to), node.route), node, leaves=leaves)
+
+
+def _pick(builder: Builder, node: n.Pick, leaves: Leaves) -> None:
+    _serve(builder, node, "dispense", gives=True)
+    at, thing, quantity = builder.place(node.at), builder.value(node.object), builder.value(node.quantity)
+    builder.add(p.Pick(node.role, at, thing, quantity), node, leaves=leaves)
+
+
+def _drop(builder: Builder, node: n.Drop, leaves: Leaves) -> None:
+    _serve(builder, node, "accept", gives=False)
+    at, thing, quantity = builder.place(node.at), builder.value(node.object), builder.value(node.quantity)
+    builder.add(p.Drop(node.role, at, thing, quantity), node, leaves=leaves)
+
+
+def _serve(builder: Builder, node: n.Pick | n.Drop, method: str, *, gives: bool) -> None:
+    """A machine that must act for it does so when the robot stands there, before anything is taken or left."""
+    device = builder.describe(node.at)
+    if device is None or not builder.can(device, method):
+        return
+    things = device.gives if gives else device.takes
+    if isinstance(node.object, p.Constant) and node.object.value not in things:
+        return
+    values = {"object": builder.value(node.object), "value": builder.value(node.quantity)}
+    builder.add(p.Call(node.at, method, values, node.role), node)
+
+
+def _operate(builder: Builder, node: n.Operate, leaves: Leaves) -> None:
+    device = builder.describe(node.device)
+    method = device.method(node.method) if device else None
+    units = {parameter.name: parameter.unit for parameter in method.parameters} if method else {}
+    arguments = {name: builder.value(value, units.get(name, "")) for name, value in node.arguments}
+    builder.add(p.Call(builder.place(node.device), node.method, arguments), node, leaves=leaves)
+
+
+def _wait(builder: Builder, node: n.Wait, leaves: Leaves) -> None:
+    builder.add(p.Wait(builder.value(node.seconds, "SEC")), node, leaves=leaves)
+
+
+def _wait_until(builder: Builder, node: n.WaitUntil, leaves: Leaves) -> None:
+    condition, timeout = builder.value(node.condition), builder.given(node.timeout_s, "SEC")
+    builder.add(p.WaitUntil(condition, timeout), node, leaves=leaves)
+
+
+def _call(builder: Builder, node: n.Call, leaves: Leaves) -> None:
+    function = next(f for f in builder.tree.functions if f.method == node.function)
+    given = dict(node.arguments)
+    arguments: dict[str, p.Expression] = {}
+    for parameter in function.parameters:
+        value = given.get(parameter.name)
+        arguments[parameter.name] = (
+            p.Constant(parameter.default) if value is None else builder.value(value, parameter.unit)
+        )
+    result = builder.name(node.result) if node.result else None
+    invoke = p.Invoke(0, function.name or function.method, arguments, result, builder.is_shared(node.result))
+    address = builder.add(invoke, node, enters=(node.step,), leaves=leaves)
+    builder.calls.append((address, node.function))
+
+
+def _set(builder: Builder, node: n.Set, leaves: Leaves) -> None:
+    value = builder.value(node.value, builder.unit_of(node.variable))
+    assign = p.Assign(builder.name(node.variable), value, builder.is_shared(node.variable))
+    builder.add(assign, node, enters=(node.step,), leaves=leaves)
+
+
+def _ask(builder: Builder, node: n.Ask, leaves: Leaves) -> None:
+    result, shared = builder.name(node.variable) or None, builder.is_shared(node.variable)
+    question, timeout = builder.value(node.question), builder.given(node.timeout_s, "SEC")
+    builder.add(p.AskPerson(question, node.answer, result, shared, timeout), node, enters=(node.step,), leaves=leaves)
+
+
+def _notify(builder: Builder, node: n.Notify, leaves: Leaves) -> None:
+    builder.add(p.Notify(builder.value(node.message), node.level), node, enters=(node.step,), leaves=leaves)
+
+
+def _end(builder: Builder, node: n.End, leaves: Leaves) -> None:
+    builder.add(p.End(early=True), node, enters=(node.step,), leaves=leaves)
+
+
+COMPILERS: Mapping[type[n.Node], Compiler] = {
+    n.Move: _move,
+    n.Pick: _pick,
+    n.Drop: _drop,
+    n.Operate: _operate,
+    n.Wait: _wait,
+    n.WaitUntil: _wait_until,
+    n.If: flow.compile_if,
+    n.While: flow.compile_while,
+    n.Repeat: flow.compile_repeat,
+    n.ForEach: flow.compile_for_each,
+    n.Parallel: flow.compile_parallel,
+    n.Try: flow.compile_try,
+    n.Call: _call,
+    n.Set: _set,
+    n.Ask: _ask,
+    n.Notify: _notify,
+    n.End: _end,
+    n.Return: flow.compile_return,
+    n.Break: flow.compile_break,
+}
+
+
+def compile_tree(
+    tree: n.Tree, surroundings: Surroundings, line_of: Mapping[int, int], zones: tuple[p.Zone, ...] = ()
+) -> p.Plan:
+    """Return the plan of a tree that the checks found no error in; `line_of` gives the script line of each node."""
+    shared = program_variables(tree)
+    kinds = kinds_of_program(tree, shared, surroundings)
+    builder = Builder(tree, surroundings, line_of, COMPILERS, shared, kinds)
+    builder.block(tree.body)
+    builder.add(p.End())
+    entries = {function.method: _function(builder, function) for function in tree.functions}
+    builder.kinds, builder.own, builder.function = kinds, frozenset(), None
+    events = tuple(_event(builder, event) for event in tree.events)
+    for address, method in builder.calls:
+        invoke = builder.instructions[address].do
+        assert isinstance(invoke, p.Invoke)
+        builder.patch(address, replace(invoke, entry=entries[method]))
+    roles = {role.id or role.name: p.RoleBinding(role.id or role.name, role.device, role.can) for role in tree.roles}
+    parameters = {parameter.name: parameter.default for parameter in tree.parameters}
+    instructions, events = _with_role_ids(tree, builder.instructions, events)
+    return p.Plan(instructions, roles, parameters, tuple(sorted(builder.readings)), events=events, zones=zones)
+
+
+def _function(builder: Builder, function: n.Function) -> int:
+    """Compile a function and return where it begins."""
+    entry = builder.here()
+    outside, builder.kinds = (
+        builder.kinds,
+        kinds_of_function(builder.tree, function, builder.kinds, builder.surroundings),
+    )
+    own = (*(parameter.name for parameter in function.parameters), *local_variables(function, builder.shared))
+    builder.own, builder.function = frozenset(own), function
+    builder.block(function.body)
+    builder.add(p.Return())
+    builder.kinds = outside
+    return entry
+
+
+def _event(builder: Builder, event: n.Event) -> p.EventEntry:
+    """Compile the body of an event."""
+    entry, starts = builder.here(), event.starts
+    builder.block(event.body)
+    builder.add(p.EventEnd(), event, leaves=(event.step,))
+    return p.EventEntry(event.step, entry, builder.value(event.condition), "run" if starts == "run" else "branch")
+
+
+Compiled = tuple[tuple[p.Instruction, ...], tuple[p.EventEntry, ...]]
+
+
+def _with_role_ids(tree: n.Tree, instructions: list[p.Instruction], events: tuple[p.EventEntry, ...]) -> Compiled:
+    """The plan knows roles by their ids in the document, the script by their names."""
+    renamed = {role.name: role.id for role in tree.roles if role.id and role.id != role.name}
+    if not renamed:
+        return tuple(instructions), events
+    known = tuple(replace(event, condition=rename_roles(event.condition, renamed)) for event in events)
+    return tuple(_rename(instruction, renamed) for instruction in instructions), known
+
+
+def _rename(instruction: p.Instruction, renamed: Mapping[str, str]) -> p.Instruction:
+    do: Any = instruction.do
+    match do:
+        case p.Move(role=role) | p.Pick(role=role) | p.Drop(role=role):
+            do = replace(do, role=renamed.get(role, role))
+        case p.Call(serves=str(role)):
+            do = replace(do, serves=renamed.get(role, role))
+    changed = {name: _with_roles(getattr(do, name), renamed) for name in _EXPRESSIONS.get(type(do), ())}
+    return replace(instruction, do=replace(do, **changed)) if changed or do is not instruction.do else instruction
+
+
+_EXPRESSIONS: Mapping[type[p.Action], tuple[str, ...]] = {
+    p.Pick: ("object", "quantity"),
+    p.Drop: ("object", "quantity"),
+    p.Call: ("arguments",),
+    p.Wait: ("seconds",),
+    p.WaitUntil: ("condition", "timeout_s"),
+    p.Branch: ("condition",),
+    p.Invoke: ("arguments",),
+    p.Return: ("value",),
+    p.Assign: ("value",),
+    p.AskPerson: ("question", "timeout_s"),
+    p.Notify: ("message",),
+}
+"""The fields of instructions that hold values."""
+
+
+def _with_roles(value: Any, renamed: Mapping[str, str]) -> Any:
+    """Return a value, or values by name, in which robots go by the ids of their roles."""
+    if isinstance(value, Mapping):
+        return {name: rename_roles(inner, renamed) for name, inner in value.items()}
+    return None if value is None else rename_roles(value, renamed)

@@ -1,0 +1,220 @@
+"""Tree → plan, what decides which step comes next: branches, loops, guards and the ways out of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from editor.language.expressions.typing import UNKNOWN_KIND, Typing
+from editor.language.plan import instructions as p
+from editor.language.plan.builder import Around, Builder, Composite, Guard, Leaves, Loop
+from editor.language.tree import nodes as n
+from editor.language.tree.traversal import walk
+
+_LEAVE = frozenset({n.Return, n.Break})
+_ONE = p.Constant(1)
+_ZERO = p.Constant(0)
+
+
+def compile_if(builder: Builder, node: n.If, leaves: Leaves) -> None:
+    """Compile an If."""
+    branch = builder.add(p.Jump(0), node, enters=(node.step,))
+    with builder.inside(Composite(node.step)):
+        builder.block(node.then)
+        over = builder.add(p.Jump(0)) if node.otherwise else -1
+        builder.patch(branch, p.Branch(builder.value(node.condition), builder.here()))
+        builder.block(node.otherwise)
+    if node.otherwise:
+        builder.patch(over, p.Jump(builder.here()))
+    builder.leave(node)
+
+
+def compile_while(builder: Builder, node: n.While, leaves: Leaves) -> None:
+    """Compile a While."""
+    branch = builder.add(p.Jump(0), node, enters=(node.step,))
+    loop = _body(builder, node)
+    builder.add(p.Jump(branch))
+    builder.patch(branch, p.Branch(builder.value(node.condition), builder.here()))
+    _close(builder, node, loop)
+
+
+def compile_repeat(builder: Builder, node: n.Repeat, leaves: Leaves) -> None:
+    """Compile a Repeat: a hidden variable counts how many times are left."""
+    left = p.Variable(builder.hide("repeat"))
+    builder.add(p.Assign(left.name, builder.value(node.times)), node, enters=(node.step,))
+    branch = builder.add(p.Jump(0), node)
+    loop = _body(builder, node)
+    builder.add(p.Assign(left.name, p.Operation("-", (left, _ONE))))
+    builder.add(p.Jump(branch))
+    builder.patch(branch, p.Branch(p.Operation(">=", (left, _ONE)), builder.here()))
+    _close(builder, node, loop)
+
+
+def compile_for_each(builder: Builder, node: n.ForEach, leaves: Leaves) -> None:
+    """Compile a For-each: a hidden variable counts, and tells which item comes next."""
+    typing = Typing(builder.surroundings, builder.kinds, [])
+    kind = typing.kind_of(node.items[0]) if node.items else UNKNOWN_KIND
+    items = [builder.value(item, kind.unit) for item in node.items]
+    index = p.Variable(builder.hide("item"))
+    builder.add(p.Assign(index.name, _ZERO), node, enters=(node.step,))
+    items = [_kept(builder, item) for item in items]
+    outside, kinds = builder.renamed, builder.kinds
+    variable = builder.hide(node.variable)
+    builder.renamed, builder.kinds = {**outside, node.variable: variable}, {**kinds, node.variable: kind}
+    branch = builder.add(p.Jump(0), node)
+    _choose(builder, index, variable, items)
+    loop = _body(builder, node)
+    builder.renamed, builder.kinds = outside, kinds
+    builder.add(p.Assign(index.name, p.Operation("+", (index, _ONE))))
+    builder.add(p.Jump(branch))
+    builder.patch(branch, p.Branch(p.Operation("<", (index, p.Constant(len(items)))), builder.here()))
+    _close(builder, node, loop)
+
+
+def _kept(builder: Builder, item: p.Expression) -> p.Expression:
+    """Return an item that stays as it is at the beginning of the loop."""
+    if isinstance(item, p.Constant | p.Located):
+        return item
+    name = builder.hide("value")
+    builder.add(p.Assign(name, item))
+    return p.Variable(name)
+
+
+def _choose(builder: Builder, index: p.Variable, variable: str, items: Sequence[p.Expression]) -> None:
+    """Give the loop's variable the item whose turn it is."""
+    found: list[int] = []
+    for number, item in enumerate(items):
+        last = number == len(items) - 1
+        branch = -1 if last else builder.add(p.Jump(0))
+        builder.add(p.Assign(variable, item))
+        if not last:
+            found.append(builder.add(p.Jump(0)))
+            is_this = p.Operation("==", (index, p.Constant(number)))
+            builder.patch(branch, p.Branch(is_this, builder.here()))
+    for address in found:
+        builder.patch(address, p.Jump(builder.here()))
+
+
+def _body(builder: Builder, node: n.While | n.Repeat | n.ForEach) -> Loop:
+    loop = Loop()
+    with builder.inside(loop):
+        builder.block(node.body)
+    return loop
+
+
+def _close(builder: Builder, node: n.Node, loop: Loop) -> None:
+    """All ways out of a loop meet behind it."""
+    for address in loop.jumps:
+        builder.patch(address, p.Jump(builder.here()))
+    builder.leave(node)
+
+
+def compile_parallel(builder: Builder, node: n.Parallel, leaves: Leaves) -> None:
+    """Compile a Parallel."""
+    fork = builder.add(p.Jump(0), node, enters=(node.step,), leaves=leaves)
+    entries: list[int] = []
+    for branch in node.branches:
+        entries.append(builder.here())
+        with builder.inside():
+            builder.block(branch)
+        builder.add(p.Join())
+    builder.patch(fork, p.Fork(tuple(entries), builder.here()))
+
+
+def compile_try(builder: Builder, node: n.Try, leaves: Leaves) -> None:
+    """Compile a Try; with a final part all of it stands in a guard that takes everything.
+
+    The final part is there once. Whoever comes to it by a break or a return leaves a mark by which it goes on.
+    """
+    outer = Guard(_flag(builder, node) if node.final else "")
+    enters = (node.step,)
+    if node.final:
+        if outer.flag:
+            builder.add(p.Assign(outer.flag, _ZERO), node, enters=enters)
+        outside = builder.add(p.Jump(0), node, enters=enters)
+    with builder.inside(Composite(node.step), *([outer] if node.final else [])):
+        if node.catches:
+            _guarded(builder, node)
+        else:
+            if not node.final:
+                builder.add(p.Jump(builder.here() + 1), node, enters=enters)
+            builder.block(node.body)
+    if node.final:
+        builder.add(p.TryEnd())
+        builder.patch(outside, p.TryBegin(builder.here(), final=True))
+        _final(builder, node, outer)
+    builder.leave(node)
+
+
+def _flag(builder: Builder, node: n.Try) -> str:
+    """Return the variable for ways out through the final part, empty where there are none."""
+    inside = (part for block in (node.body, node.catch) for part in walk(block))
+    return builder.hide("way") if any(part.__class__ in _LEAVE for part in inside) else ""
+
+
+def _guarded(builder: Builder, node: n.Try) -> None:
+    begin = builder.add(p.Jump(0), node, enters=(node.step,))
+    with builder.inside(Guard()):
+        builder.block(node.body)
+    builder.add(p.TryEnd())
+    over = builder.add(p.Jump(0))
+    builder.patch(begin, p.TryBegin(builder.here(), node.kinds))
+    builder.block(node.catch)
+    builder.patch(over, p.Jump(builder.here()))
+
+
+def _final(builder: Builder, node: n.Try, guard: Guard) -> None:
+    begin = builder.here()
+    with builder.inside(Composite(node.step)):
+        builder.block(node.final)
+    builder.add(p.Rethrow(), node)
+    for number, (address, goes_on) in enumerate(guard.exits, start=1):
+        builder.patch(address, p.Jump(begin))
+        is_this = p.Operation("==", (p.Variable(guard.flag), p.Constant(number)))
+        builder.add(p.Branch(is_this, builder.here() + 2))
+        builder.add(p.Jump(goes_on))
+
+
+def compile_break(builder: Builder, node: n.Break, leaves: Leaves) -> None:
+    """Compile a Break: final parts on the way are carried out."""
+    loop = next((item for item in reversed(builder.around) if isinstance(item, Loop)), None)
+    assert loop is not None, "the checks found a loop around this step"
+    passed = _until(builder.around, loop)
+    builder.add(p.Jump(builder.here() + 1), node, enters=(node.step,), leaves=leaves)
+    _leave_guards(builder, passed, passed)
+    over = tuple(item.step for item in passed if isinstance(item, Composite))
+    loop.jumps.append(builder.add(p.Jump(0), leaves=over))
+
+
+def _until(around: list[Around], loop: Loop) -> list[Around]:
+    """Return what stands between a step and its loop, the innermost first."""
+    position = next(index for index, item in enumerate(around) if item is loop)
+    return around[:position:-1]
+
+
+def compile_return(builder: Builder, node: n.Return, leaves: Leaves) -> None:
+    """Compile a Return: its value is worked out before the final parts on the way."""
+    unit = builder.function.result_unit if builder.function else ""
+    value = builder.given(node.value, unit)
+    passed = builder.around[::-1]
+    finals = [item for item in passed if isinstance(item, Guard) and item.flag]
+    if not finals:
+        builder.add(p.Return(value), node, enters=(node.step,), leaves=leaves)
+        return
+    if value is not None and not isinstance(value, p.Constant):
+        name = builder.hide("result")
+        builder.add(p.Assign(name, value), node, enters=(node.step,))
+        value = p.Variable(name)
+    builder.add(p.Jump(builder.here() + 1), node, enters=(node.step,), leaves=leaves)
+    _leave_guards(builder, passed, passed[: passed.index(finals[-1]) + 1])
+    builder.add(p.Return(value))
+
+
+def _leave_guards(builder: Builder, passed: list[Around], left: list[Around]) -> None:
+    """Leave guards, the innermost first; behind each final part the way goes on here."""
+    for guard in left:
+        if isinstance(guard, Guard):
+            builder.add(p.TryEnd())
+            if guard.flag:
+                builder.add(p.Assign(guard.flag, p.Constant(len(guard.exits) + 1)))
+                address = builder.add(p.Jump(0))
+                guard.exits.append((address, builder.here()))

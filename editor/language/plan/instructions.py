@@ -1,0 +1,318 @@
+"""The plan: flat instructions that the run machine executes, each with its step and its script line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import TYPE_CHECKING, Literal
+
+from vipo_device.protocol.description import Scalar
+
+if TYPE_CHECKING:
+    from dataclasses import dataclass
+else:
+    from editor.language.expressions.frozen import dataclass
+
+PLAN_FORMAT = 2
+
+BinaryOperator = Literal["<", "<=", ">", ">=", "==", "!=", "and", "or", "+", "-", "*", "/", "in", "not in"]
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """A value written in the program."""
+
+    value: Scalar | tuple[Scalar, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """A parameter or a variable of the running frame."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A device's property; `device` is a Constant with its id, or a Variable bound to one."""
+
+    device: Expression
+    property: str
+
+
+@dataclass(frozen=True, slots=True)
+class Operation:
+    """An operator or a function of the closed list, applied to its arguments; `not` and `-` take one."""
+
+    operator: str
+    arguments: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number with its unit as people wrote it; the compiler converts it, no plan has one."""
+
+    value: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Located:
+    """Something that has a place: exactly one field is set. A device's and a place's value is its id."""
+
+    device: str | None = None
+    place: str | None = None
+    point: tuple[float, float] | None = None
+    role: str | None = None
+    zone: str | None = None
+
+
+Expression = Constant | Variable | Reading | Operation | Quantity | Located
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceRef:
+    """Where to go: exactly one of the fields is set. `value` yields a device's or place's id when it runs."""
+
+    device: str | None = None
+    place: str | None = None
+    point: tuple[float, float] | None = None
+    value: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """The role's robot drives to a place (to a device's station, for a device)."""
+
+    role: str
+    to: PlaceRef
+    route: tuple[tuple[float, float], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Pick:
+    """The role's robot takes objects at a device, and is brought there first if it stands elsewhere."""
+
+    role: str
+    at: PlaceRef
+    object: Expression
+    quantity: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Drop:
+    """The role's robot leaves objects at a device, and is brought there first if it stands elsewhere."""
+
+    role: str
+    at: PlaceRef
+    object: Expression
+    quantity: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A device carries out a method; `serves` names the role whose robot stands there (dispense, accept)."""
+
+    device: PlaceRef
+    method: str
+    arguments: Mapping[str, Expression]
+    serves: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Wait:
+    """Wait for a time in seconds."""
+
+    seconds: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class WaitUntil:
+    """Wait until a condition holds; past `timeout_s` it fails as `timed out`."""
+
+    condition: Expression
+    timeout_s: Expression | None
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """Go on if the condition holds, else jump."""
+
+    condition: Expression
+    otherwise: int
+
+
+@dataclass(frozen=True, slots=True)
+class Jump:
+    """Go on at another instruction."""
+
+    to: int
+
+
+@dataclass(frozen=True, slots=True)
+class Fork:
+    """Start one thread per address; the thread that forks goes on at `join` when all of them have met a Join."""
+
+    branches: tuple[int, ...]
+    join: int
+
+
+@dataclass(frozen=True, slots=True)
+class Join:
+    """End of a forked thread."""
+
+
+@dataclass(frozen=True, slots=True)
+class TryBegin:
+    """From here to the matching TryEnd, a failure of one of `kinds` (empty: any) goes on at `handler`.
+
+    A `final` guard takes everything, an early End too; its handler ends in a Rethrow.
+    """
+
+    handler: int
+    kinds: tuple[str, ...] = ()
+    final: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class TryEnd:
+    """Leave the innermost guarded stretch of this thread."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rethrow:
+    """Behind a `final` handler: go on failing, or ending, as before it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Invoke:
+    """Call the function that begins at `entry` in a new frame; `result` names the variable that takes its value."""
+
+    entry: int
+    function: str
+    arguments: Mapping[str, Expression]
+    result: str | None = None
+    shared: bool = False
+    """The result is a variable of the program (frame 0), not of the running frame."""
+
+
+@dataclass(frozen=True, slots=True)
+class Return:
+    """Leave the function's frame, with a value if it has one."""
+
+    value: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Assign:
+    """Set a variable: of the program (frame 0) when it is `shared`, else of the running frame."""
+
+    name: str
+    value: Expression
+    shared: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class AnswerSpec:
+    """What a question may be answered with: `type` is boolean, number, text or choice."""
+
+    type: str = "boolean"
+    unit: str = ""
+    minimum: float | None = None
+    maximum: float | None = None
+    options: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class AskPerson:
+    """Ask the people of the site and wait; past `timeout_s` it fails as `timed_out`."""
+
+    question: Expression
+    answer: AnswerSpec
+    result: str | None = None
+    shared: bool = False
+    timeout_s: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Notify:
+    """Tell the people of the site."""
+
+    message: Expression
+    level: str = "info"
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """The program is over; roles are released. One that comes `early` carries out the `final` guards around it."""
+
+    early: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class EventEnd:
+    """The body of an event is over."""
+
+
+Action = (
+    Move | Pick | Drop | Call | Wait | WaitUntil | Branch | Jump | Fork | Join
+    | TryBegin | TryEnd | Rethrow | Invoke | Return | Assign | AskPerson | Notify | End | EventEnd
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Instruction:
+    """One instruction with where it comes from: `step` is its id (empty for glue), `line` counts from 1."""
+
+    do: Action
+    step: str = ""
+    line: int = 0
+    enters: tuple[str, ...] = ()
+    """Steps that begin when this instruction begins (a While, a Try, a Parallel, a call)."""
+    leaves: tuple[str, ...] = ()
+    """Steps that are over when this instruction is over."""
+
+
+@dataclass(frozen=True, slots=True)
+class RoleBinding:
+    """How a role finds its robot: a given device, or any that can do all of these methods."""
+
+    role: str
+    device: str | None = None
+    can: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class EventEntry:
+    """A second entry: each time the condition becomes true, beside the running program, or as a run of its own."""
+
+    step: str
+    entry: int
+    condition: Expression
+    starts: Literal["branch", "run"] = "branch"
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """A named area of the map: a polygon in metres that robots of this run keep out of, share, or go slowly in."""
+
+    id: str
+    name: str
+    rule: Literal["keep_out", "one_at_a_time", "slow"]
+    points: tuple[tuple[float, float], ...]
+    speed_m_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A whole program, ready to be carried out. Execution begins at instruction 0."""
+
+    instructions: tuple[Instruction, ...]
+    roles: Mapping[str, RoleBinding] = field(default_factory=dict)
+    parameters: Mapping[str, Scalar] = field(default_factory=dict)
+    """The program's parameters with their defaults."""
+    reads: tuple[tuple[str, str], ...] = ()
+    """(device id, property) pairs that conditions look at, as far as they are known before the run."""
+    format: int = PLAN_FORMAT
+    events: tuple[EventEntry, ...] = ()
+    zones: tuple[Zone, ...] = ()

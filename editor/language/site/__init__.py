@@ -1,0 +1,1 @@
+"""What a program is checked against: devices and places as plain data."""

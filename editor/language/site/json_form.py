@@ -1,0 +1,111 @@
+"""A site as plain JSON and back: what a program file holds beside its document."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
+from vipo_device.protocol.description import description_from_json, description_to_json
+
+LIFECYCLES = ("pending", "approved", "retired")
+PLACE_KINDS = ("dock", "room", "point")
+_STATE = frozenset({"lifecycle", "online", "readings", "standing_at"})
+
+
+class UnreadableSite(ValueError):
+    """The JSON is no site; the message says what is wrong with it."""
+
+
+def surroundings_to_json(surroundings: Surroundings) -> dict[str, Any]:
+    """Return a site as plain JSON: `devices` (canonical descriptions, with how they are) and `places`."""
+    devices = [_device_to_json(facts) for _, facts in sorted(surroundings.devices.items())]
+    body = {"devices": devices, "places": [_place_to_json(p) for _, p in sorted(surroundings.places.items())]}
+    if surroundings.library is not None:
+        body["library"] = [_library_to_json(name, facts) for name, facts in sorted(surroundings.library.items())]
+    return body
+
+
+def _library_to_json(name: str, facts: LibraryFacts) -> dict[str, Any]:
+    versions = [
+        {"number": number, "parameters": [{"name": given, "type": kind} for given, kind in parameters]}
+        for number, parameters in sorted(facts.versions.items())
+    ]
+    return {"id": name, "name": facts.name, "versions": versions}
+
+
+def _device_to_json(facts: DeviceFacts) -> dict[str, Any]:
+    body = description_to_json(facts.description)
+    if facts.lifecycle != "approved":
+        body["lifecycle"] = facts.lifecycle
+    if not facts.online:
+        body["online"] = False
+    if facts.readings:
+        body["readings"] = dict(facts.readings)
+    if facts.standing_at is not None:
+        body["standing_at"] = facts.standing_at
+    return body
+
+
+def _place_to_json(place: PlaceFacts) -> dict[str, Any]:
+    return {"id": place.id, "name": place.name, "kind": place.kind, "x": place.x, "y": place.y, "theta": place.theta}
+
+
+def surroundings_from_json(body: object, floor: FloorFacts | None = None) -> Surroundings:
+    """Return the site in the JSON, with what the map says if that is known.
+
+    Raises:
+        UnreadableSite: it is not what `surroundings_to_json` writes.
+    """
+    if not isinstance(body, Mapping):
+        raise UnreadableSite("A site must be a JSON object with “devices” and “places”.")
+    devices = [_device_from_json(item) for item in _listed(body, "devices")]
+    places = [_place_from_json(item) for item in _listed(body, "places")]
+    library = dict(_library_from_json(item) for item in _listed(body, "library")) if "library" in body else None
+    return Surroundings({facts.description.id: facts for facts in devices}, {p.id: p for p in places}, floor, library)
+
+
+def _library_from_json(body: Mapping[str, Any]) -> tuple[str, LibraryFacts]:
+    name = body.get("id")
+    try:
+        versions = {
+            int(version["number"]): tuple((str(given["name"]), str(given["type"])) for given in version["parameters"])
+            for version in _listed(body, "versions")
+        }
+    except (KeyError, TypeError, ValueError) as error:
+        raise UnreadableSite(f"The versions of library function {name} cannot be read: {error}.") from error
+    if not isinstance(name, str) or not name:
+        raise UnreadableSite("A function of the library needs an id.")
+    return name, LibraryFacts(str(body.get("name", name)), versions)
+
+
+def _listed(body: Mapping[str, Any], name: str) -> list[Mapping[str, Any]]:
+    items = body.get(name, [])
+    if not isinstance(items, list) or not all(isinstance(item, Mapping) for item in items):
+        raise UnreadableSite(f"“{name}” of a site must be a list of objects.")
+    return items
+
+
+def _device_from_json(body: Mapping[str, Any]) -> DeviceFacts:
+    name = body.get("id", "without an id")
+    try:
+        description = description_from_json({key: value for key, value in body.items() if key not in _STATE})
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise UnreadableSite(f"The description of device {name} cannot be read: {error}.") from error
+    lifecycle, standing = body.get("lifecycle", "approved"), body.get("standing_at")
+    readings = body.get("readings", {})
+    if lifecycle not in LIFECYCLES:
+        raise UnreadableSite(f"The lifecycle of device {name} must be one of {', '.join(LIFECYCLES)}.")
+    if not isinstance(readings, Mapping) or not isinstance(standing, str | None):
+        raise UnreadableSite(f"The readings or the place of device {name} cannot be read.")
+    return DeviceFacts(description, lifecycle, body.get("online", True) is True, dict(readings), standing)
+
+
+def _place_from_json(body: Mapping[str, Any]) -> PlaceFacts:
+    name, numbers = body.get("id"), [body.get("x"), body.get("y"), body.get("theta", 0.0)]
+    good = all(isinstance(n, int | float) and math.isfinite(n) for n in numbers)
+    if not isinstance(name, str) or not name or not good or body.get("kind") not in PLACE_KINDS:
+        raise UnreadableSite(f"Place {name} needs an id, x and y in metres, and a kind: {', '.join(PLACE_KINDS)}.")
+    x, y, theta = (float(n) for n in numbers if isinstance(n, int | float))
+    return PlaceFacts(name, str(body.get("name", name)), body["kind"], x, y, theta)

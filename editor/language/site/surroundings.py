@@ -1,0 +1,83 @@
+"""What a program is checked against: the devices and places of its site, as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+from vipo_device.protocol.description import Description, Scalar
+
+Lifecycle = Literal["pending", "approved", "retired"]
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceFacts:
+    """A device as the language sees it: what it can do for ever, and how it is now."""
+
+    description: Description
+    lifecycle: Lifecycle = "approved"
+    online: bool = True
+    readings: Mapping[str, Scalar] = field(default_factory=dict)
+    standing_at: str | None = None
+    """The id of the device at whose station this robot is known to stand, if any."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceFacts:
+    """A named place: a dock, a room's centre, or a point that people gave a name."""
+
+    id: str
+    name: str
+    kind: Literal["dock", "room", "point"]
+    x: float
+    y: float
+    theta: float = 0.0
+
+
+class FloorFacts(Protocol):
+    """What the map can tell the checks; the implementation lives with the map."""
+
+    def is_inside(self, x_m: float, y_m: float) -> bool:
+        """Tell whether the point lies on the map."""
+
+    def is_free(self, x_m: float, y_m: float, radius_m: float) -> bool:
+        """Tell whether a robot of that radius can stand at the point."""
+
+    def is_reachable(self, from_xy: tuple[float, float], to_xy: tuple[float, float], radius_m: float) -> bool:
+        """Tell whether a robot of that radius finds a way."""
+
+    def has_machine(self, device_id: str) -> bool:
+        """Tell whether the machine stands on this floor."""
+
+    def station(self, device_id: str, radius_m: float) -> tuple[float, float] | None:
+        """Return where a robot of that radius stands to serve a machine; None when it has no room to."""
+
+
+@dataclass(frozen=True, slots=True)
+class LibraryFacts:
+    """A function of the site's library: what each of its versions is given, as (name, type) pairs."""
+
+    name: str
+    versions: Mapping[int, tuple[tuple[str, str], ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """Everything outside a program that its meaning depends on."""
+
+    devices: Mapping[str, DeviceFacts] = field(default_factory=dict)
+    places: Mapping[str, PlaceFacts] = field(default_factory=dict)
+    floor: FloorFacts | None = None
+    library: Mapping[str, LibraryFacts] | None = None
+    """The functions of the library by id; None: nobody knows them here."""
+
+
+def what_programs_see(surroundings: Surroundings) -> object:
+    """Return what single steps are checked and printed by, to compare; not where robots are, nor what is measured."""
+    devices = [
+        (facts.lifecycle, facts.online, d.id, d.name, d.kind, d.gives, d.takes, d.capacity, d.properties, d.methods)
+        for facts in surroundings.devices.values()
+        for d in (facts.description,)
+    ]
+    return [*surroundings.devices], devices, surroundings.places

@@ -1,0 +1,1 @@
+"""The tree of a program: typed nodes, and ways to walk through it."""

@@ -1,0 +1,336 @@
+"""The tree of a program: frozen, typed nodes; the ids of steps never take part in a comparison."""
+
+from __future__ import annotations
+
+from dataclasses import field
+from typing import TYPE_CHECKING, Final
+
+from editor.language.plan.instructions import AnswerSpec, Constant, Expression, PlaceRef
+from vipo_device.protocol.description import Scalar
+
+if TYPE_CHECKING:
+    from dataclasses import dataclass
+else:
+    from editor.language.expressions.frozen import dataclass
+
+MISSING = Constant(None)
+"""A value that is still to be entered."""
+
+
+def is_missing(expression: Expression) -> bool:
+    """Tell whether a value is still to be entered."""
+    return isinstance(expression, Constant) and expression.value is None
+
+
+YES_OR_NO = AnswerSpec()
+NOWHERE = PlaceRef()
+"""A place that is still to be chosen."""
+
+Arguments = tuple[tuple[str, Expression], ...]
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """The role's robot goes to a place; `added` tells that VIPO put it in before a pick or a drop elsewhere."""
+
+    role: str
+    to: PlaceRef
+    route: tuple[Point, ...] = ()
+    step: str = field(default="", compare=False)
+    added: bool = field(default=False, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Pick:
+    """The role's robot takes objects where it stands, which is `at`; `place_field` is the parameter that says so."""
+
+    role: str
+    at: PlaceRef
+    object: Expression
+    quantity: Expression
+    step: str = field(default="", compare=False)
+    place_field: str = field(default="at", compare=False)
+    route: tuple[Point, ...] = field(default=(), compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Drop:
+    """The role's robot leaves objects where it stands, which is `at`; `route` is the way there that was drawn."""
+
+    role: str
+    at: PlaceRef
+    object: Expression
+    quantity: Expression
+    step: str = field(default="", compare=False)
+    place_field: str = field(default="at", compare=False)
+    route: tuple[Point, ...] = field(default=(), compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Operate:
+    """A device carries out one of its methods; arguments are sorted by name, missing ones left out."""
+
+    device: PlaceRef
+    method: str
+    arguments: Arguments = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Wait:
+    """Wait for a time in seconds."""
+
+    seconds: Expression
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class WaitUntil:
+    """Wait until a condition holds, at most `timeout_s` seconds when that is given."""
+
+    condition: Expression
+    timeout_s: Expression | None = None
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class If:
+    """One of two branches."""
+
+    condition: Expression
+    then: Block = ()
+    otherwise: Block = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class While:
+    """The body again and again while the condition holds."""
+
+    condition: Expression
+    body: Block = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Repeat:
+    """The body so many times."""
+
+    times: Expression
+    body: Block = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class ForEach:
+    """The body once for each item, which `variable` holds."""
+
+    variable: str
+    items: tuple[Expression, ...] = ()
+    body: Block = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Set:
+    """A variable takes a value (empty: still to be named)."""
+
+    variable: str
+    value: Expression
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """The people of the site are asked; the program waits for the answer."""
+
+    question: Expression
+    answer: AnswerSpec = YES_OR_NO
+    variable: str = ""
+    timeout_s: Expression | None = None
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Notify:
+    """The people of the site are told something; level is info or warning."""
+
+    message: Expression
+    level: str = "info"
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """The program ends here."""
+
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Return:
+    """The function ends here, with a value if it gives one."""
+
+    value: Expression | None = None
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Break:
+    """The innermost loop ends here."""
+
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Parallel:
+    """All branches at once; what follows begins when all have ended."""
+
+    branches: tuple[Block, ...] = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Try:
+    """The body, `catch` when it fails with one of `kinds` (none: any), and `final` whatever happens.
+
+    Where `catches` is False there is no catch at all and failures go on outwards.
+    """
+
+    kinds: tuple[str, ...] = ()
+    body: Block = ()
+    catch: Block = ()
+    final: Block = ()
+    catches: bool = True
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A function of this program, by its method name (empty: still to be chosen)."""
+
+    function: str
+    arguments: Arguments = ()
+    result: str = ""
+    """The variable that takes what the function gives."""
+    step: str = field(default="", compare=False)
+
+
+Node = (
+    Move | Pick | Drop | Operate | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Call
+    | Set | Ask | Notify | End | Return | Break
+)  # fmt: skip
+Block = tuple[Node, ...]
+LOADS: Final = (Pick, Drop)
+DRIVES: Final = (Move, Pick, Drop)
+"""What a robot does. (A check of a class against such a row is several times as quick as against a union.)"""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A parameter of a function or of the program, under its name in the script; an empty type is not known."""
+
+    name: str
+    default: Scalar = None
+    type: str = ""
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A function: `method` is its name in the script, `id` and `name` those in the document."""
+
+    method: str
+    parameters: tuple[Parameter, ...] = ()
+    body: Block = ()
+    result_type: str = ""
+    """Empty: it gives nothing back."""
+    result_unit: str = ""
+    id: str = field(default="", compare=False)
+    name: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """A second entry: the body runs each time the condition becomes true."""
+
+    condition: Expression
+    body: Block = ()
+    starts: str = "branch"
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """A robot of the program, under its name in the script: one device, or any that can do all of `can`.
+
+    `at` is the device where it stands at the beginning, when the program relies on that.
+    """
+
+    name: str
+    device: str | None = None
+    can: tuple[str, ...] = ()
+    at: str | None = None
+    id: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """A whole program."""
+
+    body: Block = ()
+    functions: tuple[Function, ...] = ()
+    roles: tuple[Role, ...] = ()
+    parameters: tuple[Parameter, ...] = ()
+    events: tuple[Event, ...] = ()
+    _walked: dict[int, list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _kinds: set[type[Node]] = field(default_factory=set, init=False, repr=False, compare=False)
+
+    def walked(self, block: Block) -> list[Node]:
+        """Return the nodes of one of the tree's own blocks as `walk` does; they are gathered once."""
+        nodes = self._walked.get(id(block))
+        if nodes is None:
+            nodes = self._walked[id(block)] = walk(block)
+        return nodes
+
+    def holds(self, *kinds: type[Node]) -> bool:
+        """Tell whether any step of the program is of one of these kinds."""
+        if not self._kinds:
+            blocks = (self.body, *(f.body for f in self.functions), *(event.body for event in self.events))
+            self._kinds.update(type(node) for block in blocks for node in self.walked(block))
+        return not self._kinds.isdisjoint(kinds)
+
+
+COMPOSITES = frozenset({If, While, Repeat, ForEach, Parallel, Try})
+"""The nodes that hold others."""
+_LOOPS: Final = (While, Repeat, ForEach)
+
+
+def blocks_of(node: Node) -> tuple[Block, ...]:
+    """Return the branches of a node, in reading order."""
+    if node.__class__ not in COMPOSITES:
+        return ()
+    if isinstance(node, If):
+        return (node.then, node.otherwise)
+    if isinstance(node, _LOOPS):
+        return (node.body,)
+    if isinstance(node, Try):
+        return (node.body, node.catch, node.final)
+    return node.branches if isinstance(node, Parallel) else ()
+
+
+def walk(block: Block) -> list[Node]:
+    """Return the nodes of a block and of everything in it, in reading order."""
+    nodes: list[Node] = []
+    _gather(block, nodes)
+    return nodes
+
+
+def _gather(block: Block, nodes: list[Node]) -> None:
+    for node in block:
+        nodes.append(node)
+        if node.__class__ in COMPOSITES:
+            for inner in blocks_of(node):
+                if inner:
+                    _gather(inner, nodes)

@@ -1,0 +1,123 @@
+"""Ways through a tree: every node in reading order, functions as they are called, what each robot has to do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from editor.language.expressions.names import ROBOT_METHODS
+from editor.language.tree.nodes import DRIVES, Block, Call, Function, Node, Role, Tree
+from editor.language.tree.nodes import walk as walk
+
+
+def reading_order(tree: Tree) -> tuple[Function, ...]:
+    """Return the functions in the order of their first call; those that nobody calls come last, by name."""
+    if not tree.functions:
+        return ()
+    by_method = {function.method: function for function in tree.functions}
+    found: dict[str, Function] = {}
+    uncalled = sorted(tree.functions, key=lambda function: function.method, reverse=True)
+    bodies = (tree.body, *(event.body for event in tree.events))
+    first = [function for body in bodies for function in _called_in(body, by_method)]
+    left = [*uncalled, *reversed(first)]
+    while left:
+        function = left.pop()
+        if function.method not in found:
+            found[function.method] = function
+            left.extend(reversed(_called_in(function.body, by_method)))
+    return tuple(found.values())
+
+
+def _called_in(block: Block, by_method: Mapping[str, Function]) -> list[Function]:
+    calls = (node.function for node in walk(block) if isinstance(node, Call))
+    return [by_method[name] for name in calls if name in by_method]
+
+
+def needed_of_roles(tree: Tree, functions: tuple[Function, ...]) -> dict[str, tuple[str, ...]]:
+    """Return what each role must be able to do, roles in the order of first use; a robot that picks also drives."""
+    blocks = (tree.body, *(f.body for f in functions), *(event.body for event in tree.events))
+    needed: dict[str, set[type[Node]]] = {}
+    for block in blocks:
+        for node in tree.walked(block):
+            if isinstance(node, DRIVES):
+                if node.role not in needed:
+                    needed[node.role] = set()
+                needed[node.role].add(node.__class__)
+    return {role: _without_move({use.__name__.lower() for use in uses}) for role, uses in needed.items()}
+
+
+def _without_move(methods: set[str]) -> tuple[str, ...]:
+    wanted = methods - {"move"} or methods
+    return tuple(method for method in ROBOT_METHODS if method in wanted)
+
+
+def calls_by_function(tree: Tree) -> dict[str, tuple[str, ...]]:
+    """Return the functions that each function calls itself."""
+    return {
+        function.method: tuple(dict.fromkeys(n.function for n in walk(function.body) if isinstance(n, Call)))
+        for function in tree.functions
+    }
+
+
+def callees_first(tree: Tree) -> tuple[Function, ...]:
+    """Return the functions so that each comes after those that it calls, as far as that can be."""
+    by_method = {function.method: function for function in tree.functions}
+    calls = calls_by_function(tree)
+    done: dict[str, Function] = {}
+    begun: set[str] = set()
+    left = [*reversed(by_method)]
+    while left:
+        method = left[-1]
+        waiting = [m for m in calls[method] if m in by_method and m not in begun] if method not in begun else []
+        begun.add(method)
+        left.extend(waiting)
+        if not waiting:
+            done.setdefault(left.pop(), by_method[method])
+    return tuple(done.values())
+
+
+def functions_in_circles(tree: Tree) -> frozenset[str]:
+    """Return the functions that call themselves, directly or by way of others."""
+    calls = calls_by_function(tree)
+    circular: set[str] = set()
+    for method in calls:
+        seen: set[str] = set()
+        left = list(calls[method])
+        while left:
+            called = left.pop()
+            if called not in seen:
+                seen.add(called)
+                left.extend(calls.get(called, ()))
+        if method in seen:
+            circular.add(method)
+    return frozenset(circular)
+
+
+def roles_used(block: Block, tree: Tree) -> frozenset[str]:
+    """Return the roles that a block uses, also in the functions that it calls."""
+    by_method = {function.method: function for function in tree.functions}
+    roles: set[str] = set()
+    seen: set[str] = set()
+    left = [block]
+    while left:
+        for node in tree.walked(left.pop()):
+            if isinstance(node, DRIVES):
+                roles.add(node.role)
+            elif isinstance(node, Call) and node.function in by_method and node.function not in seen:
+                seen.add(node.function)
+                left.append(by_method[node.function].body)
+    return frozenset(roles)
+
+
+def in_reading_order(tree: Tree) -> Tree:
+    """Put functions in the order of their first call, and roles in that of their first use; unused roles go."""
+    functions = reading_order(tree)
+    needed = needed_of_roles(tree, functions)
+    by_name = {role.name: role for role in tree.roles}
+    roles = (_fill(by_name[name], methods) for name, methods in needed.items())
+    return Tree(tree.body, functions, tuple(roles), tree.parameters, tree.events)
+
+
+def _fill(role: Role, needed: tuple[str, ...]) -> Role:
+    """Add to a role for any robot what its steps need."""
+    can = () if role.device is not None else tuple(dict.fromkeys([*role.can, *needed]))
+    return Role(role.name, role.device, can, role.at, role.id)

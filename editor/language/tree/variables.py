@@ -1,0 +1,89 @@
+"""Which variables the steps set and read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Final
+
+from editor.language.expressions.values import parts_of
+from editor.language.plan.instructions import Expression, PlaceRef, Variable
+from editor.language.tree import nodes as n
+from editor.language.tree.traversal import callees_first, walk
+
+_SETS: Final = (n.Set, n.Ask)
+SETTERS: Final = (n.Set, n.Ask, n.Call)
+"""The steps that may set a variable."""
+
+
+def set_by(node: n.Node) -> str:
+    """Return the name of the variable that a step sets, empty when it sets none."""
+    if isinstance(node, _SETS):
+        return node.variable
+    return node.result if isinstance(node, n.Call) else ""
+
+
+def sets_of_functions(tree: n.Tree) -> dict[str, frozenset[str]]:
+    """Return the names that each function sets, also by way of the functions that it calls."""
+    sets: dict[str, frozenset[str]] = {function.method: frozenset() for function in tree.functions}
+    changed, functions = bool(sets), callees_first(tree)
+    while changed:
+        changed = False
+        for function in functions:
+            names = set_in(function.body, sets)
+            changed = changed or names != sets[function.method]
+            sets[function.method] = names
+    return sets
+
+
+def set_in(block: n.Block, sets: Mapping[str, frozenset[str]]) -> frozenset[str]:
+    """Return the names that are set in a block and in the functions that it calls, whose `sets` are known."""
+    names: set[str] = set()
+    for node in walk(block):
+        names.add(set_by(node))
+        if isinstance(node, n.Call):
+            names.update(sets.get(node.function, ()))
+    return frozenset(names - {""})
+
+
+def read_by(node: n.Node) -> dict[str, str]:
+    """Return the names that a step itself reads, each with the field where it does."""
+    found: dict[str, str] = {}
+    for field, expression in values_of(node):
+        for part in parts_of(expression):
+            if isinstance(part, Variable):
+                found.setdefault(part.name, field)
+    return found
+
+
+_VALUES: Mapping[type[n.Node], tuple[tuple[str, str], ...]] = {
+    n.Move: (("to", "to"),),
+    n.Pick: (("at", ""), ("object", "object"), ("quantity", "quantity")),
+    n.Drop: (("at", ""), ("object", "object"), ("quantity", "quantity")),
+    n.Operate: (("device", "device"), ("arguments", "args")),
+    n.Call: (("arguments", "args"),),
+    n.Wait: (("seconds", "duration"),),
+    n.WaitUntil: (("condition", "until"), ("timeout_s", "timeout")),
+    n.If: (("condition", "condition"),),
+    n.While: (("condition", "condition"),),
+    n.Repeat: (("times", "times"),),
+    n.ForEach: (("items", "items"),),
+    n.Set: (("value", "value"),),
+    n.Return: (("value", "value"),),
+    n.Ask: (("question", "question"), ("timeout_s", "timeout")),
+    n.Notify: (("message", "message"),),
+}
+"""The attributes of nodes that hold values, with the fields of the step where they stand."""
+
+
+def values_of(node: n.Node) -> Iterator[tuple[str, Expression]]:
+    """Yield the values of a step, not those of the steps in it, each with its field."""
+    for attribute, field in _VALUES.get(type(node), ()):
+        value = getattr(node, attribute)
+        if attribute == "arguments":
+            yield from ((f"args.{name}", given) for name, given in value)
+        elif attribute == "items":
+            yield from ((field, item) for item in value)
+        else:
+            value = value.value if isinstance(value, PlaceRef) else value
+            if value is not None:
+                yield field or getattr(node, "place_field", ""), value

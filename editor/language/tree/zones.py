@@ -1,0 +1,62 @@
+"""Zones of a document: named polygons on the map, in metres; nonsense is left out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+from editor.language.document.outline import mapping
+from editor.language.expressions.values import is_number, read_point
+from editor.language.plan.instructions import Zone
+from editor.language.tree.nodes import Point
+
+Rule = Literal["keep_out", "one_at_a_time", "slow"]
+RULES: Mapping[str, Rule] = {"keep_out": "keep_out", "one_at_a_time": "one_at_a_time", "slow": "slow"}
+SMALLEST_AREA_M2 = 1e-4
+MOST_CORNERS = 200
+
+
+def read_zones(document: object) -> tuple[Zone, ...]:
+    """Return the zones of a document that can be drawn, by id."""
+    zones = mapping(mapping(document).get("zones"))
+    read = (_zone(str(name), mapping(zones[name])) for name in sorted(zones, key=str))
+    return tuple(zone for zone in read if zone is not None)
+
+
+def zone_names(document: object) -> dict[str, str]:
+    """Return what people call the zones, by id, whatever their shape."""
+    zones = mapping(mapping(document).get("zones"))
+    named = {str(key): mapping(item).get("name") for key, item in zones.items()}
+    return {key: name if isinstance(name, str) and name else key for key, name in named.items()}
+
+
+def _zone(name: str, item: Mapping[str, object]) -> Zone | None:
+    rule, given, speed = RULES.get(str(item.get("rule"))), item.get("points"), item.get("speed_m_s")
+    listed = [read_point(point) for point in given] if isinstance(given, list | tuple) else []
+    points = tuple(point for point in listed if point is not None)
+    if not name or rule is None or not 3 <= len(points) <= MOST_CORNERS or area_m2(points) < SMALLEST_AREA_M2:
+        return None
+    called = item.get("name")
+    return Zone(
+        name,
+        called if isinstance(called, str) and called else name,
+        rule,
+        points,
+        float(speed) if is_number(speed) and speed > 0 else None,
+    )
+
+
+def area_m2(points: tuple[Point, ...]) -> float:
+    """Return the area of a polygon by the shoelace formula."""
+    around = zip(points, (*points[1:], points[0]), strict=True)
+    return abs(sum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in around)) / 2
+
+
+def is_in(point: Point, points: tuple[Point, ...]) -> bool:
+    """Tell whether a point lies in a polygon: a ray from it to the right crosses the sides an odd number of times."""
+    x, y = point
+    crossings = 0
+    for (x1, y1), (x2, y2) in zip(points, (*points[1:], points[0]), strict=True):
+        if (y1 > y) != (y2 > y) and x < x1 + (y - y1) * (x2 - x1) / (y2 - y1):
+            crossings += 1
+    return crossings % 2 == 1

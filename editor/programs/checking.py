@@ -1,0 +1,181 @@
+"""A program checked against its site: what the language says of the document, kept and told to who watches."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from editor.errors import NoSuchProgram
+from editor.language import Compiled, compiled_to_json
+from editor.language.compiler import EditedProgram
+from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
+from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
+from registry import services as registry
+from registry.floorplan.plan import FloorPlan, machine_beside
+from registry.live import fanout
+from vipo_device.protocol.description import Description, Pose
+
+_CHANGES_THAT_MATTER = ("lifecycle", "name", "methods", "gives", "takes", "capacity")
+
+
+def build_surroundings(*, site: str) -> Surroundings:
+    """Return what the programs of a site are checked against: its devices, places and floor, as they are now."""
+    views = registry.list_devices(site=site)
+    machines = [view.canonical for view in views if view.kind == "machine" and view.lifecycle == "approved"]
+    devices = {view.id: _facts(view, machines) for view in views}
+    places = {
+        place.id: PlaceFacts(place.id, place.name, _kind(place.kind), place.x, place.y, place.theta)
+        for place in registry.list_places(site=site)
+    }
+    return Surroundings(devices=devices, places=places, floor=_floor(site), library=_library(site))
+
+
+def _library(site: str) -> dict[str, LibraryFacts]:
+    """Return the functions of the site's library with what each version is given."""
+    rows = LibraryVersion.objects.filter(function__site__slug=site).values_list(
+        "function_id", "function__name", "number", "definition__function__parameters"
+    )
+    names: dict[str, str] = {}
+    versions: dict[str, dict[int, tuple[tuple[str, str], ...]]] = {}
+    for function, name, number, parameters in rows:
+        names[str(function)] = name
+        given = tuple((str(item.get("name")), str(item.get("type", ""))) for item in parameters or ())
+        versions.setdefault(str(function), {})[number] = given
+    return {function: LibraryFacts(name, versions[function]) for function, name in names.items()}
+
+
+def _facts(view: registry.DeviceView, machines: Iterable[Description]) -> DeviceFacts:
+    """Return what the language knows of a device; only of a robot that rests is it known where it stands."""
+    lifecycle: Any = view.lifecycle
+    resting = view.kind == "robot" and view.online and view.done
+    standing_at = machine_beside(machines, view.canonical) if resting else None
+    return DeviceFacts(view.canonical, lifecycle, view.online, dict(view.readings), standing_at)
+
+
+def _kind(kind: str) -> Any:
+    return kind if kind in {"dock", "room", "point"} else "point"
+
+
+def _floor(site: str) -> FloorFacts | None:
+    try:
+        return registry.get_floor(site=site)
+    except registry.NoMap:
+        return None
+
+
+def compiled_json(compiled: Compiled, revision: int) -> dict[str, Any]:
+    """Return a compiled program as docs/architecture.md shows it; a higher revision is a later look."""
+    return {**compiled_to_json(compiled), "revision": revision}
+
+
+def check_program(
+    *, program_id: str, document: Mapping[str, Any], revision: int, edited: EditedProgram | None = None
+) -> dict[str, Any]:
+    """Check and print a program's document and keep what lists show of it. Raises NoSuchProgram.
+
+    `edited` has what was found when the program was looked at last, where it is looked at again and again.
+    """
+    program = Program.objects.select_related("site").filter(pk=program_id).first()
+    if program is None:
+        raise NoSuchProgram("There is no such program. It may have been deleted.")
+    surroundings = build_surroundings(site=program.site.slug)
+    compiled = (edited or EditedProgram()).look(document, surroundings).compiled(with_plan=False)
+    _keep(program_id, document, compiled, fingerprint_of(surroundings))
+    _keep_uses(program, document)
+    return compiled_json(compiled, revision)
+
+
+def check_and_publish(program_id: str, document: Mapping[str, Any], revision: int, edited: EditedProgram) -> None:
+    """Compile a program's document and tell all who watch its site. Raises NoSuchProgram."""
+    body = check_program(program_id=program_id, document=document, revision=revision, edited=edited)
+    site = Program.objects.values_list("site__slug", flat=True).get(pk=program_id)
+    fanout.publish(site, {"type": "compiled", "program": program_id, **body})
+
+
+def fingerprint_of(surroundings: Surroundings) -> str:
+    """Return a hash of what programs depend on in their surroundings; where robots stand is left out."""
+    devices = [
+        (name, facts.lifecycle, facts.online, _without_pose(facts.description))
+        for name, facts in sorted(surroundings.devices.items())
+    ]
+    library = sorted((name, facts.name, sorted(facts.versions.items())) for name, facts in _known(surroundings).items())
+    floor = surroundings.floor
+    mark = floor.mark if isinstance(floor, FloorPlan) else ""
+    return hashlib.sha256(repr((devices, sorted(surroundings.places.items()), library, mark)).encode()).hexdigest()
+
+
+def _known(surroundings: Surroundings) -> Mapping[str, LibraryFacts]:
+    return surroundings.library or {}
+
+
+def _without_pose(description: Description) -> Description:
+    return replace(description, pose=Pose(0, 0)) if description.kind == "robot" else description
+
+
+def _keep(program_id: str, document: Mapping[str, Any], compiled: Compiled, fingerprint: str) -> None:
+    severities = [diagnostic.severity for diagnostic in compiled.diagnostics]
+    kinds = sorted({str(step["kind"]) for step in document["steps"].values() if isinstance(step.get("kind"), str)})
+    Program.objects.filter(pk=program_id).update(
+        kinds=kinds,
+        devices=sorted(devices_in(document)),
+        errors=severities.count("error"),
+        warnings=severities.count("warning"),
+        checked_against=fingerprint,
+    )
+
+
+def devices_in(document: Mapping[str, Any]) -> frozenset[str]:
+    """Return the ids of the devices that a document names, wherever they stand."""
+    found: set[str] = set()
+    waiting: list[Any] = [document.get(name) for name in ("steps", "roles", "parameters", "functions")]
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, Mapping):
+            read = value.get("property")
+            named = [value.get("device"), *(read[:1] if isinstance(read, list) else ())]
+            found.update(name for name in named if isinstance(name, str))
+            waiting.extend(value.values())
+        elif isinstance(value, list):
+            waiting.extend(value)
+    return frozenset(found)
+
+
+def _keep_uses(program: Program, document: Mapping[str, Any]) -> None:
+    """Keep which library functions the program holds."""
+    wanted = set(_sources(document))
+    known = {str(pk) for pk in program.library_uses.values_list("function_id", flat=True)}
+    if wanted == known:
+        return
+    program.library_uses.exclude(function_id__in=[w for w in wanted if w in known]).delete()
+    ids = [str(pk) for pk in LibraryFunction.objects.filter(site=program.site).values_list("pk", flat=True)]
+    added = [LibraryUse(function_id=pk, program=program) for pk in ids if pk in wanted - known]
+    LibraryUse.objects.bulk_create(added, ignore_conflicts=True)
+
+
+def _sources(document: Mapping[str, Any]) -> list[str]:
+    functions = document.get("functions", {}).values()
+    sources = [f.get("source") for f in functions if isinstance(f, dict)]
+    return [str(s["library"]) for s in sources if isinstance(s, dict) and "library" in s]
+
+
+class DeviceWatch:
+    """Remembers what programs depend on in each device, to tell which live messages call for a new check."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, dict[str, Any]] = {}
+
+    def changes_programs(self, message: Mapping[str, Any]) -> bool:
+        """Tell whether programs may read differently after this message."""
+        if message.get("type") in {"device_removed", "hello", "library", "map"}:
+            return True
+        if message.get("type") != "device":
+            return False
+        device = message["device"]
+        known = self._known.setdefault(device["id"], {})
+        before = dict(known)
+        known.update({name: device[name] for name in _CHANGES_THAT_MATTER if name in device})
+        if "status" in device:
+            known["reachable"] = device["status"] not in {"offline", "pending"}
+        return known != before

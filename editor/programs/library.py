@@ -1,0 +1,135 @@
+"""A site's library of functions: saved from programs under version numbers, brought into other programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+from uuid import UUID
+
+from django.db import transaction
+from django.db.models import Count, Q, QuerySet
+
+from editor.errors import BadRequest, NoSuchProgram
+from editor.language import compile_document
+from editor.language.document.migrations import FORMAT
+from editor.models import LibraryFunction, LibraryVersion, Program
+from editor.programs.checking import build_surroundings
+from editor.programs.programs import get_document
+from editor.programs.views import LibraryView, view_author
+from editor.rooms.document import climb_document, empty_document
+from registry.live import fanout
+
+MOST_NAME, MOST_DESCRIPTION = 120, 500
+
+
+def cut_out_function(document: Mapping[str, Any], function: str) -> dict[str, Any]:
+    """Return a function of a plain document with its steps and the functions that it calls.
+
+    {function: {name, parameters, …}, id, functions: {id: …} of those called, steps: {id: …}, format}.
+    Raises BadRequest.
+    """
+    functions = document["functions"]
+    if function not in functions:
+        raise BadRequest("The program has no such function. It may have been deleted; reload the page.")
+    wanted, steps, left = [function], {}, [function]
+    while left:
+        parent = left.pop()
+        for step, body in document["steps"].items():
+            if _parent_of(body) != parent or step in steps:
+                continue
+            steps[step] = body
+            left.append(step)
+            called = body.get("params", {}).get("function") if body.get("kind") == "call" else None
+            if isinstance(called, str) and called in functions and called not in wanted:
+                wanted.append(called)
+                left.append(called)
+    others = {other: functions[other] for other in wanted[1:]}
+    return {"id": function, "function": functions[function], "functions": others, "steps": steps, "format": FORMAT}
+
+
+def _parent_of(step: Mapping[str, Any]) -> str | None:
+    place = step.get("place")
+    return place[0] if isinstance(place, list) and place and isinstance(place[0], str) else None
+
+
+def save_function(
+    *, site: str, program_id: UUID | str, function: str, name: str, description: str, user: Any
+) -> LibraryView:
+    """Save a program's function into its site's library; under a name that is there, as its next version.
+
+    Raises NoSuchProgram, BadRequest.
+    """
+    name = " ".join(name.split())
+    if not 1 <= len(name) <= MOST_NAME or len(description) > MOST_DESCRIPTION:
+        raise BadRequest(f"A name has 1 to {MOST_NAME} characters, a description at most {MOST_DESCRIPTION}.")
+    program = Program.objects.filter(pk=program_id, site__slug=site).first()
+    if program is None:
+        raise NoSuchProgram("There is no such program at this site.")
+    definition = cut_out_function(get_document(program_id=program_id), function)
+    script = print_function(definition, site)
+    with transaction.atomic():
+        row, _ = LibraryFunction.objects.get_or_create(site_id=program.site_id, name=name)
+        row = LibraryFunction.objects.select_for_update().get(pk=row.pk)
+        row.last_version += 1
+        row.description = description or row.description
+        row.save()
+        LibraryVersion.objects.create(
+            function=row, number=row.last_version, author=user, definition=definition, script=script
+        )
+    fanout.publish(site, {"type": "library"})
+    return get_function(function_id=row.pk)
+
+
+def print_function(definition: Mapping[str, Any], site: str) -> str:
+    """Return the script of a function alone, as it reads in a program of the site."""
+    functions = {definition["id"]: definition["function"], **definition["functions"]}
+    climbed = climb_document(definition)
+    document = {**empty_document(), "functions": functions, "steps": climbed["steps"]}
+    return compile_document(document, build_surroundings(site=site)).script
+
+
+def search_library(*, sites: Iterable[str], query: str = "") -> tuple[LibraryView, ...]:
+    """Return the functions of the sites whose name or description has every word of the query, by name."""
+    rows = _rows().filter(site__slug__in=list(sites), last_version__gt=0).order_by("name", "pk")
+    for word in query.split()[:10]:
+        rows = rows.filter(Q(name__icontains=word) | Q(description__icontains=word))
+    return tuple(_view(row, _version(row, row.last_version)) for row in rows[:200])
+
+
+def get_function(*, function_id: UUID | str, version: int | None = None) -> LibraryView:
+    """Return a library function, as of a version or the newest. Raises NoSuchProgram."""
+    row = _rows().filter(pk=function_id).first()
+    if row is None:
+        raise NoSuchProgram("The library has no such function.")
+    return _view(row, _version(row, row.last_version if version is None else version))
+
+
+def _rows() -> QuerySet[LibraryFunction]:
+    counted: QuerySet[LibraryFunction] = LibraryFunction.objects.select_related("site").annotate(
+        used_in=Count("uses", distinct=True)
+    )
+    return counted
+
+
+def _version(row: LibraryFunction, number: int) -> LibraryVersion:
+    found = row.versions.select_related("author").filter(number=number).first()
+    if found is None:
+        raise NoSuchProgram(f"The function {row.name} has no version {number}.")
+    return found
+
+
+def _view(row: LibraryFunction, version: LibraryVersion) -> LibraryView:
+    used_in: int = getattr(row, "used_in", 0)
+    return LibraryView(
+        id=row.pk,
+        site=row.site.slug,
+        name=row.name,
+        description=row.description,
+        version=version.number,
+        author=view_author(version.author),
+        parameters=tuple(version.definition["function"].get("parameters") or ()),
+        used_in=used_in,
+        updated_at=row.updated_at,
+        script=version.script,
+        definition=climb_document(version.definition),
+    )

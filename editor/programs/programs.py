@@ -1,0 +1,192 @@
+"""Programs and their versions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+from uuid import UUID
+
+from django.apps import apps
+from django.db import transaction
+from django.utils import timezone
+
+from editor.errors import BadRequest, NoSuchProgram
+from editor.language import Compiled, Surroundings, compile_document
+from editor.models import Program, Snapshot, Version
+from editor.programs.checking import build_surroundings, check_program, compiled_json, fingerprint_of
+from editor.programs.views import ProgramView, VersionView, view_author
+from editor.rooms.document import SharedDocument, climb_document, digest_of, empty_document, encode_document
+from editor.rooms.hub import flush_program
+from editor.rooms.runner import new_revision
+from editor.rooms.store import load_document
+from registry import services as registry
+from registry.live.fanout import publish
+
+MOST_NAME = 120
+MOST_CHECKED_AT_ONCE = 100
+_GONE = "There is no such program. It may have been deleted."
+
+
+def list_programs(*, site: str) -> tuple[ProgramView, ...]:
+    """Return a site's programs, the last edited first; counts that the site's devices have outdated are renewed."""
+    rows = Program.objects.filter(site__slug=site).select_related("site", "edited_by").order_by("-edited_at", "name")
+    current = fingerprint_of(build_surroundings(site=site))
+    for stale in rows.exclude(checked_against=current).values_list("pk", flat=True)[:MOST_CHECKED_AT_ONCE]:
+        get_compiled(program_id=stale)
+    return tuple(_view(row) for row in rows.all())
+
+
+def get_program(*, program_id: UUID | str) -> ProgramView:
+    """Return a program. Raises NoSuchProgram."""
+    return _view(_find(program_id))
+
+
+def create_program(*, site: str, name: str, document: Mapping[str, Any] | None = None, user: Any = None) -> ProgramView:
+    """Make a program, empty or from a plain document. Raises BadRequest for a bad name."""
+    plain = climb_document(document or empty_document())
+    data = encode_document(plain)
+    site_id = _site_id(site)
+    with transaction.atomic():
+        program = Program.objects.create(
+            site_id=site_id, name=_checked_name(name), edited_at=timezone.now(), edited_by=user, last_seq=1
+        )
+        Snapshot.objects.create(program=program, seq=1, data=data)
+        transaction.on_commit(lambda: publish(site, {"type": "programs"}))
+    shared = SharedDocument([data]).to_json()
+    check_program(program_id=str(program.pk), document=shared, revision=new_revision())
+    return get_program(program_id=program.pk)
+
+
+def rename_program(*, program_id: UUID | str, name: str, user: Any) -> ProgramView:
+    """Give a program another name. Raises NoSuchProgram, BadRequest."""
+    program = _find(program_id)
+    Program.objects.filter(pk=program.pk).update(name=_checked_name(name), edited_at=timezone.now(), edited_by=user)
+    publish(program.site.slug, {"type": "programs"})
+    return get_program(program_id=program_id)
+
+
+def delete_program(*, program_id: UUID | str) -> None:
+    """Delete a program; whoever has it open is told. Raises NoSuchProgram."""
+    program = _find(program_id)
+    site = program.site.slug
+    with transaction.atomic():
+        program.delete()
+        transaction.on_commit(lambda: publish(site, {"type": "programs"}))
+
+
+def get_document(*, program_id: UUID | str) -> dict[str, Any]:
+    """Return a program's document as it is now, as plain JSON in today's format. Raises NoSuchProgram."""
+    flush_program(str(program_id))
+    document = SharedDocument(load_document(str(program_id)).updates)
+    document.climb()
+    return document.to_json()
+
+
+def get_compiled(*, program_id: UUID | str) -> dict[str, Any]:
+    """Return a program compiled as it is now, as JSON. Raises NoSuchProgram."""
+    revision = new_revision()
+    return check_program(program_id=str(program_id), document=get_document(program_id=program_id), revision=revision)
+
+
+def list_versions(*, program_id: UUID | str) -> tuple[VersionView, ...]:
+    """Return a program's versions, the newest first. Raises NoSuchProgram."""
+    program = _find(program_id)
+    rows = program.versions.select_related("author", "program__site").order_by("-number")
+    return tuple(_version_view(row) for row in rows)
+
+
+def get_version(*, version_id: UUID | str) -> VersionView:
+    """Return a version. Raises NoSuchProgram."""
+    row = Version.objects.select_related("author", "program__site").filter(pk=version_id).first()
+    if row is None:
+        raise NoSuchProgram("There is no such version. Its program may have been deleted.")
+    return _version_view(row)
+
+
+def pin_version(*, program_id: UUID | str, user: Any, message: str = "") -> VersionView:
+    """Make the document as it is now a version; the last one is returned if nothing has changed since.
+
+    Raises NoSuchProgram.
+    """
+    document = get_document(program_id=program_id)
+    digest = digest_of(document)
+    script = compile_document(document, build_surroundings(site=_find(program_id).site.slug)).script
+    with transaction.atomic():
+        program = Program.objects.select_for_update().filter(pk=program_id).first()
+        if program is None:
+            raise NoSuchProgram(_GONE)
+        last = program.versions.order_by("-number").first()
+        if last is None or last.digest != digest or (message and message != last.message):
+            last = _add_version(program, user, message[:300], document, script)
+    return get_version(version_id=last.pk)
+
+
+def _add_version(program: Program, user: Any, message: str, document: dict[str, Any], script: str) -> Version:
+    program.last_version += 1
+    program.save(update_fields=["last_version"])
+    return Version.objects.create(
+        program=program,
+        number=program.last_version,
+        author=user if user is not None and user.pk else None,
+        message=message,
+        document=document,
+        digest=digest_of(document),
+        script=script,
+    )
+
+
+def compile_version(*, version: VersionView, surroundings: Surroundings | None = None) -> Compiled:
+    """Compile a version for its site as that is now, or for the surroundings given."""
+    return compile_document(version.document, surroundings or build_surroundings(site=version.site))
+
+
+def compile_version_to_json(*, version: VersionView) -> dict[str, Any]:
+    """Compile a version for its site as that is now, as JSON."""
+    return compiled_json(compile_version(version=version), new_revision())
+
+
+def _find(program_id: UUID | str) -> Program:
+    program = Program.objects.select_related("site", "edited_by").filter(pk=program_id).first()
+    if program is None:
+        raise NoSuchProgram(_GONE)
+    return program
+
+
+def _site_id(slug: str) -> int:
+    registry.get_site(site=slug)
+    return int(apps.get_model("registry", "Site")._default_manager.values_list("pk", flat=True).get(slug=slug))
+
+
+def _checked_name(name: str) -> str:
+    name = " ".join(name.split())
+    if not 1 <= len(name) <= MOST_NAME:
+        raise BadRequest(f"A program's name has 1 to {MOST_NAME} characters. Enter one.")
+    return name
+
+
+def _view(row: Program) -> ProgramView:
+    return ProgramView(
+        id=row.pk,
+        site=row.site.slug,
+        name=row.name,
+        kinds=tuple(row.kinds),
+        devices=tuple(row.devices),
+        edited_at=row.edited_at,
+        edited_by=view_author(row.edited_by),
+        errors=row.errors,
+        warnings=row.warnings,
+    )
+
+
+def _version_view(row: Version) -> VersionView:
+    return VersionView(
+        id=row.pk,
+        program=row.program_id,
+        site=row.program.site.slug,
+        number=row.number,
+        author=view_author(row.author),
+        message=row.message,
+        document=climb_document(row.document),
+        script=row.script,
+        created_at=row.created_at,
+    )

@@ -1,0 +1,247 @@
+"""The shared document: a Yjs document and its plain JSON form. The one importer of pycrdt.
+
+pycrdt integrates updates wrongly when they come out of order (it passes over holes), so whatever may be out of order
+is merged into one update first, which is right; and an update that fails half-way is undone.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pycrdt import Array, Doc, Map, Text, TransactionEvent, merge_updates
+from pycrdt import get_state as state_of_update
+
+from editor.language.document.migrations import FIRST_FORMAT, FORMAT, climb, format_of
+
+ROOTS = ("meta", "steps", "functions", "roles", "parameters", "zones")
+_CONTENT = ROOTS[1:]
+EMPTY_UPDATE = b"\x00\x00"
+_LOG_LIMIT_BYTES = 1024 * 1024
+_LOG_LIMIT_ENTRIES = 2000
+_SHARED = (Array, Map, Text)
+_SAFE_INTEGER = 2**53
+
+
+class BadUpdate(ValueError):
+    """The bytes are not a Yjs update, or do not fit this document; the document is as it was."""
+
+
+class SharedDocument:
+    """One Yjs document. Not to be used from two threads at once."""
+
+    def __init__(self, updates: Iterable[bytes] = ()) -> None:
+        """Build it from updates in any order; raises BadUpdate."""
+        self._events: list[bytes] = []
+        self._base = merge(updates)
+        self._log: list[bytes] = []
+        self._log_bytes = 0
+        self._steps: dict[str, Any] = {}
+        """The steps in their plain form, but for those that changed since it was asked for last."""
+        self._changed: set[str] = set()
+        self._document = self._restored()
+
+    def apply(self, update: bytes) -> list[bytes]:
+        """Apply an update; returns what it changed, as the document itself says. Raises BadUpdate."""
+        self._events.clear()
+        try:
+            self._document.apply_update(update)
+        except (ValueError, RuntimeError, MemoryError) as error:
+            self._document = self._restored()
+            raise BadUpdate(str(error)) from error
+        changes = [event for event in self._events if event != EMPTY_UPDATE]
+        self._events.clear()
+        self._note(changes)
+        return changes
+
+    def _note(self, changes: list[bytes]) -> None:
+        """Keep what is needed to build the document again, should a later update fail half-way."""
+        self._log.extend(changes)
+        self._log_bytes += sum(map(len, changes))
+        if self._log_bytes > _LOG_LIMIT_BYTES or len(self._log) > _LOG_LIMIT_ENTRIES:
+            self._base, self._log, self._log_bytes = self.encode(), [], 0
+
+    def _restored(self) -> Doc[Any]:
+        try:
+            document = _document_with(merge([self._base, *self._log]))
+        except (ValueError, RuntimeError) as error:
+            raise BadUpdate(str(error)) from error
+        document.observe(self._on_change)
+        steps = document.get("steps", type=Map)
+        self._steps, self._changed = {}, set(steps.keys())
+        self._watching = steps, steps.observe_deep(self._on_steps)  # it ends with the last reference to it
+        return document
+
+    def _on_change(self, event: TransactionEvent) -> None:
+        self._events.append(event.update)
+
+    def _on_steps(self, events: list[Any]) -> None:
+        for event in events:
+            self._changed.update(event.path[:1] or event.keys)
+
+    def encode(self, state: bytes | None = None) -> bytes:
+        """Return the document as one update: all of it, or what a peer in that state lacks. Raises BadUpdate."""
+        try:
+            return self._document.get_update(state)
+        except ValueError as error:
+            raise BadUpdate(str(error)) from error
+
+    def state(self) -> bytes:
+        """Return the state vector."""
+        return self._document.get_state()
+
+    def step_count(self) -> int:
+        """Return the number of steps, drafts included."""
+        return len(self._document.get("steps", type=Map))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the plain form (docs/architecture.md, "The document"); not to be changed in place.
+
+        A step that has not changed since the last call is the same object.
+        """
+        plain = {name: _plain(self._document.get(name, type=Map).to_py() or {}) for name in ROOTS if name != "steps"}
+        meta = plain.pop("meta")
+        start = {"format": meta.get("format", FIRST_FORMAT), "start_pos": meta.get("start_pos")}
+        return {**start, "steps": self._plain_steps(), **plain}
+
+    def _plain_steps(self) -> dict[str, Any]:
+        shared = self._document.get("steps", type=Map)
+        for name in tuple(self._changed):
+            if name in shared:
+                value = shared[name]
+                self._steps[name] = _plain(value.to_py() if isinstance(value, _SHARED) else value)
+            else:
+                self._steps.pop(name, None)
+        self._changed.clear()
+        return dict(self._steps)
+
+    def climb(self) -> bool:
+        """Bring the content to today's format, by the same update whoever does it; tell whether there was a need.
+
+        Old names that an old browser brings later are renamed by the next climb.
+        """
+        before = self.to_json()
+        after: Any = climb({**before, "format": FIRST_FORMAT})
+        if format_of(before) > FORMAT or after == before:
+            return False
+        copy = _document_with(self.encode(), _client_id(self.digest(), self.state()))
+        with copy.transaction():
+            copy.get("meta", type=Map)["format"] = after["format"]
+            steps = copy.get("steps", type=Map)
+            for name, step in sorted(after["steps"].items()):
+                if step != before["steps"][name]:
+                    _rewrite(steps, name, step)
+        self.apply(copy.get_update(self.state()))
+        return True
+
+    def digest(self) -> str:
+        """Return a hash of the content: two documents that hold the same have the same."""
+        return digest_of(self.to_json())
+
+
+def _document_with(update: bytes, client_id: int | None = None) -> Doc[Any]:
+    document: Doc[Any] = Doc(client_id=client_id, allow_multithreading=True)
+    for name in ROOTS:
+        document.get(name, type=Map)
+    document.apply_update(update)
+    return document
+
+
+def _client_id(digest: str, state: bytes) -> int:
+    """Return an author for changes that follow from the content alone: the same wherever the content is the same."""
+    return int.from_bytes(hashlib.sha256(digest.encode() + state).digest()[:4])
+
+
+def _rewrite(steps: Any, name: str, wanted: Mapping[str, Any]) -> None:
+    """Give a step other parameters, one by one where they are shared one by one."""
+    step = steps[name]
+    params = step["params"] if isinstance(step, Map) else None
+    if not isinstance(step, Map):
+        steps[name] = wanted
+    elif not isinstance(params, Map):
+        step["params"] = wanted["params"]
+    else:
+        _set_all(params, wanted["params"])
+
+
+def _set_all(shared: Any, wanted: Mapping[str, Any]) -> None:
+    for name in sorted({*shared.keys(), *wanted}):
+        if name not in wanted:
+            del shared[name]
+        elif name not in shared.keys() or _plain(shared[name]) != wanted[name]:  # noqa: SIM118 - a Yjs map, no dict
+            shared[name] = wanted[name]
+
+
+def merge(updates: Iterable[bytes]) -> bytes:
+    """Return one update that holds them all, whatever their order. Raises BadUpdate."""
+    parts = [update for update in updates if update and update != EMPTY_UPDATE]
+    if not parts:
+        return EMPTY_UPDATE
+    try:
+        return merge_updates(*parts) if len(parts) > 1 else parts[0]
+    except ValueError as error:
+        raise BadUpdate(str(error)) from error
+
+
+def state_after(update: bytes) -> bytes:
+    """Return the state vector of a document that holds just this update. Raises BadUpdate."""
+    try:
+        return state_of_update(update)
+    except ValueError as error:
+        raise BadUpdate(str(error)) from error
+
+
+def digest_of(document: Mapping[str, Any]) -> str:
+    """Return a hash of a plain document's content."""
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def empty_document() -> dict[str, Any]:
+    """Return the plain form of a program without steps."""
+    return {"format": FORMAT, "start_pos": None, **{name: {} for name in _CONTENT}}
+
+
+def climb_document(plain: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a plain document, or a library function's definition, in today's format."""
+    climbed = climb(plain)
+    assert isinstance(climbed, Mapping)
+    return dict(climbed)
+
+
+def encode_document(plain: Mapping[str, Any]) -> bytes:
+    """Return a plain document as the first update of a shared one."""
+    document: Doc[Any] = Doc()
+    roots = {name: document.get(name, type=Map) for name in ROOTS}
+    with document.transaction():
+        roots["meta"]["format"] = plain.get("format", FORMAT)
+        if plain.get("start_pos") is not None:
+            roots["meta"]["start_pos"] = plain["start_pos"]
+        for step, body in plain.get("steps", {}).items():
+            roots["steps"][step] = Map({**body, "params": Map(dict(body.get("params", {})))})
+        for name in _CONTENT[1:]:
+            for key, value in plain.get(name, {}).items():
+                roots[name][key] = value
+    return document.get_update()
+
+
+def _plain(value: Any) -> Any:
+    """Return JSON with whole numbers as integers, as they were typed: Yjs knows only one kind of number."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, float):
+        return _number(value)
+    if value is None or isinstance(value, str | bool | int):
+        return value
+    return None  # bytes and the like are not JSON: a value that is still to be entered
+
+
+def _number(value: float) -> float | int | None:
+    if not math.isfinite(value):
+        return None
+    return int(value) if value.is_integer() and abs(value) < _SAFE_INTEGER else value

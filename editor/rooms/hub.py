@@ -1,0 +1,164 @@
+"""The rooms of this process: who enters, which are open, and what concerns all of them."""
+
+from __future__ import annotations
+
+import asyncio
+import uuid
+import weakref
+from collections import defaultdict
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from django.conf import settings
+from django.db import DatabaseError
+
+from editor.errors import NoSuchProgram
+from editor.programs.checking import DeviceWatch
+from editor.rooms.document import BadUpdate
+from editor.rooms.member import Close, Member
+from editor.rooms.permissions import find_standing
+from editor.rooms.room import Room
+from editor.rooms.runner import INTERRUPTED, OpenRoom, in_database, open_room
+from editor.rooms.stream import RoomStream, StreamLost, make_stream
+from registry.live import fanout
+from registry.people.sessions import has_ended
+
+CLOSE_EMPTY_AFTER_S = 5.0
+FLUSH_LIMIT_S = 5.0
+_HEARD = {"device", "device_removed", "map", "members", "programs", "library", "hello"}
+
+
+class Hub:
+    """The rooms of one process, which all live in one event loop."""
+
+    def __init__(self, stream: RoomStream) -> None:
+        self.loop = asyncio.get_running_loop()
+        self._origin = uuid.uuid4().hex
+        self._stream = stream
+        self._open: dict[str, OpenRoom] = {}
+        self._locks: defaultdict[str, asyncio.Lock] = defaultdict(asyncio.Lock)
+        self._background: set[asyncio.Task[None]] = set()
+        self._watches: defaultdict[str, DeviceWatch] = defaultdict(DeviceWatch)
+        self._stop_listening: Callable[[], None] | None = None
+
+    async def enter(self, program_id: str, member: Member) -> Room:
+        """Let a connection into a program's room, opening it if it is not open. Raises Close."""
+        async with self._locks[program_id]:
+            await self._listen()
+            try:
+                opened = self._open.get(program_id) or await self._open_room(program_id)
+            except NoSuchProgram as error:
+                raise Close(Close.NOT_FOUND, error.detail) from error
+            except (StreamLost, DatabaseError, BadUpdate) as error:
+                raise Close(Close.COME_AGAIN, INTERRUPTED) from error
+            opened.room.join(member)
+            return opened.room
+
+    async def _open_room(self, program_id: str) -> OpenRoom:
+        opened = await open_room(program_id, self._origin, self._stream, self._drop)
+        self._open[program_id] = opened
+        return opened
+
+    def leave(self, room: Room, member: Member) -> None:
+        """Let a connection go; a room that stays empty is closed."""
+        room.leave(member)
+        if not room.members:
+            self.loop.call_later(CLOSE_EMPTY_AFTER_S, self._start, self._close_if_empty, room)
+
+    async def _close_if_empty(self, room: Room) -> None:
+        async with self._locks[room.program]:
+            opened = self._open.get(room.program)
+            if opened is not None and opened.room is room and not room.members:
+                await opened.stop()
+                self._open.pop(room.program, None)
+        if room.program not in self._open:
+            self._locks.pop(room.program, None)
+
+    def _drop(self, opened: OpenRoom) -> None:
+        """A room ended by itself: what it holds is kept, and the next connection opens it anew."""
+        if self._open.get(opened.room.program) is opened:
+            del self._open[opened.room.program]
+        self._start(self._stop_room, opened)
+
+    async def _stop_room(self, opened: OpenRoom) -> None:
+        await opened.stop()
+
+    async def flush(self, program_id: str) -> None:
+        """Write what waits of a program into the database."""
+        opened = self._open.get(program_id)
+        if opened is not None:
+            await opened.keep()
+
+    async def close(self) -> None:
+        """Keep everything and end."""
+        if self._stop_listening:
+            self._stop_listening()
+        for opened in list(self._open.values()):
+            opened.room.close_all(Close(Close.COME_AGAIN, INTERRUPTED))
+            await opened.stop()
+        self._open.clear()
+
+    def _start(self, act: Callable[..., Coroutine[Any, Any, None]], *args: Any) -> None:
+        task: asyncio.Task[None] = self.loop.create_task(act(*args))
+        self._background.add(task)
+        task.add_done_callback(self._background.discard)
+
+    async def _listen(self) -> None:
+        if self._stop_listening is None:
+            self._stop_listening = lambda: None
+            self._stop_listening = await asyncio.to_thread(fanout.listen, self._hear)
+
+    def _hear(self, site: str, message: fanout.Message) -> None:
+        """Called on a foreign thread for every live message."""
+        if message.get("type") in _HEARD and not self.loop.is_closed():
+            self.loop.call_soon_threadsafe(self._on_live, site, message)
+
+    def _on_live(self, site: str, message: fanout.Message) -> None:
+        rooms = [opened for opened in self._open.values() if site in (opened.room.site, fanout.EVERY_SITE)]
+        if message["type"] in {"members", "programs", "hello"}:
+            for opened in rooms:
+                self._start(self._review, opened.room)
+        if self._watches[site].changes_programs(message):
+            for opened in rooms:
+                opened.room.touched = True
+                opened.wake()
+
+    async def _review(self, room: Room) -> None:
+        """Look again at what each connection may do; it acts on the open connection at once."""
+        for member in list(room.members):
+            if await in_database(has_ended)(member.session):
+                member.close(Close(Close.SIGNED_OUT, "You are signed out. Sign in again."))
+                continue
+            standing = await in_database(find_standing)(member.person.id, room.program)
+            if standing is None:
+                member.close(Close(Close.NOT_FOUND, "The program was deleted, or you are no longer one of its site."))
+                continue
+            gained = standing.can_write and not member.can_write
+            member.can_write = standing.can_write
+            if gained:
+                member.ask_for_state(room.document.state())
+
+
+_hubs: weakref.WeakKeyDictionary[asyncio.AbstractEventLoop, Hub] = weakref.WeakKeyDictionary()
+
+
+def hub_of_this_loop() -> Hub:
+    """Return the hub of the running event loop, made at first use."""
+    loop = asyncio.get_running_loop()
+    if loop not in _hubs:
+        _hubs[loop] = Hub(make_stream(settings.VIPO_STREAM_URL))
+    return _hubs[loop]
+
+
+def flush_program(program_id: str) -> None:
+    """Write into the database what this process's room of a program still holds; not to be called on an event loop."""
+    for loop, hub in list(_hubs.items()):
+        if loop.is_running() and not _is_on(loop):
+            asyncio.run_coroutine_threadsafe(hub.flush(program_id), loop).result(FLUSH_LIMIT_S)
+
+
+def _is_on(loop: asyncio.AbstractEventLoop) -> bool:
+    try:
+        return asyncio.get_running_loop() is loop
+    except RuntimeError:
+        return False

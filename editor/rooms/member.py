@@ -1,0 +1,160 @@
+"""One connection in a room: who it is, what it may do, what waits to be sent to it, and how much it may send."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from editor.rooms import yjs_protocol
+
+if TYPE_CHECKING:
+    from registry.people.sessions import Session
+
+KIB, MIB = 1024, 1024 * 1024
+FRAMES_PER_S, BURST_FRAMES = 60.0, 600.0
+BYTES_PER_S, BURST_BYTES = float(MIB), 12.0 * MIB
+MOST_HELD_FRAMES, MOST_HELD_BYTES = 1000, 4 * MIB
+MOST_UNREAD_BYTES = 24 * MIB
+PROBE_EVERY_BYTES = 256 * KIB
+
+
+class Close(Exception):
+    """The connection is to be closed with a code (44xx: for good, 4503: come again), and why."""
+
+    MALFORMED, SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_LARGE, ABUSE = 4400, 4401, 4403, 4404, 4413, 4429
+    COME_AGAIN = 4503
+
+    def __init__(self, code: int, reason: str) -> None:
+        super().__init__(reason)
+        self.code = code
+        self.reason = reason
+
+
+@dataclass(frozen=True, slots=True)
+class Person:
+    """Who sits at the other end, from the session."""
+
+    id: int
+    name: str
+    initials: str
+
+    def shown(self) -> dict[str, Any]:
+        """Return what others are shown of the person."""
+        return {"id": self.id, "name": self.name, "initials": self.initials, "color": colour_of(self.id)}
+
+
+_COLOURS = (
+    *("#2a6fdb", "#c2410c", "#7c3aed", "#047857", "#be185d"),
+    *("#0e7490", "#a16207", "#4d7c0f", "#9333ea", "#b91c1c"),
+)
+
+
+def colour_of(person: int) -> str:
+    """Return the colour that stands for a person, the same everywhere."""
+    return _COLOURS[person % len(_COLOURS)]
+
+
+@dataclass(slots=True)
+class Budget:
+    """A token bucket."""
+
+    per_s: float
+    burst: float
+    left: float = field(init=False)
+    at: float | None = None
+
+    def __post_init__(self) -> None:
+        self.left = self.burst
+
+    def spend(self, amount: float, now_s: float) -> bool:
+        """Take from the bucket; tell whether there was enough."""
+        if self.at is not None:
+            self.left = min(self.burst, self.left + (now_s - self.at) * self.per_s)
+        self.at = now_s
+        self.left -= amount
+        return self.left >= 0
+
+
+class Member:
+    """A connection; frames for it are queued here and sent by its socket."""
+
+    def __init__(
+        self, person: Person, *, can_write: bool, wake: Callable[[], None], session: Session | None = None
+    ) -> None:
+        """`wake` is called when there is something to send; `session` is the one that the connection came in with."""
+        self.person = person
+        self.session = session
+        self.can_write = can_write
+        self.synced = False
+        self.clients: set[int] = set()
+        self.outbox: deque[bytes] = deque()
+        self.closing: Close | None = None
+        self._wake = wake
+        self._held: list[bytes] = []
+        self._held_bytes = 0
+        self._unread = 0
+        self._since_probe = 0
+        self._probes: deque[int] = deque()
+        self._frames = Budget(FRAMES_PER_S, BURST_FRAMES)
+        self._bytes = Budget(BYTES_PER_S, BURST_BYTES)
+        self.sent_since_beat = False
+
+    def post(self, frame: bytes) -> None:
+        """Queue a frame; a client that does not read is sent away, and will ask for what it lacks."""
+        if self.closing is not None:
+            return
+        self.outbox.append(frame)
+        self.sent_since_beat = True
+        self._unread += len(frame)
+        self._since_probe += len(frame)
+        if self._unread > MOST_UNREAD_BYTES:
+            self.close(Close(Close.COME_AGAIN, "The connection did not keep up with the changes. It begins anew."))
+            return
+        self._wake()
+
+    def close(self, close: Close) -> None:
+        """Have the connection closed; what was queued for it is dropped."""
+        if self.closing is None:
+            self.closing = close
+            self.outbox.clear()
+            self._wake()
+
+    def ask_for_state(self, state: bytes) -> None:
+        """Send a step 1. Its answer also tells that everything before it has been read."""
+        self._probes.append(self._since_probe)
+        self._since_probe = 0
+        self.post(yjs_protocol.encode_step_1(state))
+
+    @property
+    def probe_is_due(self) -> bool:
+        """Whether so much has been sent that the client should be asked to answer."""
+        return self._since_probe > PROBE_EVERY_BYTES and len(self._probes) < 32
+
+    def note_answer(self) -> None:
+        """Count what the oldest question's answer says has been read."""
+        if self._probes:
+            self._unread = max(0, self._unread - self._probes.popleft())
+
+    def spend_bytes(self, size: int, now_s: float) -> None:
+        """Count received bytes. Raises Close."""
+        if not self._bytes.spend(size + 64, now_s):
+            raise Close(Close.ABUSE, "This connection sends more than 1 MiB a second. Close other copies of the page.")
+
+    def spend_frame(self, now_s: float) -> None:
+        """Count a frame that asks for work. Raises Close."""
+        if not self._frames.spend(1, now_s):
+            raise Close(Close.ABUSE, "This connection sends more than 60 messages a second.")
+
+    def hold(self, update: bytes) -> None:
+        """Keep an update that came before the client's step 2. Raises Close."""
+        self._held.append(update)
+        self._held_bytes += len(update)
+        if len(self._held) > MOST_HELD_FRAMES or self._held_bytes > MOST_HELD_BYTES:
+            raise Close(Close.MALFORMED, "The client sends changes and never says what it has (sync step 2).")
+
+    def take_held(self) -> list[bytes]:
+        """Hand over the updates that were kept."""
+        held, self._held, self._held_bytes = self._held, [], 0
+        return held

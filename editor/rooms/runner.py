@@ -1,0 +1,240 @@
+"""A room at work: its changes go to the database and to the other processes, and theirs come in."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from collections.abc import Awaitable, Callable, Coroutine
+from contextlib import suppress
+from typing import Any, ParamSpec, TypeVar
+
+from channels.db import database_sync_to_async
+from django.db import DatabaseError
+from django.utils import timezone
+
+from editor.errors import NoSuchProgram
+from editor.language.compiler import EditedProgram
+from editor.programs.checking import check_and_publish
+from editor.rooms.document import BadUpdate, SharedDocument
+from editor.rooms.member import Close
+from editor.rooms.room import Change, Room, encode_saved_note
+from editor.rooms.store import COMPACT_AFTER_ROWS, SnapshotDiffers, append_changes, compact_document, load_document
+from editor.rooms.stream import BEGINNING, Entry, RoomStream, StreamLost
+from editor.rooms.yjs_protocol import BadFrame
+
+log = logging.getLogger(__name__)
+KEEP_EVERY_S = 0.25
+TELL_EVERY_S = 0.01
+AWARENESS_EVERY_S = 0.033
+CHECK_AFTER_S = 0.08
+COMPARE_EVERY_S = 30.0
+BEAT_EVERY_S = 10.0
+SILENT_AFTER_S = 75.0
+RETRY_AFTER_S = 1.0
+INTERRUPTED = "The program could not be reached just now. What was typed stays in the browser and follows."
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def in_database(function: Callable[P, R]) -> Callable[P, Awaitable[R]]:
+    """Run a function that uses the database on a thread, off the event loop."""
+    awaitable: Callable[P, Awaitable[R]] = database_sync_to_async(function, thread_sensitive=False)
+    return awaitable
+
+
+class OpenRoom:
+    """The tasks around one room. `on_end` is called once when it must be opened anew."""
+
+    def __init__(self, room: Room, stream: RoomStream, after: str, on_end: Callable[[OpenRoom], None]) -> None:
+        self.room = room
+        self._stream = stream
+        self._after = after
+        self._on_end = on_end
+        self._edited = EditedProgram()
+        self._ended = False
+        self._keeping = asyncio.Lock()
+        self._telling = asyncio.Lock()
+        self._heard_at: dict[str, float] = {}
+        self._events = {name: asyncio.Event() for name in ("keep", "tell", "awareness", "check")}
+        self._tasks: list[asyncio.Task[None]] = []
+        room.wake = self.wake
+
+    def wake(self) -> None:
+        """Have the tasks look at the queues."""
+        for event in self._events.values():
+            event.set()
+
+    def start(self) -> None:
+        """Start the tasks."""
+        loops: tuple[Coroutine[Any, Any, None], ...] = (
+            self._when("tell", TELL_EVERY_S, self._tell),
+            self._when("keep", KEEP_EVERY_S, self.keep),
+            self._when("awareness", AWARENESS_EVERY_S, self._spread_awareness),
+            self._when("check", CHECK_AFTER_S, self.check),
+            self._every(COMPARE_EVERY_S, self.room.say_state),
+            self._every(BEAT_EVERY_S, self._beat),
+            self._read(),
+        )
+        self._tasks = [asyncio.create_task(loop) for loop in loops]
+        self.room.say_state()
+
+    async def stop(self) -> None:
+        """Keep and tell what is left, and end the tasks."""
+        self._ended = True
+        await self.keep()
+        self.room.spread_awareness()
+        with suppress(StreamLost):
+            await self._tell()
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+
+    async def _when(self, name: str, pause_s: float, act: Callable[[], Awaitable[None]]) -> None:
+        """Act a little after each wake-up, so that what comes in a burst goes in one batch."""
+        while True:
+            await self._events[name].wait()
+            await asyncio.sleep(pause_s)
+            self._events[name].clear()
+            try:
+                await act()
+            except StreamLost as error:
+                self._end(error)
+
+    async def _every(self, pause_s: float, act: Callable[[], None]) -> None:
+        while True:
+            await asyncio.sleep(pause_s)
+            act()
+
+    def _end(self, error: Exception) -> None:
+        """Send everybody away to come again: better no room than one that differs from the others."""
+        if not self._ended:
+            self._ended = True
+            log.warning("The room of program %s begins anew: %s", self.room.program, error)
+            self.room.close_all(Close(Close.COME_AGAIN, INTERRUPTED))
+            self._on_end(self)
+
+    async def _tell(self) -> None:
+        async with self._telling:
+            queue = self.room.to_tell
+            notes = [queue.popleft() for _ in range(len(queue))]
+            if notes:
+                await self._stream.append(self.room.program, self.room.origin, notes)
+
+    async def _spread_awareness(self) -> None:
+        self.room.spread_awareness()
+
+    async def _read(self) -> None:
+        while not self._ended:
+            try:
+                batch = await self._stream.read(self.room.program, self._after, 1.0)
+                if batch.gap:
+                    await self._reload()
+                for entry in batch.entries:
+                    self._after = entry.id
+                    self._hear(entry)
+            except (StreamLost, BadUpdate, BadFrame, DatabaseError, NoSuchProgram) as error:
+                self._end(error)
+
+    def _hear(self, entry: Entry) -> None:
+        if entry.origin != self.room.origin:
+            self._heard_at[entry.origin] = time.monotonic()
+            self.room.hear(entry)
+
+    def _beat(self) -> None:
+        self.room.beat()
+        for origin, heard_at in list(self._heard_at.items()):
+            if time.monotonic() - heard_at > SILENT_AFTER_S:
+                del self._heard_at[origin]
+                self.room.board.forget_process(origin)
+                self._events["awareness"].set()
+
+    async def _reload(self) -> None:
+        stored = await in_database(load_document)(self.room.program)
+        self.room.take_over(list(stored.updates))
+
+    async def keep(self) -> None:
+        """Write what waits into the database, then tell everybody that it is saved."""
+        async with self._keeping:
+            queue = self.room.to_keep
+            changes = list(queue)
+            if not changes:
+                return
+            state = self.room.document.state()
+            try:
+                seq, rows = await in_database(append_changes)(self.room.program, changes, timezone.now())
+            except NoSuchProgram as error:
+                queue.clear()
+                self.room.close_all(Close(Close.NOT_FOUND, error.detail))
+                return
+            except DatabaseError as error:
+                log.warning("Program %s could not be saved; it is tried again: %s", self.room.program, error)
+                asyncio.get_running_loop().call_later(RETRY_AFTER_S, self._events["keep"].set)
+                return
+            for _ in changes:
+                queue.popleft()
+            self.room.tell_saved(seq, state)
+            self.room.to_tell.append(encode_saved_note(seq, state))
+            self._events["tell"].set()
+            if rows >= COMPACT_AFTER_ROWS:
+                await self._compact()
+
+    async def _compact(self) -> None:
+        try:
+            await in_database(compact_document)(self.room.program)
+        except (DatabaseError, SnapshotDiffers) as error:
+            log.warning("Program %s was not compacted: %s", self.room.program, error)
+
+    async def check(self) -> None:
+        """Compile the document on a thread and tell who watches the site."""
+        if not self.room.touched:
+            return
+        self.room.touched = False
+        document = self.room.document.to_json()
+        try:
+            await in_database(check_and_publish)(self.room.program, document, new_revision(), self._edited)
+        except (DatabaseError, NoSuchProgram) as error:
+            log.warning("Program %s was not checked: %s", self.room.program, error)
+        except Exception:  # the edge of the room: a fault in the checks must not end those of later edits
+            log.exception(
+                "Program %s was not checked; the next edit is looked at from the beginning.", self.room.program
+            )
+            self._edited = EditedProgram()
+
+
+def new_revision() -> int:
+    """Return a number for a look at a document; later looks have higher numbers, in every process."""
+    return time.time_ns() // 1_000_000
+
+
+async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Callable[[OpenRoom], None]) -> OpenRoom:
+    """Load a program's document: the snapshot, the rows after it, what the stream has beyond them; in today's format.
+
+    Raises NoSuchProgram, StreamLost, BadUpdate.
+    """
+    stored = await in_database(load_document)(program_id)
+    tail, after = await _read_tail(stream, program_id)
+    document = SharedDocument([*stored.updates, *tail])
+    climbed = document.climb()
+    room = Room(program_id, stored.site, origin, document)
+    room.saved_seq = stored.seq
+    opened = OpenRoom(room, stream, after, on_end)
+    if tail or climbed:
+        _keep_what_is_not_stored(room, stored.updates)
+    opened.start()
+    return opened
+
+
+async def _read_tail(stream: RoomStream, program_id: str) -> tuple[list[bytes], str]:
+    after, updates = BEGINNING, []
+    while entries := (await stream.read(program_id, after, 0.001)).entries:
+        updates += [entry.note.data for entry in entries if entry.note.kind in {"update", "full"}]
+        after = entries[-1].id
+    return updates, after
+
+
+def _keep_what_is_not_stored(room: Room, stored: tuple[bytes, ...]) -> None:
+    """Keep what a process that died between telling and keeping left in the stream, and the climb to today's format."""
+    kept = SharedDocument(stored)
+    if kept.state() != room.document.state() or kept.digest() != room.document.digest():
+        room.to_keep.append(Change(None, room.document.encode(kept.state())))

@@ -1,0 +1,163 @@
+"""Which commands may go out now, and who sends them: several gateways ask, each command goes to one of them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+from functools import reduce
+from typing import Any
+from uuid import UUID
+
+import psycopg
+from django.db import connection
+
+from execution.models import Command
+from registry import services as registry
+from vipo_device.protocol import messages
+
+FIRST_RETRY_S = 2.0
+LAST_RETRY_S = 15.0
+NEVER_AGAIN_S = 7 * 86_400.0
+"""A device that knows only its done flag would carry out a command anew each time that it hears it."""
+CONTROLS = ("pause", "resume", "cancel")
+UNANSWERED = (Command.Status.PENDING, Command.Status.SENT)
+WINDOW = 12
+"""A device remembers its last 16 commands: nobody runs so far ahead of an open one that it would do that one again."""
+
+
+def _words(values: Iterable[str]) -> str:
+    return ", ".join(f"'{value}'" for value in values)
+
+
+_DONE_FLAG_ONLY = registry.DONE_FLAG_ONLY_SQL.format(device="execution_command.device")
+# `IS TRUE` makes PostgreSQL look devices up in a hash: a join, planned when little was open, takes seconds in a rush.
+_CLAIM = f"""
+WITH due AS MATERIALIZED (
+    SELECT DISTINCT device FROM execution_command
+    WHERE status IN ({_words(Command.OPEN)}) AND send_after <= %(now)s
+), waiting AS MATERIALIZED (
+    SELECT id, site_id, device, position, piece, tries, method, send_after, min(position) OVER lane AS oldest,
+        min(CASE WHEN piece AND status IN ({_words(UNANSWERED)}) THEN position END) OVER lane AS unanswered_piece
+    FROM execution_command
+    WHERE status IN ({_words(Command.OPEN)}) AND (device IN (SELECT device FROM due)) IS TRUE
+    WINDOW lane AS (PARTITION BY site_id, device)
+), chosen AS MATERIALIZED (
+    SELECT id FROM waiting
+    WHERE send_after <= %(now)s AND ({registry.OUT_SQL.format(device="waiting.device")}) IS NOT TRUE
+    AND (method IN ({_words(CONTROLS)}) OR (
+        site_id NOT IN (SELECT site_id FROM execution_sitestop WHERE active)
+        AND NOT (piece AND position > coalesce(unanswered_piece, position))
+        AND (tries > 0 OR position - oldest < {WINDOW} OR {WINDOW} > (
+            SELECT count(*) FROM (
+                SELECT 1 FROM execution_command AS own
+                WHERE own.device = waiting.device AND own.site_id = waiting.site_id
+                    AND own.position >= waiting.oldest AND own.position < waiting.position
+                LIMIT {WINDOW}
+            ) AS between_them
+        ))
+    ))
+    ORDER BY site_id, position LIMIT %(limit)s
+), taken AS MATERIALIZED (
+    SELECT id AS taken_id FROM execution_command
+    WHERE id IN (SELECT id FROM chosen) AND status IN ({_words(Command.OPEN)}) AND send_after <= %(now)s
+    <lock>
+)<haste>
+UPDATE execution_command SET tries = tries + 1, send_after = CASE
+    WHEN ({_DONE_FLAG_ONLY}) THEN %(never)s
+    WHEN status NOT IN ({_words(UNANSWERED)}) THEN %(last)s
+    WHEN tries = 0 THEN %(first)s WHEN tries = 1 THEN %(second)s WHEN tries = 2 THEN %(third)s
+    ELSE %(last)s END
+FROM taken <hasty> WHERE id = taken_id
+RETURNING site_id, position, id, device, method, arguments, ttl_s, (
+    SELECT topic FROM ({registry.CONFIRMED_TOPICS_SQL}) AS told
+    WHERE told.device_id = execution_command.device AND told.method = execution_command.method
+)
+"""  # noqa: S608 - made of this product's own constants only
+_MARK = "UPDATE execution_command SET status = 'sent', sent_at = %s WHERE status = 'pending' AND id IN (<ids>)"
+_HASTE = f""", haste AS MATERIALIZED (
+    SELECT set_config('synchronous_commit', 'off', true) WHERE NOT EXISTS (
+        SELECT 1 FROM execution_command JOIN taken ON id = taken_id WHERE ({_DONE_FLAG_ONLY})
+    )
+)"""  # noqa: S608 - made of this product's own constants only
+"""A claim does not wait for the disk. One that a crash of the database forgets is made again, with the same ids, which
+devices know; so it waits where a device knows none."""
+_DIALECTS = {
+    "postgresql": {"<lock>": "FOR UPDATE SKIP LOCKED", "<haste>": _HASTE, "<hasty>": "LEFT JOIN haste ON true"},
+    "sqlite": {"<lock>": "", "<haste>": "", "<hasty>": ""},
+}
+"""SQLite lets one write at a time: two that claim at once come one after the other."""
+_CLAIMS = {
+    vendor: reduce(lambda text, part: text.replace(*part), parts.items(), _CLAIM) for vendor, parts in _DIALECTS.items()
+}
+
+
+@dataclass(frozen=True, slots=True)
+class OutgoingCommand:
+    """A command as it goes out over MQTT."""
+
+    id: str
+    device: str
+    topic: str
+    payload: bytes
+    ttl_s: float
+
+
+def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
+    """Return commands that are due to be sent, in their order; nobody else is given them for a while.
+
+    One whose sending is not confirmed by `mark_commands_sent`, or that no device answers, is given out again. What
+    is meant for a device that does not take part is kept back. While a site is stopped only pause, resume and
+    cancel go out. A piece of way waits until the robot has accepted the piece before it: with a gateway that died
+    in between, it would otherwise cut the corner through a wall. Nothing new goes out while a command that is
+    `WINDOW` older is open: asked again, the device might have forgotten it.
+    All that is one statement: a command waits for this, and each question more is a millisecond.
+    """
+    with _preparing_cursor() as cursor:
+        cursor.execute(_CLAIMS[connection.vendor], _parameters(datetime.now(UTC), limit))
+        rows = cursor.fetchall()
+    return tuple(_outgoing(*row[2:]) for row in sorted(rows, key=lambda row: row[:2]))
+
+
+@contextmanager
+def _preparing_cursor() -> Iterator[Any]:
+    """Give a cursor for which PostgreSQL plans a statement once; planning takes longer than claiming."""
+    if connection.vendor != "postgresql":
+        with connection.cursor() as cursor:
+            yield cursor
+        return
+    connection.ensure_connection()
+    connection.connection.prepare_threshold = 0
+    with connection.wrap_database_errors, psycopg.Cursor(connection.connection) as prepared:
+        yield prepared
+
+
+def _parameters(now: datetime, limit: int) -> dict[str, Any]:
+    waits_s = {
+        "now": 0.0,
+        "first": FIRST_RETRY_S,
+        "second": FIRST_RETRY_S * 2,
+        "third": FIRST_RETRY_S * 4,
+        "last": LAST_RETRY_S,
+        "never": NEVER_AGAIN_S,
+    }
+    when = connection.ops.adapt_datetimefield_value
+    return {"limit": limit} | {name: when(now + timedelta(seconds=wait)) for name, wait in waits_s.items()}
+
+
+def _outgoing(
+    key: UUID | str, device: str, method: str, arguments: str, ttl_s: float, legacy_topic: str | None
+) -> OutgoingCommand:
+    command = str(UUID(str(key)))  # SQLite keeps it without dashes
+    payload = messages.command_payload(command, json.loads(arguments), ttl_s)
+    return OutgoingCommand(command, device, legacy_topic or messages.down_topic(device, method), payload, ttl_s)
+
+
+def mark_commands_sent(*, ids: Iterable[str]) -> None:
+    """Say that these commands have gone out."""
+    keys = [UUID(key).hex if connection.vendor == "sqlite" else UUID(key) for key in ids]
+    sent_at = connection.ops.adapt_datetimefield_value(datetime.now(UTC))
+    with connection.cursor() as cursor:
+        cursor.execute(_MARK.replace("<ids>", ", ".join(["%s"] * len(keys))), [sent_at, *keys])

@@ -1,0 +1,197 @@
+"""Telling a device to do something by hand, outside of any run.
+
+A call is one row of the outbox. The floor knows of it as it knows of a run's commands: runs wait for the device, the
+site's stop holds it, and it has a time limit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from datetime import UTC, datetime, timedelta
+from typing import Any
+from uuid import UUID, uuid4
+
+from django.db import transaction
+from django.db.models import F
+
+from execution import mailbox
+from execution.call_arguments import find_misfits
+from execution.commands.claim import CONTROLS
+from execution.errors import BadArguments, NotFound, NotPossibleNow
+from execution.floor.advance import site_id
+from execution.floor.stops import is_stopped
+from execution.models import Command, FloorState, Run
+from execution.runs.reasons import cause_of
+from execution.traffic import floor
+from registry import services as registry
+from registry.live import fanout
+
+EXPIRY_S = 30.0
+"""A call that no device has answered after so long is given up: a person waits, and a late start would surprise."""
+NO_ANSWER = "The device did not answer in time. Look whether it is switched on and connected."
+MOST_MISFITS = 5
+DRIVES = "drives only in a program, where its way is kept free of others. Draw a Move and run it."
+LATE = "The device took longer than it may. Look what it is doing."
+
+
+def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[str, Any], by: str) -> dict[str, Any]:
+    """Send a device a command, and return the call.
+
+    Raises:
+        NoSuchDevice: the site has no such device.
+        BadArguments: the device has no such method, or the method does not take these arguments.
+        NotPossibleNow: the site is stopped, the device is busy, held by a run, away, or not approved, or the method's
+            topic is not confirmed.
+    """
+    device = registry.get_device(site=site, device_id=device_id)
+    if device.kind == "robot" and method == "move":
+        raise NotPossibleNow(f"{device.name} {DRIVES}")
+    given = {name: value for name, value in arguments.items() if value is not None}
+    _check_arguments(device, method, given)
+    with transaction.atomic():
+        FloorState.objects.get_or_create(site_id=site_id(site))
+        row = FloorState.objects.select_for_update(of=("self",)).get(site__slug=site)
+        _check_free(row, registry.get_device(site=site, device_id=device_id))
+        command = _write(row, device_id, method, given, by)
+        mailbox.post(mailbox.site_target(site), [(f"call:{command.id}", _news(command))])
+        transaction.on_commit(lambda: fanout.wake("gateway"))
+    return call_to_json(command)
+
+
+def _check_arguments(device: registry.DeviceView, method: str, arguments: Mapping[str, Any]) -> None:
+    if waiting := next((asked.topic for asked in device.asks if asked.name == method), None):
+        raise NotPossibleNow(f"{method} waits until an admin confirms its topic {waiting} on {device.name}'s page.")
+    devices = [d.id for d in registry.list_devices(site=device.site, lifecycle="approved")]
+    places = [place.id for place in registry.list_places(site=device.site)]
+    misfits = find_misfits(device.canonical, method, arguments, devices, places)
+    if misfits:
+        raise BadArguments(" ".join(misfits[:MOST_MISFITS]))
+
+
+def _check_free(row: FloorState, device: registry.DeviceView) -> None:
+    """Refuse unless the device may be used now; the floor's row is locked, so it stays so until this is written."""
+    if device.lifecycle != "approved":
+        raise NotPossibleNow(f"{device.name} waits for approval. An admin of the site can approve it.")
+    if is_stopped(site=device.site):
+        raise NotPossibleNow("The site is stopped. Reset the stop first.")
+    if not device.online:
+        raise NotPossibleNow(f"{device.name} is offline. Switch it on, or look at its connection.")
+    if holder := _holding_run(row, device.id):
+        raise NotPossibleNow(f"{device.name} is held by {_run_words(holder)}. Wait until it is over, or cancel it.")
+    other = _open_commands(row.site_id, device.id).first()
+    if other is not None:
+        raise NotPossibleNow(f"{device.name} still carries out {other.method}. Wait until it is done.")
+
+
+def _holding_run(row: FloorState, device_id: str) -> str:
+    """Return the id of the run that the device is needed for now, or an empty text."""
+    open_runs = _open_commands(row.site_id, device_id).exclude(run=None).values_list("run", flat=True)
+    if row.state is None:
+        return str(open_runs.first() or "")
+    state = floor.from_json(row.state)
+    robot = state.robots.get(state.stations.get(device_id, device_id))
+    held = [robot.run if robot else "", state.calls.get(device_id, ""), *map(str, open_runs)]
+    acting = [job.run for job in state.jobs if job.command and job.order.target.id == device_id]
+    return next((run for run in (*held, *acting) if _is_run(run)), "")
+
+
+def _is_run(run: str) -> bool:
+    return bool(run) and Run.objects.filter(id=run).exists()
+
+
+def _run_words(run: str) -> str:
+    row = Run.objects.get(id=run)
+    return f"run {row.number} of “{row.program_name}”"
+
+
+def _open_commands(site: int, device_id: str) -> Any:
+    rows = Command.objects.filter(site_id=site, device=device_id, status__in=Command.OPEN)
+    return rows.exclude(method__in=CONTROLS).order_by("position")
+
+
+def _write(row: FloorState, device_id: str, method: str, arguments: Mapping[str, Any], by: str) -> Command:
+    now = datetime.now(UTC)
+    FloorState.objects.filter(pk=row.pk).update(commands=F("commands") + 1)
+    return Command.objects.create(
+        id=uuid4(),
+        site_id=row.site_id,
+        position=row.commands,
+        device=device_id,
+        method=method,
+        arguments=dict(arguments),
+        by=by[:120],
+        fence=row.epoch,
+        ttl_s=EXPIRY_S,
+        send_after=now,
+        created_at=now,
+    )
+
+
+def _news(command: Command) -> dict[str, Any]:
+    """Return what the floor is told of a call."""
+    return {
+        "type": "call_sent",
+        "command": str(command.id),
+        "device": command.device,
+        "method": command.method,
+        "arguments": command.arguments,
+        "name": f"{command.by}, by hand",
+    }
+
+
+def get_call(*, site: str, call_id: UUID) -> dict[str, Any]:
+    """Return a call and what has come of it. Raises NotFound."""
+    return call_to_json(_find(site, call_id))
+
+
+def cancel_call(*, site: str, call_id: UUID) -> dict[str, Any]:
+    """Ask the device to end a call; one that is over stays as it is. Raises NotFound."""
+    command = _find(site, call_id)
+    if command.status in Command.OPEN:
+        news = {"type": "call_cancelled", "command": str(command.id), "given_up": False}
+        mailbox.post(mailbox.site_target(site), [(f"call-cancel:{command.id}", news)])
+    return call_to_json(command)
+
+
+def _find(site: str, call_id: UUID) -> Command:
+    command = Command.objects.filter(id=call_id, site__slug=site, run=None).exclude(by="").first()
+    if command is None:
+        raise NotFound("There is no such call at this site.")
+    return command
+
+
+def expire_calls(*, now: datetime) -> int:
+    """Give up the calls that no device has answered; return how many."""
+    waiting = (Command.Status.PENDING, Command.Status.SENT)
+    late = Command.objects.filter(status__in=waiting, run=None, created_at__lt=now - timedelta(seconds=EXPIRY_S))
+    count = 0
+    for command in late.exclude(by="").select_related("site"):
+        with transaction.atomic():
+            mine = Command.objects.filter(id=command.id, status__in=waiting)
+            if mine.update(status=Command.Status.TIMED_OUT, why=NO_ANSWER, ended_at=now):
+                news = {"type": "call_cancelled", "command": str(command.id), "given_up": True}
+                mailbox.post(mailbox.site_target(command.site.slug), [(f"call-expired:{command.id}", news)])
+                count += 1
+    return count
+
+
+def call_to_json(command: Command) -> dict[str, Any]:
+    """Return a call as the API says it."""
+    expires_at = command.created_at + timedelta(seconds=command.ttl_s)
+    why = command.why or (LATE if command.status == Command.Status.TIMED_OUT else "")
+    return {
+        "id": str(command.id),
+        "device": command.device,
+        "method": command.method,
+        "args": command.arguments,
+        "by": command.by,
+        "status": command.status,
+        "over": command.status not in Command.OPEN,
+        "why": why,
+        "cause": cause_of(why),
+        "result": command.result,
+        "created_at": command.created_at.isoformat(),
+        "expires_at": expires_at.isoformat(),
+        "sent_at": command.sent_at.isoformat() if command.sent_at else None,
+        "ended_at": command.ended_at.isoformat() if command.ended_at else None,
+    }

@@ -1,0 +1,238 @@
+"""One step of a site's floor: take in what came, decide, write everything in one transaction."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import replace
+from datetime import UTC, datetime
+from typing import Any, Literal
+
+from django.apps import apps
+from django.db import transaction
+
+from editor.language.site.surroundings import PlaceFacts
+from execution import mailbox
+from execution.errors import StepConflict
+from execution.machine.floor_task import mission_from_json
+from execution.models import Command, FloorState, InboxEvent
+from execution.traffic import floor
+from execution.traffic import messages as m
+from execution.traffic.floor_state import FloorState as State
+from execution.traffic.layout import Layout, make_layout
+from registry import services as registry
+from registry.live import fanout
+from vipo_device.protocol.description import Description, Pose
+
+TRAFFIC_EVERY_S = 0.2
+AFTERWARDS_S = 20.0
+"""A floor is looked after this long after its last robot has come to rest."""
+CONTROLS = frozenset({"pause", "resume", "cancel"})
+_layouts: dict[str, tuple[tuple[int, tuple[Description, ...], tuple[PlaceFacts, ...]], Layout]] = {}
+_published: dict[str, tuple[float, str]] = {}
+
+
+def advance_site(slug: str) -> bool:
+    """Bring a site's floor up to date; False when another process is at it already."""
+    with transaction.atomic():
+        FloorState.objects.get_or_create(site_id=site_id(slug))
+        row = FloorState.objects.select_for_update(skip_locked=True).filter(site__slug=slug).first()
+        if row is None:
+            return False
+        events = mailbox.waiting(mailbox.site_target(slug))
+        devices = registry.list_devices(site=slug, lifecycle="approved")
+        layout = get_layout(slug, devices)
+        before = floor.from_json(row.state) if row.state else floor.start(layout, str(row.namespace))
+        news = [*_news(before, devices), *(_event(event) for event in events), m.Tick()]
+        after, actions = floor.step(layout, before, news, time.time())
+        _write(slug, row, before, after, actions)
+        mailbox.mark_taken(events)
+        mailbox.crash_point("site_before_commit")
+    mailbox.crash_point("site_after_commit")
+    _publish_traffic(slug, layout, after)
+    return True
+
+
+def site_id(slug: str) -> int:
+    """Return the row number of a site."""
+    site = apps.get_model("registry", "Site")
+    return int(site.objects.values_list("id", flat=True).get(slug=slug))
+
+
+def get_layout(slug: str, devices: tuple[registry.DeviceView, ...] | None = None) -> Layout:
+    """Return the layout of a site as its map, places and approved devices are now; raises NoMap."""
+    if devices is None:
+        devices = registry.list_devices(site=slug, lifecycle="approved")
+    at_home = tuple(replace(d.canonical, pose=Pose(0, 0)) if d.kind == "robot" else d.canonical for d in devices)
+    places = tuple(place_facts(place) for place in registry.list_places(site=slug))
+    site_map = registry.get_map(site=slug)
+    made_of = (site_map.version, at_home, places)
+    known = _layouts.get(slug)
+    if known is None or known[0] != made_of:
+        known = _layouts[slug] = (made_of, make_layout(site_map.grid, at_home, places))
+    return known[1]
+
+
+def place_facts(place: registry.PlaceView) -> PlaceFacts:
+    """Return a place as the language and traffic see it."""
+    kind: Literal["dock", "room", "point"] = (
+        "dock" if place.kind == "dock" else "room" if place.kind == "room" else "point"
+    )
+    return PlaceFacts(place.id, place.name, kind, place.x, place.y, place.theta)
+
+
+def _news(before: State, devices: tuple[registry.DeviceView, ...]) -> list[m.Event]:
+    """Return what has changed on the floor according to the registry: who is there, and where the robots are."""
+    news: list[m.Event] = []
+    for device in devices:
+        robot = before.robots.get(device.id)
+        known_online = robot.online if robot else device.id not in before.offline
+        if device.online and (not known_online or device.id in before.offline):
+            news.append(m.DeviceOnline(device.id))
+        elif not device.online and device.id not in before.offline:
+            news.append(m.DeviceOffline(device.id))
+        pose = device.pose
+        if device.kind == "robot" and (robot is None or not robot.way or (robot.x, robot.y) != (pose.x, pose.y)):
+            news.append(m.RobotMoved(device.id, pose.x, pose.y, pose.theta))
+    return news
+
+
+def _event(row: InboxEvent) -> m.Event:
+    """Read an event from the inbox."""
+    data = row.payload
+    if data["type"] in {"call_sent", "call_cancelled"}:
+        return _call_event(data)
+    match data["type"]:
+        case "mission_asked":
+            order = mission_from_json(data["order"])
+            can = tuple(data["can"])
+            zones = tuple(map(m.zone_from_json, data.get("zones", ())))
+            return m.MissionAsked(data["run"], data["mission"], order, data["wants"], can, data["run_name"], zones)
+        case "mission_cancelled":
+            return m.MissionCancelled(data["run"], data["mission"])
+        case "answered":
+            return m.CommandAnswered(data["command"], data["status"], data["why"], data["result"])
+        case "run_paused":
+            return m.RunPaused(data["run"])
+        case "run_resumed":
+            return m.RunResumed(data["run"])
+        case "run_over":
+            return m.RunOver(data["run"])
+        case "stop_pressed":
+            return m.StopPressed()
+        case "stop_reset":
+            return m.StopReset()
+    raise ValueError(f"A floor does not understand an event of type {data['type']!r}.")
+
+
+def _call_event(data: Mapping[str, Any]) -> m.Event:
+    if data["type"] == "call_cancelled":
+        return m.CallCancelled(data["command"], data["given_up"])
+    return m.CallSent(data["command"], data["device"], data["method"], data["arguments"], data["name"])
+
+
+def _write(slug: str, row: FloorState, before: State, after: State, actions: tuple[m.Action, ...]) -> None:
+    """Write what one step has decided; a floor that was advanced elsewhere meanwhile refuses it all."""
+    commands = [action for action in actions if isinstance(action, m.SendCommand)]
+    written = FloorState.objects.filter(pk=row.pk, epoch=row.epoch).update(
+        state=floor.to_json(after),
+        epoch=row.epoch + 1,
+        active=_is_active(after),
+        commands=row.commands + len(commands),
+    )
+    if not written:
+        raise StepConflict(f"The floor of {slug} was advanced by another process.")
+    now = datetime.now(UTC)
+    Command.objects.bulk_create(_command_rows(row, commands, now))
+    given_up = set(before.sent) - set(after.sent)
+    if given_up:
+        still_open = Command.objects.filter(id__in=given_up, status__in=Command.OPEN)
+        still_open.update(status=Command.Status.TIMED_OUT, ended_at=now)
+    for number, action in enumerate(actions):
+        _tell_run(row, number, action)
+    if commands:
+        transaction.on_commit(lambda: fanout.wake("gateway"))
+
+
+def _is_active(state: State) -> bool:
+    moving = any(len(robot.way) > 1 for robot in state.robots.values())
+    resting = any(state.now - robot.idle_since < AFTERWARDS_S for robot in state.robots.values())
+    return bool(state.jobs or state.sent or moving or resting)
+
+
+def _command_rows(row: FloorState, commands: list[m.SendCommand], now: datetime) -> list[Command]:
+    return [
+        Command(
+            id=command.id,
+            site_id=row.site_id,
+            position=row.commands + number,
+            device=command.device,
+            method=command.method,
+            arguments=dict(command.arguments),
+            run=command.run or None,
+            step=command.step,
+            piece=command.piece,
+            fence=row.epoch,
+            send_after=now,
+            created_at=now,
+        )
+        for number, command in enumerate(commands)
+    ]
+
+
+def _tell_run(row: FloorState, number: int, action: m.Action) -> None:
+    """Put into a run's inbox what the floor has to say to it."""
+    key = f"{row.namespace}:{row.epoch}:{number}"
+    run, payload = "", {}
+    match action:
+        case m.MissionOver():
+            run = action.run
+            key = f"over:{run}:{action.mission}"
+            payload = {"type": "mission_over", "mission": action.mission, "kind": action.kind, "why": action.why,
+                       "result": dict(action.result)}  # fmt: skip
+        case m.RoleBound():
+            run = action.run
+            payload = {"type": "role_bound", "role": action.role, "robot": action.robot}
+        case m.WaitChanged():
+            run = action.run
+            payload = {"type": "wait", "step": action.step, "robot": action.robot, "reason": _reason(action.reason)}
+        case m.SendCommand() if action.run and not action.piece and action.method not in CONTROLS:
+            run = action.run
+            payload = {"type": "command", "device": action.device, "method": action.method, "step": action.step,
+                       "arguments": dict(action.arguments)}  # fmt: skip
+        case m.WayPlanned() if action.run:
+            run = action.run
+            payload = {"type": "way", "robot": action.robot, "path": [list(point) for point in action.path]}
+    if run:
+        mailbox.post(mailbox.run_target(run), [(key, payload)])
+
+
+def _reason(reason: m.Reason | None) -> dict[str, Any] | None:
+    return None if reason is None else {"code": reason.code, "text": reason.text, "args": dict(reason.args)}
+
+
+def _publish_traffic(slug: str, layout: Layout, state: State) -> None:
+    """Show browsers the ways and reserved cells, at most five times a second and only when they have changed."""
+    robots = {robot.id: _shown(layout, state, robot.id) for robot in state.robots.values() if robot.way}
+    last_at, last = _published.get(slug, (0.0, ""))
+    now = time.monotonic()
+    seen = repr(robots)
+    if seen != last and now - last_at >= TRAFFIC_EVERY_S:
+        _published[slug] = (now, seen)
+        fanout.publish(slug, {"type": "traffic", "robots": robots})
+
+
+def _shown(layout: Layout, state: State, name: str) -> Mapping[str, Any]:
+    robot = state.robots[name]
+    ahead = robot.way[robot.passed :]
+    waits = [_reason(job.wait) for job in state.jobs if job.robot == name and job.wait]
+    reason = waits[0] if waits else None
+    moving = len(ahead) > 1
+    return {
+        "route": [list(layout.point(node)) for node in ahead] if moving else [],
+        "reserved": [list(layout.point(node)) for node in robot.way[robot.passed : robot.released + 1]]
+        if moving
+        else [],
+        "wait": reason["text"] if reason else None,
+        "why": {"code": reason["code"], "args": reason["args"]} if reason else None,
+    }

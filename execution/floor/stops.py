@@ -1,0 +1,83 @@
+"""Stop all: latched for a site, past all queues, reset only by an operator. Not an emergency stop of machine safety."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from functools import partial
+from uuid import uuid4
+
+from django.db import transaction
+
+from execution import mailbox
+from execution.floor.advance import site_id
+from execution.models import ArmedProgram, Run, SiteStop
+from execution.runs.advance import OPEN
+from registry import services as registry
+from registry.live import fanout
+
+
+@dataclass(frozen=True, slots=True)
+class StopView:
+    """The stop of a site."""
+
+    site: str
+    active: bool
+    by: str
+    at: datetime | None
+
+
+def list_stops() -> tuple[StopView, ...]:
+    """Return the stop of every site where it was ever pressed."""
+    rows = SiteStop.objects.select_related("site").order_by("site_id")
+    return tuple(StopView(row.site.slug, row.active, row.by, row.at) for row in rows)
+
+
+def is_stopped(*, site: str) -> bool:
+    """Tell whether the site's stop is latched."""
+    return SiteStop.objects.filter(site__slug=site, active=True).exists()
+
+
+def press_stop(*, site: str, by: str) -> StopView:
+    """Stop every device of the site and pause every run; pressing it again changes nothing."""
+    with transaction.atomic():
+        row = _lock(site)
+        if not row.active:
+            _latch(row, site, active=True, by=by)
+            _disarm_all(site)
+            reason = f"{by} stopped all devices of the site"
+            for run in Run.objects.filter(site__slug=site, status__in=OPEN).values_list("id", flat=True):
+                mailbox.post(mailbox.run_target(run), [(f"stop:{run}:{uuid4()}", {"type": "pause", "reason": reason})])
+            mailbox.post(mailbox.site_target(site), [(f"stop:{uuid4()}", {"type": "stop_pressed"})])
+    return StopView(site, row.active, row.by, row.at)
+
+
+def reset_stop(*, site: str, by: str) -> StopView:
+    """Let the site's devices be used again; runs stay paused until somebody resumes them."""
+    with transaction.atomic():
+        row = _lock(site)
+        if row.active:
+            _latch(row, site, active=False, by=by)
+            mailbox.post(mailbox.site_target(site), [(f"reset:{uuid4()}", {"type": "stop_reset"})])
+    return StopView(site, row.active, row.by, row.at)
+
+
+def _disarm_all(site: str) -> None:
+    """No program starts by itself after a stop until somebody arms it again."""
+    if ArmedProgram.objects.filter(site__slug=site).delete()[0]:
+        transaction.on_commit(lambda: fanout.publish(site, {"type": "armed", "programs": []}))
+
+
+def _lock(site: str) -> SiteStop:
+    SiteStop.objects.get_or_create(site_id=site_id(site))
+    return SiteStop.objects.select_for_update().get(site_id=site_id(site))
+
+
+def _latch(row: SiteStop, site: str, *, active: bool, by: str) -> None:
+    row.active, row.by, row.at = active, by, datetime.now(UTC)
+    row.save()
+    registry.set_site_stop(site=site, active=active, by=by, at=row.at)
+    message = {"type": "stop", "active": active, "by": by, "at": row.at.isoformat()}
+    transaction.on_commit(lambda: fanout.publish(site, message))
+    for channel in ("stops", "gateway"):  # what there is to look at, then the hint that ends the gateway's wait
+        transaction.on_commit(partial(fanout.wake, channel))

@@ -1,0 +1,213 @@
+"""Between MQTT and the database: what devices say goes in, commands and stops go out.
+
+Any number of gateways share the load (MQTT shared subscriptions). A message is acknowledged to the broker only after
+it is kept, so neither a restart of the database nor of the broker loses an answer; what cannot be read is counted,
+logged and shown in the device's history, and harms nobody else.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import threading
+import time
+from collections import OrderedDict, deque
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from typing import Any
+
+from django.db import DatabaseError, InterfaceError, connection
+
+from execution import services as execution
+from execution.gateway.ingest import KNOCK, Taker
+from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
+from execution.ticker.alerts import note_complaint
+from registry import services as registry
+from registry.live import fanout
+from registry.live.outage import Outage
+from vipo_device.protocol import messages
+from vipo_device.protocol.errors import VipoError
+from vipo_device.protocol.faults import facts_of, fault
+from vipo_device.protocol.mqtt_client import Message, MqttClient
+
+log = logging.getLogger(__name__)
+FLOOD = fault("flood")
+
+EVERYTHING = "$share/gateway/vipo/v1/dev/+/up/#"
+KNOCKS = "$share/gateway/vipo/v1/join/+/+"
+SERVER_STATUS = "vipo/v1/srv/status"
+WAKE_CHANNEL, STOPS_CHANNEL = "gateway", "stops"
+POLL_S = 0.1
+STOPS_EVERY_S = 1.0
+CLAIM_LIMIT = 100
+MOST_AT_ONCE = 200
+COUNT_EVERY_S = 2.0
+
+
+class Gateway:
+    """One gateway; the embedded mode runs it in a thread, `manage.py gateway` in a process."""
+
+    def __init__(self, settings: Any) -> None:
+        # The same name after a restart takes over the session of the one that died, with the answers kept in it.
+        self._client = MqttClient.from_settings(settings.VIPO_MQTT, client_id=settings.VIPO_GATEWAY, keep_session=True)
+        self._inbox = Inbox()
+        self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
+        self.complaints = Complaints()
+        self._outage = Outage("The database", "What devices say waits at the broker, and commands wait.")
+        self._outages_seen = 0
+        self._taker = Taker(self._note, self.complaints.counts, self._outage)
+        self._notes: deque[tuple[str, str, Mapping[str, Any]]] = deque(maxlen=1000)
+        self._greeting_due = threading.Event()
+        self._stops: dict[str, bytes] = {}
+        self._stops_at = 0.0
+        self._counted_at = 0.0
+
+    def run_forever(self, stopping: threading.Event) -> None:
+        """Serve until `stopping` is set."""
+        self._client.subscribe_handled(EVERYTHING, 1, self._arrived)
+        self._client.subscribe_handled(KNOCKS, 1, self._arrived)
+        self._client.on_connected(self._greeting_due.set)
+        self._client.start()
+        sender = threading.Thread(target=self._send_until, args=(stopping,), name="gateway-sender", daemon=True)
+        sender.start()
+        try:
+            while not stopping.is_set():
+                entries = self._inbox.get_all(0.2, MOST_AT_ONCE)
+                self._renew_connection()
+                self._taker.take_all(entries, stopping)
+                self._write_notes()
+                self._count_dropped(time.monotonic())
+                registry.flush_samples()
+                registry.flush_alerts()
+        finally:
+            stopping.set()
+            sender.join(5)
+            self._client.stop()
+            registry.flush_samples(all_of_it=True)
+            connection.close()
+
+    def _renew_connection(self) -> None:
+        """Give up a connection from before an outage; the other thread may have noticed it first."""
+        if self._outages_seen != self._outage.count:
+            self._outages_seen = self._outage.count
+            connection.close()
+
+    def _arrived(self, message: Message) -> None:
+        """Sort a message into the inbox; runs on the network thread and must not wait."""
+        found = messages.read_up_topic(message.topic)
+        knock = messages.read_join_topic(message.topic)
+        if found is None and knock is None:
+            self.complaints.counts["topic"] += 1
+            message.acknowledge()
+            return
+        device, kind = found or (knock[1] if knock else "", KNOCK)
+        sender = f"join:{knock[0]}" if knock else device  # whoever knocks may name any device
+        if not self._bucket(sender).take(time.monotonic()):
+            self._note(sender, FLOOD.text, facts_of([FLOOD]))
+            message.acknowledge()
+        elif not self._inbox.put(Entry(message, device, kind)):
+            self.complaints.counts["inbox full"] += 1
+
+    def _bucket(self, device: str) -> TokenBucket:
+        bucket = self._buckets.pop(device, None) or new_bucket(device)
+        self._buckets[device] = bucket
+        if len(self._buckets) > KNOWN_DEVICES:
+            self._buckets.popitem(last=False)
+        return bucket
+
+    def _note(self, device: str, reason: str, facts: Mapping[str, Any]) -> None:
+        """Count a message that was not taken; the worker writes it into the device's history."""
+        note_complaint(device, reason, facts)
+        others = self.complaints.count(device, reason, time.monotonic())
+        if others is not None:
+            line = with_others(reason, others)
+            log.warning("Device %s: %s", device, line)
+            self._notes.append((device, line, {**facts, "more": others}))
+
+    def _write_notes(self) -> None:
+        while self._notes:
+            device, line, facts = self._notes.popleft()
+            try:
+                registry.record_problem(device_id=device, text=line, facts=facts, at=datetime.now(UTC))
+            except DatabaseError as error:
+                log.warning("The note about %s was not kept: %s", device, error)
+
+    def _count_dropped(self, now: float) -> None:
+        """Add up every few seconds what was not taken, for the devices' pages."""
+        if now - self._counted_at < COUNT_EVERY_S:
+            return
+        self._counted_at = now
+        if dropped := self.complaints.take_dropped():
+            try:
+                registry.count_dropped(dropped=dropped)
+            except DatabaseError as error:
+                log.warning("What was dropped is not counted now: %s", error)
+
+    def _send_until(self, stopping: threading.Event) -> None:
+        while not stopping.is_set():
+            try:
+                busy = self._client.connected and self._send_once()
+            except (DatabaseError, InterfaceError) as error:
+                self._outage.begin(error)
+                connection.close()
+                busy = not stopping.wait(0.5)
+            except Exception:  # the edge of the process: without this thread no command would ever go out
+                log.exception("Sending commands failed.")
+                busy = not stopping.wait(1.0)
+            if not busy:
+                fanout.wait_wake(WAKE_CHANNEL, POLL_S)
+        connection.close()
+
+    def _send_once(self) -> bool:
+        """Publish what waits; True when there may be more."""
+        if self._greeting_due.is_set():
+            self._greet()
+        if fanout.wait_wake(STOPS_CHANNEL, 0):
+            self._publish_stops()
+        commands = execution.claim_commands(limit=CLAIM_LIMIT)
+        self._outage.end()
+        for command in commands:
+            self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
+        if commands:
+            execution.mark_commands_sent(ids=[command.id for command in commands])
+        if time.monotonic() - self._stops_at >= STOPS_EVERY_S:
+            self._publish_stops()
+        return len(commands) == CLAIM_LIMIT
+
+    def _greet(self) -> None:
+        """Announce the server, upon which devices describe themselves anew; repeat the stops."""
+        self._greeting_due.clear()
+        self._stops.clear()
+        try:
+            self._publish_stops()
+        except (DatabaseError, InterfaceError):
+            self._greeting_due.set()
+            raise
+        birth = {"s": "online", "at": datetime.now(UTC).isoformat(timespec="milliseconds")}
+        self._client.publish(SERVER_STATUS, json.dumps(birth).encode(), retain=True)
+        _reconcile_accounts()
+
+    def _publish_stops(self) -> None:
+        for stop in execution.list_stops():
+            body = {"active": stop.active, "by": stop.by, "at": stop.at.isoformat() if stop.at else None}
+            payload = json.dumps(body).encode()
+            if self._stops.get(stop.site) != payload:
+                self._client.publish(f"vipo/v1/site/{stop.site}/stop", payload, retain=True)
+                self._stops[stop.site] = payload
+        self._stops_at = time.monotonic()
+
+
+def _reconcile_accounts() -> None:
+    """Let the broker's accounts agree with the registry, and say what only a person can mend."""
+    try:
+        removed, missing = registry.reconcile_accounts()
+    except VipoError as error:
+        log.warning("The broker's accounts were not looked through: %s", error.detail)
+        return
+    if removed:
+        log.warning("The broker had accounts that the registry does not know; removed: %s", ", ".join(sorted(removed)))
+    if missing:
+        log.warning(
+            "The broker has no account of %s. Run `manage.py broker_accounts` and start the broker again.",
+            ", ".join(sorted(missing)[:20]),
+        )

@@ -1,0 +1,193 @@
+"""Messages of devices into the services: many at once where nothing is lost by it, in each device's own order."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections import Counter, defaultdict, deque
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from datetime import UTC, datetime
+from typing import Any
+
+from django.db import DatabaseError, InterfaceError, OperationalError, connection
+
+from execution import services as execution
+from execution.gateway.queue import Entry
+from registry import services as registry
+from registry.live.outage import Outage
+from vipo_device.protocol import messages
+from vipo_device.protocol.errors import VipoError
+from vipo_device.protocol.mqtt_client import Message
+
+log = logging.getLogger(__name__)
+KNOCK = "knock/"
+"""The kind of a knock; a kind of `up/` topics has no slash."""
+POISON_TRIES = 3
+MOST_DESCRIPTIONS = 50
+"""So many are read and kept in one go: what others wait for does not wait long behind them."""
+
+
+class Taker:
+    """Takes messages in and acknowledges each to the broker once it is kept, or will never be."""
+
+    def __init__(
+        self, note: Callable[[str, str, Mapping[str, Any]], None], counts: Counter[str], outage: Outage | None = None
+    ) -> None:
+        self._note, self._counts = note, counts
+        self._outage = outage or Outage("The database", "What devices say waits.")
+
+    def take_all(self, entries: Sequence[Entry], stopping: threading.Event) -> None:
+        """Take in what has come; the messages of one device in the order of their arrival."""
+        for together in _rounds(entries):
+            self._take_round(together, stopping)
+
+    def _take_round(self, entries: list[Entry], stopping: threading.Event) -> None:
+        """Take in at most one message of each device: answers first, since runs wait for them."""
+        states = [e for e in entries if e.kind == "state" and e.message.payload and not e.outdated]
+        said = [e for e in entries if e.kind == "desc" and e.message.payload]
+        unchanged = {id(entry) for entry in self._take_unchanged(said)}
+        changed = [entry for entry in said if id(entry) not in unchanged]
+        together = {id(entry) for entry in (*states, *said)}
+        for entry in entries:
+            if id(entry) not in together:
+                self._handle(entry, stopping)
+        for start in range(0, len(changed), MOST_DESCRIPTIONS):
+            some = changed[start : start + MOST_DESCRIPTIONS]
+            self._take_or_handle(self._take_descriptions, some, stopping)
+        self._take_or_handle(self._take_states, states, stopping)
+
+    def _take_or_handle(
+        self, take: Callable[[list[Entry]], bool], entries: list[Entry], stopping: threading.Event
+    ) -> None:
+        """Take messages in together, or each by itself where that did not work."""
+        if entries and not take(entries):
+            for entry in entries:
+                self._handle(entry, stopping)
+
+    def _take_unchanged(self, entries: list[Entry]) -> list[Entry]:
+        """Acknowledge the descriptions that say nothing new, and return them."""
+        if not entries:
+            return []
+        said = {entry.device: entry.message.payload for entry in entries}
+        try:
+            same = registry.find_unchanged(descriptions=said, at=datetime.now(UTC))
+        except (DatabaseError, InterfaceError):
+            return []
+        registry.note_mended(devices=same, code="description_refused")
+        unchanged = [entry for entry in entries if entry.device in same]
+        for entry in unchanged:
+            entry.message.acknowledge()
+        return unchanged
+
+    def _take_states(self, entries: list[Entry]) -> bool:
+        """Take in states of different devices with one question and one write; False when that did not work."""
+        at = datetime.now(UTC)
+        said = [registry.SaidState(e.device, e.message.payload, at, e.message.retained) for e in entries]
+        return self._take_together(entries, "state", lambda: registry.ingest_states(states=said), at)
+
+    def _take_descriptions(self, entries: list[Entry]) -> bool:
+        """Take in descriptions of different devices with few statements; False when that did not work."""
+        at = datetime.now(UTC)
+        said = [registry.SaidDescription(e.device, e.message.payload, at) for e in entries]
+        return self._take_together(entries, "desc", lambda: registry.ingest_descriptions(descriptions=said), at)
+
+    def _take_together(
+        self,
+        entries: list[Entry],
+        kind: str,
+        ingest: Callable[[], Sequence[registry.DeviceView | VipoError | None]],
+        at: datetime,
+    ) -> bool:
+        try:
+            for entry, outcome in zip(entries, ingest(), strict=True):
+                if isinstance(outcome, VipoError):
+                    self._note(entry.device, f"{kind}: {outcome.detail}", {**outcome.facts, "kind": kind})
+                elif outcome is not None:
+                    self._pass_on(outcome, at)
+                    if kind == "desc":
+                        registry.note_mended(devices=[entry.device], code="description_refused")
+        except (DatabaseError, InterfaceError):
+            return False  # each is tried by itself then, and waits for a database that is away
+        except Exception:  # the edge of the process: one device's message must not end all the others'
+            log.exception("What %d devices said (%s) was not taken in together.", len(entries), kind)
+            return False
+        for entry in entries:
+            entry.message.acknowledge()
+        return True
+
+    def _handle(self, entry: Entry, stopping: threading.Event) -> None:
+        """Take one message in; wait for a database that is away, and give up on what it will never take."""
+        tries = 0
+        while not entry.outdated and not stopping.is_set():
+            try:
+                self._take_in(entry.device, entry.kind, entry.message)
+                self._outage.end()
+                break
+            except VipoError as error:
+                self._note(entry.device, f"{entry.kind}: {error.detail}", {**error.facts, "kind": entry.kind})
+                break
+            except (OperationalError, InterfaceError) as error:
+                self._outage.begin(error)
+                connection.close()
+                stopping.wait(0.5)
+            except DatabaseError:
+                tries += 1
+                if tries >= POISON_TRIES:
+                    log.exception("A message of %s (%s) was given up.", entry.device, entry.kind)
+                    break
+            except Exception:  # the edge of the process: one device's message must not end all the others'
+                log.exception("A message of %s (%s) failed.", entry.device, entry.kind)
+                break
+        else:
+            if stopping.is_set() and not entry.outdated:
+                return
+        entry.message.acknowledge()
+
+    def _take_in(self, device: str, kind: str, message: Message) -> None:
+        at = datetime.now(UTC)
+        if kind == KNOCK:
+            site, _ = messages.read_join_topic(message.topic) or ("", "")
+            registry.admit_newcomer(site=site, device_id=device, payload=message.payload, at=at)
+        elif kind == "ack":
+            ack = messages.parse_ack(message.payload)
+            execution.record_ack(
+                device=device, command_id=ack.command, status=ack.status, why=ack.why, result=ack.result, at=at
+            )
+        elif kind == "map" and message.payload:
+            registry.ingest_map_part(device_id=device, payload=message.payload, at=at)
+        elif message.payload:  # an empty one only takes a retained message away
+            view = self._ingest(device, kind, message, at)
+            if view is not None:
+                if kind == "presence" and view.online and not view.only_done_flag:
+                    execution.resend_commands(device=device)
+                self._pass_on(view, at)
+
+    def _ingest(self, device: str, kind: str, message: Message, at: datetime) -> registry.DeviceView | None:
+        payload = message.payload
+        if kind == "desc":
+            view = registry.ingest_description(device_id=device, payload=payload, at=at)
+            registry.note_mended(devices=[device], code="description_refused")
+            return view
+        if kind == "presence":
+            return registry.ingest_presence(device_id=device, payload=payload, at=at)
+        if kind == "state":
+            return registry.ingest_state(device_id=device, payload=payload, at=at, retained=message.retained)
+        self._counts[f"topic up/{kind}"] += 1
+        return None
+
+    def _pass_on(self, view: registry.DeviceView, at: datetime) -> None:
+        registry.note_samples(view=view, at=at)
+        if view.only_done_flag:
+            execution.record_done_flag(device=view.id, done=view.done, at=at)
+        execution.record_device_change(site=view.site, device_id=view.id)
+
+
+def _rounds(entries: Sequence[Entry]) -> Iterator[list[Entry]]:
+    """Share the messages out so that each round has at most one of a device, its earliest."""
+    waiting: defaultdict[str, deque[Entry]] = defaultdict(deque)
+    for entry in entries:
+        waiting[entry.device].append(entry)
+    while waiting:
+        yield [queue.popleft() for queue in waiting.values()]
+        for device in [name for name, queue in waiting.items() if not queue]:
+            del waiting[device]

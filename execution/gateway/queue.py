@@ -1,0 +1,131 @@
+"""What devices say until it is handled: in order, held back when it is too much, counted when it is dropped."""
+
+from __future__ import annotations
+
+import threading
+from collections import Counter, OrderedDict, deque
+from dataclasses import dataclass, field
+from time import monotonic
+
+from vipo_device.protocol.mqtt_client import Message
+
+INBOX_LIMIT = 20_000
+MESSAGES_PER_S = 50.0
+BURST = 200.0
+KNOCKS_PER_S = 1.0
+KNOCKS_AT_ONCE = 20.0
+KNOWN_DEVICES = 5_000
+COMPLAINT_EVERY_S = 60.0
+
+
+@dataclass(slots=True)
+class TokenBucket:
+    """Allows `rate` messages a second on average and `burst` at once; time is an argument."""
+
+    rate: float = MESSAGES_PER_S
+    burst: float = BURST
+    tokens: float = BURST
+    filled_at: float = 0.0
+
+    def take(self, now: float) -> bool:
+        """Take one token if there is one; `now` in seconds of a clock that only goes forward."""
+        self.tokens = min(self.burst, self.tokens + (now - self.filled_at) * self.rate)
+        self.filled_at = now
+        if self.tokens < 1:
+            return False
+        self.tokens -= 1
+        return True
+
+
+def new_bucket(name: str) -> TokenBucket:
+    """Return a device's bucket, or a door's (`join:…`): behind that one, everybody may be a stranger."""
+    rate, burst = (KNOCKS_PER_S, KNOCKS_AT_ONCE) if name.startswith("join:") else (MESSAGES_PER_S, BURST)
+    return TokenBucket(rate, burst, burst, monotonic())
+
+
+@dataclass(slots=True)
+class Entry:
+    """A message that waits to be handled."""
+
+    message: Message
+    device: str
+    kind: str
+    outdated: bool = False
+
+
+class Inbox:
+    """Messages in the order of their arrival; of a device's waiting states only the newest is kept."""
+
+    def __init__(self, limit: int = INBOX_LIMIT) -> None:
+        self._entries: deque[Entry] = deque()
+        self._states: dict[str, Entry] = {}
+        self._limit = limit
+        self._changed = threading.Condition()
+
+    def put(self, entry: Entry) -> bool:
+        """Add a message; False when the inbox is full."""
+        with self._changed:
+            if len(self._entries) >= self._limit:
+                return False
+            if entry.kind == "state":
+                older = self._states.get(entry.device)
+                if older is not None:
+                    older.outdated = True
+                self._states[entry.device] = entry
+            self._entries.append(entry)
+            self._changed.notify()
+            return True
+
+    def get_all(self, timeout_s: float, most: int) -> list[Entry]:
+        """Return the messages that wait, at most so many, oldest first; none when none came in time."""
+        with self._changed:
+            if not self._entries:
+                self._changed.wait(timeout_s)
+            return [self._take_first() for _ in range(min(most, len(self._entries)))]
+
+    def _take_first(self) -> Entry:
+        entry = self._entries.popleft()
+        if self._states.get(entry.device) is entry:
+            del self._states[entry.device]
+        return entry
+
+
+@dataclass(slots=True)
+class Complaints:
+    """How often each device's messages were dropped or refused, and when that was last written into its history."""
+
+    counts: Counter[str] = field(default_factory=Counter)
+    waiting: Counter[str] = field(default_factory=Counter)
+    written_at: OrderedDict[str, float] = field(default_factory=OrderedDict)
+    _dropped: Counter[str] = field(default_factory=Counter)
+    _guard: threading.Lock = field(default_factory=threading.Lock)
+
+    def take_dropped(self) -> Counter[str]:
+        """Return how many messages of each device were not taken since this was asked last."""
+        with self._guard:
+            taken, self._dropped = self._dropped, Counter()
+        return taken
+
+    def add(self, device: str, reason: str, now: float) -> str | None:
+        """Count one more; return a line for the device's history, at most one a minute."""
+        others = self.count(device, reason, now)
+        return None if others is None else with_others(reason, others)
+
+    def count(self, device: str, reason: str, now: float) -> int | None:
+        """Count one more; at most once a minute, where a line is due, return how many others it stands for."""
+        self.counts[reason.split(":", 1)[0]] += 1
+        self.waiting[device] += 1
+        with self._guard:
+            self._dropped[device] += 1
+        if now - self.written_at.get(device, -COMPLAINT_EVERY_S) < COMPLAINT_EVERY_S:
+            return None
+        self.written_at[device] = now
+        self.written_at.move_to_end(device)
+        if len(self.written_at) > KNOWN_DEVICES:
+            self.written_at.popitem(last=False)
+        return self.waiting.pop(device) - 1
+
+
+def with_others(reason: str, others: int) -> str:
+    """Return the line for a complaint that stands for others, too."""
+    return reason if not others else f"{reason} ({others} more since the last note)"

@@ -1,0 +1,215 @@
+"""How threads end: failures go outwards to a handler, an End past all but the `final` ones; pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from editor.language.plan import instructions as p
+from execution.machine.messages import Action, Cancel, CancelQuestion, Finished, StepFailed, StepLeft
+from execution.machine.state import MAIN, Ending, Guard, Pending, RunStatus, Thread, Wake
+from execution.machine.turn import Failure, Turn
+
+OVER = Wake(final=True)
+CALLED_OFF = Wake("cancelled", "Another branch failed.", final=True)
+PROGRAM_OVER = "The program was over."
+
+
+def unwind(turn: Turn, thread: Thread, wake: Wake) -> None:
+    """Go on at the innermost guard that takes this; without one the thread ends, and its parent or the run fails."""
+    thread = _mark(turn, replace(thread, wake=None), len(thread.open), wake)
+    index = _guard_for(thread, wake)
+    if not wake.final and _is_leaving(thread) and index < _inside(thread):
+        wake = replace(wake, final=True)
+        _note_failure(turn, wake)
+    if index < 0:
+        _end(turn, thread, wake)
+    else:
+        _handle(turn, thread, index, wake)
+
+
+def _inside(thread: Thread) -> int:
+    """Return from which guard on a failure may be caught: a `final` handler of an end keeps what fails in it."""
+    return thread.pending[-1].guards if _is_leaving(thread) else 0
+
+
+def _is_leaving(thread: Thread) -> bool:
+    return bool(thread.pending) and thread.pending[-1].wake.final
+
+
+def _guard_for(thread: Thread, wake: Wake) -> int:
+    """Return the index of the innermost guard that takes this, or -1."""
+    inside = _inside(thread)
+    for index in range(len(thread.guards) - 1, -1, -1):
+        guard = thread.guards[index]
+        fits = not wake.final and index >= inside and (not guard.kinds or wake.kind in guard.kinds)
+        if guard.final or fits:
+            return index
+    return -1
+
+
+def _note_failure(turn: Turn, wake: Wake) -> None:
+    """A failure in a `final` handler on the way out makes a run fail that would have ended well."""
+    if turn.ending is not None and turn.ending.status == "finished":
+        turn.ending = Ending("failed", wake.why)
+
+
+def _handle(turn: Turn, thread: Thread, index: int, wake: Wake) -> None:
+    guard = thread.guards[index]
+    thread = _mark(turn, thread, guard.open, wake)
+    _drop_frames(turn, thread, guard.calls)
+    pending = tuple(item for item in thread.pending if item.guards <= index)
+    if guard.final:
+        pending = (*pending, Pending(guard.handler, guard.calls, index, wake))
+    calls, guards = thread.calls[: guard.calls], thread.guards[:index]
+    turn.keep(replace(thread, at=guard.handler, calls=calls, guards=guards, pending=pending))
+
+
+def _end(turn: Turn, thread: Thread, wake: Wake) -> None:
+    """Take a thread away that nothing holds any more; what failed goes on in its parent."""
+    _mark(turn, thread, 0, wake)
+    remove(turn, thread)
+    if wake.final:
+        return
+    parent = turn.threads.get(thread.parent) if thread.parent is not None else None
+    if parent is None:
+        end_run(turn, "failed", wake.why)
+        return
+    above = {parent.id, *(thread.id for thread in turn.ancestors(parent))}
+    for other in list(_descendants(turn, parent)):
+        if not _is_spared(turn, other, above):
+            _tell(turn, other, CALLED_OFF)
+    if parent.wake is None:
+        turn.keep(replace(parent, wake=Wake(wake.kind, wake.why)))
+
+
+def remove(turn: Turn, thread: Thread) -> None:
+    """Take a thread away with the frames of its functions."""
+    _drop_frames(turn, thread, 0 if thread.event >= 0 else 1)
+    turn.threads.pop(thread.id, None)
+
+
+def _drop_frames(turn: Turn, thread: Thread, depth: int) -> None:
+    for call in thread.calls[depth:]:
+        if call.frame != MAIN:
+            turn.frames.pop(call.frame, None)
+
+
+def _descendants(turn: Turn, thread: Thread) -> Iterator[Thread]:
+    for child in turn.children(thread):
+        yield child
+        yield from _descendants(turn, child)
+
+
+def end_run(turn: Turn, status: RunStatus, reason: str, by: Thread | None = None) -> None:
+    """Let every thread but the one that ends the run unwind; the first ending counts."""
+    if turn.ending is not None:
+        return
+    turn.ending = Ending("failed" if status == "failed" else "finished", reason)
+    over = Wake("cancelled", reason or PROGRAM_OVER, final=True)
+    above = {thread.id for thread in turn.ancestors(by)} if by else set()
+    for thread in list(turn.threads.values()):
+        if thread.id in above:
+            turn.keep(replace(thread, wake=OVER))
+        elif (by is None or thread.id != by.id) and not _is_spared(turn, thread, above):
+            _tell(turn, thread, over)
+
+
+def _is_spared(turn: Turn, thread: Thread, above: set[int]) -> bool:
+    """Tell whether a thread is a branch within a `final` handler, which is carried out to its end."""
+    return any(ancestor.pending and ancestor.id not in above for ancestor in turn.ancestors(thread))
+
+
+def _tell(turn: Turn, thread: Thread, wake: Wake) -> None:
+    """Tell a thread to end; one that is in a `final` handler carries it out first."""
+    if thread.pending:
+        pending = tuple(replace(item, wake=wake) for item in thread.pending)
+        turn.keep(replace(thread, pending=pending))
+        return
+    call_off(turn, thread)
+    waits = thread.waits_for if thread.waits_for == "join" else ""
+    turn.keep(replace(thread, waits_for=waits, waits_id=0, wake=wake))
+
+
+def call_off(turn: Turn, thread: Thread) -> None:
+    """Say that nothing of what a thread waits for is wanted any more."""
+    if thread.wake is not None or thread.waits_for in {"", "join"}:
+        return
+    if thread.waits_for == "mission":
+        turn.actions.append(Cancel(thread.waits_id))
+    elif thread.waits_for == "ask":
+        turn.actions.append(CancelQuestion(thread.waits_id))
+        turn.drop_timer(thread.waits_id)
+    else:
+        turn.drop_timer(thread.waits_id)
+
+
+def rethrow(turn: Turn, thread: Thread) -> Thread:
+    """Behind a `final` handler: go on failing or ending as before it, or simply on if nothing was on its way."""
+    handler = _handler_of(turn, thread.at)
+    top = thread.pending[-1] if thread.pending else None
+    if top is None or (top.handler, top.calls) != (handler, len(thread.calls)):
+        return turn.go(thread)
+    turn.keep(replace(thread, pending=thread.pending[:-1]))
+    raise Failure.of(top.wake)
+
+
+def _handler_of(turn: Turn, address: int) -> int:
+    """Return where the handler begins that this Rethrow ends; handlers lie within each other like brackets."""
+    instructions = turn.plan.instructions
+    handlers = {i.do.handler for i in instructions if isinstance(i.do, p.TryBegin) and i.do.final}
+    depth = 0
+    for at in range(address, -1, -1):
+        if at != address and isinstance(instructions[at].do, p.Rethrow):
+            depth += 1
+        if at in handlers:
+            if depth == 0:
+                return at
+            depth -= 1
+    return -1
+
+
+def begin_guard(turn: Turn, thread: Thread, guard: Guard) -> Thread:
+    """Enter a guarded stretch; what an earlier time round left pending there is forgotten."""
+    stale = (guard.handler, guard.calls)
+    pending = tuple(item for item in thread.pending if (item.handler, item.calls) != stale)
+    return turn.go(replace(thread, guards=(*thread.guards, guard), pending=pending))
+
+
+def end_guard(turn: Turn, thread: Thread) -> Thread:
+    """Leave the innermost guarded stretch."""
+    guards = thread.guards[:-1]
+    return turn.go(replace(thread, guards=guards, pending=_still_pending(thread, len(guards), len(thread.calls))))
+
+
+def _still_pending(thread: Thread, guards: int, calls: int) -> tuple[Pending, ...]:
+    return tuple(item for item in thread.pending if item.guards <= guards and item.calls <= calls)
+
+
+def leave_call(thread: Thread, calls: int) -> Thread:
+    """Drop the guards and handlers of a function that is over."""
+    guards = tuple(guard for guard in thread.guards if guard.calls <= calls)
+    return replace(thread, guards=guards, pending=_still_pending(thread, len(guards), calls))
+
+
+def _mark(turn: Turn, thread: Thread, depth: int, wake: Wake) -> Thread:
+    """Mark the plain step, and the holding ones down to a depth, as done or failed."""
+    names = [thread.leaf] if thread.leaf else []
+    names += reversed(thread.open[depth:])
+    turn.actions.extend(_marked(name, wake) for name in names)
+    return turn.keep(replace(thread, leaf="", open=thread.open[:depth]))
+
+
+def _marked(name: str, wake: Wake) -> Action:
+    return StepFailed(name, wake.kind, wake.why) if wake.kind else StepLeft(name)
+
+
+def finish(turn: Turn, status: RunStatus, reason: str) -> None:
+    """End the run now: whatever is still under way is called off, no handler is carried out."""
+    wake = Wake("cancelled", reason or PROGRAM_OVER, final=True)
+    for thread in list(turn.threads.values()):
+        call_off(turn, thread)
+        _mark(turn, thread, 0, wake)
+        remove(turn, thread)
+    turn.status, turn.reason = status, reason
+    turn.actions.append(Finished(status, reason))

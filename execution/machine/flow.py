@@ -1,0 +1,65 @@
+"""What changes the shape of the execution: threads and functions; pure."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from editor.language.plan import instructions as p
+from execution.machine.ending import OVER, end_run, leave_call, remove, unwind
+from execution.machine.state import MAIN, Activation, Thread
+from execution.machine.turn import Failure, Turn
+
+DEEPEST_CALL = 100
+MOST_THREADS = 500
+
+
+def fork(turn: Turn, thread: Thread, branches: tuple[int, ...]) -> Thread:
+    """Start a thread for each branch and wait for them."""
+    if len(turn.threads) + len(branches) > MOST_THREADS:
+        raise Failure("failed", f"More than {MOST_THREADS} branches would run at once.")
+    for branch in branches:
+        child = Thread(turn.new_id(), branch, (replace(thread.calls[-1], back_to=-1, open=0),), parent=thread.id)
+        turn.threads[child.id] = child
+    return replace(thread, waits_for="join")
+
+
+def end_thread(turn: Turn, thread: Thread) -> Thread:
+    """A branch, an event's body or the program's is over; with the program's the run is."""
+    thread = turn.go(thread)
+    if thread.id == MAIN:
+        return end(turn, thread)
+    thread = turn.leave(thread, (*filter(None, [thread.leaf]), *reversed(thread.open)))
+    remove(turn, thread)
+    return thread
+
+
+def end(turn: Turn, thread: Thread) -> Thread:
+    """The program is over; the `final` handlers around are carried out first."""
+    end_run(turn, "finished", "", by=thread)
+    unwind(turn, turn.keep(thread), OVER)
+    return turn.threads.get(thread.id, thread)
+
+
+def invoke(turn: Turn, thread: Thread, action: p.Invoke) -> Thread:
+    """Begin a function in a frame of its own."""
+    depth = len(thread.calls) + sum(len(ancestor.calls) for ancestor in turn.ancestors(thread))
+    if depth >= DEEPEST_CALL:
+        raise Failure("failed", f"“{action.function}” calls itself more than {DEEPEST_CALL} times deep.")
+    values = {name: turn.scalar(thread, value) for name, value in action.arguments.items()}
+    frame = turn.new_id()
+    turn.frames[frame] = values
+    call = Activation(frame, thread.at + 1, action.result, len(thread.open), action.shared)
+    return replace(thread, calls=(*thread.calls, call), at=action.entry)
+
+
+def leave_function(turn: Turn, thread: Thread, value: p.Expression | None) -> Thread:
+    """Leave the function's frame, with its value."""
+    result = None if value is None else turn.scalar(thread, value)
+    call = thread.calls[-1]
+    if call.back_to < 0:
+        return end_thread(turn, thread)
+    del turn.frames[call.frame]
+    thread = leave_call(replace(thread, calls=thread.calls[:-1]), len(thread.calls) - 1)
+    turn.assign(thread, call.result, result, shared=call.shared)
+    thread = turn.leave(thread, tuple(reversed(thread.open[call.open :])))
+    return turn.go(replace(thread, at=call.back_to - 1))

@@ -1,0 +1,60 @@
+"""What a plan's expressions need to know besides devices' properties: positions, roles, the time of day; pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from editor.language.plan.instructions import Located, Operation, Plan
+from execution.machine.evaluation import located_things, needs_the_clock, parts_of_plan, watched_properties
+from execution.machine.places import CLOCK, ROLE, X, Y
+from vipo_device.protocol.description import Scalar
+
+MEASURES = frozenset({"distance", "nearest"})
+Facts = dict[tuple[str, str], Scalar]
+Position = tuple[str, float, float]
+"""Id, x and y in metres."""
+
+
+@dataclass(frozen=True, slots=True)
+class Needs:
+    """Which readings, positions, roles a plan asks for, and whether it looks at the clock."""
+
+    properties: frozenset[str]
+    positions: bool
+    roles: frozenset[str]
+    clock: bool
+
+
+def needs_of(plan: Plan) -> Needs:
+    """Return what the expressions of a plan need."""
+    located = located_things(plan)
+    measures = any(isinstance(part, Operation) and part.operator in MEASURES for part in parts_of_plan(plan))
+    return Needs(
+        properties=watched_properties(plan),
+        positions=measures or any(thing.zone is not None for thing in located),
+        roles=frozenset(_role(thing) for thing in located if thing.role is not None),
+        clock=needs_the_clock(plan),
+    )
+
+
+def _role(thing: Located) -> str:
+    return thing.role or ""
+
+
+def position_facts(positions: Iterable[Position]) -> Facts:
+    """Return where things are, to the centimetre, as facts."""
+    facts: Facts = {}
+    for thing, x, y in positions:
+        facts[thing, X], facts[thing, Y] = round(x, 2), round(y, 2)
+    return facts
+
+
+def role_facts(needs: Needs, roles: Mapping[str, str]) -> Facts:
+    """Return which robots have the roles that expressions speak of."""
+    return {(ROLE, role): robot for role, robot in roles.items() if role in needs.roles}
+
+
+def clock_fact(seconds: float) -> Facts:
+    """Return the time of day, in whole seconds since midnight."""
+    return {(CLOCK, "now"): int(seconds) % 86_400}

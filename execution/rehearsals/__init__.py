@@ -1,0 +1,1 @@
+"""Rehearsals: a program carried out in a simulated copy of its site, in a process of its own."""

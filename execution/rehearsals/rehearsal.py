@@ -1,0 +1,286 @@
+"""A rehearsal: run machine, floor and a pretend world in lockstep, in virtual time.
+
+See `execution.rehearsals.child_process` for the process of its own that physics wants.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from editor.language import compile_document
+from editor.language.plan.instructions import AnswerSpec, Plan, RoleBinding
+from editor.language.site.surroundings import PlaceFacts
+from execution.machine import machine
+from execution.machine import messages as r
+from execution.machine.needs import Facts, clock_fact, needs_of, position_facts
+from execution.machine.places import ROLE
+from execution.rehearsals.program_site import read_site
+from execution.rehearsals.recorder import Recorder
+from execution.traffic import floor
+from execution.traffic import messages as m
+from execution.traffic.layout import Layout, make_layout
+from simulation.services import DriverName, make_world
+from simulation.world import Ack, PropertyChanged, Scene, World, WorldEvent
+from vipo_device.protocol.description import Scalar
+
+NAMESPACE = "6f1d7a52-6a0c-4d4e-9a5f-0d6b8f3f7c11"
+"""Rehearsals name their commands from this, so that the same input gives the same bytes."""
+RUN = "rehearsal"
+DRIVING_S = 0.05
+THINKING_S = 0.1
+"""How often traffic looks at poses while robots drive."""
+RESTING_S = 0.5
+LIMIT_S = 4 * 3600.0
+ACTION_LIMIT = 200_000
+PROGRESS_EVERY_S = 5.0
+DAY_BEGINS_S = 8 * 3600.0
+"""A rehearsal begins at eight in the morning."""
+REPLY_S = 1.0
+"""How long a question is open before the rehearsal answers it."""
+LOOK_ROUND_S = 1.0
+"""How often a program is told the time and where robots are, if it asks for them."""
+Progress = Callable[[float], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """How a rehearsal is done: the driver of the robots, the program's parameters, and the longest it may take (s)."""
+
+    driver: DriverName = "physics"
+    parameters: Mapping[str, Scalar] = field(default_factory=dict)
+    limit_s: float = LIMIT_S
+
+
+def rehearse(
+    plan: Plan,
+    scene: Scene,
+    *,
+    places: Iterable[PlaceFacts] = (),
+    conditions: Conditions | None = None,
+    on_progress: Progress | None = None,
+) -> dict[str, Any]:
+    """Carry the plan out in a world made from the scene; returns the result of docs/architecture.md.
+
+    The scene's seed decides all chance. What goes wrong is in `errors`; a program that does not end is stopped after
+    `conditions.limit_s` of virtual time.
+    """
+    conditions = conditions or Conditions()
+    world = make_world(scene, conditions.driver)
+    try:
+        layout = make_layout(scene.grid, scene.devices, places)
+        return _Rehearsal(plan, layout, world, conditions.limit_s, on_progress).run(conditions.parameters)
+    finally:
+        world.close()
+
+
+class _Rehearsal:
+    """One rehearsal under way."""
+
+    def __init__(self, plan: Plan, layout: Layout, world: World, limit_s: float, on_progress: Progress | None) -> None:
+        self.plan, self.layout, self.world, self.limit_s = plan, layout, world, limit_s
+        self.recorder = Recorder(layout, world.readings())
+        self.needs = needs_of(plan)
+        self.looked_at = 0.0
+        self.replies: list[tuple[float, r.Answered]] = []
+        self.floor = floor.start(layout, NAMESPACE)
+        self.run_events: list[r.Event] = []
+        self.floor_events: list[m.Event] = []
+        self.timers: list[tuple[float, int]] = []
+        self.dropped_timers: set[int] = set()
+        self.finished: r.Finished | None = None
+        self.actions = 0
+        self.on_progress = on_progress or (lambda share: None)
+        self.steps = {instruction.step for instruction in plan.instructions if instruction.step} or {""}
+        self.left: set[str] = set()
+
+    def run(self, parameters: Mapping[str, Scalar]) -> dict[str, Any]:
+        facts: Facts = {(d, n): v for d, values in self.world.readings().items() for n, v in values.items()}
+        facts |= self._stations() | self._surroundings()
+        self._report_poses()
+        self.state, actions = machine.start(self.plan, parameters, facts)
+        self._do_run(actions)
+        self._settle()
+        self.recorder.look(0.0, 0.0, self.world.robots(), self.world.busy())
+        thought_at = told_at = 0.0
+        while self.finished is None:
+            happened = self._advance()
+            now = self.world.time_s
+            if happened or now - thought_at >= THINKING_S - 1e-9:
+                self._report_poses()
+                self._settle()
+                thought_at = now
+            if now - told_at >= PROGRESS_EVERY_S:
+                told_at = now
+                self.on_progress(round(0.99 * len(self.left) / len(self.steps), 3))
+            self._check_limits(now)
+        self.on_progress(1.0)
+        return self.recorder.result(self.world.time_s, ok=self.finished.status == "finished")
+
+    def _advance(self) -> bool:
+        """Let time pass as far as nothing is missed by it; tell whether something happened."""
+        now = self.world.time_s
+        driving = any(sent.device in self.floor.robots for sent in self.floor.sent.values())
+        dt_s = DRIVING_S if driving else RESTING_S
+        if self.timers:
+            dt_s = min(dt_s, max(DRIVING_S, self.timers[0][0] - now))
+        events = self.world.advance(dt_s)
+        self.recorder.look(self.world.time_s, dt_s, self.world.robots(), self.world.busy())
+        happened = [self._take(event) for event in events]
+        if self.world.time_s - self.looked_at >= LOOK_ROUND_S - 1e-9:
+            self.looked_at = self.world.time_s
+            happened.append(self._look_round())
+        happened += [self._reply() for due_s, _ in list(self.replies) if due_s <= self.world.time_s + 1e-9]
+        while self.timers and self.timers[0][0] <= self.world.time_s + 1e-9:
+            _, timer = heapq.heappop(self.timers)
+            if timer not in self.dropped_timers:
+                self.run_events.append(r.TimerFired(timer))
+                happened.append(True)
+        return any(happened)
+
+    def _take(self, event: WorldEvent) -> bool:
+        self.recorder.note_world(event)
+        match event:
+            case Ack(command=command, status=status, why=why, result=result):
+                self.floor_events.append(m.CommandAnswered(command, status, why, result))
+                return True
+            case PropertyChanged(device=device, name=name, value=value) if name in self.needs.properties:
+                self.run_events.append(r.Facts({(device, name): value}))
+                return True
+        return False
+
+    def _reply(self) -> bool:
+        self.run_events.append(self.replies.pop(0)[1])
+        return True
+
+    def _stations(self) -> Facts:
+        """Return where machines and places are, which never changes."""
+        devices = ((d.id, d.pose.x, d.pose.y) for d in self.layout.devices.values())
+        places = ((spot.id, spot.x, spot.y) for spot in self.layout.places.values())
+        return position_facts((*devices, *places)) if self.needs.positions else {}
+
+    def _surroundings(self) -> Facts:
+        """Return the time of day and where robots are, as far as the program asks for them."""
+        facts: Facts = clock_fact(DAY_BEGINS_S + self.world.time_s) if self.needs.clock else {}
+        if self.needs.positions:
+            facts |= position_facts((name, r.pose.x, r.pose.y) for name, r in self.world.robots().items())
+        return facts
+
+    def _look_round(self) -> bool:
+        news = {key: value for key, value in self._surroundings().items() if self.state.facts.get(key) != value}
+        if news:
+            self.run_events.append(r.Facts(news))
+        return bool(news)
+
+    def _report_poses(self) -> None:
+        for name, robot in self.world.robots().items():
+            self.floor_events.append(m.RobotMoved(name, robot.pose.x, robot.pose.y, robot.pose.theta))
+
+    def _settle(self) -> None:
+        """Hand events to and fro between the run and the floor until both are content."""
+        self._step_floor()
+        while self.run_events and self.finished is None:
+            events, self.run_events = self.run_events, []
+            for event in events:
+                self.state, actions = machine.step(self.plan, self.state, event)
+                self._do_run(actions)
+            if self.floor_events:
+                self._step_floor()
+
+    def _step_floor(self) -> None:
+        events, self.floor_events = self.floor_events, []
+        now = self.world.time_s
+        self.floor, actions = floor.step(self.layout, self.floor, events, now)
+        for action in actions:
+            self.recorder.note_floor(now, action)
+            if isinstance(action, m.SendCommand):
+                self.world.command(action.device, action.method, action.arguments, action.id)
+            elif isinstance(action, m.RoleBound):
+                self.run_events.append(r.Facts({(ROLE, action.role): action.robot}))
+            elif isinstance(action, m.MissionOver) and action.kind:
+                self.run_events.append(r.MissionFailed(action.mission, action.kind, action.why))
+            elif isinstance(action, m.MissionOver):
+                self.run_events.append(r.MissionDone(action.mission, action.result))
+
+    def _do_run(self, actions: tuple[r.Action, ...]) -> None:
+        now = self.world.time_s
+        self.actions += len(actions)
+        for action in actions:
+            self.recorder.note_run(now, action)
+            match action:
+                case r.Ask(mission=mission, order=order):
+                    role = self.plan.roles.get(order.role, RoleBinding(order.role))
+                    asked = m.MissionAsked(
+                        RUN,
+                        mission,
+                        order,
+                        role.device or "",
+                        role.can,
+                        "this rehearsal",
+                        m.floor_zones(RUN, self.plan.zones),
+                    )
+                    self.floor_events.append(asked)
+                case r.Cancel(mission=mission):
+                    self.floor_events.append(m.MissionCancelled(RUN, mission))
+                case r.SetTimer(timer=timer, seconds=seconds):
+                    heapq.heappush(self.timers, (now + seconds, timer))
+                case r.CancelTimer(timer=timer):
+                    self.dropped_timers.add(timer)
+                case r.AskPeople(question=question, answer=spec, step=step):
+                    answer = pretend_answer(spec)
+                    self.recorder.note_answer(now, step, answer)
+                    self.replies.append((now + REPLY_S, r.Answered(question, answer)))
+                case r.StepLeft(step=step):
+                    self.left.add(step)
+                case r.Finished():
+                    self._finish(now, action)
+
+    def _finish(self, now: float, action: r.Finished) -> None:
+        self.finished = action
+        if action.status == "failed" and not self.recorder.errors:
+            self.recorder.error(now, "", "failed", action.reason, "step_failed", why=action.reason)
+
+    def _check_limits(self, now: float) -> None:
+        """Stop what would go on for ever."""
+        if self.finished is None and now >= self.limit_s:
+            hours = round(self.limit_s / 3600, 3)
+            self._give_up(now, f"{hours:g} h of simulated time", "too_long", hours=hours)
+        elif self.finished is None and self.actions > ACTION_LIMIT:
+            self._give_up(now, f"{ACTION_LIMIT} actions", "too_much", actions=ACTION_LIMIT)
+
+    def _give_up(self, now: float, limit: str, code: str, **args: Scalar) -> None:
+        why = f"The program was stopped after {limit}; it may never end."
+        self.recorder.error(now, "", "timed_out", why, code, **args)
+        self.finished = r.Finished("failed", why)
+
+
+def pretend_answer(spec: AnswerSpec) -> Scalar:
+    """Return what a rehearsal answers by itself: yes, the first option, the least number or 1, no text."""
+    match spec.type:
+        case "boolean":
+            return True
+        case "choice":
+            return spec.options[0] if spec.options else ""
+        case "number":
+            least = 1.0 if spec.minimum is None else spec.minimum
+            return least if spec.maximum is None else min(least, spec.maximum)
+    return ""
+
+
+def rehearse_program(
+    document: object, site: Mapping[str, Any], seed: int = 0, driver: DriverName = "physics"
+) -> dict[str, Any]:
+    """Rehearse a document in the site of a program file (see docs/cli.md); for the command line.
+
+    Raises:
+        ValueError: the program has errors; check it first.
+        UnreadableSite, BadMap: the site cannot be used.
+    """
+    surroundings, scene, places = read_site(site, seed)
+    compiled = compile_document(document, surroundings)
+    if compiled.plan is None:
+        errors = [d.message for d in compiled.diagnostics if d.severity == "error"]
+        raise ValueError(f"The program has errors and cannot be rehearsed. {errors[0] if errors else ''}".strip())
+    return rehearse(compiled.plan, scene, places=places, conditions=Conditions(driver))

@@ -1,0 +1,1 @@
+"""Runs in the database: their steps, journal, questions, notices and triggers."""

@@ -1,0 +1,157 @@
+"""A run's journal: what is written into its history, and what its steps look like."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from datetime import datetime
+from typing import Any
+
+from django.db import transaction
+
+from execution.machine import messages as r
+from execution.models import Run, RunEvent
+from execution.runs.views import event_to_json, run_to_json
+from registry.live import fanout
+
+TOLD_AT_LEAST = 100
+ANSWERS = {"DONE": "is done", "FAILED": "failed", "REJECTED": "refused", "CANCELED": "was called off"}
+ENDS = {
+    "finished": "The run is finished.",
+    "failed": "The run failed",
+    "cancelled": "The run was cancelled",
+    "paused": "The run is paused",
+    "running": "The run goes on.",
+}
+
+
+def describe(status: str, reason: str) -> str:
+    """Return the sentence for what has become of a run."""
+    sentence = ENDS[status]
+    return f"{sentence}: {reason}" if reason and not sentence.endswith(".") else sentence.rstrip(".") + "."
+
+
+class Journal:
+    """Collects the events of one step of a run, and keeps the marks of its steps up to date."""
+
+    def __init__(self, run: Run, now: datetime, names: Mapping[str, str]) -> None:
+        self.run, self.now, self.seq = run, now, run.next_seq
+        self.steps: dict[str, dict[str, Any]] = {key: dict(value) for key, value in run.steps.items()}
+        self.roles: dict[str, str] = dict(run.roles)
+        self._names = names
+        self._rows: list[RunEvent] = []
+
+    def say(self, kind: str, text: str, *, step: str = "", code: str = "", **more: Any) -> None:
+        """Add a line; `more` may name the device, the robot and arguments for translation."""
+        started_at = self.run.started_at or self.now
+        row = RunEvent(
+            run=self.run,
+            seq=self.seq,
+            at=self.now,
+            t_s=round((self.now - started_at).total_seconds(), 3),
+            kind=kind,
+            step=step,
+            device=more.pop("device", ""),
+            robot=more.pop("robot", ""),
+            text=text[:500],
+            code=code,
+            args=more,
+        )
+        self.seq += 1
+        self._rows.append(row)
+
+    def mark(self, action: r.Action) -> None:
+        """Mark a step as the machine says."""
+        match action:
+            case r.StepEntered(step=step):
+                count = self.steps.get(step, {}).get("count", 0) + 1
+                self.steps[step] = {"status": "running", "started_at": self.now.isoformat(), "ended_at": None,
+                                    "robot": None, "wait": None, "why": None, "count": count}  # fmt: skip
+                if self._is_told(step):
+                    self.say("step", "The step begins.", step=step, code="step_entered", count=count)
+            case r.StepLeft(step=step):
+                self._end(step, "done")
+                if self._is_told(step):
+                    self.say("step", "The step is done.", step=step, code="step_done")
+            case r.StepFailed(step=step, kind=kind, why=why):
+                self._end(step, "skipped" if kind == "cancelled" else "failed")
+                self.say("step", why or "The step was not done.", step=step, code=f"step_{kind}")
+
+    def _is_told(self, step: str) -> bool:
+        """Tell whether a step's beginning is written down: of one in a long loop only every hundredth."""
+        count = self.steps[step]["count"]
+        return bool(count <= TOLD_AT_LEAST or count % TOLD_AT_LEAST == 0)
+
+    def _end(self, step: str, status: str) -> None:
+        mark = self.steps.setdefault(step, {"started_at": self.now.isoformat(), "robot": None, "count": 1})
+        mark.update(status=status, ended_at=self.now.isoformat(), wait=None, why=None)
+
+    def note(self, data: Mapping[str, Any]) -> None:
+        """Write down what the floor reports."""
+        match data["type"]:
+            case "role_bound":
+                self.roles[data["role"]] = data["robot"]
+                text = f"{self._name(data['robot'])} takes the role “{data['role']}”."
+                self.say("role", text, code="role_bound", robot=data["robot"], role=data["role"])
+            case "wait":
+                self._note_wait(data)
+            case "command":
+                self._note_command(data)
+            case "answer":
+                what = f"{self._name(data['device'])} {ANSWERS[data['status']]}: {data['method']}"
+                text = f"{what} ({data['why']})" if data["why"] else f"{what}."
+                more = {
+                    "device": data["device"],
+                    "method": data["method"],
+                    "status": data["status"],
+                    "why": data["why"],
+                }
+                self.say("answer", text, step=data["step"], code="answer", **more)
+            case "way":
+                text = f"{self._name(data['robot'])} sets out."
+                self.say("way", text, code="way", robot=data["robot"], device=data["robot"], path=data["path"])
+
+    def _note_wait(self, data: Mapping[str, Any]) -> None:
+        reason, robot = data["reason"], data["robot"]
+        mark = self.steps.get(data["step"])
+        if mark is not None and mark["status"] in {"running", "waiting"}:
+            mark.update(status="waiting" if reason else "running", wait=reason["text"] if reason else None)
+            mark["why"] = {"code": reason["code"], "args": reason["args"]} if reason else None
+            mark["robot"] = robot or mark.get("robot")
+        if reason:
+            arguments = {f"{key}": value for key, value in reason["args"].items() if key not in {"robot", "device"}}
+            device = reason["args"].get("device", "")
+            self.say("wait", reason["text"], step=data["step"], code=reason["code"], robot=robot, device=device,
+                     **arguments)  # fmt: skip
+        else:
+            self.say("wait", "It goes on.", step=data["step"], code="wait_over", robot=robot)
+
+    def ask(self, step: str, text: str) -> None:
+        """Write down a question; its step waits."""
+        mark = self.steps.get(step)
+        if mark is not None and mark["status"] == "running":
+            mark.update(status="waiting", wait="It waits for an answer.", why={"code": "question", "args": {}})
+        self.say("question", text, step=step, code="asked")
+
+    def _note_command(self, data: Mapping[str, Any]) -> None:
+        device = data["device"]
+        mark = self.steps.get(data["step"])
+        if mark is not None and device in self.roles.values():
+            mark["robot"] = device
+        values = ", ".join(str(self._names.get(str(value), value)) for value in data["arguments"].values())
+        text = f"{self._name(device)}: {data['method']}({values})"
+        self.say("command", text, step=data["step"], code="command", device=device, method=data["method"],
+                 arguments=data["arguments"])  # fmt: skip
+
+    def _name(self, device: str) -> str:
+        return self._names.get(device, device)
+
+    def write(self) -> None:
+        """Store the new lines, and show them to whoever watches once the transaction is through."""
+        RunEvent.objects.bulk_create(self._rows)
+        run, rows = self.run, self._rows
+        run.steps, run.roles, run.next_seq = self.steps, self.roles, self.seq
+        slug = run.site.slug
+        messages = [{"type": "run_event", "run": str(run.id), "event": event_to_json(row)} for row in rows]
+        messages.append({"type": "run", "run": run_to_json(run)})
+
+        transaction.on_commit(lambda: fanout.publish_all([(slug, message) for message in messages]))

@@ -1,0 +1,67 @@
+"""Programs made ready to be carried out: pinned, checked and compiled by the editor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+from uuid import UUID
+
+from editor import services as editor
+from editor.language import Diagnostic, compiled_to_json, plan_to_json
+from execution.errors import NotReady
+from vipo_device.protocol.description import Scalar
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """A program's version with all that a run or a rehearsal keeps of it; document, compiled and plan are JSON."""
+
+    program: UUID
+    site: str
+    name: str
+    version: int
+    document: Mapping[str, Any]
+    compiled: Mapping[str, Any]
+    plan: Mapping[str, Any]
+    parameters: Mapping[str, Scalar] = field(default_factory=dict)
+
+
+def site_of_program(*, program_id: UUID) -> str:
+    """Return the site of a program; raises the editor's NoSuchProgram."""
+    return editor.get_program(program_id=program_id).site
+
+
+def prepare(*, program_id: UUID, user: Any, parameters: Mapping[str, Any]) -> Prepared:
+    """Pin the program as it is drawn now, and compile it for the site as it is now.
+
+    Raises:
+        NotReady: the program has errors, or a parameter does not exist.
+    """
+    program = editor.get_program(program_id=program_id)
+    version = editor.pin_version(program_id=program_id, user=user)
+    compiled = editor.compile_version(version=version)
+    if compiled.plan is None:
+        raise _not_ready([d for d in compiled.diagnostics if d.severity == "error"])
+    unknown = sorted(set(parameters) - set(compiled.plan.parameters))
+    if unknown:
+        name = unknown[0]
+        raise NotReady(f"The program has no parameter called “{name}”.", {"why": "parameter", "name": name})
+    return Prepared(
+        program=program_id,
+        site=program.site,
+        name=program.name,
+        version=version.number,
+        document=version.document,
+        compiled=compiled_to_json(compiled),
+        plan=plan_to_json(compiled.plan),
+        parameters=parameters,
+    )
+
+
+def _not_ready(errors: Sequence[Diagnostic]) -> NotReady:
+    """Return the refusal for a program with errors; it names the first of them."""
+    count = f"{len(errors)} errors" if len(errors) != 1 else "one error"
+    first = errors[0].messages if errors else {}
+    detail = f"The program has {count} and cannot be carried out. {first.get('en', '')}".strip()
+    return NotReady(detail, {"why": "errors", "count": len(errors), "first": first})

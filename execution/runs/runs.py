@@ -1,0 +1,137 @@
+"""Runs as people see them: start, pause, resume, cancel, look."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Any
+from uuid import UUID, uuid4
+
+from django.db import IntegrityError, transaction
+from django.db.models import Max
+
+from execution import mailbox
+from execution.errors import NotFound, NotPossibleNow
+from execution.floor.advance import site_id
+from execution.floor.stops import is_stopped
+from execution.models import Run, RunEvent
+from execution.runs.advance import OPEN
+from execution.runs.programs import Prepared
+from execution.runs.views import event_to_json, run_to_json
+from registry.live import fanout
+
+EVENTS_AT_ONCE = 1000
+
+
+def start_run(*, prepared: Prepared, by: str, entry: int = 0) -> dict[str, Any]:
+    """Start a run of a program that was checked; a worker takes it from here. `entry` is where it begins.
+
+    Raises:
+        NotPossibleNow: the site is stopped.
+    """
+    if is_stopped(site=prepared.site):
+        raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.", {"why": "stopped"})
+    return _announce(prepared, _create_numbered(prepared, by, entry))
+
+
+def _announce(prepared: Prepared, row: Run) -> dict[str, Any]:
+    view = run_to_json(row)
+    mailbox.hint(mailbox.run_target(row.id))
+    transaction.on_commit(lambda: fanout.publish(prepared.site, {"type": "run", "run": view}))
+    return view
+
+
+def _create_numbered(prepared: Prepared, by: str, entry: int) -> Run:
+    """Write the row; when another run took the number at the same time, try the next."""
+    for _ in range(5):
+        try:
+            with transaction.atomic():
+                return _create(prepared, by, entry)
+        except IntegrityError:
+            continue
+    raise NotPossibleNow("Many runs are being started at once. Try again in a moment.")
+
+
+def _create(prepared: Prepared, by: str, entry: int) -> Run:
+    site = site_id(prepared.site)
+    last = Run.objects.filter(site_id=site).aggregate(last=Max("number"))["last"] or 0
+    return Run.objects.create(
+        site_id=site,
+        number=last + 1,
+        program=prepared.program,
+        program_name=prepared.name,
+        version=prepared.version,
+        parameters=dict(prepared.parameters),
+        document=prepared.document,
+        compiled=prepared.compiled,
+        plan=prepared.plan,
+        entry=entry,
+        started_by=by,
+        created_at=datetime.now(UTC),
+    )
+
+
+def pause_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
+    """Ask a run to pause: nothing new is begun, what is under way settles."""
+    row = _find_open(run_id)
+    return _order(row, {"type": "pause", "reason": f"{by} paused it"})
+
+
+def resume_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
+    """Let a paused run go on where it is.
+
+    Raises:
+        NotPossibleNow: the run is over, or its site is stopped.
+    """
+    row = _find_open(run_id)
+    if is_stopped(site=row.site.slug):
+        raise NotPossibleNow("The site is stopped. Reset the stop, then resume the run.")
+    return _order(row, {"type": "resume", "by": by})
+
+
+def cancel_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
+    """Ask a run to end: what machines do for it is called off, its robots stop at the next safe point."""
+    row = _find_open(run_id)
+    return _order(row, {"type": "cancel", "reason": f"{by} cancelled it"})
+
+
+def _order(row: Run, payload: dict[str, Any]) -> dict[str, Any]:
+    with transaction.atomic():
+        mailbox.post(mailbox.run_target(row.id), [(f"order:{row.id}:{uuid4()}", payload)])
+    return run_to_json(row)
+
+
+def _find(run_id: UUID | str) -> Run:
+    row = Run.objects.select_related("site").defer("plan", "state").filter(id=run_id).first()
+    if row is None:
+        raise NotFound("There is no such run. It may have been deleted with its site.")
+    return row
+
+
+def _find_open(run_id: UUID | str) -> Run:
+    row = _find(run_id)
+    if row.status not in OPEN:
+        raise NotPossibleNow(f"Run {row.number} is over ({row.status}). Start the program again for a new run.")
+    return row
+
+
+def site_of_run(*, run_id: UUID | str) -> str:
+    """Return the site of a run; raises NotFound."""
+    return _find(run_id).site.slug
+
+
+def get_run(*, run_id: UUID | str) -> dict[str, Any]:
+    """Return a run with its document and compiled form; raises NotFound."""
+    row = _find(run_id)
+    return {**run_to_json(row), "document": row.document, "compiled": row.compiled}
+
+
+def list_runs(*, site: str, limit: int = 50) -> list[dict[str, Any]]:
+    """Return a site's runs, the newest first."""
+    rows = Run.objects.select_related("site").filter(site__slug=site).defer("document", "compiled", "plan", "state")
+    return [run_to_json(row) for row in rows.order_by("-number")[:limit]]
+
+
+def list_events(*, run_id: UUID | str, after: int = 0) -> list[dict[str, Any]]:
+    """Return the lines of a run's journal after a number, oldest first; at most a thousand at once."""
+    rows = RunEvent.objects.filter(run_id=run_id, seq__gt=after).order_by("seq")
+    return [event_to_json(row) for row in rows[:EVENTS_AT_ONCE]]

@@ -1,0 +1,122 @@
+"""Armed programs: they start by themselves when a condition becomes true and no run of theirs is under way."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from dataclasses import asdict
+from datetime import UTC, datetime
+from typing import Any
+from uuid import UUID
+
+from django.db import transaction
+
+from editor.language import plan_from_json
+from editor.language.plan.instructions import EventEntry, Plan
+from execution.errors import NotPossibleNow, NotReady
+from execution.floor.advance import site_id
+from execution.floor.stops import is_stopped
+from execution.machine.evaluation import EvaluationError, is_true
+from execution.machine.needs import Facts, needs_of
+from execution.models import ArmedProgram, Run
+from execution.runs.advance import OPEN
+from execution.runs.facts import site_facts
+from execution.runs.programs import Prepared
+from execution.runs.runs import start_run
+from execution.runs.views import armed_to_json
+from registry.live import fanout
+
+PLANS_KEPT = 64
+_plans: OrderedDict[tuple[UUID, datetime], Plan] = OrderedDict()
+
+
+def list_armed(*, site: str) -> list[dict[str, Any]]:
+    """Return the armed programs of a site."""
+    rows = ArmedProgram.objects.filter(site__slug=site).order_by("at")
+    return [armed_to_json(row) for row in rows]
+
+
+def arm_program(*, prepared: Prepared, by: str) -> dict[str, Any]:
+    """Let a program start by itself from now on, in the version that was prepared; what holds already does not count.
+
+    Raises:
+        NotReady: the program has no step that starts it.
+        NotPossibleNow: the site is stopped.
+    """
+    plan = plan_from_json(prepared.plan)
+    if not _starters(plan):
+        detail = "Nothing starts this program by itself. Add a step “When …” that starts a run."
+        raise NotReady(detail, {"why": "never_starts"})
+    if is_stopped(site=prepared.site):
+        raise NotPossibleNow("The site is stopped. Reset the stop before you arm a program.", {"why": "stopped"})
+    now = datetime.now(UTC)
+    whole = {**asdict(prepared), "program": str(prepared.program)}
+    truths = _look(plan, _facts(plan, prepared.site, now))
+    values = {"site_id": site_id(prepared.site), "prepared": whole, "truths": truths, "by": by, "at": now}
+    with transaction.atomic():
+        row, _ = ArmedProgram.objects.update_or_create(program=prepared.program, defaults=values)
+        _announce(prepared.site)
+    return armed_to_json(row)
+
+
+def disarm_program(*, program_id: UUID, site: str) -> None:
+    """Let a program start only by hand again."""
+    with transaction.atomic():
+        ArmedProgram.objects.filter(program=program_id).delete()
+        _announce(site)
+
+
+def _announce(site: str) -> None:
+    transaction.on_commit(lambda: fanout.publish(site, {"type": "armed", "programs": list_armed(site=site)}))
+
+
+def start_armed(now: datetime) -> int:
+    """Look at the conditions of all armed programs and start what has become due; returns how many runs."""
+    rows = ArmedProgram.objects.select_related("site")
+    return sum(_look_at(row, now) for row in rows)
+
+
+def _look_at(row: ArmedProgram, now: datetime) -> bool:
+    """Start a run if a condition has become true; of several processes that see it one does."""
+    plan = _plan(row)
+    truths = _look(plan, _facts(plan, row.site.slug, now))
+    if truths == row.truths:
+        return False
+    due = next((e for number, e in _starters(plan) if truths[str(number)] and not row.truths.get(str(number))), None)
+    with transaction.atomic():
+        mine = ArmedProgram.objects.filter(program=row.program, epoch=row.epoch, at=row.at)
+        if not mine.update(truths=truths, epoch=row.epoch + 1) or due is None:
+            return False
+        if is_stopped(site=row.site.slug) or Run.objects.filter(program=row.program, status__in=OPEN).exists():
+            return False
+        prepared = Prepared(**{**row.prepared, "program": row.program})
+        start_run(prepared=prepared, by=row.by, entry=due.entry)
+    return True
+
+
+def _starters(plan: Plan) -> list[tuple[int, EventEntry]]:
+    return [(number, event) for number, event in enumerate(plan.events) if event.starts == "run"]
+
+
+def _look(plan: Plan, facts: Facts) -> dict[str, bool]:
+    """Return which of the conditions that start the program hold; one that cannot be worked out does not."""
+    zones = {zone.id: zone.points for zone in plan.zones}
+    truths = {}
+    for number, event in _starters(plan):
+        try:
+            truths[str(number)] = is_true(event.condition, plan.parameters, facts, zones)
+        except EvaluationError:
+            truths[str(number)] = False
+    return truths
+
+
+def _facts(plan: Plan, site: str, now: datetime) -> Facts:
+    return site_facts(needs_of(plan), site, now)
+
+
+def _plan(row: ArmedProgram) -> Plan:
+    key = (row.program, row.at)
+    if key not in _plans:
+        _plans[key] = plan_from_json(row.prepared["plan"])
+        while len(_plans) > PLANS_KEPT:
+            _plans.popitem(last=False)
+    return _plans[key]

@@ -1,0 +1,82 @@
+"""What execution knows that gives cause for alerts: who is needed now, commands that went wrong, refused messages."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from datetime import datetime, timedelta
+from typing import Any
+
+from execution.commands.claim import CONTROLS
+from execution.models import Command, Run
+from registry import services as registry
+
+LOOK_BACK = timedelta(minutes=1)
+GONE_WRONG: dict[str, registry.AlertCode] = {
+    Command.Status.REJECTED: "command_rejected",
+    Command.Status.FAILED: "command_failed",
+    Command.Status.TIMED_OUT: "command_timed_out",
+}
+TOO_MANY = "too many messages"
+MOST_CHARACTERS = 300
+
+
+def watch_alerts(*, now: datetime, since: datetime) -> None:
+    """Raise and end alerts by how things are; `since` is when this process began to watch."""
+    known = registry.list_open_alerts(codes=frozenset(GONE_WRONG.values()))
+    registry.raise_alerts(raised=list(_find_gone_wrong(known, now)))
+    registry.end_alerts(ids=_find_done_since(known), at=now)
+    registry.watch_devices(now=now, since=since, at_work=_find_at_work())
+
+
+def _find_at_work() -> frozenset[str]:
+    """Return the devices that carry something out, and the robots of runs that are under way."""
+    commands = Command.objects.filter(status__in=Command.OPEN).exclude(method__in=CONTROLS)
+    runs = Run.objects.filter(status__in=(Run.Status.RUNNING, Run.Status.PAUSED))
+    robots = {robot for roles in runs.values_list("roles", flat=True) for robot in roles.values()}
+    return frozenset(robots.union(commands.values_list("device", flat=True).distinct()))
+
+
+def _find_gone_wrong(known: Sequence[registry.AlertView], now: datetime) -> Iterator[registry.Raised]:
+    """Yield the commands that went wrong within the last minute and are no alert yet, those of a kind as one.
+
+    A piece of way that a robot refuses is none: it is given another one.
+    """
+    rows = Command.objects.filter(status__in=list(GONE_WRONG), ended_at__gt=now - LOOK_BACK).order_by("ended_at")
+    rows = rows.exclude(method__in=CONTROLS).exclude(piece=True, status=Command.Status.REJECTED)
+    told_at = {(alert.device_id, alert.code): alert.last_at for alert in known}
+    together: defaultdict[tuple[str, registry.AlertCode], list[Command]] = defaultdict(list)
+    for row in rows.only("device", "status", "method", "why", "ended_at"):
+        key = (row.device, GONE_WRONG[row.status])
+        if row.ended_at and (key not in told_at or row.ended_at > told_at[key]):
+            together[key].append(row)
+    for (device, code), commands in together.items():
+        yield _as_raised(device, code, commands, now)
+
+
+def _as_raised(device: str, code: registry.AlertCode, commands: Sequence[Command], now: datetime) -> registry.Raised:
+    last = commands[-1]
+    args = {"method": last.method, **({"why": last.why[:MOST_CHARACTERS]} if last.why else {})}
+    return registry.Raised(device, code, last.ended_at or now, args, len(commands))
+
+
+def _find_done_since(known: Sequence[registry.AlertView]) -> list[int]:
+    """Return the alerts about commands whose device has carried the same method out since."""
+    done = Command.objects.filter(status=Command.Status.DONE)
+    return [
+        alert.id
+        for alert in known
+        if done.filter(device=alert.device_id, method=alert.args["method"], ended_at__gt=alert.last_at).exists()
+    ]
+
+
+def note_complaint(device: str, reason: str, facts: Mapping[str, Any] | None = None) -> None:
+    """Take in why a message was dropped or refused; touches no database."""
+    kind, _, detail = reason.partition(": ")
+    args = {"why": detail[:MOST_CHARACTERS], **({"faults": facts["faults"]} if facts and "faults" in facts else {})}
+    if kind == TOO_MANY:
+        registry.note_alert(device_id=device, code="messages_dropped")
+    elif kind == "desc":
+        registry.note_alert(device_id=device, code="description_refused", args=args)
+    elif "/" not in kind:  # a knock is nobody's yet
+        registry.note_alert(device_id=device, code="messages_refused", args=args)

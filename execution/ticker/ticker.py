@@ -1,0 +1,156 @@
+"""What happens because time passes: due timers, floors with something under way, hints that were lost, old rows."""
+
+from __future__ import annotations
+
+import logging
+import os
+import socket
+import threading
+from datetime import UTC, datetime, timedelta
+
+from django.db import DatabaseError, connection, transaction
+
+from execution import mailbox
+from execution.commands.manual_calls import expire_calls
+from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
+from execution.models import FloorState, InboxEvent, Lease, Rehearsal, Run, Timer
+from execution.runs.triggers import start_armed
+from execution.ticker.alerts import watch_alerts
+from registry import services as registry
+from registry.live import fanout
+
+LEASE_S = 5.0
+TICK_SITES_S = 0.5
+SWEEP_S = 1.0
+PRUNE_S = 600.0
+KEPT_FOR = timedelta(days=2)
+LOST_AFTER = timedelta(seconds=1)
+DEAD_AFTER = timedelta(seconds=60)
+HOLDER = f"{socket.gethostname()}:{os.getpid()}"
+
+
+class Ticker:
+    """Called every 0.1 to 0.25 s; does each thing as often as it needs, while it holds the lease."""
+
+    def __init__(self, holder: str = HOLDER) -> None:
+        self._holder = holder
+        self._lease_until: datetime | None = None
+        self._done_at: dict[str, datetime] = {}
+        self._leads_since: datetime | None = None
+
+    def tick(self, now: datetime) -> bool:
+        """Do what is due; False when another process has the lease."""
+        if not self._hold_lease(now):
+            self._leads_since = None
+            return False
+        self._leads_since = self._leads_since or now
+        fire_timers(now)
+        if self._is_due("sites", TICK_SITES_S, now):
+            hint_active_sites()
+            start_armed(now)
+        if self._is_due("sweep", SWEEP_S, now):
+            sweep(now)
+            for view in registry.mark_stale(now=now):
+                registry.note_samples(view=view, at=now)
+                mailbox.send_hint(mailbox.ADVANCE_SITE, view.site)
+            registry.flush_samples()
+            watch_alerts(now=now, since=self._leads_since)
+        if self._is_due("prune", PRUNE_S, now):
+            InboxEvent.objects.filter(taken_at__lt=now - KEPT_FOR).delete()
+            registry.prune_samples(now=now)
+            registry.prune_alerts(now=now)
+        return True
+
+    def _is_due(self, what: str, every_s: float, now: datetime) -> bool:
+        last = self._done_at.get(what)
+        if last is not None and (now - last).total_seconds() < every_s:
+            return False
+        self._done_at[what] = now
+        return True
+
+    def _hold_lease(self, now: datetime) -> bool:
+        """Take or renew the lease; it is renewed when half of it is over, so that ticks cost no write."""
+        if self._lease_until is not None and now < self._lease_until - timedelta(seconds=LEASE_S / 2):
+            return True
+        until = now + timedelta(seconds=LEASE_S)
+        Lease.objects.get_or_create(name="ticker", defaults={"holder": self._holder, "until": until})
+        mine = Lease.objects.filter(name="ticker", holder=self._holder).update(until=until)
+        free = mine or Lease.objects.filter(name="ticker", until__lt=now).update(holder=self._holder, until=until)
+        self._lease_until = until if free else None
+        return bool(free)
+
+
+def fire_timers(now: datetime) -> int:
+    """Turn due timers into events; returns how many."""
+    with transaction.atomic():
+        due = list(Timer.objects.select_for_update(skip_locked=True).filter(due_at__lte=now)[:500])
+        for row in due:
+            key = f"timer:{row.run_id}:{row.timer}"
+            mailbox.post(mailbox.run_target(row.run_id), [(key, {"type": "timer", "timer": row.timer})])
+        Timer.objects.filter(id__in=[row.id for row in due]).delete()
+    return len(due)
+
+
+def hint_active_sites() -> None:
+    """Let every floor look that has something under way, and every run that waits for a reading."""
+    for slug in FloorState.objects.filter(active=True).values_list("site__slug", flat=True):
+        mailbox.send_hint(mailbox.ADVANCE_SITE, slug)
+    watching = Run.objects.filter(watches=True, status=Run.Status.RUNNING)
+    for run in watching.values_list("id", flat=True):
+        mailbox.send_hint(mailbox.ADVANCE_RUN, str(run))
+
+
+def sweep(now: datetime) -> None:
+    """Find what was left lying because a message was lost or a worker died."""
+    left = InboxEvent.objects.filter(taken_at=None, created_at__lt=now - LOST_AFTER)
+    for target in left.values_list("target", flat=True).distinct():
+        kind, _, name = target.partition(":")
+        mailbox.send_hint(mailbox.ADVANCE_RUN if kind == "run" else mailbox.ADVANCE_SITE, name)
+    pending = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=now - LOST_AFTER)
+    for run in pending.values_list("id", flat=True):
+        mailbox.send_hint(mailbox.ADVANCE_RUN, str(run))
+    drop_stale_controls(now)
+    end_commands_of_those_out(now)
+    expire_calls(now=now)
+    _sweep_rehearsals(now)
+
+
+def _sweep_rehearsals(now: datetime) -> None:
+    queued = Rehearsal.objects.filter(status=Rehearsal.Status.QUEUED, created_at__lt=now - 5 * LOST_AFTER)
+    for rehearsal in queued.values_list("id", flat=True):
+        mailbox.send_hint(mailbox.REHEARSE, str(rehearsal))
+    dead = Rehearsal.objects.filter(status=Rehearsal.Status.RUNNING, beat_at__lt=now - DEAD_AFTER)
+    for row in dead.select_related("site"):
+        reason = "The process that rehearsed it has died. Start it again."
+        Rehearsal.objects.filter(id=row.id, status=Rehearsal.Status.RUNNING).update(status="failed", reason=reason)
+        message = {"type": "rehearsal", "id": str(row.id), "status": "failed", "progress": row.progress}
+        fanout.publish(row.site.slug, message)
+
+
+_ticker = Ticker()
+
+
+def tick(now: datetime) -> bool:
+    """Do what is due by the clock in this process; False when another process does it."""
+    return _ticker.tick(now)
+
+
+log = logging.getLogger(__name__)
+TICK_S = 0.1
+IDLE_S = 1.0
+
+
+def run_ticker(stopping: threading.Event) -> None:
+    """Tick until `stopping` is set; a database that is away is waited for."""
+    while not stopping.is_set():
+        try:
+            leads = tick(datetime.now(UTC))
+        except DatabaseError as error:
+            log.warning("The ticker's database does not answer: %s", error)
+            connection.close()
+            leads = False
+        except Exception:  # the edge of the process: without the ticker no timer would ever fire
+            log.exception("The ticker failed; it goes on.")
+            leads = False
+        stopping.wait(TICK_S if leads else IDLE_S)
+    connection.close()

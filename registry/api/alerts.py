@@ -1,0 +1,70 @@
+"""Alerts over HTTP."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from django.http import HttpRequest
+from django.utils import timezone
+from ninja import Router, Schema
+
+from registry import services
+from registry.alerts.causes import AlertCode, Severity
+from registry.alerts.list import NoSuchAlert
+from registry.alerts.views import AlertState
+from registry.api.devices_and_sites import signed_in
+from registry.api.unchecked import Shown
+from registry.people.access import find_access, require
+
+router = Router(tags=["registry"])
+
+
+class AlertShape(Schema):
+    """Something about a device that people should know; `text` is the English sentence, `args` what it is made of.
+
+    `count` says how often it was raised since `first_at`, `role` the least role that it concerns.
+    """
+
+    id: int
+    device: str
+    code: AlertCode
+    severity: Severity
+    role: Literal["viewer", "admin"]
+    args: Annotated[Any, Shown(dict[str, Any])]
+    text: str
+    count: int
+    state: AlertState
+    first_at: str
+    last_at: str
+    over_at: str | None
+    seen_by: str
+    seen_at: str | None
+
+
+@router.get("/sites/{slug}/alerts", response=list[AlertShape])
+def list_alerts(request: HttpRequest, slug: str, state: AlertState | None = None) -> list[dict[str, Any]]:
+    """List a site's alerts, the latest first: those that are not over, or those in one `state`; 1,000 at most."""
+    access = require(signed_in(request), slug, "viewer")
+    return [services.alert_to_json(a) for a in services.list_alerts(site=slug, state=state, role=access.role)]
+
+
+@router.post("/sites/{slug}/alerts/seen", response=list[AlertShape])
+def mark_all_seen(request: HttpRequest, slug: str) -> list[dict[str, Any]]:
+    """Say that the asker has seen all open alerts of a site; answers with those that are not over."""
+    user = signed_in(request)
+    access = require(user, slug, "operator")
+    seen = services.mark_all_seen(site=slug, by=user, at=timezone.now(), role=access.role)
+    return [services.alert_to_json(alert) for alert in seen]
+
+
+@router.post("/alerts/{int:alert_id}/seen", response=AlertShape)
+def mark_seen(request: HttpRequest, alert_id: int) -> dict[str, Any]:
+    """Say that the asker has seen an alert; of several people the first one stays named."""
+    user = signed_in(request)
+    alert = services.find_alert(alert_id=alert_id)
+    access = find_access(user, alert.site)
+    body = services.alert_to_json(alert)
+    if access is None or not access.allows(body["role"]):
+        raise NoSuchAlert
+    require(user, alert.site, "operator")
+    return services.alert_to_json(services.mark_alert_seen(alert_id=alert_id, by=user, at=timezone.now()))

@@ -1,0 +1,180 @@
+"""Maps over HTTP: the site's own with its versions, and the ones that its robots have sent."""
+
+from __future__ import annotations
+
+import gzip
+from dataclasses import asdict
+from typing import Any
+
+from django.http import HttpRequest, HttpResponse
+from ninja import Router, Schema
+
+from registry import services
+from registry.api.devices_and_sites import sends, signed_in
+from registry.api.shapes import MapShape, Origin
+from registry.floorplan.comparison import Trouble
+from registry.floorplan.map_server import write_pgm, write_yaml
+from registry.floorplan.plan import Grid
+from registry.people.access import require
+
+router = Router(tags=["registry"])
+CELLS, PGM = "application/octet-stream", "image/x-portable-graymap"
+
+
+class MapVersionShape(Schema):
+    """One version of a site's map; `source` is `upload`, `demo`, `robot:<id>`, `version:<number>` or empty."""
+
+    version: int
+    width: int
+    height: int
+    resolution_m: float
+    source: str
+    by: str
+    at: str
+
+
+class RobotMapShape(Schema):
+    """A robot's newest map without its cells; `known` is a share from 0 to 1."""
+
+    device: str
+    version: int
+    width: int
+    height: int
+    resolution_m: float
+    origin: Origin
+    known: float
+    at: str
+    changed_at: str
+
+
+class MapTroubleShape(Schema):
+    """A machine or place that a map does not suit, and whether it is so only with that map."""
+
+    id: str
+    name: str
+    kind: str
+    why: Trouble
+    is_new: bool
+
+
+class MapDifferenceShape(Schema):
+    """What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres."""
+
+    version: int
+    replaces: int
+    floor_gained_m2: float
+    floor_lost_m2: float
+    walls_gained_m2: float
+    walls_lost_m2: float
+    troubles: list[MapTroubleShape]
+
+
+@router.get("/sites/{slug}/map", response=MapShape)
+def show_map(request: HttpRequest, slug: str) -> dict[str, Any]:
+    """Show a site's map without its cells."""
+    require(signed_in(request), slug, "viewer")
+    found = services.get_map(site=slug)
+    grid = found.grid
+    return {
+        "version": found.version,
+        **_measures(grid),
+        "places": services.list_places(site=slug),
+        "walls": services.get_walls(grid),
+    }
+
+
+def _measures(grid: Grid) -> dict[str, Any]:
+    return {
+        "width": grid.width,
+        "height": grid.height,
+        "resolution_m": grid.resolution_m,
+        "origin": {"x": grid.origin_x_m, "y": grid.origin_y_m, "yaw": 0.0},
+    }
+
+
+@router.get("/sites/{slug}/map/cells", openapi_extra=sends(CELLS))
+def show_cells(request: HttpRequest, slug: str) -> HttpResponse:
+    """Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown."""
+    require(signed_in(request), slug, "viewer")
+    found = services.get_map(site=slug)
+    return _cells(request, f'"{slug}-{found.version}"', found.grid)
+
+
+def _cells(request: HttpRequest, tag: str, grid: Grid) -> HttpResponse:
+    if request.headers.get("If-None-Match") == tag:
+        return HttpResponse(status=304)
+    response = HttpResponse(gzip.compress(grid.cells, 5, mtime=0), content_type=CELLS)
+    response["Content-Encoding"] = "gzip"
+    response["ETag"] = tag
+    response["Cache-Control"] = "private, no-cache"
+    return response
+
+
+@router.get("/sites/{slug}/map.yaml", openapi_extra=sends("application/yaml"))
+def download_yaml(request: HttpRequest, slug: str) -> HttpResponse:
+    """Send the map's header in the ROS form."""
+    require(signed_in(request), slug, "viewer")
+    return _yaml(services.get_map(site=slug).grid, slug)
+
+
+@router.get("/sites/{slug}/map.pgm", openapi_extra=sends(PGM))
+def download_pgm(request: HttpRequest, slug: str) -> HttpResponse:
+    """Send the map's image in the ROS form."""
+    require(signed_in(request), slug, "viewer")
+    return _download(write_pgm(services.get_map(site=slug).grid), f"{slug}.pgm", PGM)
+
+
+def _yaml(grid: Grid, name: str) -> HttpResponse:
+    return _download(write_yaml(grid, f"{name}.pgm"), f"{name}.yaml", "application/yaml")
+
+
+def _download(body: bytes, name: str, content_type: str) -> HttpResponse:
+    response = HttpResponse(body, content_type=content_type)
+    response["Content-Disposition"] = f'attachment; filename="{name}"'
+    return response
+
+
+@router.get("/sites/{slug}/map/versions", response=list[MapVersionShape])
+def list_versions(request: HttpRequest, slug: str) -> list[dict[str, Any]]:
+    """List the versions of a site's map, the one that holds first; the newest 50 are kept."""
+    require(signed_in(request), slug, "viewer")
+    return [{**asdict(view), "at": view.at.isoformat()} for view in services.list_map_versions(site=slug)]
+
+
+@router.get("/sites/{slug}/devices/{device_id}/map", response=RobotMapShape)
+def show_robot_map(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
+    """Show the newest map that a robot has sent, without its cells."""
+    require(signed_in(request), slug, "viewer")
+    facts = services.get_robot_map_facts(site=slug, device_id=device_id)
+    times = {"at": facts.at.isoformat(), "changed_at": facts.changed_at.isoformat()}
+    return {**asdict(facts), **times, "origin": {"x": facts.origin_x_m, "y": facts.origin_y_m, "yaw": 0.0}}
+
+
+@router.get("/sites/{slug}/devices/{device_id}/map/cells", openapi_extra=sends(CELLS))
+def show_robot_cells(request: HttpRequest, slug: str, device_id: str) -> HttpResponse:
+    """Send the cells of a robot's map: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown."""
+    require(signed_in(request), slug, "viewer")
+    found = services.get_robot_map(site=slug, device_id=device_id)
+    return _cells(request, f'"{device_id}-{found.facts.version}"', found.grid)
+
+
+@router.get("/sites/{slug}/devices/{device_id}/map.yaml", openapi_extra=sends("application/yaml"))
+def download_robot_yaml(request: HttpRequest, slug: str, device_id: str) -> HttpResponse:
+    """Send the header of a robot's map in the ROS form."""
+    require(signed_in(request), slug, "viewer")
+    return _yaml(services.get_robot_map(site=slug, device_id=device_id).grid, device_id)
+
+
+@router.get("/sites/{slug}/devices/{device_id}/map.pgm", openapi_extra=sends(PGM))
+def download_robot_pgm(request: HttpRequest, slug: str, device_id: str) -> HttpResponse:
+    """Send the image of a robot's map in the ROS form."""
+    require(signed_in(request), slug, "viewer")
+    return _download(write_pgm(services.get_robot_map(site=slug, device_id=device_id).grid), f"{device_id}.pgm", PGM)
+
+
+@router.get("/sites/{slug}/devices/{device_id}/map/difference", response=MapDifferenceShape)
+def show_difference(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
+    """Show what would change at the site if the robot's map became its own."""
+    require(signed_in(request), slug, "viewer")
+    version, replaces, difference = services.compare_robot_map(site=slug, device_id=device_id)
+    return {"version": version, "replaces": replaces, **asdict(difference)}

@@ -1,0 +1,125 @@
+"""Bringing devices in, over HTTP: their set-up, a look at a description before it is sent, all of them as RDF."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from django.conf import settings
+from django.http import HttpRequest, HttpResponse
+from django.utils import timezone
+from ninja import Router, Schema
+from pydantic import Field
+
+from registry import services
+from registry.api.devices_and_sites import signed_in
+from registry.devices.enrolment import expect_newcomer
+from registry.people.access import require
+from vipo_device.descriptions.forms import BadDescription, DescriptionForm
+from vipo_device.descriptions.reader import read, write_description
+from vipo_device.protocol.description import description_to_json
+
+router = Router(tags=["registry"])
+_SENDS_TURTLE = {"responses": {200: {"content": {"text/turtle": {"schema": {"type": "string"}}}}}}
+MOST_CHARACTERS = 65_536
+"""More than a description may have, so that the reader says itself what is too long."""
+
+
+class NewDevice(Schema):
+    """The id of a device that will come."""
+
+    id: str = Field(max_length=64)
+
+
+class ExpectedDevice(Schema):
+    """What a device is set up with; `credential` is its key, told this once, `broker` may be empty."""
+
+    id: str
+    site: str
+    credential: str
+    broker: str
+
+
+class Door(Schema):
+    """A site's new join key, told this once; the one before has ended."""
+
+    site: str
+    join_key: str
+    broker: str
+
+
+class DescriptionText(Schema):
+    """A description in any form."""
+
+    text: str = Field(max_length=MOST_CHARACTERS)
+
+
+class FaultShape(Schema):
+    """One thing that is wrong or was mended: a sentence, and where: a line and column from 1 (0: none), or a path.
+
+    `code` and `args` are what the sentence is made of; both are empty where it stands for itself.
+    """
+
+    text: str
+    line: int
+    column: int
+    path: str
+    code: str
+    args: dict[str, str | int | float]
+
+
+class LookShape(Schema):
+    """What VIPO makes of a description; with `faults` the rest is null or empty.
+
+    `notes` are the sentences of `mended`: what was mended or left out.
+    """
+
+    form: DescriptionForm | None
+    faults: list[FaultShape]
+    notes: list[str]
+    mended: list[FaultShape]
+    description: dict[str, Any] | None
+    turtle: str
+
+
+@router.post("/sites/{slug}/newcomers", response={201: ExpectedDevice})
+def add_newcomer(request: HttpRequest, slug: str, body: NewDevice) -> dict[str, Any]:
+    """Reserve an id for a device that will come, and tell its key this once; it still waits for approval then."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    return asdict(expect_newcomer(site=slug, device_id=body.id.strip(), by=user, at=timezone.now()))
+
+
+@router.post("/sites/{slug}/join-key", response=Door)
+def renew_join_key(request: HttpRequest, slug: str) -> dict[str, Any]:
+    """Make a new join key for a site's newcomers, and tell it this once; the old one ends."""
+    require(signed_in(request), slug, "admin")
+    return {"site": slug, "join_key": services.renew_join_key(site=slug), "broker": str(settings.VIPO_BROKER_URL)}
+
+
+@router.post("/sites/{slug}/describe", response=LookShape)
+def look_at_description(request: HttpRequest, slug: str, body: DescriptionText) -> dict[str, Any]:
+    """Say what VIPO would make of a description, and what is wrong with it; nothing is kept."""
+    require(signed_in(request), slug, "viewer")
+    try:
+        reading = read(body.text.encode("utf-8", errors="surrogatepass"))
+    except BadDescription as error:
+        faults = [asdict(fault) for fault in error.faults]
+        return {"form": None, "faults": faults, "notes": [], "mended": [], "description": None, "turtle": ""}
+    return {
+        "form": reading.form,
+        "faults": [],
+        "notes": [note.text for note in reading.notes],
+        "mended": [asdict(note) for note in reading.notes],
+        "description": description_to_json(reading.description),
+        "turtle": write_description(reading.description),
+    }
+
+
+@router.get("/sites/{slug}/devices.ttl", openapi_extra=_SENDS_TURTLE)
+def export_devices(request: HttpRequest, slug: str) -> HttpResponse:
+    """Give the descriptions of all devices of a site as one Turtle file."""
+    require(signed_in(request), slug, "viewer")
+    text = "\n".join(write_description(device.canonical) for device in services.list_devices(site=slug))
+    disposition = f'attachment; filename="{slug}-devices.ttl"'
+    return HttpResponse(text, content_type="text/turtle; charset=utf-8", headers={"Content-Disposition": disposition})

@@ -1,0 +1,239 @@
+"""The shapes of the registry's HTTP answers and requests; the frontend's types are made from them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from ninja import Field, Schema
+
+from registry.api.unchecked import Shown
+from registry.devices.views import Status
+
+Role = Literal["viewer", "operator", "author", "admin"]
+Kind = Literal["robot", "machine"]
+Lifecycle = Literal["pending", "approved", "retired"]
+Reading = Annotated[Any, Shown(bool | int | float | str | None)]
+
+
+class Person(Schema):
+    """Somebody who is signed in."""
+
+    id: int
+    name: str
+    initials: str
+    email: str
+
+
+class DemoAccount(Schema):
+    """An account that the demo shows on its sign-in page."""
+
+    email: str
+    password: str
+    role: Role
+
+
+class Me(Schema):
+    """Who asks, and what their next request needs."""
+
+    user: Person | None
+    csrf: str
+    demo_accounts: list[DemoAccount]
+
+
+class SignIn(Schema):
+    """What somebody signs in with."""
+
+    email: str = Field(max_length=254)
+    password: str = Field(max_length=1000)
+
+
+class Stop(Schema):
+    """The latched stop of a site."""
+
+    active: bool
+    by: str
+    at: str | None
+
+
+class SiteShape(Schema):
+    """A site as its member sees it."""
+
+    slug: str
+    name: str
+    role: Role
+    machines: int
+    robots: int
+    online: int
+    pending: int
+    has_map: bool
+    stop: Stop
+    simulated: bool
+
+
+class Origin(Schema):
+    """Where the grid's bottom left corner is, in metres and radians."""
+
+    x: float
+    y: float
+    yaw: float
+
+
+class PlaceShape(Schema):
+    """A named place; `label` is where its name is written, if not beside it."""
+
+    id: str
+    name: str
+    kind: str
+    x: float
+    y: float
+    theta: float
+    label: tuple[float, float] | None
+
+
+class MapShape(Schema):
+    """A site's map without its cells."""
+
+    version: int
+    width: int
+    height: int
+    resolution_m: float
+    origin: Origin
+    places: list[PlaceShape]
+    walls: list[tuple[float, float, float, float]]
+
+
+class PoseShape(Schema):
+    """Metres and radians in the map frame."""
+
+    x: float
+    y: float
+    z: float = 0.0
+    theta: float = 0.0
+
+
+class SizeShape(Schema):
+    """Metres."""
+
+    x: float
+    y: float
+    z: float
+
+
+class PropertyShape(Schema):
+    """A reading and its last value."""
+
+    name: str
+    title: str
+    type: str
+    unit: str
+    minimum: float | None
+    maximum: float | None
+    options: list[str]
+    value: Reading
+
+
+class ParameterShape(Schema):
+    """An argument of a method."""
+
+    name: str
+    type: str
+    unit: str
+    minimum: float | None
+    maximum: float | None
+    options: list[str]
+    required: bool
+
+
+class MethodShape(Schema):
+    """Something a device can be told to do."""
+
+    name: str
+    title: str
+    topic: str
+    message_type: str
+    parameters: list[ParameterShape]
+
+
+class Activity(Schema):
+    """What a device is doing, for screens in other languages; `args` by code as in registry/devices/activity.py."""
+
+    code: str
+    args: dict[str, Reading]
+
+
+class DeviceShape(Schema):
+    """A device as it is now."""
+
+    id: str
+    name: str
+    kind: Kind
+    device_class: str
+    icon: str
+    lifecycle: Lifecycle
+    status: Status
+    doing: str
+    activity: Activity | None
+    location: PoseShape
+    size: SizeShape
+    radius_m: float
+    properties: list[PropertyShape]
+    methods: list[MethodShape]
+    asks: list[MethodShape]
+    gives: list[str]
+    takes: list[str]
+    capacity: int
+    carrying: dict[str, int]
+    last_seen_at: str | None
+    done: bool
+    simulated: bool
+    image: str
+    description: str
+    has_key: bool
+    dropped: int
+
+
+class ApprovedDevice(DeviceShape):
+    """A device that was let in; `credential` is its new key, told this once, null where it keeps the one it has."""
+
+    credential: str | None
+    taken: bool
+
+
+class NewCredential(Schema):
+    """A device's new key, told this once; `taken` says whether the device has it already."""
+
+    credential: str
+    taken: bool
+
+
+class ChangeShape(Schema):
+    """A field of a description that changed: its JSON before and after, empty where it was or is not there."""
+
+    path: str
+    before: str
+    after: str
+
+
+class DeviceEventShape(Schema):
+    """One line of a device's history; `code` and `args` are what it is said from in another language."""
+
+    at: str
+    kind: str
+    text: str
+    code: str
+    args: dict[str, Any]
+    by: str
+    changes: list[ChangeShape]
+
+
+class Topic(Schema):
+    """A topic that a device asks for, exactly as it names it."""
+
+    topic: str = Field(max_length=200)
+
+
+class DeviceEdit(Schema):
+    """What people may say of a device; fields that are left out stay."""
+
+    name: str | None = None
+    location: PoseShape | None = None

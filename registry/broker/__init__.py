@@ -1,0 +1,1 @@
+"""Which accounts the MQTT broker knows, whichever broker it is."""

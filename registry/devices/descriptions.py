@@ -1,0 +1,222 @@
+"""What devices say of themselves is kept: many descriptions with a few statements, each with a fate of its own.
+
+What cannot be read is refused before anything is locked; rows are locked in the order of their ids. Where the
+registry refuses one of many within the transaction, it is rolled back, and each is taken in by itself.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+
+from django.conf import settings
+from django.db import connection, transaction
+
+from registry.devices.history_texts import described
+from registry.devices.history_texts import said as in_words
+from registry.devices.legacy_topics import claim_topics
+from registry.devices.rows import (
+    MOST_CHARACTERS,
+    BadDevice,
+    NoSuchDevice,
+    announce_all,
+    check_id,
+    line_of_history,
+    write_lines,
+)
+from registry.devices.views import DeviceView, view_of
+from registry.models import Device, DeviceEvent, Site, TopicClaim
+from vipo_device.descriptions.changes import list_changes
+from vipo_device.descriptions.forms import CONTENT_TYPES
+from vipo_device.descriptions.reader import Reading, hash_of_json, read, source_hash
+from vipo_device.protocol.description import description_from_json, description_to_json
+from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.faults import Fault, facts_of, told
+from vipo_device.protocol.topics import list_asked
+
+MOST_LINES = 8
+WRITE_DESCRIPTION = """
+    UPDATE registry_device SET site_id = %s, done = %s, description = %s, description_hash = %s, source = %s,
+    source_hash = %s, source_type = %s, first_seen_at = %s, last_seen_at = %s WHERE id = %s
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class SaidDescription:
+    """A description that came in."""
+
+    device_id: str
+    payload: bytes
+    at: datetime
+
+
+@dataclass(frozen=True, slots=True)
+class _News:
+    """A description that was read and may be kept."""
+
+    said: SaidDescription
+    reading: Reading
+
+
+Fate = DeviceView | RegistryError
+"""The device as it is now, or why its description was refused."""
+
+
+def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> DeviceView:
+    """Take in what a device says of itself; an unknown one becomes pending. Raises BadDescription, BadDevice."""
+    digest = source_hash(payload)
+    known = Device.objects.filter(pk=device_id, source_hash=digest, description__isnull=False).select_related("site")
+    if known.update(last_seen_at=at):
+        device = known.get()
+        return view_of(device, device.site.slug)
+    (fate,) = ingest_descriptions(descriptions=[SaidDescription(device_id, payload, at)])
+    if isinstance(fate, RegistryError):
+        raise fate
+    return fate
+
+
+def ingest_descriptions(*, descriptions: Sequence[SaidDescription]) -> tuple[Fate, ...]:
+    """Take in descriptions of different devices, at most one of each; return what came of each, in the same order."""
+    fates: dict[str, Fate] = {}
+    found: list[_News] = []
+    for each in descriptions:
+        try:
+            check_id(each.device_id)
+            found.append(_News(each, read(each.payload, device_id=each.device_id)))
+        except RegistryError as error:
+            fates[each.device_id] = error
+    sites = _find_sites(found)
+    homeless = _make_rows(found, sites)
+    together, alone = _part([news for news in found if news.said.device_id not in homeless])
+    for some in (together, *([news] for news in alone)):
+        fates |= _take(some, sites)
+    return tuple((fates | homeless)[each.device_id] for each in descriptions)
+
+
+def _part(found: Sequence[_News]) -> tuple[list[_News], list[_News]]:
+    """Set aside those who ask for topics that are not theirs yet, which others may have."""
+    asking = {news.said.device_id: {m.topic for m in list_asked(news.reading.description)} for news in found}
+    who = [device for device, topics in asking.items() if topics]
+    claims = TopicClaim.objects.filter(device__in=who).values_list("device", "topic") if who else ()
+    for device, topic in claims:
+        asking[device].discard(topic)
+    alone = [news for news in found if asking[news.said.device_id]]
+    return [news for news in found if not asking[news.said.device_id]], alone
+
+
+def _find_sites(found: Sequence[_News]) -> dict[str, Site]:
+    slugs = {news.reading.description.site for news in found} | {settings.VIPO_DEFAULT_SITE}
+    return {site.slug: site for site in Site.objects.filter(slug__in=slugs)} if found else {}
+
+
+def _site_for(slug: str, sites: Mapping[str, Site]) -> Site:
+    site = sites.get(slug) or sites.get(settings.VIPO_DEFAULT_SITE)
+    if site is None:
+        raise BadDevice(*told("no_site", site=slug[:64]))
+    return site
+
+
+def _make_rows(found: Sequence[_News], sites: Mapping[str, Site]) -> dict[str, Fate]:
+    """Make rows for newcomers, before any is locked; return who has no site to stand at."""
+    ids = [news.said.device_id for news in found]
+    there = set(Device.objects.filter(pk__in=ids).values_list("pk", flat=True)) if ids else set()
+    rows, homeless = list[Device](), dict[str, Fate]()
+    for news in sorted(found, key=lambda each: each.said.device_id):
+        if news.said.device_id in there:
+            continue
+        try:
+            site = _site_for(news.reading.description.site, sites)
+        except BadDevice as error:
+            homeless[news.said.device_id] = error
+        else:
+            rows.append(Device(pk=news.said.device_id, site=site, first_seen_at=news.said.at))
+    if rows:
+        Device.objects.bulk_create(rows, ignore_conflicts=True)
+    return homeless
+
+
+def _take(some: list[_News], sites: Mapping[str, Site]) -> dict[str, Fate]:
+    if not some:
+        return {}
+    try:
+        with transaction.atomic():
+            return _take_locked({news.said.device_id: news for news in some}, sites)
+    except RegistryError as error:
+        if len(some) == 1:
+            return {some[0].said.device_id: error}
+    return {device: fate for news in some for device, fate in _take([news], sites).items()}
+
+
+def _take_locked(some: Mapping[str, _News], sites: Mapping[str, Site]) -> dict[str, Fate]:
+    fates: dict[str, Fate] = {name: NoSuchDevice(f"The device {name} was taken away.") for name in some}
+    rows = _lock_rows(list(some))
+    changes: list[tuple[DeviceView | None, DeviceView]] = []
+    lines: list[DeviceEvent] = []
+    for device in rows:
+        news = some[device.pk]
+        before = view_of(device, device.site.slug) if device.description else None
+        lines += _describe(device, news, sites)
+        fates[device.pk] = after = view_of(device, device.site.slug)
+        changes.append((before, after))
+    _write(rows)
+    write_lines(lines)
+    announce_all(changes)
+    return fates
+
+
+def _lock_rows(ids: list[str]) -> list[Device]:
+    rows = Device.objects.select_for_update(of=("self",)).select_related("site").filter(pk__in=ids)
+    return list(rows.defer("source").order_by("pk"))
+
+
+def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[DeviceEvent]:
+    """Put a description into its row, and return the lines for the history, oldest first."""
+    description, form, at = news.reading.description, news.reading.form, news.said.at
+    if _may_choose_site(device) and description.site != device.site.slug:
+        device.site = _site_for(description.site, sites)
+    before, after = device.description, description_to_json(description)
+    old = description_from_json(before) if before else None
+    claim_topics(device, old, description, at)
+    if form == "paper" and before and before.get("done") != after.get("done"):
+        device.done = description.done
+    device.description, device.description_hash = after, hash_of_json(after)
+    device.source, device.source_hash = news.said.payload, source_hash(news.said.payload)
+    device.source_type = CONTENT_TYPES[form]
+    device.first_seen_at, device.last_seen_at = device.first_seen_at or at, at
+    if not (words := described(old, description)):
+        return []
+    news_line = line_of_history(device, at, "described", words, changes=list_changes(before, after) if before else ())
+    packs = reversed(_packed(news.reading.notes))
+    mended = [in_words("mended", text=" ".join(n.text for n in pack), **facts_of(pack)) for pack in packs]
+    return [news_line, *(line_of_history(device, at, "mended", words) for words in mended)]
+
+
+def _may_choose_site(device: Device) -> bool:
+    """Tell whether a device may still say where it belongs; one that has a key came through the door of its site."""
+    return device.lifecycle == Device.Lifecycle.PENDING and not device.description and not device.credential_hash
+
+
+def _write(devices: list[Device]) -> None:
+    """Write the rows with one prepared statement, only what a description changes."""
+    when = connection.ops.adapt_datetimefield_value
+    rows: list[tuple[Any, ...]] = [
+        (d.site_id, d.done, json.dumps(d.description), d.description_hash, d.source, d.source_hash, d.source_type,
+         when(d.first_seen_at), when(d.last_seen_at), d.pk)
+        for d in devices
+    ]  # fmt: skip
+    with connection.cursor() as cursor:
+        cursor.executemany(WRITE_DESCRIPTION, rows)
+
+
+def _packed(notes: tuple[Fault, ...]) -> list[list[Fault]]:
+    """Put what was mended into few lines of history, none longer than one may be."""
+    packs: list[list[Fault]] = []
+    for note in notes:
+        if packs and sum(len(each.text) + 1 for each in packs[-1]) + len(note.text) <= MOST_CHARACTERS:
+            packs[-1].append(note)
+        elif len(packs) < MOST_LINES:
+            packs.append([note])
+    return packs

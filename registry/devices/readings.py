@@ -1,0 +1,199 @@
+"""What properties were: on change, one row for each property and minute, kept for seven days.
+
+Readings are gathered in the process and written some seconds later, many at once: taking in a state costs no
+statement more. What a process that is killed had gathered, at most `FLUSH_S`, is lost.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import threading
+import time
+from collections import Counter
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+
+from django.db import DatabaseError, connection, transaction
+from django.db.models import F
+
+from registry.devices.views import DeviceView
+from registry.models import Device, Sample, SampleClock
+from vipo_device.protocol.description import MOST_PROPERTIES, Scalar
+
+log = logging.getLogger(__name__)
+FLUSH_S = 10.0
+KEPT_FOR = timedelta(days=7)
+MOST_WAITING = 200_000
+MOST_REMEMBERED = 200_000
+MOST_A_MINUTE = 1_000
+"""So many rows a device may begin within a minute: one that is named anew all the time fills no disk."""
+ROWS_AT_ONCE = 100
+PRUNE_AT_ONCE = 50_000
+DONE, ONLINE = "$done", "$online"
+"""What a device says of itself besides its properties; no property's name begins so."""
+Key = tuple[str, str, int]
+
+
+@dataclass(slots=True)
+class Bucket:
+    """A property within one minute; `at_ms` is when it was last said, in milliseconds since 1970."""
+
+    value: Scalar
+    minimum: float | None
+    maximum: float | None
+    at_ms: int
+
+    def take(self, value: Scalar, at_ms: int) -> None:
+        """Take in a later value."""
+        number = _number(value)
+        if number is not None:
+            self.minimum = number if self.minimum is None else min(self.minimum, number)
+            self.maximum = number if self.maximum is None else max(self.maximum, number)
+        self.value, self.at_ms = value, at_ms
+
+
+class SampleBuffer:
+    """Gathers what changed until it is written; may be used from several threads."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._waiting: dict[Key, Bucket] = {}
+        self._last: dict[tuple[str, str], Scalar] = {}
+        self._since: float | None = None
+        self._minute = 0
+        self._begun: Counter[str] = Counter()
+
+    def note(self, view: DeviceView, at: datetime, now: float) -> None:
+        """Take in how a device is; `now` in seconds of a clock that only goes forward."""
+        at_ms = int(at.timestamp() * 1000)
+        with self._lock:
+            for name, value in _readings(view).items():
+                if self._last.get((view.id, name), _NOTHING) != value:
+                    self._last[view.id, name] = value
+                    self._add(view.id, name, value, at_ms)
+            if self._waiting and self._since is None:
+                self._since = now
+            if len(self._last) > MOST_REMEMBERED:
+                self._last.clear()
+
+    def _add(self, device: str, name: str, value: Scalar, at_ms: int) -> None:
+        key = (device, name, at_ms // 60_000)
+        bucket = self._waiting.get(key)
+        if bucket is not None:
+            bucket.take(value, at_ms)
+        elif len(self._waiting) < MOST_WAITING and self._may_begin(device, key[2]):
+            number = _number(value)
+            self._waiting[key] = Bucket(value, number, number, at_ms)
+
+    def _may_begin(self, device: str, minute: int) -> bool:
+        if minute > self._minute:
+            self._minute = minute
+            self._begun.clear()
+        self._begun[device] += 1
+        return self._begun[device] <= MOST_A_MINUTE
+
+    def take(self, now: float, *, all_of_it: bool = False) -> dict[Key, Bucket]:
+        """Return what is due to be written, and forget it."""
+        with self._lock:
+            if self._since is None or (now - self._since < FLUSH_S and not all_of_it):
+                return {}
+            taken, self._waiting, self._since = self._waiting, {}, None
+            return taken
+
+    def give_back(self, taken: dict[Key, Bucket], now: float) -> None:
+        """Keep what could not be written for the next time."""
+        with self._lock:
+            for key, bucket in self._waiting.items():
+                older = taken.get(key)
+                if older is not None:
+                    older.take(bucket.value, bucket.at_ms)
+                    older.minimum = _least(older.minimum, bucket.minimum)
+                    older.maximum = _greatest(older.maximum, bucket.maximum)
+            self._waiting = {**self._waiting, **taken}
+            self._since = now
+
+
+_NOTHING = object()
+_buffer = SampleBuffer()
+
+
+def _readings(view: DeviceView) -> dict[str, Scalar]:
+    """Return what is kept of a device: the properties that it describes, whether it is done, whether it is there."""
+    told = view.readings
+    described = {p.name: told[p.name] for p in view.canonical.properties[:MOST_PROPERTIES] if p.name in told}
+    return {**described, DONE: view.done, ONLINE: view.online}
+
+
+def _number(value: Scalar) -> float | None:
+    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
+
+
+def _least(a: float | None, b: float | None) -> float | None:
+    return min((v for v in (a, b) if v is not None), default=None)
+
+
+def _greatest(a: float | None, b: float | None) -> float | None:
+    return max((v for v in (a, b) if v is not None), default=None)
+
+
+def note_samples(*, view: DeviceView, at: datetime) -> None:
+    """Take in how an approved device is now; it is written by `flush_samples`."""
+    if view.lifecycle == "approved":
+        _buffer.note(view, at, time.monotonic())
+
+
+def flush_samples(*, all_of_it: bool = False) -> int:
+    """Write what has been gathered for a while, or all of it; return how many rows that were."""
+    taken = _buffer.take(time.monotonic(), all_of_it=all_of_it)
+    if not taken:
+        return 0
+    try:
+        _write(taken)
+    except DatabaseError as error:
+        log.warning("Samples wait: the database does not take them now: %s", error)
+        _buffer.give_back(taken, time.monotonic())
+        return 0
+    return len(taken)
+
+
+_ROW = "(%s, %s, %s, %s, %s, %s, %s, %s)"
+_INSERT = "INSERT INTO registry_sample (device_id, property, minute, value, minimum, maximum, at_ms, seq) VALUES "
+_JOIN = """
+ON CONFLICT (device_id, property, minute) DO UPDATE SET
+    value = excluded.value, at_ms = excluded.at_ms, seq = excluded.seq,
+    minimum = CASE WHEN registry_sample.minimum < excluded.minimum THEN registry_sample.minimum
+              ELSE COALESCE(excluded.minimum, registry_sample.minimum) END,
+    maximum = CASE WHEN registry_sample.maximum > excluded.maximum THEN registry_sample.maximum
+              ELSE COALESCE(excluded.maximum, registry_sample.maximum) END
+"""
+
+
+def _write(taken: dict[Key, Bucket]) -> None:
+    """Write rows in the order of their times; the clock's row is locked meanwhile, so numbers appear in order."""
+    rows = sorted(taken.items(), key=lambda item: item[1].at_ms)
+    with transaction.atomic(), connection.cursor() as cursor:
+        known = set(Device.objects.filter(id__in={key[0] for key in taken}).values_list("id", flat=True))
+        first = _take_numbers(len(rows))
+        values = [
+            (device, name, minute, json.dumps(b.value), b.minimum, b.maximum, b.at_ms, first + offset)
+            for offset, ((device, name, minute), b) in enumerate(rows)
+            if device in known
+        ]
+        for begin in range(0, len(values), ROWS_AT_ONCE):
+            part = values[begin : begin + ROWS_AT_ONCE]
+            cursor.execute(_INSERT + ", ".join([_ROW] * len(part)) + _JOIN, [field for row in part for field in row])
+
+
+def _take_numbers(count: int) -> int:
+    """Return the first of so many numbers that nobody else gets."""
+    SampleClock.objects.get_or_create(pk=1)
+    SampleClock.objects.filter(pk=1).update(next=F("next") + count)
+    return SampleClock.objects.get(pk=1).next - count
+
+
+def prune_samples(*, now: datetime) -> int:
+    """Forget what is older than seven days, a part at a time; return how many rows that were."""
+    before = int((now - KEPT_FOR).timestamp() // 60)
+    old = Sample.objects.filter(minute__lt=before).order_by("minute").values("pk")[:PRUNE_AT_ONCE]
+    return Sample.objects.filter(pk__in=old).delete()[0]

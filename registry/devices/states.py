@@ -1,0 +1,128 @@
+"""What many devices say at once is taken in together: one question and one write for a whole batch.
+
+The same rules as for a single message: rows are locked in the order of their ids, and what is older than what is known
+is ignored by (boot, seq).
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from datetime import datetime, timedelta
+from typing import Any
+
+from django.db import connection, transaction
+
+from registry.devices.history_texts import said
+from registry.devices.rows import write_event
+from registry.devices.views import DeviceView, changed_state, view_of
+from registry.live.fanout import publish_all
+from registry.models import Device
+from vipo_device.descriptions.reader import source_hash
+from vipo_device.protocol.description import DeviceState
+from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.messages import parse_state
+
+MOST_READINGS = 128
+SEEN_EVERY = timedelta(seconds=5)
+WRITE_STATE = """
+    UPDATE registry_device SET boot = %s, seq = %s, done = %s, command = %s, properties = %s, pose = %s, online = %s,
+    last_seen_at = %s WHERE id = %s
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class SaidState:
+    """A state that came in; a retained one tells how the device was, not that it is there now."""
+
+    device_id: str
+    payload: bytes
+    at: datetime
+    retained: bool = False
+
+
+Outcome = DeviceView | RegistryError | None
+"""The device as it is now; why its message was refused; None when it was old, or of a device that nobody knows."""
+
+
+def ingest_states(*, states: Sequence[SaidState]) -> tuple[Outcome, ...]:
+    """Take in the states of different devices, at most one of each; return what came of each, in the same order."""
+    outcomes: dict[str, Outcome] = {}
+    said: dict[str, tuple[DeviceState, SaidState]] = {}
+    for message in states:
+        try:
+            said[message.device_id] = (parse_state(message.payload), message)
+        except RegistryError as error:
+            outcomes[message.device_id] = error
+    if said:
+        with transaction.atomic():
+            outcomes |= _take_all(said)
+    return tuple(outcomes.get(message.device_id) for message in states)
+
+
+def _take_all(said: Mapping[str, tuple[DeviceState, SaidState]]) -> dict[str, DeviceView]:
+    views: dict[str, DeviceView] = {}
+    written: list[Device] = []
+    news: list[tuple[str, dict[str, Any]]] = []
+    for device in _lock_rows(list(said)):
+        state, message = said[device.pk]
+        if (state.boot, state.seq) <= (device.boot, device.seq):
+            continue
+        before = view_of(device, device.site.slug) if device.description_hash else None
+        _change(device, state, message)
+        written.append(device)
+        if before is not None:
+            views[device.pk] = after = view_of(device, device.site.slug)
+            _tell_trouble(device, before, after, message.at)
+            news.append((after.site, changed_state(before, after)))
+    _write(written)
+    transaction.on_commit(lambda: publish_all([(slug, {"type": "device", "device": told}) for slug, told in news]))
+    return views
+
+
+def _lock_rows(ids: list[str]) -> list[Device]:
+    rows = Device.objects.select_for_update(of=("self",)).select_related("site").filter(pk__in=ids)
+    return list(rows.defer("description", "source").order_by("pk"))
+
+
+def _change(device: Device, said: DeviceState, message: SaidState) -> None:
+    device.boot, device.seq, device.done, device.command = said.boot, said.seq, said.done, said.command
+    known = {**device.properties, **said.properties}
+    device.properties = known if len(known) <= MOST_READINGS else dict(said.properties)
+    device.pose = asdict(said.pose) if said.pose else device.pose
+    is_alive = not message.retained and said.boot >= device.presence_boot and not device.is_locked_out
+    device.online = device.online or is_alive
+    device.last_seen_at = message.at
+
+
+def _write(devices: list[Device]) -> None:
+    """Write the rows with one prepared statement: the database does less for each than for a save."""
+    when = connection.ops.adapt_datetimefield_value
+    rows = [
+        (d.boot, d.seq, d.done, d.command, json.dumps(d.properties), json.dumps(d.pose) if d.pose else None, d.online,
+         when(d.last_seen_at), d.pk)
+        for d in devices
+    ]  # fmt: skip
+    with connection.cursor() as cursor:
+        cursor.executemany(WRITE_STATE, rows)
+
+
+def _tell_trouble(device: Device, before: DeviceView, after: DeviceView, at: datetime) -> None:
+    """Write into the history that a device reports an error, or no longer does."""
+    if after.status == "error" and before.status != "error":
+        write_event(device, at, "error", said("error", text=after.doing.text))
+    elif before.status == "error" and after.status not in ("error", "offline"):
+        write_event(device, at, "recovered", said("recovered"))
+
+
+def find_unchanged(*, descriptions: Mapping[str, bytes], at: datetime) -> frozenset[str]:
+    """Return which of these devices have described themselves in these very bytes before, and note that they spoke."""
+    digests = {device: source_hash(payload) for device, payload in descriptions.items()}
+    rows = Device.objects.filter(pk__in=list(digests), description__isnull=False)
+    known = rows.values_list("pk", "source_hash", "last_seen_at")
+    same = {device: seen for device, digest, seen in known if digests[device] == digest}
+    quiet = [device for device, seen in same.items() if seen is None or at - seen >= SEEN_EVERY]
+    if quiet:
+        Device.objects.filter(pk__in=quiet).update(last_seen_at=at)
+    return frozenset(same)

@@ -1,0 +1,127 @@
+"""Devices as W3C Things: how they are written, what people may change of one, and what has become of one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from math import isfinite
+from typing import Any, Literal
+
+from registry.devices.views import DeviceView
+from vipo_device.descriptions.thing_description import DEVICE_URN, thing_of
+from vipo_device.protocol.description import Description, Pose
+from vipo_device.protocol.errors import RegistryError
+
+EventName = Literal["thing_created", "thing_updated", "thing_deleted"]
+EVENTS: tuple[EventName, ...] = ("thing_created", "thing_updated", "thing_deleted")
+PATCHABLE = ("title", "vipo:location")
+
+
+class BadThingPatch(RegistryError):
+    """A change of a Thing that is no merge patch, or of what is not for people to change."""
+
+    code = "bad_thing_patch"
+    status = 400
+
+
+@dataclass(frozen=True, slots=True)
+class ThingPatch:
+    """What people may say of a Thing; None stays as it is, an empty name is the device's own again."""
+
+    name: str | None
+    pose: Pose | None
+
+
+def thing_to_json(view: DeviceView, broker: str) -> dict[str, Any]:
+    """Return a device as a Thing Description, with the name and place that hold."""
+    return thing_of(view.canonical, broker)
+
+
+def thing_text(view: DeviceView, broker: str) -> str:
+    """Return a device's Thing Description as it is sent."""
+    return json.dumps(thing_to_json(view, broker), ensure_ascii=False)
+
+
+def thing_tag(text: str) -> str:
+    """Return the entity tag (RFC 9110) of what is sent."""
+    return f'"{sha256(text.encode()).hexdigest()[:32]}"'
+
+
+def device_id_of(thing: str) -> str:
+    """Return the device's id of a Thing's, which may be given with or without its `urn:vipo:device:`."""
+    return thing.removeprefix(DEVICE_URN)
+
+
+def read_patch(body: bytes) -> ThingPatch:
+    """Read a JSON merge patch (RFC 7396) of `title` and `vipo:location`. Raises BadThingPatch."""
+    try:
+        patch = json.loads(body)
+    except (ValueError, RecursionError) as error:
+        raise BadThingPatch('The patch is not JSON. Send a JSON object, such as {"title": "Oven"}.') from error
+    if not isinstance(patch, dict) or not patch:
+        raise BadThingPatch("A merge patch is a JSON object with at least one field.")
+    if strange := [name for name in patch if name not in PATCHABLE]:
+        raise BadThingPatch(
+            f"{strange[0][:64]!r} cannot be changed here: the device says it itself. Change {' or '.join(PATCHABLE)}."
+        )
+    return ThingPatch(_title(patch), _pose(patch))
+
+
+def _title(patch: Mapping[str, Any]) -> str | None:
+    title = patch.get("title", "")
+    if title is not None and not isinstance(title, str):
+        raise BadThingPatch("`title` must be a text, or null for the device's own.")
+    return (title or "") if "title" in patch else None
+
+
+def _pose(patch: Mapping[str, Any]) -> Pose | None:
+    if "vipo:location" not in patch:
+        return None
+    numbers = patch["vipo:location"]
+    if not isinstance(numbers, list) or len(numbers) not in (2, 3, 4) or not all(map(_is_number, numbers)):
+        raise BadThingPatch(
+            "`vipo:location` must be [x, y, z, theta] in metres and radians; z and theta may be left out."
+        )
+    return Pose(*map(float, numbers))
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+
+
+def what_became(before: DeviceView | None, after: DeviceView, broker: str) -> tuple[EventName, dict[str, Any]] | None:
+    """Return what a decision or a description made of a Thing, and the change: nothing for readings and drives.
+
+    The change is the whole Thing when it is new, and a merge patch (RFC 7396) when it is another.
+    """
+    was, is_now = _as_listed(before), _as_listed(after)
+    if was == is_now:
+        return None
+    if is_now is None:
+        return ("thing_deleted", {})
+    if was is None:
+        return ("thing_created", thing_to_json(after, broker))
+    change = merge_patch(thing_of(was, broker), thing_of(is_now, broker))
+    return ("thing_updated", change) if change else None
+
+
+def _as_listed(view: DeviceView | None) -> Description | None:
+    """Return what a directory says of a device but for its state; None when it does not stand there."""
+    if view is None or view.lifecycle != "approved":
+        return None
+    still = replace(view.canonical, done=True)
+    return replace(still, pose=Pose(0.0, 0.0)) if view.kind == "robot" else still
+
+
+def merge_patch(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the JSON merge patch (RFC 7396) that makes the one of the other; null takes a member away."""
+    patch: dict[str, Any] = {name: None for name in before if name not in after}
+    for name, value in after.items():
+        old = before.get(name)
+        if isinstance(old, Mapping) and isinstance(value, Mapping):
+            patch |= {name: inner} if (inner := merge_patch(old, value)) else {}
+        elif name not in before or old != value:
+            patch[name] = value
+    return patch

@@ -1,0 +1,307 @@
+"""What the registry's services hand out: frozen, and free of the database."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from datetime import datetime
+from typing import Any, Literal
+
+from registry.devices.activity import NOT_TRUSTED, NOTHING, Doing, Seen, doing_of
+from registry.floorplan.plan import Grid
+from registry.models import Device
+from vipo_device.descriptions.changes import Change
+from vipo_device.descriptions.forms import CONTENT_TYPES
+from vipo_device.protocol.description import Description, MethodSpec, Pose, PropertySpec, Scalar, description_from_json
+from vipo_device.protocol.topics import part_methods
+
+Status = Literal["idle", "busy", "done", "waiting", "warning", "error", "offline", "pending"]
+LOW_BATTERY_PERCENT = 15.0
+_ICONS = {"turtlebot": "turtle"}
+_MOST_KNOWN = 5000
+_known: dict[str, Description] = {}
+_LOAD = re.compile(r"([A-Za-z0-9_.-]+)\s*[:=]\s*(\d{1,6})")
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceView:
+    """A named place; metres and radians in the map frame. `label` is where its name is written, if not beside it."""
+
+    id: str
+    name: str
+    kind: str
+    x: float
+    y: float
+    theta: float
+    label: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class MapView:
+    """A site's map."""
+
+    site: str
+    version: int
+    grid: Grid
+
+
+@dataclass(frozen=True, slots=True)
+class StopView:
+    """The latched stop of a site."""
+
+    active: bool
+    by: str
+    at: datetime | None
+
+
+@dataclass(frozen=True, slots=True)
+class SiteView:
+    """A site and its counts; `role` is what the asking user is there, empty when nobody asks."""
+
+    slug: str
+    name: str
+    role: str
+    machines: int
+    robots: int
+    online: int
+    pending: int
+    has_map: bool
+    stop: StopView
+    simulated: bool
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceView:
+    """A device as it is now: `canonical` has the name and place that hold, `readings` its properties' values.
+
+    `has_key` tells whether it can come in with a key of its own, `dropped` how many of its messages were not taken,
+    `only_done_flag` that it describes itself by the paper's message and so may answer no command but by `done`;
+    `asks` are the methods that nobody may call before an admin has confirmed their topics.
+    """
+
+    id: str
+    site: str
+    canonical: Description
+    lifecycle: str
+    online: bool
+    done: bool
+    command: str
+    boot: int
+    readings: Mapping[str, Scalar] = field(default_factory=dict)
+    carrying: Mapping[str, int] = field(default_factory=dict)
+    status: Status = "idle"
+    doing: Doing = NOTHING
+    last_seen_at: datetime | None = None
+    has_key: bool = False
+    dropped: int = 0
+    only_done_flag: bool = False
+    asks: tuple[MethodSpec, ...] = ()
+
+    @property
+    def whole(self) -> Description:
+        """What the device says of itself, with the methods that may not be called yet."""
+        return replace(self.canonical, methods=(*self.canonical.methods, *self.asks)) if self.asks else self.canonical
+
+    @property
+    def name(self) -> str:
+        """The name people gave it, or the one it gave itself."""
+        return self.canonical.name
+
+    @property
+    def kind(self) -> str:
+        """`machine` or `robot`."""
+        return self.canonical.kind
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is now."""
+        return self.canonical.pose
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceEventView:
+    """One line of a device's history; `changes` say field by field how a description differs from the last.
+
+    `code` and `args` are what a screen says it from in another language; older lines have none.
+    """
+
+    at: datetime
+    kind: str
+    text: str
+    by: str
+    changes: tuple[Change, ...] = ()
+    code: str = ""
+    args: Mapping[str, Any] = field(default_factory=dict)
+
+
+def view_of(device: Device, site: str) -> DeviceView:
+    """Return the view of a device's row, which has been described."""
+    said = effective_description(device)
+    callable_methods, asks = part_methods(said, device.granted)
+    canonical = replace(said, methods=callable_methods) if asks else said
+    readings: dict[str, Scalar] = dict(device.properties)
+    view = DeviceView(
+        id=device.id,
+        site=site,
+        canonical=canonical,
+        lifecycle=device.lifecycle,
+        online=device.online,
+        done=device.done,
+        command=device.command,
+        boot=device.boot,
+        readings=readings,
+        carrying=read_load(readings.get("load")),
+        last_seen_at=device.last_seen_at,
+        has_key=bool(device.credential_hash),
+        dropped=device.dropped,
+        only_done_flag=device.source_type == CONTENT_TYPES["paper"],
+        asks=asks,
+    )
+    return replace(view, status=status_of(view), doing=_doing(view))
+
+
+def effective_description(device: Device) -> Description:
+    """Return what the device says of itself, with the name and place that hold.
+
+    A robot knows best where it is; a machine is where people put it, else where it says.
+    """
+    said = _read_description(device)
+    measured, placed = device.pose, device.pose_override
+    pose = (measured or placed) if said.kind == "robot" else (placed or measured)
+    return replace(said, name=device.name_override or said.name, pose=Pose(**pose) if pose else said.pose)
+
+
+def _read_description(device: Device) -> Description:
+    """Return what a row says of its device; read once for each different description, since states come often."""
+    said = _known.get(device.description_hash)
+    if said is None:
+        said = description_from_json(device.description or {})
+        if len(_known) >= _MOST_KNOWN:
+            _known.clear()
+        if device.description_hash:
+            _known[device.description_hash] = said
+    return said
+
+
+def read_load(value: Scalar) -> dict[str, int]:
+    """Read what a robot carries from its property `load`: text such as `box:1,can:2`."""
+    return {name: int(count) for name, count in _LOAD.findall(value) if int(count)} if isinstance(value, str) else {}
+
+
+def status_of(view: DeviceView) -> Status:
+    """Return the one word for how a device is."""
+    if view.lifecycle == "pending":
+        return "pending"
+    if not view.online:
+        return "offline"
+    if view.readings.get("error"):
+        return "error"
+    if not view.done:
+        return "busy"
+    battery = view.readings.get("battery")
+    low = isinstance(battery, int | float) and battery < LOW_BATTERY_PERCENT
+    return "warning" if low or view.readings.get("warning") else "idle"
+
+
+def _doing(view: DeviceView) -> Doing:
+    if view.lifecycle == "pending":
+        return NOT_TRUSTED
+    if not view.online:
+        return NOTHING
+    return doing_of(Seen(view.canonical, view.readings, view.carrying, view.done))
+
+
+def device_to_json(view: DeviceView) -> dict[str, Any]:
+    """Return the device as the API and the sockets say it."""
+    said = view.canonical
+    return {
+        "id": view.id,
+        "name": said.name,
+        "kind": said.kind,
+        "device_class": said.device_class,
+        "icon": _ICONS.get(said.device_class, said.device_class),
+        "lifecycle": view.lifecycle,
+        "status": view.status,
+        **_doing_to_json(view.doing),
+        "location": asdict(said.pose),
+        "size": asdict(said.size),
+        "radius_m": said.radius_m,
+        "properties": [_property_to_json(p, view.readings.get(p.name)) for p in said.properties],
+        "methods": [_method_to_json(m) for m in said.methods],
+        "asks": [_method_to_json(m) for m in view.asks],
+        "gives": list(said.gives),
+        "takes": list(said.takes),
+        "capacity": said.capacity,
+        "carrying": dict(view.carrying),
+        "last_seen_at": view.last_seen_at.isoformat() if view.last_seen_at else None,
+        "done": view.done,
+        "simulated": said.simulated,
+        "image": said.image if said.image.startswith(("https://", "http://")) else "",
+        "description": said.description,
+        "has_key": view.has_key,
+        "dropped": view.dropped,
+    }
+
+
+def _doing_to_json(doing: Doing) -> dict[str, Any]:
+    said = {"code": doing.code, "args": dict(doing.args)} if doing.code else None
+    return {"doing": doing.text, "activity": said}
+
+
+def _property_to_json(spec: PropertySpec, value: Scalar) -> dict[str, Any]:
+    return {
+        "name": spec.name,
+        "title": spec.title,
+        "type": spec.type,
+        "unit": spec.unit,
+        "minimum": spec.minimum,
+        "maximum": spec.maximum,
+        "options": list(spec.options),
+        "value": value,
+    }
+
+
+def _method_to_json(method: MethodSpec) -> dict[str, Any]:
+    return {
+        "name": method.name,
+        "title": method.title,
+        "topic": method.topic,
+        "message_type": method.message_type,
+        "parameters": [{**asdict(p), "options": list(p.options)} for p in method.parameters],
+    }
+
+
+def changed_fields(before: DeviceView | None, after: DeviceView) -> dict[str, Any]:
+    """Return the id and what a browser does not know yet."""
+    new = device_to_json(after)
+    old = device_to_json(before) if before else {}
+    return {"id": after.id, **{k: v for k, v in new.items() if k not in old or old[k] != v}}
+
+
+def changed_state(before: DeviceView, after: DeviceView) -> dict[str, Any]:
+    """Return the id and what a browser does not know yet, where only the device's state can have changed."""
+    new, old = _state_to_json(after), _state_to_json(before)
+    told = {"id": after.id, **{k: v for k, v in new.items() if old[k] != v}}
+    if any(before.readings.get(p.name) != after.readings.get(p.name) for p in after.canonical.properties):
+        told["properties"] = [_property_to_json(p, after.readings.get(p.name)) for p in after.canonical.properties]
+    return told
+
+
+def _state_to_json(view: DeviceView) -> dict[str, Any]:
+    pose = view.canonical.pose
+    return {
+        "status": view.status,
+        **_doing_to_json(view.doing),
+        "location": {"x": pose.x, "y": pose.y, "z": pose.z, "theta": pose.theta},
+        "carrying": dict(view.carrying),
+        "last_seen_at": view.last_seen_at.isoformat() if view.last_seen_at else None,
+        "done": view.done,
+    }
+
+
+def site_to_json(view: SiteView) -> dict[str, Any]:
+    """Return the site as the API says it."""
+    body = asdict(view)
+    body["stop"]["at"] = view.stop.at.isoformat() if view.stop.at else None
+    return body

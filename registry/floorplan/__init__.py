@@ -1,0 +1,1 @@
+"""Maps as grids of numbers: clearance, walls, comparison, files. Pure geometry."""

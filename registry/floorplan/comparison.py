@@ -1,0 +1,131 @@
+"""What would change if another map held: floor, walls, machines that could not be served, places off the floor."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import cos, sin
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, FloorPlan, Grid, cells_array
+from vipo_device.protocol.description import Description
+
+Trouble = Literal["outside", "walled", "unreachable"]
+DEFAULT_RADIUS_M = 0.18
+MOST_WALLED = 0.5
+SAMPLES = 9
+Cells = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, slots=True)
+class MapTrouble:
+    """A machine or place that the new map does not suit, and why; `is_new` tells that the present map suits it."""
+
+    id: str
+    name: str
+    kind: Literal["machine", "place"]
+    why: Trouble
+    is_new: bool
+
+
+@dataclass(frozen=True, slots=True)
+class MapDifference:
+    """What changes from the present map (if there is one) to another, in square metres, and whom it would trouble."""
+
+    floor_gained_m2: float
+    floor_lost_m2: float
+    walls_gained_m2: float
+    walls_lost_m2: float
+    troubles: tuple[MapTrouble, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class NamedPoint:
+    """A named place of the site; metres."""
+
+    id: str
+    name: str
+    x: float
+    y: float
+
+
+def compare_maps(
+    before: Grid | None, after: Grid, devices: Sequence[Description], places: Iterable[NamedPoint]
+) -> MapDifference:
+    """Return what changes on the floor; both grids stand in the same map frame, whatever their cells' sizes."""
+    was = np.full((after.height, after.width), UNKNOWN, np.uint8) if before is None else _seen_from(after, before)
+    now = cells_array(after)
+    still = np.full((1, 1), UNKNOWN, np.uint8) if before is None else _seen_from(before, after)
+    past = np.full((1, 1), UNKNOWN, np.uint8) if before is None else cells_array(before)
+    new_m2 = after.resolution_m**2
+    old_m2 = 0.0 if before is None else before.resolution_m**2
+    return MapDifference(
+        floor_gained_m2=_area(now, was, FREE, new_m2),
+        floor_lost_m2=_area(past, still, FREE, old_m2),
+        walls_gained_m2=_area(now, was, OCCUPIED, new_m2),
+        walls_lost_m2=_area(past, still, OCCUPIED, old_m2),
+        troubles=tuple(_troubles(before, after, devices, list(places))),
+    )
+
+
+def _area(here: Cells, there: Cells, kind: int, cell_m2: float) -> float:
+    return round(float(np.count_nonzero((here == kind) & (there != kind))) * cell_m2, 2)
+
+
+def _seen_from(grid: Grid, other: Grid) -> Cells:
+    """Return the other grid's cells at the middles of this one's; unknown where it has none."""
+    xs = grid.origin_x_m + (np.arange(grid.width) + 0.5) * grid.resolution_m
+    ys = grid.origin_y_m + (np.arange(grid.height) + 0.5) * grid.resolution_m
+    columns = np.floor((xs - other.origin_x_m) / other.resolution_m).astype(np.int64)
+    rows = np.floor((ys - other.origin_y_m) / other.resolution_m).astype(np.int64)
+    inside_x, inside_y = (columns >= 0) & (columns < other.width), (rows >= 0) & (rows < other.height)
+    seen = np.full((grid.height, grid.width), UNKNOWN, np.uint8)
+    found = cells_array(other)[np.ix_(rows[inside_y], columns[inside_x])]
+    seen[np.ix_(inside_y, inside_x)] = found
+    return seen
+
+
+def _troubles(
+    before: Grid | None, after: Grid, devices: Sequence[Description], places: Sequence[NamedPoint]
+) -> Iterable[MapTrouble]:
+    machines = [device for device in devices if device.kind == "machine"]
+    radius_m = max((d.radius_m for d in devices if d.kind == "robot"), default=0.0) or DEFAULT_RADIUS_M
+    new = FloorPlan(after, machines)
+    old = None if before is None else FloorPlan(before, machines)
+    for machine in machines:
+        if why := _trouble_of_machine(new, machine, radius_m):
+            is_new = old is None or _trouble_of_machine(old, machine, radius_m) is None
+            yield MapTrouble(machine.id, machine.name, "machine", why, is_new)
+    for place in places:
+        if why := _trouble_of_place(new, place, radius_m):
+            is_new = old is None or _trouble_of_place(old, place, radius_m) is None
+            yield MapTrouble(place.id, place.name, "place", why, is_new)
+
+
+def _trouble_of_machine(floor: FloorPlan, machine: Description, radius_m: float) -> Trouble | None:
+    """A machine's outline may be walls, as a laser sees it, but not its inside; there must be room beside it."""
+    if not floor.is_inside(machine.pose.x, machine.pose.y):
+        return "outside"
+    if _walled_share(floor.grid, machine) > MOST_WALLED:
+        return "walled"
+    return "unreachable" if floor.station(machine.id, radius_m) is None else None
+
+
+def _walled_share(grid: Grid, machine: Description) -> float:
+    """Return how much of a machine's body (0 to 1, by samples) the map shows as wall."""
+    pose, cells = machine.pose, cells_array(grid)
+    ahead, aside = cos(pose.theta), sin(pose.theta)
+    steps = [(n + 0.5) / SAMPLES - 0.5 for n in range(SAMPLES)]
+    offsets = [(dx * machine.size.x, dy * machine.size.y) for dx in steps for dy in steps]
+    at = [(pose.x + dx * ahead - dy * aside, pose.y + dx * aside + dy * ahead) for dx, dy in offsets]
+    found = [cell for point in at if (cell := grid.cell_of(*point)) is not None]
+    return sum(1 for cell in found if cells[cell] == OCCUPIED) / len(at)
+
+
+def _trouble_of_place(floor: FloorPlan, place: NamedPoint, radius_m: float) -> Trouble | None:
+    if not floor.is_inside(place.x, place.y):
+        return "outside"
+    return None if floor.is_free(place.x, place.y, radius_m) else "walled"

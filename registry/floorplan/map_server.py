@@ -1,0 +1,281 @@
+"""ROS map_server files: a YAML header with a PGM or PNG image, read with suspicion and written back.
+
+Reading follows map_server: lightness decides, `negate` turns it round, `mode` is trinary, scale or raw. A scale map's
+in-between cells and a raw map's values are judged by the thresholds, since our grid knows three kinds of cells. An
+origin with a yaw is turned upright by nearest neighbour, so that every grid stands along the map frame's axes.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from dataclasses import dataclass
+from math import cos, isfinite, pi, sin
+from typing import Any
+
+import numpy as np
+import yaml
+from numpy.typing import NDArray
+from PIL import Image, UnidentifiedImageError
+
+from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, Grid, cells_array
+from vipo_device.protocol.errors import RegistryError
+
+MAX_SIDE = 4096
+MAX_IMAGE_BYTES = 16 * 1024 * 1024
+MAX_YAML_BYTES = 64 * 1024
+MAX_BRACKETS = 64
+_PIXELS = {OCCUPIED: 0, FREE: 254, UNKNOWN: 205}
+Cells = NDArray[np.uint8]
+Shades = NDArray[np.float32]
+
+
+class BadMap(RegistryError):
+    """A map file that cannot be read; the sentence says what is wrong and how to mend it."""
+
+    code = "bad_map"
+    status = 422
+
+
+@dataclass(frozen=True, slots=True)
+class Header:
+    """The YAML part: metres and radians; thresholds are shares of darkness."""
+
+    image: str
+    resolution_m: float
+    origin: tuple[float, float, float]
+    negate: bool = False
+    occupied_thresh: float = 0.65
+    free_thresh: float = 0.196
+    mode: str = "trinary"
+
+
+def read_map(yaml_bytes: bytes, image_bytes: bytes | None) -> Grid:
+    """Return the grid of a map; `image_bytes` is None when the image did not come along. Raises BadMap."""
+    header = read_header(yaml_bytes)
+    if not image_bytes:
+        raise BadMap(f"The map's image {header.image!r} is missing. Choose it together with the .yaml file.")
+    if len(image_bytes) > MAX_IMAGE_BYTES:
+        raise BadMap("The map's image is larger than 16 MB. Crop it or save it with a coarser resolution.")
+    lightness, alpha = _read_image(image_bytes)
+    cells = np.flipud(_classify(lightness, alpha, header))
+    return _upright(np.ascontiguousarray(cells), header)
+
+
+def read_header(yaml_bytes: bytes) -> Header:
+    """Return the YAML part of a map; unknown keys are left aside. Raises BadMap."""
+    fields = _load_yaml(yaml_bytes)
+    mode = str(fields.get("mode", "trinary")).lower()
+    if mode not in {"trinary", "scale", "raw"}:
+        raise BadMap(f"The map's mode is {mode[:40]!r}. Use trinary, scale or raw.")
+    image = fields.get("image")
+    if not isinstance(image, str) or not image.strip():
+        raise BadMap("The .yaml file names no image. Add a line such as `image: map.pgm`.")
+    resolution = _number(fields, "resolution", None)
+    if not 0.001 <= resolution <= 10:
+        raise BadMap(f"The map's resolution is {resolution:g} m. It must be between 0.001 and 10 metres for each cell.")
+    occupied, free = _number(fields, "occupied_thresh", 0.65), _number(fields, "free_thresh", 0.196)
+    if not 0 <= free <= occupied <= 1:
+        raise BadMap("The thresholds must satisfy 0 <= free_thresh <= occupied_thresh <= 1.")
+    return Header(image.strip(), resolution, _origin(fields), _negate(fields), occupied, free, mode)
+
+
+class _PlainLoader(yaml.SafeLoader):
+    """SafeLoader without anchors: a few aliases can stand for gigabytes."""
+
+    def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+        if self.check_event(yaml.AliasEvent):
+            raise BadMap("The .yaml file uses aliases (*name). A map's header needs none; remove them.")
+        return super().compose_node(parent, index)
+
+
+def _load_yaml(yaml_bytes: bytes) -> dict[str, Any]:
+    if len(yaml_bytes) > MAX_YAML_BYTES:
+        raise BadMap("The .yaml file is larger than 64 kB. Choose the map's header, which has a handful of lines.")
+    if yaml_bytes.count(b"[") + yaml_bytes.count(b"{") > MAX_BRACKETS:
+        raise BadMap("The .yaml file is nested too deeply for a map's header. Choose the map's .yaml file.")
+    try:
+        fields = yaml.load(yaml_bytes.decode("utf-8-sig"), Loader=_PlainLoader)  # noqa: S506 - a SafeLoader, stricter
+    except (yaml.YAMLError, UnicodeDecodeError, ValueError, RecursionError) as error:
+        first_line = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise BadMap(
+            f"The .yaml file cannot be read ({first_line[:120]}). Compare it with a map_server file."
+        ) from error
+    if not isinstance(fields, dict):
+        raise BadMap("The .yaml file is not a map's header. It needs lines such as `image:`, `resolution:`, `origin:`.")
+    return {str(k): v for k, v in fields.items()}
+
+
+def _number(fields: dict[str, Any], name: str, default: float | None) -> float:
+    value = fields.get(name, default)
+    if value is None:
+        raise BadMap(f"The .yaml file has no {name}. Add it, for example `{name}: 0.05`.")
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = float("nan")
+    if isinstance(value, bool) or not isfinite(number):
+        raise BadMap(f"The map's {name} is {str(value)[:40]!r}, which is not a number. Write one, such as 0.05.")
+    return number
+
+
+def _origin(fields: dict[str, Any]) -> tuple[float, float, float]:
+    values = fields.get("origin")
+    if not isinstance(values, list) or len(values) not in (2, 3):
+        raise BadMap("The map's origin must be three numbers: `origin: [x, y, yaw]` in metres and radians.")
+    x, y, yaw = (_number({"origin": v}, "origin", None) for v in (*values, 0)[:3])
+    if max(abs(x), abs(y)) > 1e6 or abs(yaw) > 100:
+        raise BadMap("The map's origin lies beyond a million metres. Check `origin: [x, y, yaw]`.")
+    return x, y, yaw
+
+
+def _negate(fields: dict[str, Any]) -> bool:
+    value = fields.get("negate", 0)
+    if value not in (0, 1, True, False, "0", "1"):
+        raise BadMap(f"The map's negate is {str(value)[:40]!r}. Use 0 or 1.")
+    return bool(int(value))
+
+
+def _read_image(data: bytes) -> tuple[Shades, Shades | None]:
+    """Return lightness 0..1 and, for images with alpha, opacity 0..1; top row first."""
+    if data[:2] in (b"P2", b"P5"):
+        return _read_pgm(data), None
+    if data[:8] != b"\x89PNG\r\n\x1a\n":
+        raise BadMap("The map's image is neither PGM (P2, P5) nor PNG. Save it as one of them.")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", Image.DecompressionBombWarning)
+            image = Image.open(io.BytesIO(data), formats=["PNG"])
+            check_size(*image.size)
+            return _lightness(image)
+    except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+        raise BadMap("The map's PNG image is damaged. Export it again.") from error
+
+
+def _lightness(image: Image.Image) -> tuple[Shades, Shades | None]:
+    if image.mode.startswith(("I", "F")):
+        deep = np.asarray(image, dtype=np.float32)
+        return np.clip(deep / np.float32(65535), 0.0, 1.0), None
+    colours = np.asarray(image.convert("RGBA"))
+    opaque = image.mode in {"RGB", "L", "1"} and "transparency" not in image.info
+    lightness = colours[:, :, :3].sum(axis=2, dtype=np.uint16).astype(np.float32) / np.float32(765)
+    return lightness, None if opaque else colours[:, :, 3].astype(np.float32) / np.float32(255)
+
+
+def check_size(width: int, height: int) -> None:
+    """Raise BadMap when a map has no cells, or more on a side than screens and planning take."""
+    if width < 1 or height < 1:
+        raise BadMap("The map's image is empty. Save the map again.")
+    if width > MAX_SIDE or height > MAX_SIDE:
+        raise BadMap(
+            f"The map is {width} x {height} cells; {MAX_SIDE} x {MAX_SIDE} is the most. Use a coarser resolution."
+        )
+
+
+def _read_pgm(data: bytes) -> Shades:
+    tokens, start = _pgm_tokens(data)
+    width, height, maximum = tokens
+    check_size(width, height)
+    if not 1 <= maximum <= 65535:
+        raise BadMap(f"The PGM's largest value is {maximum}. It must lie between 1 and 65535.")
+    values = _pgm_text(data[start:]) if data[:2] == b"P2" else _pgm_binary(data[start:], maximum)
+    if values.size < width * height:
+        raise BadMap(f"The PGM ends early: {values.size} of {width * height} cells. Copy the whole file again.")
+    pixels = values[: width * height].reshape(height, width).astype(np.float32)
+    pixels /= np.float32(maximum)
+    return np.minimum(pixels, np.float32(1), dtype=np.float32)
+
+
+_NUMBER = re.compile(rb"\s*(?:#[^\n]*\n\s*)*(\d{1,9})(?=[\s#])")
+_COMMENT = re.compile(rb"[ \t]*#[^\n]*")
+
+
+def _pgm_tokens(data: bytes) -> tuple[list[int], int]:
+    """Return width, height and largest value, and where the cells begin; comments may stand anywhere between."""
+    head, position, tokens = data[:8192], 2, list[int]()
+    while len(tokens) < 3:
+        found = _NUMBER.match(head, position)
+        if found is None:
+            raise BadMap("The PGM's header is damaged; it needs `P5 width height maxval`. Save the map again.")
+        tokens.append(int(found.group(1)))
+        position = found.end()
+    comment = _COMMENT.match(head, position)
+    return tokens, (comment.end() if comment else position) + 1
+
+
+def _pgm_text(body: bytes) -> NDArray[np.int64]:
+    words = re.sub(rb"#[^\n]*", b"", body).split()
+    try:
+        return np.array(words, dtype="S9").astype(np.int64) if words else np.zeros(0, dtype=np.int64)
+    except (ValueError, OverflowError) as error:
+        raise BadMap("The PGM holds something that is not a number. Save the map again.") from error
+
+
+def _pgm_binary(body: bytes, maximum: int) -> NDArray[np.uint16]:
+    kind = np.dtype(">u2") if maximum > 255 else np.dtype("u1")
+    whole = len(body) // kind.itemsize * kind.itemsize
+    return np.frombuffer(body[:whole], dtype=kind).astype(np.uint16)
+
+
+def _classify(lightness: Shades, alpha: Shades | None, header: Header) -> Cells:
+    """Return 0, 100 or 255 for each cell; see-through cells are unknown."""
+    cells = np.full(lightness.shape, UNKNOWN, dtype=np.uint8)
+    if header.mode == "raw":
+        share: NDArray[np.floating[Any]] = np.round(lightness * np.float32(255)) / np.float32(100)
+        known = share <= 1.0
+    else:
+        share = lightness if header.negate else np.float32(1) - lightness
+        known = np.ones(lightness.shape, dtype=np.bool_)
+    cells[known & (share > header.occupied_thresh)] = OCCUPIED
+    cells[known & (share < header.free_thresh)] = FREE
+    if alpha is not None:
+        cells[alpha < 0.5] = UNKNOWN
+    return cells
+
+
+def _upright(cells: Cells, header: Header) -> Grid:
+    """Turn a map whose origin has a yaw so that it stands along the axes; new corners are unknown."""
+    x, y, yaw = header.origin
+    side = header.resolution_m
+    turned = (yaw + pi) % (2 * pi) - pi
+    if abs(turned) < 1e-6:
+        return Grid(cells.shape[1], cells.shape[0], side, x, y, cells.tobytes())
+    height, width = cells.shape
+    turn_x, turn_y = cos(turned), sin(turned)
+    corners = [(c * side, r * side) for c in (0, width) for r in (0, height)]
+    xs = [x + a * turn_x - b * turn_y for a, b in corners]
+    ys = [y + a * turn_y + b * turn_x for a, b in corners]
+    new_width, new_height = (int(np.ceil(round((max(v) - min(v)) / side, 6))) for v in (xs, ys))
+    check_size(new_width, new_height)
+    right = min(xs) + (np.arange(new_width)[None, :] + 0.5) * side - x
+    up = min(ys) + (np.arange(new_height)[:, None] + 0.5) * side - y
+    columns = np.floor((right * turn_x + up * turn_y) / side).astype(np.int64)
+    rows = np.floor((up * turn_x - right * turn_y) / side).astype(np.int64)
+    inside = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height)
+    upright = np.full((new_height, new_width), UNKNOWN, dtype=np.uint8)
+    upright[inside] = cells[rows[inside], columns[inside]]
+    return Grid(new_width, new_height, side, min(xs), min(ys), upright.tobytes())
+
+
+def write_pgm(grid: Grid) -> bytes:
+    """Return the grid as a binary PGM in map_server's three shades."""
+    shades = np.full(256, _PIXELS[UNKNOWN], dtype=np.uint8)
+    for kind, shade in _PIXELS.items():
+        shades[kind] = shade
+    pixels = np.flipud(shades[cells_array(grid)])
+    return f"P5\n{grid.width} {grid.height}\n255\n".encode() + pixels.tobytes()
+
+
+def write_yaml(grid: Grid, image: str) -> bytes:
+    """Return the header that belongs to the PGM of that file name."""
+    lines = (
+        f"image: {image}",
+        "mode: trinary",
+        f"resolution: {grid.resolution_m:g}",
+        f"origin: [{grid.origin_x_m:.6g}, {grid.origin_y_m:.6g}, 0]",
+        "negate: 0",
+        "occupied_thresh: 0.65",
+        "free_thresh: 0.196",
+    )
+    return ("\n".join(lines) + "\n").encode()

@@ -1,0 +1,305 @@
+"""The floor as numbers: clearance, walls as boxes, where a robot can stand and which way it can go."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from math import cos, hypot, pi, sin
+from zlib import crc32
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from vipo_device.protocol.description import Description, Pose
+
+FREE, OCCUPIED, UNKNOWN = 0, 100, 255
+STATION_GAP_M = 0.15
+COMFORT_M = 0.3
+Box = tuple[float, float, float, float]
+Corners = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """An occupancy grid: `cells` row by row from the bottom row up, 0 free, 100 occupied, 255 unknown."""
+
+    width: int
+    height: int
+    resolution_m: float
+    origin_x_m: float
+    origin_y_m: float
+    cells: bytes
+
+    def cell_of(self, x_m: float, y_m: float) -> tuple[int, int] | None:
+        """Return (row, column) of the cell that holds the point, or None off the map."""
+        column = int((x_m - self.origin_x_m) // self.resolution_m)
+        row = int((y_m - self.origin_y_m) // self.resolution_m)
+        return (row, column) if 0 <= row < self.height and 0 <= column < self.width else None
+
+    def centre_of(self, row: int, column: int) -> tuple[float, float]:
+        """Return the middle of a cell in metres."""
+        return (
+            self.origin_x_m + (column + 0.5) * self.resolution_m,
+            self.origin_y_m + (row + 0.5) * self.resolution_m,
+        )
+
+
+def cells_array(grid: Grid) -> NDArray[np.uint8]:
+    """Return the cells as an array [row from the bottom, column]; read-only, no copy."""
+    return np.frombuffer(grid.cells, dtype=np.uint8).reshape(grid.height, grid.width)
+
+
+def clearance_m(grid: Grid) -> NDArray[np.float64]:
+    """Return, for each cell [row, column], the way from its middle to the edge of the nearest non-free cell in metres.
+
+    Unknown cells and everything off the map count as wall; non-free cells have 0.
+    """
+    free = np.pad(cells_array(grid) == FREE, 1, constant_values=False)
+    cells: NDArray[np.float64] = ndimage.distance_transform_edt(free)[1:-1, 1:-1]
+    return np.maximum(cells - 0.5, 0.0) * grid.resolution_m
+
+
+def wall_boxes(grid: Grid) -> tuple[Box, ...]:
+    """Return rectangles (x1, y1, x2, y2) in metres that together cover the occupied cells exactly, none twice."""
+    occupied = cells_array(grid) == OCCUPIED
+    by_rows = _merged_runs(occupied)
+    by_columns = [(c1, r1, c2, r2) for r1, c1, r2, c2 in _merged_runs(occupied.T)]
+    return tuple(_box_m(grid, cells) for cells in min(by_rows, by_columns, key=len))
+
+
+def _box_m(grid: Grid, cells: tuple[int, int, int, int]) -> Box:
+    row1, column1, row2, column2 = cells
+    side, left, bottom = grid.resolution_m, grid.origin_x_m, grid.origin_y_m
+    return (
+        round(left + column1 * side, 4),
+        round(bottom + row1 * side, 4),
+        round(left + column2 * side, 4),
+        round(bottom + row2 * side, 4),
+    )
+
+
+def _merged_runs(occupied: NDArray[np.bool_]) -> list[tuple[int, int, int, int]]:
+    """Join equal runs of neighbouring rows; (row1, column1, row2, column2), ends not included."""
+    done: list[tuple[int, int, int, int]] = []
+    open_since: dict[tuple[int, int], int] = {}
+    for row in range(occupied.shape[0] + 1):
+        runs = set(_runs(occupied[row])) if row < occupied.shape[0] else set()
+        ended = [run for run in open_since if run not in runs]
+        done.extend((open_since.pop(run), run[0], row, run[1]) for run in ended)
+        for run in runs:
+            open_since.setdefault(run, row)
+    return sorted(done)
+
+
+def _runs(line: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], line, [False])).astype(np.int8)))
+    return ((int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True))
+
+
+def device_footprints(devices: Iterable[Description]) -> dict[str, Corners]:
+    """Return the outline of each machine on the floor: four corners in metres, anticlockwise; robots have none."""
+    return {d.id: _corners(d) for d in devices if d.kind == "machine" and d.size.x > 0 and d.size.y > 0}
+
+
+def _corners(device: Description) -> Corners:
+    half_x, half_y = device.size.x / 2, device.size.y / 2
+    return tuple(
+        _from_device(device.pose, dx, dy)
+        for dx, dy in ((-half_x, -half_y), (half_x, -half_y), (half_x, half_y), (-half_x, half_y))
+    )
+
+
+def _from_device(pose: Pose, dx: float, dy: float) -> tuple[float, float]:
+    turn_x, turn_y = cos(pose.theta), sin(pose.theta)
+    return (pose.x + dx * turn_x - dy * turn_y, pose.y + dx * turn_y + dy * turn_x)
+
+
+def machine_beside(devices: Iterable[Description], robot: Description, reach_m: float = 0.35) -> str | None:
+    """Return the machine at which the robot stands: the nearest whose body is within its radius and `reach_m`."""
+    beside = [
+        (distance, device.id)
+        for device in devices
+        if device.kind == "machine" and (distance := _gap_m(device, robot.pose)) <= robot.radius_m + reach_m
+    ]
+    return min(beside)[1] if beside else None
+
+
+def _gap_m(device: Description, point: Pose) -> float:
+    """Return the distance from a point to a device's footprint, 0 inside it."""
+    dx, dy = point.x - device.pose.x, point.y - device.pose.y
+    ahead, aside = cos(device.pose.theta), sin(device.pose.theta)
+    along, across = dx * ahead + dy * aside, dy * ahead - dx * aside
+    return hypot(max(abs(along) - device.size.x / 2, 0.0), max(abs(across) - device.size.y / 2, 0.0))
+
+
+def with_devices(grid: Grid, devices: Iterable[Description]) -> Grid:
+    """Return the grid with the machines' footprints occupied."""
+    cells = cells_array(grid).copy()
+    for device in devices:
+        if device.kind == "machine":
+            _occupy(grid, cells, device)
+    return replace(grid, cells=cells.tobytes())
+
+
+def _occupy(grid: Grid, cells: NDArray[np.uint8], device: Description) -> None:
+    """Mark the cells that the machine's outline touches."""
+    reach_m = hypot(device.size.x, device.size.y) / 2 + grid.resolution_m
+    rows = _span(device.pose.y - grid.origin_y_m, reach_m, grid.resolution_m, grid.height)
+    columns = _span(device.pose.x - grid.origin_x_m, reach_m, grid.resolution_m, grid.width)
+    y = grid.origin_y_m + (np.arange(rows.start, rows.stop) + 0.5) * grid.resolution_m - device.pose.y
+    x = grid.origin_x_m + (np.arange(columns.start, columns.stop) + 0.5) * grid.resolution_m - device.pose.x
+    turn_x, turn_y = cos(device.pose.theta), sin(device.pose.theta)
+    along = np.abs(x[None, :] * turn_x + y[:, None] * turn_y)
+    across = np.abs(y[:, None] * turn_x - x[None, :] * turn_y)
+    touch_m = grid.resolution_m / 2 - 1e-9
+    cells[rows, columns][(along < device.size.x / 2 + touch_m) & (across < device.size.y / 2 + touch_m)] = OCCUPIED
+
+
+def _span(middle_m: float, reach_m: float, resolution_m: float, count: int) -> slice:
+    first = int((middle_m - reach_m) // resolution_m)
+    last = int((middle_m + reach_m) // resolution_m) + 1
+    return slice(min(max(first, 0), count), min(max(last, 0), count))
+
+
+def stations(grid: Grid, devices: Iterable[Description], radius_m: float) -> dict[str, Pose]:
+    """Return where a robot of that radius stands to serve each machine, facing it.
+
+    It is outside the middle of a side: the roomier of front and back (-y and +y of the machine's own frame), else of
+    right and left; sides with room to spare first, then narrower ones, then off the middle. A machine that nothing can
+    reach has no station.
+    """
+    devices = list(devices)
+    plan = FloorPlan(grid, devices)
+    floor = plan.main_floor(radius_m)
+    found = {}
+    for device in devices:
+        if device.kind == "machine" and (pose := _station(plan, floor, device, radius_m)):
+            found[device.id] = pose
+    return found
+
+
+def _station(plan: FloorPlan, floor: NDArray[np.bool_], device: Description, radius_m: float) -> Pose | None:
+    gap_m = radius_m + STATION_GAP_M
+    for spare_m in (COMFORT_M, 0.05):
+        for shift in (0.0, -0.25, 0.25):
+            for pair in _sides(device, gap_m, shift):
+                open_poses = [p for p in pair if plan.is_open(floor, p)]
+                rooms = [(plan.room_beside_m(device, p), -i, p) for i, p in enumerate(open_poses)]
+                if rooms and (best := max(rooms, key=lambda r: r[:2]))[0] >= radius_m + spare_m:
+                    return best[2]
+    return None
+
+
+def _sides(device: Description, gap_m: float, shift: float) -> tuple[tuple[Pose, Pose], tuple[Pose, Pose]]:
+    """((front, back), (right, left)): outside the middle of each side, or `shift` of its length off the middle."""
+    out_x, out_y = device.size.x / 2 + gap_m, device.size.y / 2 + gap_m
+    along_x, along_y = shift * device.size.x, shift * device.size.y
+    return (
+        (_facing(device.pose, along_x, -out_y, pi / 2), _facing(device.pose, along_x, out_y, -pi / 2)),
+        (_facing(device.pose, out_x, along_y, pi), _facing(device.pose, -out_x, along_y, 0.0)),
+    )
+
+
+def _facing(machine: Pose, dx: float, dy: float, facing: float) -> Pose:
+    x, y = _from_device(machine, dx, dy)
+    theta = (machine.theta + facing + pi) % (2 * pi) - pi
+    return Pose(round(x, 4), round(y, 4), 0.0, round(theta, 6))
+
+
+class FloorPlan:
+    """What the map says about points and ways, the machines' footprints being obstacles like walls."""
+
+    def __init__(self, grid: Grid, devices: Iterable[Description] = ()) -> None:
+        self.grid = grid
+        self.mark = f"{grid.width} {grid.origin_x_m} {grid.origin_y_m} {grid.resolution_m} {crc32(grid.cells)}"
+        """What tells this map from others, the same in all processes."""
+        self._devices = tuple(devices)
+        self.clearance_m = clearance_m(with_devices(grid, self._devices))
+        self._regions: dict[float, NDArray[np.int32]] = {}
+        self._stations: dict[tuple[str, float], Pose | None] = {}
+
+    def is_inside(self, x_m: float, y_m: float) -> bool:
+        """Tell whether the point lies on the map."""
+        return self.grid.cell_of(x_m, y_m) is not None
+
+    def is_free(self, x_m: float, y_m: float, radius_m: float) -> bool:
+        """Tell whether a robot of that radius can stand at the point."""
+        cell = self.grid.cell_of(x_m, y_m)
+        return cell is not None and bool(self.clearance_m[cell] >= radius_m)
+
+    def is_reachable(self, from_xy: tuple[float, float], to_xy: tuple[float, float], radius_m: float) -> bool:
+        """Tell whether a robot of that radius finds a way.
+
+        Where it starts may be a little too near to a wall; where it goes may not.
+        """
+        goal = self.grid.cell_of(*to_xy)
+        if goal is None or self.clearance_m[goal] < radius_m:
+            return False
+        region = self.regions(radius_m)[goal]
+        return bool(region) and region in self._regions_around(from_xy, radius_m)
+
+    def regions(self, radius_m: float) -> NDArray[np.int32]:
+        """Return the number of the connected region of each cell where the robot's middle may be; 0 is nowhere."""
+        if radius_m not in self._regions:
+            labels, _ = ndimage.label(self.clearance_m >= radius_m)
+            self._regions[radius_m] = labels
+        return self._regions[radius_m]
+
+    def main_floor(self, radius_m: float) -> NDArray[np.bool_]:
+        """Return the cells of the largest region in which a robot of that radius can drive about."""
+        labels = self.regions(radius_m)
+        sizes = np.bincount(labels.ravel())
+        if sizes.size < 2:
+            return np.zeros(labels.shape, dtype=np.bool_)
+        return np.asarray(labels == 1 + int(np.argmax(sizes[1:])))
+
+    def station(self, device_id: str, radius_m: float) -> tuple[float, float] | None:
+        """Return where a robot of that radius stands to serve a machine; None when it has no room to."""
+        key = (device_id, radius_m)
+        if key not in self._stations:
+            found = next((device for device in self._devices if device.id == device_id), None)
+            floor = self.main_floor(radius_m)
+            self._stations[key] = None if found is None else _station(self, floor, found, radius_m)
+        pose = self._stations[key]
+        return None if pose is None else (pose.x, pose.y)
+
+    def has_machine(self, device_id: str) -> bool:
+        """Tell whether the machine stands on this floor."""
+        return any(device.id == device_id for device in self._devices)
+
+    def is_open(self, floor: NDArray[np.bool_], pose: Pose) -> bool:
+        """Tell whether the pose's cell belongs to the floor."""
+        cell = self.grid.cell_of(pose.x, pose.y)
+        return cell is not None and bool(floor[cell])
+
+    def room_beside_m(self, device: Description, pose: Pose) -> float:
+        """Return how far the pose is from everything but the device itself, in metres."""
+        others = with_devices(self.grid, (d for d in self._devices if d.id != device.id))
+        cell = self.grid.cell_of(pose.x, pose.y)
+        return 0.0 if cell is None else float(_clearance_near(others, cell))
+
+    def _regions_around(self, xy: tuple[float, float], radius_m: float) -> set[int]:
+        reach = max(1, round(radius_m / self.grid.resolution_m))
+        cell = self.grid.cell_of(*xy)
+        if cell is None:
+            return set()
+        row, column = cell
+        window = self.regions(radius_m)[
+            max(0, row - reach) : row + reach + 1, max(0, column - reach) : column + reach + 1
+        ]
+        return set(np.unique(window).tolist())
+
+
+def _clearance_near(grid: Grid, cell: tuple[int, int], reach_m: float = 1.5) -> float:
+    """Return the clearance of one cell, looking no farther than `reach_m`."""
+    reach = round(reach_m / grid.resolution_m)
+    row, column = cell
+    top, left = max(0, row - reach), max(0, column - reach)
+    free = np.pad(cells_array(grid) == FREE, 1, constant_values=False)
+    window = free[top : row + reach + 3, left : column + reach + 3]
+    if window.all():
+        return reach_m
+    rows, columns = np.nonzero(~window)
+    nearest = np.hypot(rows - (row + 1 - top), columns - (column + 1 - left)).min()
+    return max(0.0, (float(nearest) - 0.5) * grid.resolution_m)

@@ -1,0 +1,1 @@
+"""Live news to browsers, and hints that wake waiting threads."""

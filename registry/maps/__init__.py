@@ -1,0 +1,1 @@
+"""A site's maps: their versions, and the maps that robots send."""

@@ -1,0 +1,19 @@
+"""The tables of the registry: people, sites, maps, devices and alerts."""
+
+from registry.models.alerts import DeviceAlert as DeviceAlert
+from registry.models.devices import Device as Device
+from registry.models.devices import DeviceEvent as DeviceEvent
+from registry.models.devices import Sample as Sample
+from registry.models.devices import SampleClock as SampleClock
+from registry.models.devices import ThingEvent as ThingEvent
+from registry.models.devices import TopicClaim as TopicClaim
+from registry.models.maps import Place as Place
+from registry.models.maps import RobotMap as RobotMap
+from registry.models.maps import RobotMapDraft as RobotMapDraft
+from registry.models.maps import RobotMapPart as RobotMapPart
+from registry.models.maps import SiteMap as SiteMap
+from registry.models.people import SignInFailure as SignInFailure
+from registry.models.people import User as User
+from registry.models.people import UserManager as UserManager
+from registry.models.sites import Membership as Membership
+from registry.models.sites import Site as Site

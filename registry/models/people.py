@@ -1,0 +1,69 @@
+"""People, and sign-ins that failed."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from django.contrib.auth.base_user import AbstractBaseUser, BaseUserManager
+from django.db import models
+from django.db.models.functions import Lower
+
+
+class UserManager(BaseUserManager["User"]):
+    """Makes users; e-mail addresses are kept in lower case."""
+
+    def create_user(self, *, email: str, password: str | None, display_name: str, initials: str = "") -> User:
+        """Make and save a user; without a password nobody can sign in as them."""
+        user = self.model(
+            email=email.strip().lower(),
+            display_name=display_name,
+            initials=initials or initials_of(display_name),
+        )
+        user.set_password(password)
+        user.save(using=self._db)
+        return user
+
+
+class User(AbstractBaseUser):
+    """A person; signs in by e-mail."""
+
+    email = models.EmailField(unique=True)
+    display_name = models.CharField(max_length=100)
+    initials = models.CharField(max_length=4)
+    is_active = models.BooleanField(default=True)
+    created_at = models.DateTimeField(auto_now_add=True)
+
+    objects: ClassVar[UserManager] = UserManager()
+    USERNAME_FIELD = "email"
+    EMAIL_FIELD = "email"
+    REQUIRED_FIELDS: ClassVar[list[str]] = ["display_name"]
+
+    class Meta:
+        """One person for each address, however it is spelt."""
+
+        constraints = [models.UniqueConstraint(Lower("email"), name="user_email_any_case")]
+
+    def __str__(self) -> str:
+        return self.email
+
+
+class SignInFailure(models.Model):
+    """A sign-in that failed, counted to slow down guessing."""
+
+    email = models.CharField(max_length=254)
+    address = models.CharField(max_length=64)
+    at = models.DateTimeField()
+
+    class Meta:
+        """Found by address and by e-mail within the last minutes."""
+
+        indexes = [models.Index(fields=["address", "at"]), models.Index(fields=["email", "at"])]
+
+    def __str__(self) -> str:
+        return f"{self.email} from {self.address}"
+
+
+def initials_of(name: str) -> str:
+    """Return up to two capital letters that stand for a name."""
+    words = [w for w in name.split() if w]
+    return "".join(w[0] for w in (words[:1] + words[-1:] if len(words) > 1 else words)).upper()

@@ -1,0 +1,1 @@
+"""Sites, their maps, places and members."""

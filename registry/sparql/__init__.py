@@ -1,0 +1,1 @@
+"""SPARQL over a site's descriptions, in a process that can be ended."""

@@ -1,0 +1,1 @@
+"""A site's devices as a W3C Thing directory: pages, answers, events."""

@@ -1,0 +1,88 @@
+"""What a directory of Things answers, be it of one site or of all that somebody may see."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+from django.conf import settings
+from django.db import transaction
+from django.http import HttpRequest, HttpResponse, HttpResponseBase, StreamingHttpResponse
+from django.utils import timezone
+from django.utils.cache import get_conditional_response
+
+from registry import services
+from registry.devices.rows import lock_device
+from registry.devices.things import read_patch, thing_tag, thing_text
+from registry.devices.views import DeviceView, view_of
+from registry.models import User
+from registry.people.access import require
+from registry.people.sessions import session_of
+from registry.thing_directory.event_stream import Listener, check_room, stream_events
+from vipo_device.protocol.errors import RegistryError
+
+MERGE_PATCH = "application/merge-patch+json"
+
+
+class NotMergePatch(RegistryError):
+    """A change that does not say that it is a merge patch."""
+
+    code = "not_merge_patch"
+    status = 415
+
+
+class Changed(RegistryError):
+    """The Thing is not any more, or not yet, what the caller believes."""
+
+    code = "changed"
+    status = 412
+
+
+def sends(media_type: str) -> dict[str, Any]:
+    """Say in the OpenAPI file that a call answers in this media type."""
+    return {"responses": {200: {"content": {media_type: {"schema": {"type": "object"}}}}}}
+
+
+def answer_thing(request: HttpRequest, view: DeviceView) -> HttpResponse:
+    """Send a Thing with its entity tag; 304 for who has it already (If-None-Match)."""
+    text = thing_text(view, settings.VIPO_BROKER_URL)
+    response = HttpResponse(text, content_type="application/td+json")
+    response["ETag"] = thing_tag(text)
+    response["Cache-Control"] = "private, no-cache"
+    response["Accept-Patch"] = MERGE_PATCH
+    answer = get_conditional_response(request, etag=response["ETag"], response=response)
+    assert answer is not None
+    return answer
+
+
+def change_thing(request: HttpRequest, user: User, site: str, device_id: str) -> HttpResponse:
+    """Change a Thing by a merge patch, if it is still what the caller knows (If-Match). Admins only."""
+    require(user, site, "admin")
+    if request.content_type != MERGE_PATCH:
+        raise NotMergePatch(f"Send the change as a JSON merge patch: Content-Type: {MERGE_PATCH}.")
+    patch = read_patch(request.body)
+    with transaction.atomic():
+        _check_tag(request, view_of(lock_device(site, device_id), site))
+        view = services.update_device(
+            site=site, device_id=device_id, name=patch.name, pose=patch.pose, by=user, at=timezone.now()
+        )
+    response = HttpResponse(status=204)
+    response["ETag"] = thing_tag(thing_text(view, settings.VIPO_BROKER_URL))
+    return response
+
+
+def _check_tag(request: HttpRequest, view: DeviceView) -> None:
+    tag = thing_tag(thing_text(view, settings.VIPO_BROKER_URL))
+    if get_conditional_response(request, etag=tag) is not None:
+        raise Changed("The Thing has changed since you read it. Read it again, then change it with its new ETag.")
+
+
+def open_stream(request: HttpRequest, *, site: str | None, kinds: Collection[str], diff: bool) -> HttpResponseBase:
+    """Open a stream of events; it goes on after the event that the header Last-Event-ID names."""
+    listener = Listener(session_of(request), site, kinds, diff)
+    check_room(listener.session.person)
+    headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
+    if request.method == "HEAD":
+        return HttpResponse(content_type="text/event-stream", headers=headers)
+    stream = stream_events(listener, request.headers.get("Last-Event-ID", ""))
+    return StreamingHttpResponse(stream, content_type="text/event-stream", headers=headers)

@@ -1,0 +1,108 @@
+"""The directory's own Thing Description (WoT Discovery, class ThingDirectory): what it offers, and to whom."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from registry.devices.things import EVENTS
+from registry.thing_directory.pages import DISCOVERY_CONTEXT, MOST_AT_ONCE, SORTED_BY
+from vipo_device.descriptions.forms import TD_CONTEXT
+
+PROBLEM = "application/problem+json"
+THING_ID = {"id": {"@type": "ThingID", "type": "string", "format": "iri-reference", "title": "The Thing's id"}}
+PAGES = {
+    "offset": {"type": "integer", "minimum": 0, "default": 0, "title": "How many Things to leave out"},
+    "limit": {"type": "integer", "minimum": 1, "maximum": MOST_AT_ONCE, "default": 50, "title": "How many to list"},
+    "format": {"type": "string", "enum": ["array", "collection"], "default": "array"},
+    "sort_by": {"type": "string", "enum": list(SORTED_BY), "default": "id"},
+    "sort_order": {"type": "string", "enum": ["asc", "desc"], "default": "asc"},
+}
+SECURITY = {
+    "session": {
+        "scheme": "apikey",
+        "in": "cookie",
+        "name": "sessionid",
+        "description": "The cookie that POST /api/sign-in sets, with the e-mail address and password of a member.",
+    },
+    "csrf": {
+        "scheme": "apikey",
+        "in": "header",
+        "name": "X-CSRFToken",
+        "description": "For changes: the value of the cookie csrftoken, which goes along.",
+    },
+}
+
+
+def directory_thing(base: str) -> dict[str, Any]:
+    """Return the directory's Thing Description; `base` is where it is served."""
+    return {
+        "@context": [TD_CONTEXT, DISCOVERY_CONTEXT, {"htv": "http://www.w3.org/2011/http#"}],
+        "@type": "ThingDirectory",
+        "title": "VIPO",
+        "description": "The robots and machines of all sites of which the caller is a member.",
+        "base": base,
+        "securityDefinitions": SECURITY,
+        "security": ["session"],
+        "links": [{"rel": "service-desc", "href": "/api/openapi.json", "type": "application/json"}],
+        "properties": {"things": _things()},
+        "actions": {"retrieveThing": _retrieve(), "partiallyUpdateThing": _patch()},
+        "events": {_camel(name): _event(name) for name in EVENTS},
+    }
+
+
+def _form(method: str, href: str, op: str, media_type: str, *refused: int, **more: Any) -> dict[str, Any]:
+    refusals = [{"success": False, "contentType": PROBLEM, "htv:statusCodeValue": status} for status in refused]
+    return {"href": href, "op": op, "htv:methodName": method, "contentType": media_type, **more,
+            "additionalResponses": refusals}  # fmt: skip
+
+
+def _things() -> dict[str, Any]:
+    href = "/things{?offset,limit,format,sort_by,sort_order}"
+    return {
+        "description": "All Things, a page at a time; the header Link names the next page.",
+        "type": "array",
+        "readOnly": True,
+        "uriVariables": PAGES,
+        "forms": [_form("GET", href, "readproperty", "application/ld+json", 400, 401, 501)],
+    }
+
+
+def _retrieve() -> dict[str, Any]:
+    return {
+        "description": "One Thing Description, with an ETag.",
+        "uriVariables": THING_ID,
+        "output": {"type": "object"},
+        "safe": True,
+        "idempotent": True,
+        "forms": [_form("GET", "/things/{id}", "invokeaction", "application/td+json", 401, 404)],
+    }
+
+
+def _patch() -> dict[str, Any]:
+    media_type, security = "application/merge-patch+json", ["session", "csrf"]
+    form = _form("PATCH", "/things/{id}", "invokeaction", media_type, 400, 401, 403, 404, 412, 415, security=security)
+    changes = {
+        "title": {"type": "string", "description": "A name that people give it; null: its own again."},
+        "vipo:location": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 4},
+    }
+    return {
+        "description": "Name or place a Thing, for admins of its site; If-Match keeps others' changes.",
+        "uriVariables": THING_ID,
+        "input": {"type": "object", "properties": changes},
+        "forms": [form],
+    }
+
+
+def _event(name: str) -> dict[str, Any]:
+    form = _form("GET", f"/events/{name}{{?diff}}", "subscribeevent", "text/event-stream", 401, 429, subprotocol="sse")
+    return {
+        "description": "With `diff`: the whole Thing when it is new, a merge patch (RFC 7396) of what changed.",
+        "uriVariables": {"diff": {"type": "boolean", "default": False}},
+        "data": {"type": "object", "properties": {"id": {"type": "string"}}, "required": ["id"]},
+        "forms": [form],
+    }
+
+
+def _camel(name: str) -> str:
+    first, *rest = name.split("_")
+    return first + "".join(map(str.title, rest))

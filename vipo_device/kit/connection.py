@@ -1,0 +1,153 @@
+"""A device's connection to VIPO: one MQTT client that speaks the protocol for a pretend or a foreign device."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from vipo_device.protocol.description import DeviceState
+from vipo_device.protocol.messages import (
+    AckMessage,
+    Presence,
+    Told,
+    ack_payload,
+    down_topic,
+    presence_payload,
+    read_command,
+    read_stop,
+    state_payload,
+    up_topic,
+)
+from vipo_device.protocol.mqtt_client import MqttClient, Will
+
+log = logging.getLogger(__name__)
+SERVER_STATUS = "vipo/v1/srv/status"
+SILENT_S = 25.0
+MOVING_S = 0.1
+CHANGING_S = 0.5
+ConnectionMaker = Callable[[str, Will], MqttClient]
+
+
+@dataclass(frozen=True, slots=True)
+class Commanded:
+    """A device was told something."""
+
+    device: str
+    told: Told
+
+
+@dataclass(frozen=True, slots=True)
+class CameIn:
+    """A device's connection stands, or the server was born anew: it has to introduce itself."""
+
+    device: str
+
+
+@dataclass(frozen=True, slots=True)
+class Stopped:
+    """A site's stop was pressed or reset."""
+
+    device: str
+    active: bool
+
+
+LineEvent = Commanded | CameIn | Stopped
+
+
+class DeviceLine:
+    """What a device says to VIPO. What it hears it passes on at once, on the network's thread."""
+
+    def __init__(self, device: str, site: str, boot: int, hear: Callable[[LineEvent], None]) -> None:
+        self.id = device
+        self._site, self._boot, self._hear = site, boot, hear
+        self._client: MqttClient | None = None
+        self._server = b""
+        self._seq = 0
+        self._last: DeviceState | None = None
+        self._said_s = 0.0
+
+    def connect(self, make: ConnectionMaker) -> None:
+        """Begin to connect; the will says offline with this start's number."""
+        will: Will = (up_topic(self.id, "presence"), self._presence(online=False), 1, True)
+        self._client = make(self.id, will)
+        self._client.subscribe(down_topic(self.id, "#"), 1, self._hear_command)
+        self._client.subscribe(f"vipo/v1/site/{self._site}/stop", 1, self._hear_stop)
+        self._client.subscribe(SERVER_STATUS, 1, self._hear_server)
+        self._client.on_connected(lambda: self._hear(CameIn(self.id)))
+        self._client.start()
+
+    def close(self) -> None:
+        """Say that the device goes offline, and end the connection."""
+        self.say_presence(online=False)
+        self.disconnect()
+
+    def disconnect(self) -> None:
+        """End the connection; what was said is sent before."""
+        if self._client is not None:
+            self._client.stop()
+
+    def introduce(self, description: bytes, *, online: bool) -> None:
+        """Say who the device is and whether it is there; its state follows with the next report."""
+        self._say("desc", description, retain=True)
+        self.say_presence(online=online)
+
+    def say_presence(self, *, online: bool) -> None:
+        """Say whether the device is there; the state is said anew after it."""
+        self._say("presence", self._presence(online=online), retain=True)
+        self._last = None
+
+    @property
+    def is_introduced(self) -> bool:
+        """True while the device is connected and has said how it is."""
+        return self._client is not None and self._client.connected and self._last is not None
+
+    def say_map(self, part: bytes) -> None:
+        """Send a part of a robot's map."""
+        self._say("map", part)
+
+    def answer(self, ack: AckMessage) -> None:
+        """Answer a command."""
+        self._say("ack", ack_payload(ack))
+
+    def report(self, look: Callable[[int, int], DeviceState], now_s: float, *, at_once: bool = False) -> None:
+        """Say the state if it changed and enough time has passed, or if nothing was said for long."""
+        state = look(self._boot, self._seq + 1)
+        if self._client is None or not self._client.connected or not self._is_due(state, now_s, at_once=at_once):
+            return
+        self._seq += 1
+        self._last, self._said_s = state, now_s
+        self._say("state", state_payload(state), retain=True)
+
+    def _is_due(self, state: DeviceState, now_s: float, *, at_once: bool) -> bool:
+        last, silent_s = self._last, now_s - self._said_s
+        if last is None or silent_s >= SILENT_S:
+            return True
+        if replace(state, seq=last.seq) == last:
+            return False
+        if at_once or state.done != last.done:
+            return True
+        return silent_s >= (MOVING_S if state.pose != last.pose else CHANGING_S)
+
+    def _presence(self, *, online: bool) -> bytes:
+        return presence_payload(Presence(online, self._boot))
+
+    def _say(self, kind: str, payload: bytes, *, retain: bool = False) -> None:
+        if self._client is not None:
+            self._client.publish(up_topic(self.id, kind), payload, qos=1, retain=retain)
+
+    def _hear_command(self, topic: str, payload: bytes, retained: bool) -> None:
+        told = read_command(topic.removeprefix(down_topic(self.id, "")), payload)
+        if retained or told is None:
+            log.warning("%s: a message on %s is not a command; it was ignored.", self.id, topic)
+            return
+        self._hear(Commanded(self.id, told))
+
+    def _hear_stop(self, _topic: str, payload: bytes, _retained: bool) -> None:
+        self._hear(Stopped(self.id, read_stop(payload)))
+
+    def _hear_server(self, _topic: str, payload: bytes, retained: bool) -> None:
+        """A server that was born anew may not know this device; the one that was there when it came in does."""
+        if not retained or (self._server and payload != self._server):
+            self._hear(CameIn(self.id))
+        self._server = payload

@@ -1,0 +1,71 @@
+"""Pure: which topics a device may name for its methods: its own, or a legacy one that an admin has to confirm."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING
+
+from vipo_device.protocol.faults import Fault, fault
+
+if TYPE_CHECKING:
+    from vipo_device.protocol.description import Description, MethodSpec
+
+MOST_CHARACTERS = 200
+OWN_MEANING = frozenset({"pause", "resume", "cancel", "credential"})
+"""Methods that every device is told on its own `down/` by the protocol itself."""
+RESERVED = "vipo"
+"""Everything below this first level belongs to VIPO."""
+_LEVEL = re.compile(r"[A-Za-z0-9_.@=~-]+")
+_METHOD = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
+
+
+def own_prefix(device_id: str) -> str:
+    """Return what the topics of a device's own commands begin with."""
+    return f"vipo/v1/dev/{device_id}/down/"
+
+
+def is_own(device_id: str, topic: str) -> bool:
+    """Tell whether a topic is one of the device's own `down/`."""
+    below = own_prefix(device_id)
+    return topic.startswith(below) and _METHOD.fullmatch(topic.removeprefix(below)) is not None
+
+
+def find_topic_fault(device_id: str, method: str, topic: str) -> Fault | None:
+    """Say why a method can never be told on this topic; None when it might be."""
+    if is_own(device_id, topic):
+        return None
+    named = {"method": method[:64], "own": f"{own_prefix(device_id)}{method[:64]}"}
+    levels = topic.split("/")
+    if levels[0].lower() == RESERVED or topic.startswith(("$", "/")):
+        return fault("topic_foreign", **named)
+    if method in OWN_MEANING:
+        return fault("topic_fixed", **named)
+    if len(topic) > MOST_CHARACTERS:
+        return fault("topic_long", most=MOST_CHARACTERS, **named)
+    if not all(_LEVEL.fullmatch(level) for level in levels):
+        return fault("topic_levels", **named)
+    return None
+
+
+def list_asked(description: Description) -> tuple[MethodSpec, ...]:
+    """Return the methods that name a topic outside the device's own `down/`."""
+    own = own_prefix(description.id)
+    return tuple(method for method in description.methods if not method.topic.startswith(own))
+
+
+def part_methods(
+    description: Description, granted: Mapping[str, str]
+) -> tuple[tuple[MethodSpec, ...], tuple[MethodSpec, ...]]:
+    """Return the methods that may be called, and those whose topic an admin has still to confirm."""
+    asked = {m.name for m in list_asked(description) if granted.get(m.name) != m.topic}
+    if not asked:
+        return description.methods, ()
+    may = tuple(m for m in description.methods if m.name not in asked)
+    return may, tuple(m for m in description.methods if m.name in asked)
+
+
+def find_twice(topics: Collection[str]) -> str:
+    """Return a topic that comes twice, or an empty text."""
+    return next((topic for topic, count in Counter(topics).items() if count > 1), "")

@@ -1,0 +1,1 @@
+"""`vipo`, the command for the terminal: programs, descriptions, devices, accounts."""

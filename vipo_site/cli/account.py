@@ -1,0 +1,65 @@
+"""`vipo account`: who may sign in, a person or a program, and what they may do at a site."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import secrets
+import sys
+
+import django
+
+CLEAN, UNUSABLE = 0, 2
+ACCOUNT = "Let somebody sign in, or a program, and give them a role at a site; a new password is printed this once."
+ROLES = ("viewer", "operator", "author", "admin", "none")
+
+
+def add_account_arguments(sub: argparse.ArgumentParser) -> None:
+    """Describe what stands behind `vipo account`."""
+    sub.add_argument("email", help="the e-mail address to sign in with; nothing is sent to it")
+    sub.add_argument("--name", default="", help="how others see them (a new account: what stands before the @)")
+    sub.add_argument("--site", default="", help="make them a member of this site")
+    sub.add_argument("--role", choices=ROLES, default="viewer", help="what they may do there (viewer); none: no more")
+    sub.add_argument("--new-password", action="store_true", help="another password; who is signed in is signed out")
+    sub.set_defaults(run=set_account)
+
+
+def set_account(options: argparse.Namespace) -> int:
+    """Make or change an account; return 0, or 2 when that cannot be and nothing was changed."""
+    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
+    django.setup()
+    from django.db import transaction
+
+    from vipo_device.protocol.errors import VipoError
+
+    try:
+        with transaction.atomic():
+            told = _decide(options)
+    except VipoError as error:
+        print(error.detail, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing
+        return UNUSABLE
+    for line in told:
+        print(line)  # noqa: T201 - a command line tool speaks by printing
+    return CLEAN
+
+
+def _decide(options: argparse.Namespace) -> list[str]:
+    """Do what was asked for and return what to say of it. Raises VipoError."""
+    from registry import services
+
+    email: str = options.email.strip().lower()
+    told, password = [], secrets.token_urlsafe(12)
+    if not services.is_known(email=email):
+        services.create_user(email=email, password=password, display_name=options.name or email.partition("@")[0])
+        told = [f"{email} may sign in.", f"The password, shown this once: {password}"]
+    elif options.new_password:
+        services.change_password(email=email, password=password)
+        told = [f"The new password of {email}, shown this once: {password}"]
+    if options.site and options.role == "none":
+        services.get_site(site=options.site)
+        services.remove_member(site=options.site, email=email)
+        told.append(f"{email} is no member of {options.site}.")
+    elif options.site:
+        services.set_member(site=options.site, email=email, role=options.role)
+        told.append(f"{email} is {options.role} of {options.site}.")
+    return told or [f"{email} may sign in already. Name what to change: --site with --role, or --new-password."]

@@ -1,0 +1,122 @@
+"""`vipo describe`: what a description's file says, what is wrong with it, and the same in another form."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from vipo_device.descriptions.forms import BadDescription, form_of
+from vipo_device.descriptions.reader import Reading, read, write_description
+from vipo_device.descriptions.shacl import check_rdf, check_reading
+from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, PropertySpec, description_to_json
+from vipo_device.protocol.faults import Fault
+from vipo_site.cli.program_file import read_bounded
+
+_NAMES = {
+    "turtle": "Turtle",
+    "n-triples": "N-Triples",
+    "json-ld": "JSON-LD",
+    "td": "Thing Description",
+    "paper": "the paper's message",
+}
+
+
+def describe_file(options: argparse.Namespace) -> int:
+    """Read the file and write what was asked for; return 0, or 1 when something is wrong with the description.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    payload = read_bounded(options.file, "description")
+    try:
+        reading = read(payload)
+        faults = check_reading(reading, payload) if options.shacl else ()
+    except BadDescription as error:
+        return _tell_faults(options, (*error.faults, *(_faults_of_shapes(payload) if options.shacl else ())))
+    if faults:
+        return _tell_faults(options, faults)
+    if options.json:
+        _write(json.dumps(_as_json(reading, options.to), ensure_ascii=False, indent=1))
+    elif options.to:
+        sys.stdout.write(write_description(reading.description, options.to))
+        _complain([f"{options.file}: {note.text}" for note in reading.notes])
+    else:
+        _write("\n".join(_summary(options.file, reading)))
+    return 0
+
+
+def _faults_of_shapes(payload: bytes) -> tuple[Fault, ...]:
+    """Return what the shapes add about RDF that cannot be believed; nothing about what is no RDF at all."""
+    try:
+        return check_rdf(payload) if form_of(payload) in ("turtle", "n-triples", "json-ld") else ()
+    except BadDescription:
+        return ()
+
+
+def _tell_faults(options: argparse.Namespace, faults: tuple[Fault, ...]) -> int:
+    if options.json:
+        _write(json.dumps({"faults": [asdict(fault) for fault in faults]}, ensure_ascii=False, indent=1))
+    else:
+        _complain([f"{_place(options.file, fault)}: {fault.text}" for fault in faults])
+    return 1
+
+
+def _place(path: Path, fault: Fault) -> str:
+    if fault.line:
+        return f"{path}:{fault.line}:{fault.column}"
+    return f"{path}: {fault.path}" if fault.path else str(path)
+
+
+def _as_json(reading: Reading, form: str | None) -> dict[str, Any]:
+    body = {
+        "form": reading.form,
+        "notes": [note.text for note in reading.notes],
+        "faults": [],
+        "description": description_to_json(reading.description),
+    }
+    return {**body, "text": write_description(reading.description, form)} if form else body
+
+
+def _summary(path: Path, reading: Reading) -> Iterator[str]:
+    d = reading.description
+    yield f"{path}: {_NAMES[reading.form]}. It describes the {d.kind} {d.id}, “{d.name}”{_class_of(d)}."
+    yield (
+        f"place: {d.pose.x:g}, {d.pose.y:g}, {d.pose.z:g} m, {d.pose.theta:g} rad; "
+        f"size: {d.size.x:g} x {d.size.y:g} x {d.size.z:g} m"
+    )
+    yield from (f"property: {_value(spec)}" for spec in d.properties)
+    yield from (f"method: {_method(method)}" for method in d.methods)
+    yield from (f"mended: {note.text}" for note in reading.notes)
+
+
+def _class_of(d: Description) -> str:
+    return f" of class {d.device_class}" if d.device_class else ""
+
+
+def _method(method: MethodSpec) -> str:
+    return f"{method.name}({', '.join(_value(parameter) for parameter in method.parameters)})"
+
+
+def _value(spec: PropertySpec | ParameterSpec) -> str:
+    low, high = spec.minimum, spec.maximum
+    limits = "" if low is None and high is None else f"{'' if low is None else f'{low:g}'}…{_high(high)}"
+    words = (spec.type, limits, spec.unit, " | ".join(spec.options))
+    return f"{spec.name}: {' '.join(word for word in words if word)}"
+
+
+def _high(value: float | None) -> str:
+    return "" if value is None else f"{value:g}"
+
+
+def _write(text: str) -> None:
+    print(text)  # noqa: T201 - a command line tool speaks by printing
+
+
+def _complain(lines: list[str]) -> None:
+    for line in lines:
+        print(line, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing

@@ -1,0 +1,1 @@
+"""The embedded mode: everything in one process group, for `make demo`."""

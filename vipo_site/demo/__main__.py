@@ -1,0 +1,5 @@
+"""`python -m vipo_site.demo.main`: run everything on this machine."""
+
+from vipo_site.demo.main import main
+
+main()

@@ -1,0 +1,133 @@
+"""Who may come in to the embedded broker, who must go, and who may say and hear what; the registry decides.
+
+The rules are those that registry/broker/mosquitto_file.py gives Mosquitto.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+from django.db import close_old_connections
+
+if TYPE_CHECKING:
+    from registry.services import Login
+
+CheckPassword = Callable[[str, str], bool]
+Line = tuple[str, str, Mapping[str, Any]]
+"""For a device's history: its id, an English sentence, and what a screen says that from."""
+DOOR = "join:"
+LOOK_EVERY_S = 2.0
+_KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
+_STOP = re.compile(r"vipo/v1/site/[^/#]+/stop")
+
+
+class Admitted(NamedTuple):
+    """Somebody who may come in: the hash of their own key (empty with the join key), and their legacy topics."""
+
+    key: str = ""
+    topics: frozenset[str] = frozenset()
+
+
+class Doorkeeper(Protocol):
+    """What the broker asks; every method may block and is called from a thread."""
+
+    def admit(self, username: str, password: str) -> Admitted | None:
+        """Return as whom somebody comes in, None to refuse."""
+
+    def find_ended(self, logins: Mapping[str, Login]) -> frozenset[str]:
+        """Return which connections, by user name, must end now."""
+
+    def wait(self) -> None:
+        """Return when it is time to look for ended ones: soon after a change, every 2 s at the latest."""
+
+    def record(self, dropped: Mapping[str, int], lines: Sequence[Line]) -> None:
+        """Note how many messages of each device were dropped, and (device, line) for their histories."""
+
+
+class PasswordDoorkeeper:
+    """Lets in whoever a function accepts, for ever."""
+
+    def __init__(self, check_password: CheckPassword) -> None:
+        self._check_password = check_password
+
+    def admit(self, username: str, password: str) -> Admitted | None:
+        """See Doorkeeper."""
+        return Admitted() if self._check_password(username, password) else None
+
+    def find_ended(self, _logins: Mapping[str, Login]) -> frozenset[str]:
+        """See Doorkeeper."""
+        return frozenset()
+
+    def wait(self) -> None:
+        """See Doorkeeper."""
+        time.sleep(LOOK_EVERY_S)
+
+    def record(self, _dropped: Mapping[str, int], _lines: Sequence[Line]) -> None:
+        """See Doorkeeper; without a registry there is nothing to note it in."""
+
+
+class RegistryDoorkeeper:
+    """Asks the registry's database."""
+
+    def admit(self, username: str, password: str) -> Admitted | None:
+        """See Doorkeeper."""
+        from registry import services
+
+        close_old_connections()
+        try:
+            found = services.check_device_password(username=username, password=password)
+            return Admitted(found.key, found.topics) if found else None
+        finally:
+            close_old_connections()
+
+    def find_ended(self, logins: Mapping[str, Login]) -> frozenset[str]:
+        """See Doorkeeper."""
+        from registry import services
+
+        close_old_connections()
+        try:
+            return services.find_ended(logins=logins)
+        finally:
+            close_old_connections()
+
+    def wait(self) -> None:
+        """See Doorkeeper."""
+        from registry.broker.accounts import BROKER_CHANNEL
+        from registry.live.fanout import wait_wake
+
+        wait_wake(BROKER_CHANNEL, LOOK_EVERY_S)
+
+    def record(self, dropped: Mapping[str, int], lines: Sequence[Line]) -> None:
+        """See Doorkeeper."""
+        from registry import services
+
+        close_old_connections()
+        try:
+            services.count_dropped(dropped=dropped)
+            for device, line, facts in lines:
+                services.record_problem(device_id=device, text=line, facts=facts)
+        finally:
+            close_old_connections()
+
+
+def may_publish(username: str, topic: str) -> bool:
+    """Say whether somebody may write to a topic: a device under its own `up/`, a newcomer at its site's door."""
+    if username.startswith(DOOR):
+        knock = _KNOCK.fullmatch(topic)
+        return knock is not None and knock[1] == username.removeprefix(DOOR)
+    return topic.startswith(f"vipo/v1/dev/{username}/up/") and not {"+", "#"} & set(topic)
+
+
+def may_subscribe(username: str, topic_filter: str, topics: Collection[str] = ()) -> bool:
+    """Say whether somebody may ask for a filter: a device its own `down/`, sites' stops and the server's births.
+
+    `topics` are the legacy ones that an admin has confirmed for it.
+    """
+    if username.startswith(DOOR):
+        return False
+    if topic_filter.startswith(f"vipo/v1/dev/{username}/down/") or topic_filter in topics:
+        return True
+    return _STOP.fullmatch(topic_filter) is not None or topic_filter == "vipo/v1/srv/status"
