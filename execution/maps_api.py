@@ -9,7 +9,7 @@ from ninja import Field, Router, Schema
 
 from execution import services
 from registry import services as registry
-from registry.api.devices_and_sites import signed_in
+from registry.api.requests import signed_in
 from registry.people.access import require
 
 router = Router(tags=["execution"])

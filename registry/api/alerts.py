@@ -12,7 +12,7 @@ from registry import services
 from registry.alerts.causes import AlertCode, Severity
 from registry.alerts.list import NoSuchAlert
 from registry.alerts.views import AlertState
-from registry.api.devices_and_sites import signed_in
+from registry.api.requests import signed_in
 from registry.api.unchecked import Shown
 from registry.people.access import find_access, require
 

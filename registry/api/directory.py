@@ -8,7 +8,7 @@ from django.http import HttpRequest, HttpResponse, HttpResponseBase
 from ninja import Query, Router
 
 from registry import services
-from registry.api.devices_and_sites import signed_in
+from registry.api.requests import signed_in
 from registry.devices.rows import NoSuchDevice
 from registry.devices.things import EVENTS, EventName, device_id_of
 from registry.devices.views import DeviceView

@@ -10,7 +10,7 @@ from django.utils import timezone
 from ninja import Router, Schema
 
 from registry import services
-from registry.api.devices_and_sites import signed_in
+from registry.api.requests import signed_in
 from registry.api.shapes import Reading
 from registry.devices.readings_history import MOST_POINTS
 from registry.people.access import require
@@ -38,7 +38,7 @@ class SeriesShape(Schema):
 
 
 @router.get("/sites/{slug}/devices/{device_id}/history", response=SeriesShape)
-def show_history(
+def show_property_history(
     request: HttpRequest,
     slug: str,
     device_id: str,

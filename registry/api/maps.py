@@ -10,7 +10,7 @@ from django.http import HttpRequest, HttpResponse
 from ninja import Router, Schema
 
 from registry import services
-from registry.api.devices_and_sites import sends, signed_in
+from registry.api.requests import sends, signed_in
 from registry.api.shapes import MapShape, Origin
 from registry.floorplan.comparison import Trouble
 from registry.floorplan.map_server import write_pgm, write_yaml
@@ -135,7 +135,7 @@ def _download(body: bytes, name: str, content_type: str) -> HttpResponse:
 
 
 @router.get("/sites/{slug}/map/versions", response=list[MapVersionShape])
-def list_versions(request: HttpRequest, slug: str) -> list[dict[str, Any]]:
+def list_map_versions(request: HttpRequest, slug: str) -> list[dict[str, Any]]:
     """List the versions of a site's map, the one that holds first; the newest 50 are kept."""
     require(signed_in(request), slug, "viewer")
     return [{**asdict(view), "at": view.at.isoformat()} for view in services.list_map_versions(site=slug)]

@@ -9,7 +9,7 @@ from django.http import HttpRequest, HttpResponse, StreamingHttpResponse
 from django.utils import timezone
 from ninja import Field, Query, Router, Schema
 
-from registry.api.devices_and_sites import signed_in
+from registry.api.requests import signed_in
 from registry.mtconnect import agent as mtconnect_agent
 from registry.mtconnect import streams
 from registry.mtconnect.agent import AgentError, Answer, Question

@@ -12,7 +12,7 @@ from ninja import Router, Schema
 from pydantic import Field
 
 from registry import services
-from registry.api.devices_and_sites import signed_in
+from registry.api.requests import signed_in
 from registry.devices.enrolment import expect_newcomer
 from registry.people.access import require
 from vipo_device.descriptions.forms import BadDescription, DescriptionForm

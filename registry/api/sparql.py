@@ -9,7 +9,7 @@ from django.http.request import MediaType
 from ninja import Router
 
 from registry import services
-from registry.api.devices_and_sites import signed_in
+from registry.api.requests import signed_in
 from registry.people.access import require
 from registry.sparql.queries import MOST_QUERY_CHARACTERS, BadQuery
 

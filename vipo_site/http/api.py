@@ -13,11 +13,13 @@ from editor.api import router as editor_router
 from execution.api import router as execution_router
 from execution.maps_api import router as map_changes_router
 from registry.api.alerts import router as alerts_router
-from registry.api.devices_and_sites import router as registry_router
+from registry.api.devices import router as devices_router
 from registry.api.history import router as history_router
 from registry.api.maps import router as maps_router
 from registry.api.mtconnect import router as mtconnect_router
 from registry.api.onboarding import router as onboarding_router
+from registry.api.people import router as people_router
+from registry.api.sites import router as sites_router
 from registry.api.sparql import router as sparql_router
 from registry.api.things import router as things_router
 from vipo_device.protocol.errors import VipoError
@@ -69,7 +71,9 @@ def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
     return problem(error.status_code, code, _FRAMEWORK_SAYS.get(str(error), str(error)))
 
 
-api.add_router("", registry_router)
+api.add_router("", people_router)
+api.add_router("", sites_router)
+api.add_router("", devices_router)
 api.add_router("", alerts_router)
 api.add_router("", history_router)
 api.add_router("", onboarding_router)

@@ -8,6 +8,7 @@ from typing import Any
 
 from ninja import NinjaAPI, Schema
 from ninja.openapi.schema import OpenAPISchema
+from ninja.operation import Operation
 
 
 class FieldProblem(Schema):
@@ -30,7 +31,11 @@ class Problem(Schema):
 
 
 class DescribedAPI(NinjaAPI):
-    """An API whose description also says what refusals look like."""
+    """An API whose description also says what refusals look like, and names calls whatever module they stand in."""
+
+    def get_openapi_operation_id(self, operation: Operation) -> str:
+        """Return the name of the call's function, by which programs made from the description call it."""
+        return operation.view_func.__name__
 
     def get_openapi_schema(self, **options: Any) -> OpenAPISchema:
         """Return the description; every call has the refusal as its default answer."""

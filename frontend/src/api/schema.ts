@@ -17,7 +17,7 @@ export interface paths {
          * Mark Seen
          * @description Say that the asker has seen an alert; of several people the first one stays named.
          */
-        post: operations["registry_api_alerts_mark_seen"];
+        post: operations["mark_seen"];
         delete?: never;
         options?: never;
         head?: never;
@@ -35,7 +35,7 @@ export interface paths {
          * Search Library
          * @description Search the functions of one site, or of all sites of which the asker is a member.
          */
-        get: operations["editor_api_search_library"];
+        get: operations["search_library"];
         put?: never;
         post?: never;
         delete?: never;
@@ -55,7 +55,7 @@ export interface paths {
          * Show Function
          * @description Show the newest version of a library function.
          */
-        get: operations["editor_api_show_function"];
+        get: operations["show_function"];
         put?: never;
         post?: never;
         delete?: never;
@@ -75,7 +75,7 @@ export interface paths {
          * Show Function Version
          * @description Show a library function as it was saved under a number.
          */
-        get: operations["editor_api_show_function_version"];
+        get: operations["show_function_version"];
         put?: never;
         post?: never;
         delete?: never;
@@ -95,7 +95,7 @@ export interface paths {
          * Show Me
          * @description Say who is signed in; strangers get the token that signing in needs.
          */
-        get: operations["registry_api_devices_and_sites_show_me"];
+        get: operations["show_me"];
         put?: never;
         post?: never;
         delete?: never;
@@ -115,21 +115,21 @@ export interface paths {
          * Show Program
          * @description Show a program.
          */
-        get: operations["editor_api_show_program"];
+        get: operations["show_program"];
         put?: never;
         post?: never;
         /**
          * Delete Program
          * @description Delete a program with its versions.
          */
-        delete: operations["editor_api_delete_program"];
+        delete: operations["delete_program"];
         options?: never;
         head?: never;
         /**
          * Rename Program
          * @description Give a program another name.
          */
-        patch: operations["editor_api_rename_program"];
+        patch: operations["rename_program"];
         trace?: never;
     };
     "/api/programs/{program}/arm": {
@@ -145,7 +145,7 @@ export interface paths {
          * Arm Program
          * @description Let a program, as it is drawn now, start by itself, or not any more; returns all that do so at its site.
          */
-        post: operations["execution_api_arm_program"];
+        post: operations["arm_program"];
         delete?: never;
         options?: never;
         head?: never;
@@ -163,7 +163,7 @@ export interface paths {
          * Show Compiled
          * @description Show a program compiled for its site, as both are now.
          */
-        get: operations["editor_api_show_compiled"];
+        get: operations["show_compiled"];
         put?: never;
         post?: never;
         delete?: never;
@@ -183,7 +183,7 @@ export interface paths {
          * Show Document
          * @description Show a program's document as it is now.
          */
-        get: operations["editor_api_show_document"];
+        get: operations["show_document"];
         put?: never;
         post?: never;
         delete?: never;
@@ -205,7 +205,7 @@ export interface paths {
          * Read Expression
          * @description Read a value that an author writes as one line, or print one for whoever may look.
          */
-        post: operations["editor_api_read_expression"];
+        post: operations["read_expression"];
         delete?: never;
         options?: never;
         head?: never;
@@ -225,7 +225,7 @@ export interface paths {
          * Start Rehearsal
          * @description Queue a rehearsal of a program as it is drawn now.
          */
-        post: operations["execution_api_start_rehearsal"];
+        post: operations["start_rehearsal"];
         delete?: never;
         options?: never;
         head?: never;
@@ -245,7 +245,7 @@ export interface paths {
          * Start Run
          * @description Start a run of a program as it is drawn now.
          */
-        post: operations["execution_api_start_run"];
+        post: operations["start_run"];
         delete?: never;
         options?: never;
         head?: never;
@@ -265,7 +265,7 @@ export interface paths {
          * Draw Script
          * @description Draw a script: the document that it would make of the program, or where it leaves the language.
          */
-        post: operations["editor_api_draw_script"];
+        post: operations["draw_script"];
         delete?: never;
         options?: never;
         head?: never;
@@ -283,13 +283,13 @@ export interface paths {
          * List Versions
          * @description List a program's versions, the newest first.
          */
-        get: operations["editor_api_list_versions"];
+        get: operations["list_versions"];
         put?: never;
         /**
          * Pin Version
          * @description Make the program as it is now a version.
          */
-        post: operations["editor_api_pin_version"];
+        post: operations["pin_version"];
         delete?: never;
         options?: never;
         head?: never;
@@ -309,7 +309,7 @@ export interface paths {
          * Answer Question
          * @description Answer a question; the first answer counts.
          */
-        post: operations["execution_api_answer_question"];
+        post: operations["answer_question"];
         delete?: never;
         options?: never;
         head?: never;
@@ -327,7 +327,7 @@ export interface paths {
          * Get Rehearsal
          * @description Return a rehearsal with its result.
          */
-        get: operations["execution_api_get_rehearsal"];
+        get: operations["get_rehearsal"];
         put?: never;
         post?: never;
         delete?: never;
@@ -347,7 +347,7 @@ export interface paths {
          * Get Run
          * @description Return a run with its document and compiled form.
          */
-        get: operations["execution_api_get_run"];
+        get: operations["get_run"];
         put?: never;
         post?: never;
         delete?: never;
@@ -369,7 +369,7 @@ export interface paths {
          * Cancel Run
          * @description Cancel a run.
          */
-        post: operations["execution_api_cancel_run"];
+        post: operations["cancel_run"];
         delete?: never;
         options?: never;
         head?: never;
@@ -387,7 +387,7 @@ export interface paths {
          * List Events
          * @description Return the run's journal after a line's number.
          */
-        get: operations["execution_api_list_events"];
+        get: operations["list_events"];
         put?: never;
         post?: never;
         delete?: never;
@@ -409,7 +409,7 @@ export interface paths {
          * Pause Run
          * @description Pause a run.
          */
-        post: operations["execution_api_pause_run"];
+        post: operations["pause_run"];
         delete?: never;
         options?: never;
         head?: never;
@@ -429,7 +429,7 @@ export interface paths {
          * Resume Run
          * @description Resume a run.
          */
-        post: operations["execution_api_resume_run"];
+        post: operations["resume_run"];
         delete?: never;
         options?: never;
         head?: never;
@@ -449,7 +449,7 @@ export interface paths {
          * Sign In
          * @description Begin a session.
          */
-        post: operations["registry_api_devices_and_sites_sign_in"];
+        post: operations["sign_in"];
         delete?: never;
         options?: never;
         head?: never;
@@ -469,7 +469,7 @@ export interface paths {
          * Sign Out
          * @description End the session.
          */
-        post: operations["registry_api_devices_and_sites_sign_out"];
+        post: operations["sign_out"];
         delete?: never;
         options?: never;
         head?: never;
@@ -487,13 +487,13 @@ export interface paths {
          * List Sites
          * @description List the sites where the asker is a member.
          */
-        get: operations["registry_api_devices_and_sites_list_sites"];
+        get: operations["list_sites"];
         put?: never;
         /**
          * Upload Site
          * @description Make a site from a ROS map; the asker becomes its admin.
          */
-        post: operations["registry_api_devices_and_sites_upload_site"];
+        post: operations["upload_site"];
         delete?: never;
         options?: never;
         head?: never;
@@ -511,7 +511,7 @@ export interface paths {
          * List Armed
          * @description Return the programs that start by themselves.
          */
-        get: operations["execution_api_list_armed"];
+        get: operations["list_armed"];
         put?: never;
         post?: never;
         delete?: never;
@@ -531,7 +531,7 @@ export interface paths {
          * Get Call
          * @description Return a call and what has come of it.
          */
-        get: operations["execution_api_get_call"];
+        get: operations["get_call"];
         put?: never;
         post?: never;
         delete?: never;
@@ -553,7 +553,7 @@ export interface paths {
          * Cancel Call
          * @description Ask the device to end a call.
          */
-        post: operations["execution_api_cancel_call"];
+        post: operations["cancel_call"];
         delete?: never;
         options?: never;
         head?: never;
@@ -573,7 +573,7 @@ export interface paths {
          * Call Method
          * @description Tell a device to carry out one of its methods, outside of any run; follow what comes of it by its id.
          */
-        post: operations["execution_api_call_method"];
+        post: operations["call_method"];
         delete?: never;
         options?: never;
         head?: never;
@@ -591,7 +591,7 @@ export interface paths {
          * List Questions
          * @description Return the site's open questions, or all of one run.
          */
-        get: operations["execution_api_list_questions"];
+        get: operations["list_questions"];
         put?: never;
         post?: never;
         delete?: never;
@@ -613,7 +613,7 @@ export interface paths {
          * Plan Route
          * @description Return the way that a robot would drive.
          */
-        post: operations["execution_api_plan_route"];
+        post: operations["plan_route"];
         delete?: never;
         options?: never;
         head?: never;
@@ -633,7 +633,7 @@ export interface paths {
          * Plan Routes
          * @description Return many ways at once; null where there is none.
          */
-        post: operations["execution_api_plan_routes"];
+        post: operations["plan_routes"];
         delete?: never;
         options?: never;
         head?: never;
@@ -651,7 +651,7 @@ export interface paths {
          * List Runs
          * @description Return the site's runs, the newest first.
          */
-        get: operations["execution_api_list_runs"];
+        get: operations["list_runs"];
         put?: never;
         post?: never;
         delete?: never;
@@ -673,7 +673,7 @@ export interface paths {
          * Press Stop
          * @description Stop all devices of the site; anybody who may look may do this.
          */
-        post: operations["execution_api_press_stop"];
+        post: operations["press_stop"];
         delete?: never;
         options?: never;
         head?: never;
@@ -693,7 +693,7 @@ export interface paths {
          * Reset Stop
          * @description End the stop; runs stay paused.
          */
-        post: operations["execution_api_reset_stop"];
+        post: operations["reset_stop"];
         delete?: never;
         options?: never;
         head?: never;
@@ -711,7 +711,7 @@ export interface paths {
          * Show Site
          * @description Show a site.
          */
-        get: operations["registry_api_devices_and_sites_show_site"];
+        get: operations["show_site"];
         put?: never;
         post?: never;
         delete?: never;
@@ -731,7 +731,7 @@ export interface paths {
          * List Alerts
          * @description List a site's alerts, the latest first: those that are not over, or those in one `state`; 1,000 at most.
          */
-        get: operations["registry_api_alerts_list_alerts"];
+        get: operations["list_alerts"];
         put?: never;
         post?: never;
         delete?: never;
@@ -753,7 +753,7 @@ export interface paths {
          * Mark All Seen
          * @description Say that the asker has seen all open alerts of a site; answers with those that are not over.
          */
-        post: operations["registry_api_alerts_mark_all_seen"];
+        post: operations["mark_all_seen"];
         delete?: never;
         options?: never;
         head?: never;
@@ -773,7 +773,7 @@ export interface paths {
          * Look At Description
          * @description Say what VIPO would make of a description, and what is wrong with it; nothing is kept.
          */
-        post: operations["registry_api_onboarding_look_at_description"];
+        post: operations["look_at_description"];
         delete?: never;
         options?: never;
         head?: never;
@@ -791,7 +791,7 @@ export interface paths {
          * List Devices
          * @description List a site's devices, also those that wait for approval; retired ones only when asked for by `lifecycle`.
          */
-        get: operations["registry_api_devices_and_sites_list_devices"];
+        get: operations["list_devices"];
         put?: never;
         post?: never;
         delete?: never;
@@ -811,7 +811,7 @@ export interface paths {
          * Export Devices
          * @description Give the descriptions of all devices of a site as one Turtle file.
          */
-        get: operations["registry_api_onboarding_export_devices"];
+        get: operations["export_devices"];
         put?: never;
         post?: never;
         delete?: never;
@@ -831,17 +831,17 @@ export interface paths {
          * Show Device
          * @description Show a device.
          */
-        get: operations["registry_api_devices_and_sites_show_device"];
+        get: operations["show_device"];
         put?: never;
         post?: never;
         delete?: never;
         options?: never;
         head?: never;
         /**
-         * Edit
+         * Edit Device
          * @description Rename a device, or say where it stands.
          */
-        patch: operations["registry_api_devices_and_sites_edit"];
+        patch: operations["edit_device"];
         trace?: never;
     };
     "/api/sites/{slug}/devices/{device_id}/approve": {
@@ -854,10 +854,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Approve
+         * Approve Device
          * @description Let a pending device take part, and tell its new key this once.
          */
-        post: operations["registry_api_devices_and_sites_approve"];
+        post: operations["approve_device"];
         delete?: never;
         options?: never;
         head?: never;
@@ -874,15 +874,15 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Rotate
+         * Rotate Credential
          * @description Give an approved device a new key, told this once; the old one ends.
          */
-        post: operations["registry_api_devices_and_sites_rotate"];
+        post: operations["rotate_credential"];
         /**
-         * Revoke
+         * Revoke Credential
          * @description Take an approved device's key away; its connection ends at once.
          */
-        delete: operations["registry_api_devices_and_sites_revoke"];
+        delete: operations["revoke_credential"];
         options?: never;
         head?: never;
         patch?: never;
@@ -896,10 +896,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Show History
+         * List Device Events
          * @description Show what happened to a device, newest first.
          */
-        get: operations["registry_api_devices_and_sites_show_history"];
+        get: operations["list_device_events"];
         put?: never;
         post?: never;
         delete?: never;
@@ -916,10 +916,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Show History
+         * Show Property History
          * @description Show what a property was since a time, at most seven days back, in so many points at most (1 to 500).
          */
-        get: operations["registry_api_history_show_history"];
+        get: operations["show_property_history"];
         put?: never;
         post?: never;
         delete?: never;
@@ -939,7 +939,7 @@ export interface paths {
          * Show Robot Map
          * @description Show the newest map that a robot has sent, without its cells.
          */
-        get: operations["registry_api_maps_show_robot_map"];
+        get: operations["show_robot_map"];
         put?: never;
         post?: never;
         delete?: never;
@@ -959,7 +959,7 @@ export interface paths {
          * Download Robot Pgm
          * @description Send the image of a robot's map in the ROS form.
          */
-        get: operations["registry_api_maps_download_robot_pgm"];
+        get: operations["download_robot_pgm"];
         put?: never;
         post?: never;
         delete?: never;
@@ -979,7 +979,7 @@ export interface paths {
          * Download Robot Yaml
          * @description Send the header of a robot's map in the ROS form.
          */
-        get: operations["registry_api_maps_download_robot_yaml"];
+        get: operations["download_robot_yaml"];
         put?: never;
         post?: never;
         delete?: never;
@@ -999,7 +999,7 @@ export interface paths {
          * Show Robot Cells
          * @description Send the cells of a robot's map: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown.
          */
-        get: operations["registry_api_maps_show_robot_cells"];
+        get: operations["show_robot_cells"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1019,7 +1019,7 @@ export interface paths {
          * Show Difference
          * @description Show what would change at the site if the robot's map became its own.
          */
-        get: operations["registry_api_maps_show_difference"];
+        get: operations["show_difference"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1039,7 +1039,7 @@ export interface paths {
          * Show Rdf
          * @description Send a device's description as `turtle`, `n-triples`, `json-ld`, `td` or the `paper`'s message.
          */
-        get: operations["registry_api_devices_and_sites_show_rdf"];
+        get: operations["show_rdf"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1058,10 +1058,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Readmit
+         * Readmit Device
          * @description Let a retired or rejected device's id come back as a newcomer.
          */
-        post: operations["registry_api_devices_and_sites_readmit"];
+        post: operations["readmit_device"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1078,10 +1078,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Reject
+         * Reject Device
          * @description Turn a pending device away.
          */
-        post: operations["registry_api_devices_and_sites_reject"];
+        post: operations["reject_device"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1098,10 +1098,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Retire
+         * Retire Device
          * @description Take an approved device out; its history stays, and its id cannot come back until it is readmitted.
          */
-        post: operations["registry_api_devices_and_sites_retire"];
+        post: operations["retire_device"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1118,10 +1118,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Confirm
+         * Confirm Topic
          * @description Let an approved device be told a method on the topic outside of `vipo/` that it asks for.
          */
-        post: operations["registry_api_devices_and_sites_confirm"];
+        post: operations["confirm_topic"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1138,10 +1138,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Withdraw
+         * Withdraw Topic
          * @description Take the confirmation of a topic back; the device asks for it again.
          */
-        post: operations["registry_api_devices_and_sites_withdraw"];
+        post: operations["withdraw_topic"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1161,7 +1161,7 @@ export interface paths {
          * Renew Join Key
          * @description Make a new join key for a site's newcomers, and tell it this once; the old one ends.
          */
-        post: operations["registry_api_onboarding_renew_join_key"];
+        post: operations["renew_join_key"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1181,7 +1181,7 @@ export interface paths {
          * Save Function
          * @description Save a program's function into the library.
          */
-        post: operations["editor_api_save_function"];
+        post: operations["save_function"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1199,7 +1199,7 @@ export interface paths {
          * Show Map
          * @description Show a site's map without its cells.
          */
-        get: operations["registry_api_maps_show_map"];
+        get: operations["show_map"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1219,7 +1219,7 @@ export interface paths {
          * Download Pgm
          * @description Send the map's image in the ROS form.
          */
-        get: operations["registry_api_maps_download_pgm"];
+        get: operations["download_pgm"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1239,7 +1239,7 @@ export interface paths {
          * Download Yaml
          * @description Send the map's header in the ROS form.
          */
-        get: operations["registry_api_maps_download_yaml"];
+        get: operations["download_yaml"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1259,7 +1259,7 @@ export interface paths {
          * Show Cells
          * @description Send the cells: one byte each, bottom row first, 0 free, 100 occupied, 255 unknown.
          */
-        get: operations["registry_api_maps_show_cells"];
+        get: operations["show_cells"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1281,7 +1281,7 @@ export interface paths {
          * Use Robot Map
          * @description Make a robot's map the site's, as a new version; places and devices stay. Refused while anything is under way.
          */
-        post: operations["execution_maps_api_use_robot_map"];
+        post: operations["use_robot_map"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1301,7 +1301,7 @@ export interface paths {
          * Restore Map
          * @description Use an older version of the site's map again, as a new version. Refused while anything is under way.
          */
-        post: operations["execution_maps_api_restore_map"];
+        post: operations["restore_map"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1316,10 +1316,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * List Versions
+         * List Map Versions
          * @description List the versions of a site's map, the one that holds first; the newest 50 are kept.
          */
-        get: operations["registry_api_maps_list_versions"];
+        get: operations["list_map_versions"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1339,7 +1339,7 @@ export interface paths {
          * Current
          * @description Send MTConnectStreams: how the devices are; with `at` how they were, with `interval` again and again.
          */
-        get: operations["registry_api_mtconnect_current"];
+        get: operations["current"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1359,7 +1359,7 @@ export interface paths {
          * Probe
          * @description Send MTConnectDevices: the site's approved devices and what they tell.
          */
-        get: operations["registry_api_mtconnect_probe"];
+        get: operations["probe"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1379,7 +1379,7 @@ export interface paths {
          * Sample
          * @description Send MTConnectStreams: what the devices have said, from the sequence number `from` on, `count` at most.
          */
-        get: operations["registry_api_mtconnect_sample"];
+        get: operations["sample"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1399,7 +1399,7 @@ export interface paths {
          * Current Of Device
          * @description Send MTConnectStreams of one device: how it is.
          */
-        get: operations["registry_api_mtconnect_current_of_device"];
+        get: operations["current_of_device"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1419,7 +1419,7 @@ export interface paths {
          * Probe Device
          * @description Send MTConnectDevices of one device, named by its id or uuid.
          */
-        get: operations["registry_api_mtconnect_probe_device"];
+        get: operations["probe_device"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1439,7 +1439,7 @@ export interface paths {
          * Sample Of Device
          * @description Send MTConnectStreams of one device: what it has said.
          */
-        get: operations["registry_api_mtconnect_sample_of_device"];
+        get: operations["sample_of_device"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1461,7 +1461,7 @@ export interface paths {
          * Add Newcomer
          * @description Reserve an id for a device that will come, and tell its key this once; it still waits for approval then.
          */
-        post: operations["registry_api_onboarding_add_newcomer"];
+        post: operations["add_newcomer"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1479,13 +1479,13 @@ export interface paths {
          * List Programs
          * @description List a site's programs, the last edited first.
          */
-        get: operations["editor_api_list_programs"];
+        get: operations["list_programs"];
         put?: never;
         /**
          * Create Program
          * @description Make an empty program.
          */
-        post: operations["editor_api_create_program"];
+        post: operations["create_program"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1503,13 +1503,13 @@ export interface paths {
          * Ask
          * @description Answer a SPARQL query over the site's descriptions; as `format`, or else the header Accept, says.
          */
-        get: operations["registry_api_sparql_ask"];
+        get: operations["ask"];
         put?: never;
         /**
          * Post Query
          * @description Answer a query that comes as `application/sparql-query`, or as the field `query` of a form.
          */
-        post: operations["registry_api_sparql_post_query"];
+        post: operations["post_query"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1527,7 +1527,7 @@ export interface paths {
          * List Things
          * @description List the site's approved devices as Thing Descriptions, a part at a time; the header Link names the next part.
          */
-        get: operations["registry_api_things_list_things"];
+        get: operations["list_things"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1547,7 +1547,7 @@ export interface paths {
          * Watch Things
          * @description Send `thing_created`, `thing_updated` and `thing_deleted` as they happen; with `diff` what changed, too.
          */
-        get: operations["registry_api_things_watch_things"];
+        get: operations["watch_things"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1567,7 +1567,7 @@ export interface paths {
          * Show Thing
          * @description Send a device's Thing Description; `thing` is its id, with or without `urn:vipo:device:`.
          */
-        get: operations["registry_api_things_show_thing"];
+        get: operations["show_thing"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1577,7 +1577,7 @@ export interface paths {
          * Patch Thing
          * @description Change a Thing's `title` or `vipo:location` by a JSON merge patch; the rest the device says itself.
          */
-        patch: operations["registry_api_things_patch_thing"];
+        patch: operations["patch_thing"];
         trace?: never;
     };
 }
@@ -2670,7 +2670,7 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
-    registry_api_alerts_mark_seen: {
+    mark_seen: {
         parameters: {
             query?: never;
             header?: never;
@@ -2701,7 +2701,7 @@ export interface operations {
             };
         };
     };
-    editor_api_search_library: {
+    search_library: {
         parameters: {
             query?: {
                 q?: string;
@@ -2733,7 +2733,7 @@ export interface operations {
             };
         };
     };
-    editor_api_show_function: {
+    show_function: {
         parameters: {
             query?: never;
             header?: never;
@@ -2764,7 +2764,7 @@ export interface operations {
             };
         };
     };
-    editor_api_show_function_version: {
+    show_function_version: {
         parameters: {
             query?: never;
             header?: never;
@@ -2796,7 +2796,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_show_me: {
+    show_me: {
         parameters: {
             query?: never;
             header?: never;
@@ -2825,7 +2825,7 @@ export interface operations {
             };
         };
     };
-    editor_api_show_program: {
+    show_program: {
         parameters: {
             query?: never;
             header?: never;
@@ -2856,7 +2856,7 @@ export interface operations {
             };
         };
     };
-    editor_api_delete_program: {
+    delete_program: {
         parameters: {
             query?: never;
             header?: never;
@@ -2885,7 +2885,7 @@ export interface operations {
             };
         };
     };
-    editor_api_rename_program: {
+    rename_program: {
         parameters: {
             query?: never;
             header?: never;
@@ -2920,7 +2920,7 @@ export interface operations {
             };
         };
     };
-    execution_api_arm_program: {
+    arm_program: {
         parameters: {
             query?: never;
             header?: never;
@@ -2955,7 +2955,7 @@ export interface operations {
             };
         };
     };
-    editor_api_show_compiled: {
+    show_compiled: {
         parameters: {
             query?: never;
             header?: never;
@@ -2986,7 +2986,7 @@ export interface operations {
             };
         };
     };
-    editor_api_show_document: {
+    show_document: {
         parameters: {
             query?: never;
             header?: never;
@@ -3017,7 +3017,7 @@ export interface operations {
             };
         };
     };
-    editor_api_read_expression: {
+    read_expression: {
         parameters: {
             query?: never;
             header?: never;
@@ -3052,7 +3052,7 @@ export interface operations {
             };
         };
     };
-    execution_api_start_rehearsal: {
+    start_rehearsal: {
         parameters: {
             query?: never;
             header?: never;
@@ -3087,7 +3087,7 @@ export interface operations {
             };
         };
     };
-    execution_api_start_run: {
+    start_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -3122,7 +3122,7 @@ export interface operations {
             };
         };
     };
-    editor_api_draw_script: {
+    draw_script: {
         parameters: {
             query?: never;
             header?: never;
@@ -3157,7 +3157,7 @@ export interface operations {
             };
         };
     };
-    editor_api_list_versions: {
+    list_versions: {
         parameters: {
             query?: never;
             header?: never;
@@ -3188,7 +3188,7 @@ export interface operations {
             };
         };
     };
-    editor_api_pin_version: {
+    pin_version: {
         parameters: {
             query?: never;
             header?: never;
@@ -3223,7 +3223,7 @@ export interface operations {
             };
         };
     };
-    execution_api_answer_question: {
+    answer_question: {
         parameters: {
             query?: never;
             header?: never;
@@ -3258,7 +3258,7 @@ export interface operations {
             };
         };
     };
-    execution_api_get_rehearsal: {
+    get_rehearsal: {
         parameters: {
             query?: never;
             header?: never;
@@ -3289,7 +3289,7 @@ export interface operations {
             };
         };
     };
-    execution_api_get_run: {
+    get_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -3320,7 +3320,7 @@ export interface operations {
             };
         };
     };
-    execution_api_cancel_run: {
+    cancel_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -3351,7 +3351,7 @@ export interface operations {
             };
         };
     };
-    execution_api_list_events: {
+    list_events: {
         parameters: {
             query?: {
                 after?: number;
@@ -3384,7 +3384,7 @@ export interface operations {
             };
         };
     };
-    execution_api_pause_run: {
+    pause_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -3415,7 +3415,7 @@ export interface operations {
             };
         };
     };
-    execution_api_resume_run: {
+    resume_run: {
         parameters: {
             query?: never;
             header?: never;
@@ -3446,7 +3446,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_sign_in: {
+    sign_in: {
         parameters: {
             query?: never;
             header?: never;
@@ -3479,7 +3479,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_sign_out: {
+    sign_out: {
         parameters: {
             query?: never;
             header?: never;
@@ -3508,7 +3508,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_list_sites: {
+    list_sites: {
         parameters: {
             query?: never;
             header?: never;
@@ -3537,7 +3537,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_upload_site: {
+    upload_site: {
         parameters: {
             query?: never;
             header?: never;
@@ -3575,7 +3575,7 @@ export interface operations {
             };
         };
     };
-    execution_api_list_armed: {
+    list_armed: {
         parameters: {
             query?: never;
             header?: never;
@@ -3606,7 +3606,7 @@ export interface operations {
             };
         };
     };
-    execution_api_get_call: {
+    get_call: {
         parameters: {
             query?: never;
             header?: never;
@@ -3638,7 +3638,7 @@ export interface operations {
             };
         };
     };
-    execution_api_cancel_call: {
+    cancel_call: {
         parameters: {
             query?: never;
             header?: never;
@@ -3670,7 +3670,7 @@ export interface operations {
             };
         };
     };
-    execution_api_call_method: {
+    call_method: {
         parameters: {
             query?: never;
             header?: never;
@@ -3706,7 +3706,7 @@ export interface operations {
             };
         };
     };
-    execution_api_list_questions: {
+    list_questions: {
         parameters: {
             query?: {
                 run?: string | null;
@@ -3739,7 +3739,7 @@ export interface operations {
             };
         };
     };
-    execution_api_plan_route: {
+    plan_route: {
         parameters: {
             query?: never;
             header?: never;
@@ -3774,7 +3774,7 @@ export interface operations {
             };
         };
     };
-    execution_api_plan_routes: {
+    plan_routes: {
         parameters: {
             query?: never;
             header?: never;
@@ -3809,7 +3809,7 @@ export interface operations {
             };
         };
     };
-    execution_api_list_runs: {
+    list_runs: {
         parameters: {
             query?: never;
             header?: never;
@@ -3840,7 +3840,7 @@ export interface operations {
             };
         };
     };
-    execution_api_press_stop: {
+    press_stop: {
         parameters: {
             query?: never;
             header?: never;
@@ -3871,7 +3871,7 @@ export interface operations {
             };
         };
     };
-    execution_api_reset_stop: {
+    reset_stop: {
         parameters: {
             query?: never;
             header?: never;
@@ -3902,7 +3902,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_show_site: {
+    show_site: {
         parameters: {
             query?: never;
             header?: never;
@@ -3933,7 +3933,7 @@ export interface operations {
             };
         };
     };
-    registry_api_alerts_list_alerts: {
+    list_alerts: {
         parameters: {
             query?: {
                 state?: ("open" | "seen" | "over") | null;
@@ -3966,7 +3966,7 @@ export interface operations {
             };
         };
     };
-    registry_api_alerts_mark_all_seen: {
+    mark_all_seen: {
         parameters: {
             query?: never;
             header?: never;
@@ -3997,7 +3997,7 @@ export interface operations {
             };
         };
     };
-    registry_api_onboarding_look_at_description: {
+    look_at_description: {
         parameters: {
             query?: never;
             header?: never;
@@ -4032,7 +4032,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_list_devices: {
+    list_devices: {
         parameters: {
             query?: {
                 lifecycle?: ("pending" | "approved" | "retired") | null;
@@ -4065,7 +4065,7 @@ export interface operations {
             };
         };
     };
-    registry_api_onboarding_export_devices: {
+    export_devices: {
         parameters: {
             query?: never;
             header?: never;
@@ -4096,7 +4096,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_show_device: {
+    show_device: {
         parameters: {
             query?: never;
             header?: never;
@@ -4128,7 +4128,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_edit: {
+    edit_device: {
         parameters: {
             query?: never;
             header?: never;
@@ -4164,7 +4164,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_approve: {
+    approve_device: {
         parameters: {
             query?: never;
             header?: never;
@@ -4196,7 +4196,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_rotate: {
+    rotate_credential: {
         parameters: {
             query?: never;
             header?: never;
@@ -4228,7 +4228,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_revoke: {
+    revoke_credential: {
         parameters: {
             query?: never;
             header?: never;
@@ -4260,7 +4260,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_show_history: {
+    list_device_events: {
         parameters: {
             query?: never;
             header?: never;
@@ -4292,7 +4292,7 @@ export interface operations {
             };
         };
     };
-    registry_api_history_show_history: {
+    show_property_history: {
         parameters: {
             query: {
                 property: string;
@@ -4328,7 +4328,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_show_robot_map: {
+    show_robot_map: {
         parameters: {
             query?: never;
             header?: never;
@@ -4360,7 +4360,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_download_robot_pgm: {
+    download_robot_pgm: {
         parameters: {
             query?: never;
             header?: never;
@@ -4392,7 +4392,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_download_robot_yaml: {
+    download_robot_yaml: {
         parameters: {
             query?: never;
             header?: never;
@@ -4424,7 +4424,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_show_robot_cells: {
+    show_robot_cells: {
         parameters: {
             query?: never;
             header?: never;
@@ -4456,7 +4456,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_show_difference: {
+    show_difference: {
         parameters: {
             query?: never;
             header?: never;
@@ -4488,7 +4488,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_show_rdf: {
+    show_rdf: {
         parameters: {
             query?: {
                 format?: "turtle" | "n-triples" | "json-ld" | "td" | "paper";
@@ -4526,7 +4526,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_readmit: {
+    readmit_device: {
         parameters: {
             query?: never;
             header?: never;
@@ -4558,7 +4558,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_reject: {
+    reject_device: {
         parameters: {
             query?: never;
             header?: never;
@@ -4590,7 +4590,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_retire: {
+    retire_device: {
         parameters: {
             query?: never;
             header?: never;
@@ -4622,7 +4622,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_confirm: {
+    confirm_topic: {
         parameters: {
             query?: never;
             header?: never;
@@ -4658,7 +4658,7 @@ export interface operations {
             };
         };
     };
-    registry_api_devices_and_sites_withdraw: {
+    withdraw_topic: {
         parameters: {
             query?: never;
             header?: never;
@@ -4694,7 +4694,7 @@ export interface operations {
             };
         };
     };
-    registry_api_onboarding_renew_join_key: {
+    renew_join_key: {
         parameters: {
             query?: never;
             header?: never;
@@ -4725,7 +4725,7 @@ export interface operations {
             };
         };
     };
-    editor_api_save_function: {
+    save_function: {
         parameters: {
             query?: never;
             header?: never;
@@ -4760,7 +4760,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_show_map: {
+    show_map: {
         parameters: {
             query?: never;
             header?: never;
@@ -4791,7 +4791,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_download_pgm: {
+    download_pgm: {
         parameters: {
             query?: never;
             header?: never;
@@ -4822,7 +4822,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_download_yaml: {
+    download_yaml: {
         parameters: {
             query?: never;
             header?: never;
@@ -4853,7 +4853,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_show_cells: {
+    show_cells: {
         parameters: {
             query?: never;
             header?: never;
@@ -4884,7 +4884,7 @@ export interface operations {
             };
         };
     };
-    execution_maps_api_use_robot_map: {
+    use_robot_map: {
         parameters: {
             query?: never;
             header?: never;
@@ -4919,7 +4919,7 @@ export interface operations {
             };
         };
     };
-    execution_maps_api_restore_map: {
+    restore_map: {
         parameters: {
             query?: never;
             header?: never;
@@ -4954,7 +4954,7 @@ export interface operations {
             };
         };
     };
-    registry_api_maps_list_versions: {
+    list_map_versions: {
         parameters: {
             query?: never;
             header?: never;
@@ -4985,7 +4985,7 @@ export interface operations {
             };
         };
     };
-    registry_api_mtconnect_current: {
+    current: {
         parameters: {
             query?: {
                 path?: string | null;
@@ -5021,7 +5021,7 @@ export interface operations {
             };
         };
     };
-    registry_api_mtconnect_probe: {
+    probe: {
         parameters: {
             query?: never;
             header?: never;
@@ -5052,7 +5052,7 @@ export interface operations {
             };
         };
     };
-    registry_api_mtconnect_sample: {
+    sample: {
         parameters: {
             query?: {
                 path?: string | null;
@@ -5090,7 +5090,7 @@ export interface operations {
             };
         };
     };
-    registry_api_mtconnect_current_of_device: {
+    current_of_device: {
         parameters: {
             query?: {
                 path?: string | null;
@@ -5127,7 +5127,7 @@ export interface operations {
             };
         };
     };
-    registry_api_mtconnect_probe_device: {
+    probe_device: {
         parameters: {
             query?: never;
             header?: never;
@@ -5159,7 +5159,7 @@ export interface operations {
             };
         };
     };
-    registry_api_mtconnect_sample_of_device: {
+    sample_of_device: {
         parameters: {
             query?: {
                 path?: string | null;
@@ -5198,7 +5198,7 @@ export interface operations {
             };
         };
     };
-    registry_api_onboarding_add_newcomer: {
+    add_newcomer: {
         parameters: {
             query?: never;
             header?: never;
@@ -5233,7 +5233,7 @@ export interface operations {
             };
         };
     };
-    editor_api_list_programs: {
+    list_programs: {
         parameters: {
             query?: never;
             header?: never;
@@ -5264,7 +5264,7 @@ export interface operations {
             };
         };
     };
-    editor_api_create_program: {
+    create_program: {
         parameters: {
             query?: never;
             header?: never;
@@ -5299,7 +5299,7 @@ export interface operations {
             };
         };
     };
-    registry_api_sparql_ask: {
+    ask: {
         parameters: {
             query?: {
                 query?: string;
@@ -5338,7 +5338,7 @@ export interface operations {
             };
         };
     };
-    registry_api_sparql_post_query: {
+    post_query: {
         parameters: {
             query?: {
                 format?: ("json" | "xml" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
@@ -5376,7 +5376,7 @@ export interface operations {
             };
         };
     };
-    registry_api_things_list_things: {
+    list_things: {
         parameters: {
             query?: {
                 offset?: number;
@@ -5413,7 +5413,7 @@ export interface operations {
             };
         };
     };
-    registry_api_things_watch_things: {
+    watch_things: {
         parameters: {
             query?: {
                 type?: ("thing_created" | "thing_updated" | "thing_deleted")[] | null;
@@ -5447,7 +5447,7 @@ export interface operations {
             };
         };
     };
-    registry_api_things_show_thing: {
+    show_thing: {
         parameters: {
             query?: never;
             header?: never;
@@ -5479,7 +5479,7 @@ export interface operations {
             };
         };
     };
-    registry_api_things_patch_thing: {
+    patch_thing: {
         parameters: {
             query?: never;
             header?: never;

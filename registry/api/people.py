@@ -1,0 +1,65 @@
+"""Signing in and out over HTTP."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from django.conf import settings
+from django.contrib.auth import login, logout
+from django.http import HttpRequest
+from django.middleware.csrf import get_token
+from django.utils import timezone
+from ninja import Router
+from ninja.errors import HttpError
+from ninja.utils import check_csrf
+
+from registry.api.shapes import (
+    Me,
+    SignIn,
+)
+from registry.devices.thing_events import call_listeners
+from registry.live.fanout import EVERY_SITE, publish
+from registry.models import User
+from registry.people.sign_in import check_sign_in
+
+router = Router(tags=["registry"])
+
+
+@router.get("/me", response=Me, auth=None)
+def show_me(request: HttpRequest) -> dict[str, Any]:
+    """Say who is signed in; strangers get the token that signing in needs."""
+    user = request.user
+    person = None
+    if isinstance(user, User):
+        person = {"id": user.pk, "name": user.display_name, "initials": user.initials, "email": user.email}
+    return {"user": person, "csrf": get_token(request), "demo_accounts": _demo_accounts()}
+
+
+def _demo_accounts() -> list[dict[str, str]]:
+    path = Path(settings.VIPO_STATE_DIR) / "demo-accounts.json"
+    if not settings.VIPO_DEMO or not path.exists():
+        return []
+    accounts: list[dict[str, str]] = json.loads(path.read_text())
+    return accounts
+
+
+@router.post("/sign-in", response=Me, auth=None)
+def sign_in(request: HttpRequest, body: SignIn) -> dict[str, Any]:
+    """Begin a session."""
+    if check_csrf(request):
+        raise HttpError(403, "The page is out of date. Reload it and sign in again.")
+    address = request.META.get("REMOTE_ADDR", "")
+    user = check_sign_in(email=body.email, password=body.password, address=address, now=timezone.now())
+    login(request, user)
+    return show_me(request)
+
+
+@router.post("/sign-out", response=Me)
+def sign_out(request: HttpRequest) -> dict[str, Any]:
+    """End the session."""
+    logout(request)
+    call_listeners()
+    publish(EVERY_SITE, {"type": "members"})
+    return show_me(request)
