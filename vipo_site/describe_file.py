@@ -14,7 +14,7 @@ from registry.capability import Description, MethodSpec, ParameterSpec, Property
 from registry.describing import Reading, read, write_description
 from registry.faults import Fault
 from registry.rdf_text import BadDescription, form_of
-from registry.shacl import check_rdf, check_reading
+from registry.shacl import check_rdf, check_reading, find_validator
 from vipo_site.program_file import read_bounded
 
 _NAMES = {
@@ -31,7 +31,10 @@ def describe_file(options: argparse.Namespace) -> int:
 
     Raises:
         UnreadableFile: the file cannot be read.
+        ShaclMissing: the shapes were asked for, and what holds RDF against them is not installed.
     """
+    if options.shacl:
+        find_validator()
     payload = read_bounded(options.file, "description")
     try:
         reading = read(payload)
