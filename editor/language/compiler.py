@@ -200,7 +200,8 @@ class EditedProgram:
 def without_collector() -> Iterator[None]:
     """Make objects without looking for circles among them; memory is given back by counting references as ever.
 
-    It looks through all that is new again and again while a large tree grows, for a third of the whole time.
+    It looks through all that is new again and again while a large tree grows, for up to a quarter of the time of
+    reading a script (docs/adr/0012).
     """
     was_on = gc.isenabled()
     gc.disable()

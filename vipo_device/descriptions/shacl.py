@@ -1,8 +1,11 @@
-"""The SHACL shapes that are shipped, and whether RDF keeps to them; too slow for every description (docs/adr/0006)."""
+"""The SHACL shapes that are shipped, and whether RDF keeps to them; too slow for every description (docs/adr/0006).
+
+What holds RDF against them is `pyshacl`, an extra that a server does not need: `pip install 'vipo[shacl]'`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -11,6 +14,7 @@ from vipo_device.descriptions.forms import BadDescription, is_json, plain_text, 
 from vipo_device.descriptions.rdf_reader import read_json_ld, read_turtle
 from vipo_device.descriptions.rdf_writer import graph_of, graph_of_triples
 from vipo_device.descriptions.reader import Reading
+from vipo_device.protocol.errors import RegistryError
 from vipo_device.protocol.faults import Fault, bare
 
 SHAPES = Path(__file__).parent / "shapes" / "device.ttl"
@@ -22,29 +26,56 @@ SELECT DISTINCT ?message ?value WHERE {
 """
 
 
+class ShaclMissing(RegistryError):
+    """The package that holds RDF against shapes is not installed here."""
+
+    code = "shacl_missing"
+    status = 501
+
+
 @cache
 def _shapes() -> Any:
     return graph_of_triples(read_turtle(SHAPES.read_text(encoding="utf-8")))
 
 
 def check_rdf(payload: bytes) -> tuple[Fault, ...]:
-    """Return where RDF leaves the shapes, in the order of the sentences. Raises BadDescription when it is no RDF."""
+    """Return where RDF leaves the shapes, in the order of the sentences.
+
+    Raises:
+        BadDescription: it is no RDF.
+        ShaclMissing: pyshacl is not installed.
+    """
     text = plain_text(payload)
     triples = read_json_ld(read_json(text)) if is_json(text) else read_turtle(text)
     return tuple(_faults(graph_of_triples(triples)))
 
 
 def check_reading(reading: Reading, payload: bytes) -> tuple[Fault, ...]:
-    """Hold a description against the shapes: RDF as it was sent, the other forms by the RDF that VIPO makes of them."""
+    """Hold a description against the shapes: RDF as it was sent, the other forms by the RDF that VIPO makes of them.
+
+    Raises:
+        ShaclMissing: pyshacl is not installed.
+    """
     if reading.form in ("td", "paper"):
         return tuple(_faults(graph_of(reading.description)))
     return check_rdf(payload)
 
 
-def _faults(graph: Any) -> Iterator[Fault]:
-    # imported late: it takes a third of a second, and only these checks need it
-    from pyshacl import validate
+def find_validator() -> Callable[..., tuple[bool, Any, str]]:
+    """Return pyshacl's own function; imported late, for it takes a third of a second. Raises ShaclMissing."""
+    try:
+        from pyshacl import validate
+    except ModuleNotFoundError as error:
+        raise ShaclMissing(
+            "Nothing can be held against the SHACL shapes: pyshacl is not installed. "
+            "Install it with: pip install 'vipo[shacl]'"
+        ) from error
+    found: Callable[..., tuple[bool, Any, str]] = validate
+    return found
 
+
+def _faults(graph: Any) -> Iterator[Fault]:
+    validate = find_validator()
     conforms, report, _ = validate(graph, shacl_graph=_shapes(), inference="none", advanced=False)
     if conforms:
         return

@@ -12,7 +12,7 @@ from typing import Any
 
 from vipo_device.descriptions.forms import BadDescription, form_of
 from vipo_device.descriptions.reader import Reading, read, write_description
-from vipo_device.descriptions.shacl import check_rdf, check_reading
+from vipo_device.descriptions.shacl import check_rdf, check_reading, find_validator
 from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, PropertySpec, description_to_json
 from vipo_device.protocol.faults import Fault
 from vipo_site.cli.program_file import read_bounded
@@ -31,7 +31,10 @@ def describe_file(options: argparse.Namespace) -> int:
 
     Raises:
         UnreadableFile: the file cannot be read.
+        ShaclMissing: the shapes were asked for, and what holds RDF against them is not installed.
     """
+    if options.shacl:
+        find_validator()
     payload = read_bounded(options.file, "description")
     try:
         reading = read(payload)

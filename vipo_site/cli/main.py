@@ -99,9 +99,14 @@ def _run_on_program(options: argparse.Namespace) -> int:
 
 def _describe(options: argparse.Namespace) -> int:
     # imported late: reading RDF takes a library that the other commands do not need
+    from vipo_device.descriptions.shacl import ShaclMissing
     from vipo_site.cli.describe import describe_file
 
-    return describe_file(options)
+    try:
+        return describe_file(options)
+    except ShaclMissing as error:
+        _complain(str(error))
+        return UNUSABLE
 
 
 class _Parser(argparse.ArgumentParser):

@@ -4,7 +4,8 @@ amqtt 0.12 is used through a subclass, because as it comes it (1) drops the sess
 asks for a password, (2) sends wills without asking the topic rules, (3) gives every newcomer the retained messages of
 all other clients' subscriptions, (4) loses a message when somebody subscribes while it is being spread, (5) never ends
 a connection that fell silent, (6) waits for ever on a CONNECT of MQTT 5, and (7) has no bound on what is said too fast,
-not read, kept, asked for or begun. What is dropped is counted for the device's page, as the gateway counts.
+not read, kept, asked for or begun; docs/adr/0014 has all of it. What is dropped is counted for the device's page, as
+the gateway counts.
 """
 
 from __future__ import annotations

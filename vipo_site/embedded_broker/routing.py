@@ -117,13 +117,6 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
                 return
         await super().retain_message(None, topic, data, qos)
 
-    def _matches(self, topic: str, topic_filter: str) -> bool:
-        """Tell whether a filter fits a topic; amqtt forgets that `a/#` fits `a`, too."""
-        parent = topic_filter.removesuffix("/#")
-        return bool(
-            super()._matches(topic, topic_filter) or (parent != topic_filter and super()._matches(topic, parent))
-        )
-
     async def _publish_retained_messages_for_subscription(self, subscription: tuple[str, int], session: Any) -> None:
         """Give retained messages to a subscriber only, and only after it asked."""
         topic_filter, qos = subscription

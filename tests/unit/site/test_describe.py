@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import io
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -99,6 +100,30 @@ def test_the_shapes_say_all_that_is_wrong_with_rdf(tmp_path: Path, capsys: pytes
     lines = capsys.readouterr().err.splitlines()
     assert f"{path}: vipo:speed may be given once: 0 to 20 m/s. It is '99'." in lines
     assert any("needs a whole number for vipo:capacity" in line for line in lines)
+
+
+@pytest.mark.parametrize("text", [MIXER.read_text(), "no description"])
+def test_without_pyshacl_it_is_said_what_to_install(
+    text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "pyshacl", None)  # as Python itself has it where a package is not there
+    path = tmp_path / "device.ttl"
+    path.write_text(text)
+    assert main(["describe", str(path), "--shacl"]) == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err == (
+        "Nothing can be held against the SHACL shapes: pyshacl is not installed. "
+        "Install it with: pip install 'vipo[shacl]'\n"
+    )
+
+
+def test_without_pyshacl_everything_else_is_as_ever(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "pyshacl", None)
+    assert main(["describe", str(MIXER), "--to", "paper"]) == 0
+    assert 'id: "paintMixer02"' in capsys.readouterr().out
 
 
 def test_a_file_that_cannot_be_read_gives_code_2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -10,8 +10,8 @@ from ninja import Schema
 import editor.api
 import editor.shapes
 import execution.shapes
-import registry.shapes
-import vipo_site.openapi
+import registry.api.shapes
+import vipo_site.http.openapi
 from editor.language import compile_document, compiled_to_json
 from editor.shapes import CompiledShape, DocumentShape
 from execution.rehearsals.rehearsal import rehearse_program
