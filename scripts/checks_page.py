@@ -20,7 +20,7 @@ from editor.language.parsing.script import parse_script
 from editor.language.site.json_form import surroundings_from_json
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, Surroundings
 from registry.floorplan.plan import FREE, OCCUPIED, FloorPlan, Grid
-from scripts.check_meanings import GROUPS, MEANINGS
+from scripts.check_explanations import GROUPS, MEANINGS
 
 ROOT = Path(__file__).resolve().parents[1]
 CASES = ROOT / "tests" / "cases" / "checks"

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+from editor.language.allocation import paused_collector
 from editor.language.analysis.memo import Memories, Memory
 from editor.language.analysis.positions import add_moves
 from editor.language.checks.checks import check
-from editor.language.document.migrations import climb
+from editor.language.document.format_migrations import climb
 from editor.language.messages.diagnostics import Diagnostic, Fix, Problem, arguments_to_json, put_into_words
 from editor.language.messages.phrases import LANGUAGES
 from editor.language.plan.compiler import compile_tree
@@ -44,7 +43,7 @@ class Compiled:
 
 def compile_document(document: object, surroundings: Surroundings) -> Compiled:
     """Compile a document (plain JSON, of any format so far) for a site. Nothing in the document makes this raise."""
-    with without_collector():
+    with paused_collector():
         return look_at(document, surroundings).compiled()
 
 
@@ -194,18 +193,3 @@ class EditedProgram:
     def compile(self, document: object, surroundings: Surroundings) -> Compiled:
         """Return all forms of the program as it is now."""
         return self.look(document, surroundings).compiled()
-
-
-@contextmanager
-def without_collector() -> Iterator[None]:
-    """Make objects without looking for circles among them; memory is given back by counting references as ever.
-
-    It looks through all that is new again and again while a large tree grows, for a third of the whole time.
-    """
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()

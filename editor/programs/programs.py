@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 from uuid import UUID
 
 from django.apps import apps
+from django.conf import settings
 from django.db import transaction
 from django.utils import timezone
 
+from editor.documents.shared_document import SharedDocument, climb_document, digest_of, empty_document, encode_document
+from editor.documents.store import load_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.language import Compiled, Surroundings, compile_document
 from editor.models import Program, Snapshot, Version
 from editor.programs.checking import build_surroundings, check_program, compiled_json, fingerprint_of
 from editor.programs.views import ProgramView, VersionView, view_author
-from editor.rooms.document import SharedDocument, climb_document, digest_of, empty_document, encode_document
 from editor.rooms.hub import flush_program
 from editor.rooms.runner import new_revision
-from editor.rooms.store import load_document
 from registry import services as registry
 from registry.live.fanout import publish
 
@@ -190,3 +193,26 @@ def _version_view(row: Version) -> VersionView:
         script=row.script,
         created_at=row.created_at,
     )
+
+
+_SEEDS = (("Paint order", "paint-order.json"), ("First errand", None))
+
+
+def seed_programs(*, site: str) -> None:
+    """Give a site the example programs that it does not have yet; harmless when done again."""
+    have = set(Program.objects.filter(site__slug=site).values_list("name", flat=True))
+    for name, file in reversed(_SEEDS):
+        if name in have:
+            continue
+        document = empty_document() if file is None else _read_example(Path(settings.BASE_DIR) / "examples" / file)
+        if document is not None:
+            create_program(site=site, name=name, document=document)
+
+
+def _read_example(path: Path) -> dict[str, Any] | None:
+    """Return the document of an example file: bare, or under `document`; None while there is no such file."""
+    if not path.exists():
+        return None
+    body: dict[str, Any] = json.loads(path.read_text())
+    document: dict[str, Any] = body.get("document", body)
+    return document

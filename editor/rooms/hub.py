@@ -12,9 +12,9 @@ from typing import Any
 from django.conf import settings
 from django.db import DatabaseError
 
+from editor.documents.shared_document import BadUpdate
 from editor.errors import NoSuchProgram
 from editor.programs.checking import DeviceWatch
-from editor.rooms.document import BadUpdate
 from editor.rooms.member import Close, Member
 from editor.rooms.permissions import find_standing
 from editor.rooms.room import Room

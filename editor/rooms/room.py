@@ -6,9 +6,9 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from editor.documents.shared_document import EMPTY_UPDATE, BadUpdate, SharedDocument
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
-from editor.rooms.document import EMPTY_UPDATE, BadUpdate, SharedDocument
 from editor.rooms.member import MIB, Close, Member
 from editor.rooms.stream import Entry, Note
 

@@ -13,13 +13,13 @@ from channels.db import database_sync_to_async
 from django.db import DatabaseError
 from django.utils import timezone
 
+from editor.documents.shared_document import BadUpdate, SharedDocument
+from editor.documents.store import COMPACT_AFTER_ROWS, SnapshotDiffers, append_changes, compact_document, load_document
 from editor.errors import NoSuchProgram
 from editor.language.compiler import EditedProgram
 from editor.programs.checking import check_and_publish
-from editor.rooms.document import BadUpdate, SharedDocument
 from editor.rooms.member import Close
 from editor.rooms.room import Change, Room, encode_saved_note
-from editor.rooms.store import COMPACT_AFTER_ROWS, SnapshotDiffers, append_changes, compact_document, load_document
 from editor.rooms.stream import BEGINNING, Entry, RoomStream, StreamLost
 from editor.rooms.yjs_protocol import BadFrame
 

@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import Memory, Told
+from editor.language.expressions.nodes import Constant, Expression, Variable
 from editor.language.expressions.values import is_number
 from editor.language.messages.diagnostics import Problem
 from editor.language.messages.phrases import Argument
-from editor.language.plan.instructions import Constant, Expression, Variable
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import walk
+from editor.language.tree.nodes import walk
 from editor.language.tree.variables import set_by
 
 ANY = (0, None)

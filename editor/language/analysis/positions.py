@@ -12,11 +12,10 @@ from dataclasses import dataclass, field, replace
 from typing import Final
 
 from editor.language.analysis.memo import Memory
-from editor.language.plan.instructions import PlaceRef, Variable
+from editor.language.expressions.nodes import NOWHERE, PlaceRef, Variable
 from editor.language.tree.nodes import (
     DRIVES,
     LOADS,
-    NOWHERE,
     Ask,
     Block,
     Break,
@@ -41,8 +40,9 @@ from editor.language.tree.nodes import (
     Wait,
     WaitUntil,
     While,
+    walk,
 )
-from editor.language.tree.traversal import callees_first, functions_in_circles, roles_used, walk
+from editor.language.tree.traversal import callees_first, functions_in_circles, roles_used
 from editor.language.tree.variables import set_in, sets_of_functions
 
 Standing = dict[str, PlaceRef]

@@ -17,16 +17,17 @@ from editor.language.checks.parallel import check_branches, check_parallel
 from editor.language.checks.values import check_argument, check_condition, check_quantity, check_value, has_missing
 from editor.language.checks.variables import check_variables
 from editor.language.document.outline import PROGRAM, Outline
+from editor.language.expressions import nodes as e
+from editor.language.expressions.nodes import Constant
 from editor.language.expressions.typing import NUMBER, SECONDS, TEXT, Kind, constant_value, plain_type
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
 from editor.language.messages.phrases import Options, Span
-from editor.language.plan.instructions import Constant
 from editor.language.reading.document import Reading
 from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree import nodes as n
-from editor.language.tree.scopes import program_variables
-from editor.language.tree.traversal import needed_of_roles, walk
-from editor.language.tree.variable_types import kinds_of_function, kinds_of_program
+from editor.language.tree.nodes import walk
+from editor.language.tree.traversal import needed_of_roles
+from editor.language.tree.variables import kinds_of_function, kinds_of_program, program_variables
 from editor.language.tree.zones import read_zones
 from vipo_device.protocol.description import ParameterSpec
 
@@ -156,7 +157,7 @@ def _operate(context: Context, node: n.Operate) -> None:
         return
     given = dict(node.arguments)
     for parameter in method.parameters:
-        value = given.pop(parameter.name, n.MISSING)
+        value = given.pop(parameter.name, e.MISSING)
         check_argument(context, node, parameter, value, node.method, "missing_argument")
     options = Options(tuple(parameter.name for parameter in method.parameters))
     for name in given:
@@ -228,9 +229,9 @@ def _call(context: Context, node: n.Call) -> None:
         return
     given = dict(node.arguments)
     for parameter in function.parameters:
-        value = given.get(parameter.name, n.MISSING)
+        value = given.get(parameter.name, e.MISSING)
         kind = parameter.type if parameter.type in {"number", "text", "boolean", "object", "device", "place"} else ""
-        if value != n.MISSING or parameter.default is None:
+        if value != e.MISSING or parameter.default is None:
             spec = ParameterSpec(parameter.name, kind or "text", parameter.unit)  # type: ignore[arg-type]
             name = function.name or function.method
             check_argument(context, node, spec, value, name, "missing_function_argument", typed=bool(kind))

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import Memories
+from editor.language.expressions import nodes as e
 from editor.language.expressions.typing import UNKNOWN_KIND, Kind
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Driver, Robot
@@ -34,7 +35,7 @@ class Context:
     roles: Mapping[str, n.Role] = field(init=False)
     memories: Memories | None = None
     """What was found at the last look."""
-    stations: dict[tuple[str, str], tuple[n.Point | None, ...]] = field(default_factory=dict)
+    stations: dict[tuple[str, str], tuple[e.Point | None, ...]] = field(default_factory=dict)
     """Where each robot of a role would stand to serve a device, as far as it was asked for."""
     _robots: dict[str, tuple[Description, ...]] = field(default_factory=dict)
     _names: dict[str, Robot] = field(default_factory=dict)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from editor.language.checks.context import Context
+from editor.language.expressions import nodes as e
+from editor.language.expressions.nodes import Constant, Expression, PlaceRef, Reading
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
-from editor.language.plan.instructions import Constant, Expression, PlaceRef, Reading
 from editor.language.site.surroundings import DeviceFacts
 from editor.language.tree import nodes as n
 from vipo_device.protocol.description import Description
@@ -76,7 +77,7 @@ def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, mis
         context.tell(node, missing_code, field)
 
 
-def _check_floor(context: Context, node: n.Move, point: n.Point, field: str) -> None:
+def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> None:
     """Check that the robot fits at a point and finds a way to it; for any robot it is enough that one does."""
     floor, robots = context.surroundings.floor, context.robots(node.role)
     if floor is None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from math import pi
 
 from editor.language.checks.context import Context
+from editor.language.expressions import nodes as e
+from editor.language.expressions.nodes import PlaceRef, Zone
 from editor.language.messages.diagnostics import TextArguments
-from editor.language.plan.instructions import PlaceRef, Zone
 from editor.language.tree import nodes as n
 from editor.language.tree.zones import area_m2, is_in, read_zones
 from vipo_device.protocol.description import Description
@@ -46,7 +47,7 @@ def _check_goal(
             return
 
 
-def _goals(context: Context, role: str, place: PlaceRef) -> tuple[n.Point | None, ...]:
+def _goals(context: Context, role: str, place: PlaceRef) -> tuple[e.Point | None, ...]:
     """Return where each robot of the role would stand, None where it cannot; empty when that is not known."""
     if place.point is not None:
         return (place.point,)
@@ -62,7 +63,7 @@ def _goals(context: Context, role: str, place: PlaceRef) -> tuple[n.Point | None
     return context.stations[key]
 
 
-def _station(context: Context, device: str, robot: Description) -> n.Point | None:
+def _station(context: Context, device: str, robot: Description) -> e.Point | None:
     floor = context.surroundings.floor
     station = None if floor is None else floor.station(device, robot.radius_m)
     if floor is None or station is None:

@@ -7,12 +7,13 @@ from dataclasses import dataclass, field, replace
 
 from editor.language.analysis.memo import Memory, Told
 from editor.language.checks.context import Context
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.expressions.typing import constant_value
 from editor.language.expressions.values import parts_of
 from editor.language.messages.diagnostics import Fix
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import callees_first, functions_in_circles, walk
+from editor.language.tree.nodes import walk
+from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import set_in, sets_of_functions
 
 Ways = frozenset[str]

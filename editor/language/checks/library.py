@@ -10,7 +10,7 @@ from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.site.surroundings import LibraryFacts
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import walk
+from editor.language.tree.nodes import walk
 
 
 def check_library(context: Context, document: object) -> None:

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from editor.language.checks.context import Context
+from editor.language.expressions.nodes import Constant, Expression, Operation, Variable
 from editor.language.expressions.typing import constant_value
 from editor.language.expressions.values import parts_of
 from editor.language.messages.diagnostics import Fix
-from editor.language.plan.instructions import Constant, Expression, Operation, Variable
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import roles_used, walk
+from editor.language.tree.nodes import walk
+from editor.language.tree.traversal import roles_used
 from editor.language.tree.variables import set_by
 
 

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 from editor.language.checks.context import Context
 from editor.language.checks.devices import check_readings, known_device
+from editor.language.expressions import nodes as e
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading
 from editor.language.expressions.ranges import first_limited_reading, possible
 from editor.language.expressions.typing import (
     BOOLEAN,
@@ -25,7 +27,6 @@ from editor.language.expressions.units import same_dimension
 from editor.language.expressions.values import is_number, parts_of
 from editor.language.messages.diagnostics import TextArguments, fix_value
 from editor.language.messages.phrases import Amounts, Options, Plural, Span
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Reading
 from editor.language.tree import nodes as n
 from vipo_device.protocol.description import ParameterSpec
 
@@ -137,7 +138,7 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
     """Check one argument of a method or a function against what is declared of it."""
     field = f"args.{parameter.name}"
     if has_missing(value):
-        if parameter.required or value != n.MISSING:
+        if parameter.required or value != e.MISSING:
             limits = Span(parameter.minimum, parameter.maximum, unit_word(parameter.unit), ": ")
             details = {"argument": parameter.name, "method": method, "function": method}
             fix = None if parameter.minimum is None else fix_value(node.step, field, parameter.minimum)

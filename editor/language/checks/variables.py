@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from editor.language.checks.context import Context
 from editor.language.expressions.typing import constant_value
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import callees_first, functions_in_circles, walk
+from editor.language.tree.nodes import walk
+from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import SETTERS, read_by, set_by, set_in, sets_of_functions
 
 Names = frozenset[str]

@@ -9,12 +9,11 @@ from dataclasses import dataclass, field
 from string import ascii_lowercase
 
 from editor.language.analysis.positions import add_moves
+from editor.language.document.format_migrations import FORMAT, climb
 from editor.language.document.fractional_index import keep_orders
-from editor.language.document.migrations import FORMAT, climb
 from editor.language.document.outline import PROGRAM, branches_of, make_outline, mapping
 from editor.language.drawing.alignment import align
-from editor.language.drawing.chip_sizes import FRAMES, Room, room_of
-from editor.language.drawing.layout import GAP_M, Layout
+from editor.language.drawing.layout import FRAMES, GAP_M, Layout, Room, room_of
 from editor.language.drawing.merge import (
     Functions,
     keep_functions,
@@ -24,12 +23,12 @@ from editor.language.drawing.merge import (
     with_document_names,
     without_unknown_names,
 )
-from editor.language.drawing.steps import Drawer, Drawn
+from editor.language.drawing.steps import Drawable, Drawer, Drawn, grouped
+from editor.language.expressions import nodes as e
 from editor.language.expressions.values import read_point
 from editor.language.reading.document import read_document
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
-from editor.language.tree.grouping import Drawable, grouped
 
 VARIABLE_FIELDS = frozenset({"variable", "result"})
 """Parameters that name a variable."""
@@ -152,7 +151,7 @@ class _Builder:
             named["args"] = {arguments.get(key, key): value for key, value in mapping(named["args"]).items()}
         return named
 
-    def _first_known(self, branches: tuple[tuple[str, n.Block], ...]) -> n.Point | None:
+    def _first_known(self, branches: tuple[tuple[str, n.Block], ...]) -> e.Point | None:
         """Return where the first step stands that was there before and now stands in a new one."""
         for _, block in branches:
             for node in block:

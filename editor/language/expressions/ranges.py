@@ -6,16 +6,16 @@ from collections.abc import Mapping, Sequence
 from math import inf
 from typing import TYPE_CHECKING
 
+from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
 from editor.language.expressions.typing import Kind, Typing, property_spec
 from editor.language.expressions.unit_conversion import settle_units
 from editor.language.expressions.values import COMPARISONS, is_number, parts_of
-from editor.language.plan.instructions import Constant, Expression, Operation, Reading, Variable
 from editor.language.site.surroundings import Surroundings
 
 if TYPE_CHECKING:
     from dataclasses import dataclass
 else:
-    from editor.language.expressions.frozen import dataclass
+    from editor.language.allocation import dataclass
 
 _DAY_S = 86400
 

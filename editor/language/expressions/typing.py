@@ -7,16 +7,16 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.expressions.units import UNITS, same_dimension, unit_symbol
 from editor.language.expressions.values import COMPARISONS, parts_of
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.site.surroundings import Surroundings
 from vipo_device.protocol.description import PropertySpec
 
 if TYPE_CHECKING:
     from dataclasses import dataclass
 else:
-    from editor.language.expressions.frozen import dataclass
+    from editor.language.allocation import dataclass
 
 TYPE_WORDS: Mapping[str, str] = {
     "number": "a number", "text": "a text", "boolean": "yes or no", "list": "a list", "object": "a kind of object",

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading
 from editor.language.expressions.typing import Kind, Typing, common_unit, is_written
 from editor.language.expressions.units import conversion, convert, same_dimension, tidy, unit_symbol
 from editor.language.expressions.values import ARITHMETIC, COMPARISONS, is_number
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Quantity, Reading
 from editor.language.site.surroundings import Surroundings
 
 _WITH_UNITS = frozenset({"now", "distance", "nearest", "text"})

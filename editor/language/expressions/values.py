@@ -6,18 +6,20 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Final, TypeGuard
 
-from editor.language.expressions.units import unit_code
-from editor.language.plan.instructions import (
+from editor.language.expressions.nodes import (
+    MISSING,
+    NOWHERE,
     Constant,
     Expression,
     Located,
     Operation,
     PlaceRef,
+    Point,
     Quantity,
     Reading,
     Variable,
 )
-from editor.language.tree.nodes import MISSING, NOWHERE, Point
+from editor.language.expressions.units import unit_code
 from vipo_device.protocol.description import Scalar
 
 COMPARISONS = ("<", "<=", ">", ">=", "==", "!=", "in", "not in")

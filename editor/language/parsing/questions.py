@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 
-from editor.language.expressions.answers import ANSWER_TYPES, settle_answer
+from editor.language.expressions import nodes as e
+from editor.language.expressions.declarations import ANSWER_TYPES, settle_answer
+from editor.language.expressions.nodes import AnswerSpec
 from editor.language.parsing.expressions import Refused, Scope, parse_expression, parse_scalar, quoted
-from editor.language.plan.instructions import AnswerSpec
 from editor.language.tree import nodes as n
 
 _ASK = 'Write self.dry = self.ask("Is it dry?", type="boolean", timeout=600).'
@@ -23,9 +24,9 @@ def parse_ask(call: ast.Call, scope: Scope, variable: str = "") -> n.Ask:
     if len(call.args) != 1 or len(named) != len(call.keywords):
         raise Refused(call, quoted(call), _ASK)
     timeout = named.pop("timeout", None)
-    limit = n.MISSING if timeout is None else parse_expression(timeout, scope)
+    limit = e.MISSING if timeout is None else parse_expression(timeout, scope)
     question, answer = parse_expression(call.args[0], scope), _answer(call, named)
-    return n.Ask(question, answer, variable, None if limit == n.MISSING else limit)
+    return n.Ask(question, answer, variable, None if limit == e.MISSING else limit)
 
 
 def _answer(call: ast.Call, named: dict[str | None, ast.expr]) -> AnswerSpec:

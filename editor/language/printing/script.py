@@ -6,15 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from editor.language.analysis.memo import Memory
+from editor.language.expressions.declarations import write_type
 from editor.language.expressions.names import RESERVED_ATTRIBUTES
-from editor.language.expressions.printing import scalar_text
-from editor.language.expressions.quoting import quote
-from editor.language.expressions.type_names import write_type
+from editor.language.expressions.printing import quote, scalar_text
 from editor.language.printing.steps import PRINTERS
 from editor.language.printing.writer import Printer
 from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree.nodes import Block, Event, Function, Parameter, Role, Tree
-from editor.language.tree.scopes import local_variables, program_variables
+from editor.language.tree.variables import local_variables, program_variables
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,10 @@ from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import Memory
 from editor.language.expressions.names import member_name, unique_name
-from editor.language.expressions.printing import quantity_text, scalar_text, write_expression
-from editor.language.expressions.quoting import quote
-from editor.language.plan.instructions import Expression, Located, PlaceRef, Quantity
+from editor.language.expressions.nodes import Expression, Located, PlaceRef, Point, Quantity
+from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
 from editor.language.site.surroundings import Surroundings
-from editor.language.tree.nodes import COMPOSITES, Block, Node, Point, Tree
+from editor.language.tree.nodes import COMPOSITES, Block, Node, Tree
 
 _INDENTS = tuple("    " * depth for depth in range(80))
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from editor.language.analysis.memo import ReadSteps
-from editor.language.document.migrations import FORMAT, format_of
+from editor.language.document.format_migrations import FORMAT, format_of
 from editor.language.document.outline import EVENTS, PROGRAM, Outline, make_outline, mapping
 from editor.language.expressions.names import RESERVED_ATTRIBUTES, attribute_name, local_name
 from editor.language.expressions.values import Names

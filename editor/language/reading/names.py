@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from editor.language.document.outline import PROGRAM, Outline, mapping
+from editor.language.expressions.declarations import settle_type
 from editor.language.expressions.names import attribute_name, local_name, unique_name
-from editor.language.expressions.type_names import settle_type
 from editor.language.expressions.values import Names, plain
 from editor.language.tree.nodes import Function, Parameter, Role
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import ReadSteps, StepRead
 from editor.language.document.outline import Outline, Params
+from editor.language.expressions.nodes import MISSING, NOWHERE, Expression, Located, PlaceRef, is_missing
 from editor.language.expressions.values import Names, UnknownParameter, read_place, read_value
 from editor.language.messages.diagnostics import Fix, Problem
-from editor.language.plan.instructions import Expression, Located, PlaceRef
 from editor.language.reading.names import DEFAULT_ROLE, text_of
-from editor.language.tree.nodes import MISSING, NOWHERE, Block, Function, Node, Role, is_missing
+from editor.language.tree.nodes import Block, Function, Node, Role
 
 _DRIVING = frozenset({"move", "pick", "drop", "pick_and_drop"})
 

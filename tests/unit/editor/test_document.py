@@ -8,7 +8,14 @@ from typing import Any
 import pytest
 from pycrdt import Doc, Map
 
-from editor.rooms.document import BadUpdate, SharedDocument, digest_of, empty_document, encode_document, merge
+from editor.documents.shared_document import (
+    BadUpdate,
+    SharedDocument,
+    digest_of,
+    empty_document,
+    encode_document,
+    merge,
+)
 
 PLAIN: dict[str, Any] = {
     "format": 1,

@@ -11,7 +11,7 @@ from editor.language.checks.context import Context
 from editor.language.checks.flow import check_flow, ways_of_functions
 from editor.language.checks.parallel import check_parallel
 from editor.language.checks.variables import check_variables
-from editor.language.plan.instructions import Constant, Expression, Operation, Reading, Variable
+from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
 from editor.language.tree.nodes import (
     Ask,
     Block,

@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from editor.language import compile_document, parse_script, tree_to_document
+from editor.language.document.format_migrations import climb
 from editor.language.document.fractional_index import keep_orders, order_between
-from editor.language.document.migrations import climb
 from editor.language.drawing.alignment import common_row
 from tests.unit.language.site import factory
 from tests.unit.language.strategies import broken_documents, documents, json_values

@@ -8,7 +8,7 @@ import pytest
 
 from editor.language.messages.en import TEXTS
 from editor.language.site.surroundings import Surroundings
-from scripts.check_meanings import GROUPS, MEANINGS
+from scripts.check_explanations import GROUPS, MEANINGS
 from scripts.checks_page import CASES, ROOT, read_case, read_site, write_page
 
 

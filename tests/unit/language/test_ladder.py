@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from editor.language import compile_document
-from editor.language.document.migrations import FORMAT, climb, format_of
+from editor.language.document.format_migrations import FORMAT, climb, format_of
 from tests.unit.language.site import ROOT, factory
 
 OLD = sorted((ROOT / "tests" / "cases" / "old").glob("*.json"))

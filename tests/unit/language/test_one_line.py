@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from editor.language.expressions.typing import Kind
 from editor.language.expressions.units import UNITS
 from editor.language.expressions.values import FUNCTIONS
-from editor.language.parsing.line_scope import LineScope, make_line_scope
-from editor.language.parsing.one_line import NotUnderstood, kind_of_line, parse_line, print_line
+from editor.language.one_line.scope import LineScope, make_line_scope
+from editor.language.one_line.values import NotUnderstood, kind_of_line, parse_line, print_line
 from tests.unit.language.site import factory
 
 DOCUMENT: dict[str, Any] = {

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from editor.language.expressions.nodes import Constant, Expression, Quantity
 from editor.language.expressions.typing import Kind, Typing
 from editor.language.expressions.unit_conversion import settle_units
 from editor.language.expressions.values import parts_of, read_value, write_value
-from editor.language.parsing.line_scope import make_line_scope
-from editor.language.parsing.one_line import parse_line
-from editor.language.plan.instructions import Constant, Expression, Quantity
+from editor.language.one_line.scope import make_line_scope
+from editor.language.one_line.values import parse_line
 from tests.unit.language.site import factory
 
 DOCUMENT = {"parameters": {"p": {"name": "minutes", "type": "number", "unit": "MIN"}, "n": {"name": "n"}}, "steps": {}}

@@ -8,9 +8,9 @@ from datetime import datetime
 
 from django.db import transaction
 
+from editor.documents.shared_document import SharedDocument
 from editor.errors import NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot
-from editor.rooms.document import SharedDocument
 from editor.rooms.room import Change
 from editor.rooms.yjs_protocol import decode_state_vector
 

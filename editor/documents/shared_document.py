@@ -15,7 +15,7 @@ from typing import Any
 from pycrdt import Array, Doc, Map, Text, TransactionEvent, merge_updates
 from pycrdt import get_state as state_of_update
 
-from editor.language.document.migrations import FIRST_FORMAT, FORMAT, climb, format_of
+from editor.language.document.format_migrations import FIRST_FORMAT, FORMAT, climb, format_of
 
 ROOTS = ("meta", "steps", "functions", "roles", "parameters", "zones")
 _CONTENT = ROOTS[1:]

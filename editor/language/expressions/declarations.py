@@ -6,7 +6,9 @@ import ast
 from collections.abc import Mapping
 from typing import Final
 
-from editor.language.expressions.quoting import quote
+from editor.language.expressions.nodes import AnswerSpec
+from editor.language.expressions.printing import quote
+from editor.language.expressions.values import is_number, plain
 
 TYPE_NAMES: Final[Mapping[str, str]] = {
     "number": "Number",
@@ -55,3 +57,33 @@ def parse_type(node: ast.expr | None) -> tuple[str, str]:
         case ast.Call(func=ast.Name(id="Number"), args=[ast.Constant(value=str() as unit)], keywords=[]) if unit:
             return "number", unit
     raise UnknownType(f'Write one of: {", ".join(_TYPES)}, or a number with its unit: Number("MIN").')
+
+
+ANSWER_TYPES = ("boolean", "number", "text", "choice")
+
+
+def settle_answer(given: Mapping[str, object]) -> AnswerSpec:
+    """Return what is said of an answer; what does not belong to its type is left out, nonsense too."""
+    kind = given.get("type")
+    if kind == "number":
+        unit = given.get("unit")
+        least, most = _limit(given.get("minimum")), _limit(given.get("maximum"))
+        return AnswerSpec("number", unit if isinstance(unit, str) else "", least, most)
+    if kind == "choice":
+        options = given.get("options")
+        listed = options if isinstance(options, list | tuple) else ()
+        named = dict.fromkeys(option for option in listed if isinstance(option, str) and option)
+        return AnswerSpec("choice", options=tuple(named))
+    return AnswerSpec("text" if kind == "text" else "boolean")
+
+
+def _limit(value: object) -> float | None:
+    limit = plain(value)
+    return limit if is_number(limit) else None
+
+
+def answer_to_json(answer: AnswerSpec) -> dict[str, object]:
+    """Return what the document says of an answer."""
+    said = {"unit": answer.unit or None, "minimum": answer.minimum, "maximum": answer.maximum}
+    body = {"type": answer.type, **said, "options": list(answer.options) or None}
+    return {name: value for name, value in body.items() if value is not None}

@@ -9,14 +9,13 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.document.outline import Params, mapping
+from editor.language.expressions.declarations import settle_type
 from editor.language.expressions.names import unique_name
-from editor.language.expressions.type_names import settle_type
+from editor.language.expressions.nodes import MISSING, Expression, Located
 from editor.language.expressions.typing import Kind, plain_type
 from editor.language.parsing.expressions import Binding, Scope
-from editor.language.plan.instructions import Expression, Located
 from editor.language.reading.document import read_document
 from editor.language.site.surroundings import Surroundings
-from editor.language.tree.nodes import MISSING
 
 _GIVEN = re.compile(r"^\s+self\.(\w+) = ctx\.(get|place|zone)\((\"(?:[^\"\\]|\\.)*\")")
 

@@ -1,0 +1,1 @@
+"""editor.language.one_line."""
