@@ -1,5 +1,6 @@
 """What the other apps may ask of the editor; everything else in this app is its own affair."""
 
+from editor.documents.store import get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram
 from editor.programs.checking import build_surroundings
 from editor.programs.library import get_function, save_function, search_library
@@ -10,7 +11,6 @@ from editor.programs.programs import (
     create_program,
     delete_program,
     get_compiled,
-    get_document,
     get_program,
     get_version,
     list_programs,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import time
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
@@ -63,6 +64,11 @@ def _floor(site: str) -> FloorFacts | None:
         return registry.get_floor(site=site)
     except registry.NoMap:
         return None
+
+
+def new_revision() -> int:
+    """Return a number for a look at a document; later looks have higher numbers, in every process."""
+    return time.time_ns() // 1_000_000
 
 
 def compiled_json(compiled: Compiled, revision: int) -> dict[str, Any]:

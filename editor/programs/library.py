@@ -10,12 +10,12 @@ from django.db import transaction
 from django.db.models import Count, Q, QuerySet
 
 from editor.documents.shared_document import climb_document, empty_document
+from editor.documents.store import get_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.language import compile_document
 from editor.language.document.format_migrations import FORMAT
 from editor.models import LibraryFunction, LibraryVersion, Program
 from editor.programs.checking import build_surroundings
-from editor.programs.programs import get_document
 from editor.programs.views import LibraryView, view_author
 from registry.live import fanout
 

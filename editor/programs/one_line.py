@@ -6,13 +6,14 @@ from dataclasses import dataclass, field
 from typing import Any
 from uuid import UUID
 
+from editor.documents.store import get_document
 from editor.language import compile_document
 from editor.language.expressions.names import member_name
 from editor.language.expressions.printing import quote
 from editor.language.one_line.scope import LineScope, make_line_scope
 from editor.language.one_line.values import NotUnderstood, kind_of_line, parse_line, print_line
 from editor.programs.checking import build_surroundings
-from editor.programs.programs import get_document, get_program
+from editor.programs.programs import get_program
 
 
 @dataclass(frozen=True, slots=True)

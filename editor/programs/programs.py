@@ -14,14 +14,12 @@ from django.db import transaction
 from django.utils import timezone
 
 from editor.documents.shared_document import SharedDocument, climb_document, digest_of, empty_document, encode_document
-from editor.documents.store import load_document
+from editor.documents.store import get_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.language import Compiled, Surroundings, compile_document
 from editor.models import Program, Snapshot, Version
-from editor.programs.checking import build_surroundings, check_program, compiled_json, fingerprint_of
+from editor.programs.checking import build_surroundings, check_program, compiled_json, fingerprint_of, new_revision
 from editor.programs.views import ProgramView, VersionView, view_author
-from editor.rooms.hub import flush_program
-from editor.rooms.runner import new_revision
 from registry import services as registry
 from registry.live.fanout import publish
 
@@ -75,14 +73,6 @@ def delete_program(*, program_id: UUID | str) -> None:
     with transaction.atomic():
         program.delete()
         transaction.on_commit(lambda: publish(site, {"type": "programs"}))
-
-
-def get_document(*, program_id: UUID | str) -> dict[str, Any]:
-    """Return a program's document as it is now, as plain JSON in today's format. Raises NoSuchProgram."""
-    flush_program(str(program_id))
-    document = SharedDocument(load_document(str(program_id)).updates)
-    document.climb()
-    return document.to_json()
 
 
 def get_compiled(*, program_id: UUID | str) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from django.conf import settings
 from django.db import DatabaseError
 
 from editor.documents.shared_document import BadUpdate
+from editor.documents.store import flush_before_reading
 from editor.errors import NoSuchProgram
 from editor.programs.checking import DeviceWatch
 from editor.rooms.member import Close, Member
@@ -146,6 +147,7 @@ def hub_of_this_loop() -> Hub:
     """Return the hub of the running event loop, made at first use."""
     loop = asyncio.get_running_loop()
     if loop not in _hubs:
+        flush_before_reading(flush_program)
         _hubs[loop] = Hub(make_stream(settings.VIPO_STREAM_URL))
     return _hubs[loop]
 

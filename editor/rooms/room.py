@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 
+from editor.documents import yjs_encoding
 from editor.documents.shared_document import EMPTY_UPDATE, BadUpdate, SharedDocument
+from editor.documents.store import Change
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
 from editor.rooms.member import MIB, Close, Member
@@ -16,14 +17,6 @@ MOST_MEMBERS = 50
 MOST_DOCUMENT_BYTES = 8 * MIB
 MOST_STEPS = 5000
 TOO_LARGE = "The program is full: it may have 8 MiB and 5,000 steps. Remove steps, or make a second program of a part."
-
-
-@dataclass(frozen=True, slots=True)
-class Change:
-    """A change made here, which is to be kept: who made it, and the bytes of the document's own update."""
-
-    author: int | None
-    update: bytes
 
 
 class Room:
@@ -68,9 +61,9 @@ class Room:
         member.spend_bytes(len(frame), now_s)
         try:
             message = yjs_protocol.decode_frame(frame)
-        except yjs_protocol.FrameTooLarge as error:
+        except yjs_encoding.FrameTooLarge as error:
             raise Close(Close.TOO_LARGE, str(error)) from error
-        except yjs_protocol.BadFrame as error:
+        except yjs_encoding.BadFrame as error:
             raise Close(Close.MALFORMED, str(error)) from error
         if isinstance(message, yjs_protocol.Awareness):
             self._receive_awareness(member, message, now_s)
@@ -78,7 +71,7 @@ class Room:
         member.spend_frame(now_s)
         try:
             self._receive_sync(member, message)
-        except (BadUpdate, yjs_protocol.BadFrame) as error:
+        except (BadUpdate, yjs_encoding.BadFrame) as error:
             raise Close(Close.MALFORMED, f"The change is not one of a Yjs document: {error}") from error
 
     def _receive_awareness(self, member: Member, message: yjs_protocol.Awareness, now_s: float) -> None:
@@ -132,11 +125,11 @@ class Room:
 
     def _leaves_a_hole(self, update: bytes) -> bool:
         """Tell whether a change begins after what is known of its client: Yjs would wait for the rest, pycrdt not."""
-        first = yjs_protocol.first_of_update(update)
+        first = yjs_encoding.first_of_update(update)
         if first is None:
             return False
         client, clock = first
-        return clock > yjs_protocol.decode_state_vector(self.document.state()).get(client, 0)
+        return clock > yjs_encoding.decode_state_vector(self.document.state()).get(client, 0)
 
     def _check_size(self, update: bytes) -> None:
         self._bytes += len(update)
@@ -184,10 +177,10 @@ class Room:
     def _compare(self, data: bytes) -> None:
         """Give the other process what it lacks; say what is here if something is lacking here."""
         digest, state = data[:64].decode(), data[64:]
-        theirs, ours = yjs_protocol.decode_state_vector(state), yjs_protocol.decode_state_vector(self.document.state())
+        theirs, ours = yjs_encoding.decode_state_vector(state), yjs_encoding.decode_state_vector(self.document.state())
         they_lack, we_lack = (
-            not yjs_protocol.is_within(ours.items(), theirs),
-            not yjs_protocol.is_within(theirs.items(), ours),
+            not yjs_encoding.is_within(ours.items(), theirs),
+            not yjs_encoding.is_within(theirs.items(), ours),
         )
         if they_lack:
             self.to_tell.append(Note("update", self.document.encode(state)))
@@ -245,11 +238,11 @@ def _nobody() -> None:
 
 def encode_saved_note(seq: int, state: bytes) -> Note:
     """Return the note that tells the other processes what has been saved."""
-    return Note("saved", yjs_protocol.encode_integer(seq) + state)
+    return Note("saved", yjs_encoding.encode_integer(seq) + state)
 
 
 def decode_saved(data: bytes) -> tuple[int, bytes]:
     """Return the number and the state vector of a note."""
-    reader = yjs_protocol.Reader(data)
+    reader = yjs_encoding.Reader(data)
     seq = reader.integer()
     return seq, reader.rest()

@@ -14,14 +14,21 @@ from django.db import DatabaseError
 from django.utils import timezone
 
 from editor.documents.shared_document import BadUpdate, SharedDocument
-from editor.documents.store import COMPACT_AFTER_ROWS, SnapshotDiffers, append_changes, compact_document, load_document
+from editor.documents.store import (
+    COMPACT_AFTER_ROWS,
+    Change,
+    SnapshotDiffers,
+    append_changes,
+    compact_document,
+    load_document,
+)
+from editor.documents.yjs_encoding import BadFrame
 from editor.errors import NoSuchProgram
 from editor.language.compiler import EditedProgram
-from editor.programs.checking import check_and_publish
+from editor.programs.checking import check_and_publish, new_revision
 from editor.rooms.member import Close
-from editor.rooms.room import Change, Room, encode_saved_note
+from editor.rooms.room import Room, encode_saved_note
 from editor.rooms.stream import BEGINNING, Entry, RoomStream, StreamLost
-from editor.rooms.yjs_protocol import BadFrame
 
 log = logging.getLogger(__name__)
 KEEP_EVERY_S = 0.25
@@ -200,11 +207,6 @@ class OpenRoom:
                 "Program %s was not checked; the next edit is looked at from the beginning.", self.room.program
             )
             self._edited = EditedProgram()
-
-
-def new_revision() -> int:
-    """Return a number for a look at a document; later looks have higher numbers, in every process."""
-    return time.time_ns() // 1_000_000
 
 
 async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Callable[[OpenRoom], None]) -> OpenRoom:

@@ -6,6 +6,7 @@ import random
 
 import pytest
 
+from editor.documents import yjs_encoding
 from editor.rooms import yjs_protocol
 from editor.rooms.member import FRAMES_PER_S, Close, Member, Person
 from editor.rooms.room import MOST_MEMBERS, Room
@@ -122,9 +123,9 @@ def test_saved_carries_the_state_it_speaks_of() -> None:
     ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
     here.tell_saved(12, here.document.state())
     frame = ada.member.outbox.pop()
-    reader = yjs_protocol.Reader(frame)
+    reader = yjs_encoding.Reader(frame)
     assert (reader.integer(), reader.integer()) == (yjs_protocol.SAVED, 12)
-    assert yjs_protocol.decode_state_vector(reader.sized(100))[1] > 0
+    assert yjs_encoding.decode_state_vector(reader.sized(100))[1] > 0
 
 
 def test_a_connection_that_does_not_read_is_sent_away() -> None:
