@@ -53,7 +53,7 @@ def get_document(*, program_id: UUID | str) -> dict[str, Any]:
     for flush in _flushes:
         flush(str(program_id))
     document = SharedDocument(load_document(str(program_id)).updates)
-    document.climb()
+    document.migrate()
     return document.to_json()
 
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from editor.language.allocation import paused_collector
-from editor.language.analysis.memo import Memories, Memory
+from editor.language.analysis.memo import Memo, Memos
 from editor.language.analysis.positions import add_moves
 from editor.language.checks.checks import check
-from editor.language.document.format_migrations import climb
+from editor.language.document.format_migrations import migrate
 from editor.language.messages.diagnostics import Diagnostic, Fix, Problem, arguments_to_json, put_into_words
 from editor.language.messages.phrases import LANGUAGES
 from editor.language.plan.compiler import compile_tree
@@ -57,7 +57,7 @@ class Look:
     tree: Tree
     found: list[tuple[Problem, int]]
     """The problems, each with the identity of its node."""
-    printed: Memory | None
+    printed: Memo | None
 
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """Return the problems in words, in reading order."""
@@ -86,12 +86,12 @@ class Look:
         return print_tree(self.tree, self.surroundings, numbers, zone_names(self.document), self.printed)
 
 
-def look_at(document: object, surroundings: Surroundings, memories: Memories | None = None) -> Look:
-    """Read and check a document; what the memories hold of the last look is used, and they then hold this one."""
-    reading = read_document(climb(document), memories.read if memories else None)
-    tree = add_moves(reading.tree, _standing(surroundings), memories.positions if memories else None)
-    found = check(reading, tree, surroundings, document, memories)
-    return Look(document, surroundings, reading, tree, found, memories.printed if memories else None)
+def look_at(document: object, surroundings: Surroundings, memos: Memos | None = None) -> Look:
+    """Read and check a document; what the memos hold of the last look is used, and they then hold this one."""
+    reading = read_document(migrate(document), memos.read if memos else None)
+    tree = add_moves(reading.tree, _standing(surroundings), memos.positions if memos else None)
+    found = check(reading, tree, surroundings, document, memos)
+    return Look(document, surroundings, reading, tree, found, memos.printed if memos else None)
 
 
 def _standing(surroundings: Surroundings) -> dict[str, str]:
@@ -184,7 +184,7 @@ class EditedProgram:
 
     def __init__(self) -> None:
         """Know nothing yet."""
-        self._memories = Memories()
+        self._memories = Memos()
 
     def look(self, document: object, surroundings: Surroundings) -> Look:
         """Read and check the document as it is now."""

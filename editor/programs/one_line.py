@@ -11,7 +11,7 @@ from editor.language import compile_document
 from editor.language.expressions.names import member_name
 from editor.language.expressions.printing import quote
 from editor.language.one_line.scope import LineScope, make_line_scope
-from editor.language.one_line.values import NotUnderstood, kind_of_line, parse_line, print_line
+from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
 from editor.programs.checking import build_surroundings
 from editor.programs.programs import get_program
 
@@ -77,8 +77,8 @@ def print_expression(*, program_id: UUID | str, value: Any, step: str = "", name
 
 
 def _view(value: Any, text: str, line: LineScope, *, names: bool) -> ExpressionView:
-    kind = kind_of_line(value, line)
-    return ExpressionView(value, text, kind.type, kind.unit, None, _line_names(line) if names else ())
+    value_type = type_of_line(value, line)
+    return ExpressionView(value, text, value_type.type, value_type.unit, None, _line_names(line) if names else ())
 
 
 def _scope(program_id: UUID | str, step: str) -> LineScope:

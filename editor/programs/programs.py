@@ -13,7 +13,13 @@ from django.conf import settings
 from django.db import transaction
 from django.utils import timezone
 
-from editor.documents.shared_document import SharedDocument, climb_document, digest_of, empty_document, encode_document
+from editor.documents.shared_document import (
+    SharedDocument,
+    digest_of,
+    empty_document,
+    encode_document,
+    migrate_document,
+)
 from editor.documents.store import get_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.language import Compiled, Surroundings, compile_document
@@ -44,7 +50,7 @@ def get_program(*, program_id: UUID | str) -> ProgramView:
 
 def create_program(*, site: str, name: str, document: Mapping[str, Any] | None = None, user: Any = None) -> ProgramView:
     """Make a program, empty or from a plain document. Raises BadRequest for a bad name."""
-    plain = climb_document(document or empty_document())
+    plain = migrate_document(document or empty_document())
     data = encode_document(plain)
     site_id = _site_id(site)
     with transaction.atomic():
@@ -179,7 +185,7 @@ def _version_view(row: Version) -> VersionView:
         number=row.number,
         author=view_author(row.author),
         message=row.message,
-        document=climb_document(row.document),
+        document=migrate_document(row.document),
         script=row.script,
         created_at=row.created_at,
     )

@@ -217,11 +217,11 @@ async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Ca
     stored = await in_database(load_document)(program_id)
     tail, after = await _read_tail(stream, program_id)
     document = SharedDocument([*stored.updates, *tail])
-    climbed = document.climb()
+    migrated = document.migrate()
     room = Room(program_id, stored.site, origin, document)
     room.saved_seq = stored.seq
     opened = OpenRoom(room, stream, after, on_end)
-    if tail or climbed:
+    if tail or migrated:
         _keep_what_is_not_stored(room, stored.updates)
     opened.start()
     return opened
@@ -236,7 +236,7 @@ async def _read_tail(stream: RoomStream, program_id: str) -> tuple[list[bytes], 
 
 
 def _keep_what_is_not_stored(room: Room, stored: tuple[bytes, ...]) -> None:
-    """Keep what a process that died between telling and keeping left in the stream, and the climb to today's format."""
+    """Keep what a process that died between telling and keeping left in the stream, and the migrate to today's format."""
     kept = SharedDocument(stored)
     if kept.state() != room.document.state() or kept.digest() != room.document.digest():
         room.to_keep.append(Change(None, room.document.encode(kept.state())))

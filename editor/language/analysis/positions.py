@@ -11,7 +11,7 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from editor.language.analysis.memo import Memory
+from editor.language.analysis.memo import Memo
 from editor.language.expressions.nodes import NOWHERE, PlaceRef, Variable
 from editor.language.tree.nodes import (
     DRIVES,
@@ -87,7 +87,7 @@ class _Follower:
     breaks: list[list[Standing]] = field(default_factory=list)
     """For each loop around, innermost last, where the robots stand at the steps that leave it."""
     returns: list[Standing] = field(default_factory=list)
-    known: Memory | None = None
+    memo: Memo | None = None
     calls: int = 0
 
     def block(self, block: Block, standing: Standing) -> tuple[Block, Standing | None]:
@@ -121,9 +121,9 @@ class _Follower:
 
     def _followed(self, node: _Composite, before: Standing) -> tuple[Node, Standing | None]:
         """Follow a step that holds others; what depends on nothing else is remembered."""
-        if self.known is None:
+        if self.memo is None:
             return self._composite(node, before)
-        known: _Found | None = self.known.recall(node, before)
+        known: _Found | None = self.memo.get(node, before)
         if known is None:
             outside, self.relied_on = self.relied_on, {}
             ways_out = self.calls, len(self.returns), len(self.breaks[-1]) if self.breaks else 0
@@ -131,7 +131,7 @@ class _Follower:
             known = _Found(inner, after, self.relied_on)
             self.relied_on = outside
             if ways_out == (self.calls, len(self.returns), len(self.breaks[-1]) if self.breaks else 0):
-                self.known.keep(node, known, before)
+                self.memo.put(node, known, before)
         self.relied_on.update(known.relied_on)
         return known.node, known.after
 
@@ -291,33 +291,31 @@ def _agreed(first: Standing | None, second: Standing | None) -> Standing | None:
     return {role: place for role, place in first.items() if second.get(role) == place}
 
 
-def add_moves(tree: Tree, standing_at: Mapping[str, str], known: Memory | None = None) -> Tree:
+def add_moves(tree: Tree, standing_at: Mapping[str, str], memo: Memo | None = None) -> Tree:
     """Return the tree with the moves that were missing; `standing_at` says where known robots stand (device ids).
 
-    `known` has what was found at the last look.
+    `memo` has what was found at the last look.
     """
     initial = {
         role.name: PlaceRef(device=standing_at[role.device])
         for role in tree.roles
         if role.device is not None and role.device in standing_at
     }
-    return _follow(tree, initial, known, settle=False)[0]
+    return _follow(tree, initial, memo, settle=False)[0]
 
 
-def settle_places(tree: Tree) -> tuple[Tree, tuple[Pick | Drop, ...]]:
+def place_loads(tree: Tree) -> tuple[Tree, tuple[Pick | Drop, ...]]:
     """Return the tree of a parsed script with the places of its picks and drops, and those without a place."""
     initial = {role.name: PlaceRef(device=role.at) for role in tree.roles if role.at is not None}
     return _follow(tree, initial, None, settle=True)
 
 
-def _follow(
-    tree: Tree, initial: Standing, known: Memory | None, *, settle: bool
-) -> tuple[Tree, tuple[Pick | Drop, ...]]:
-    if known is not None:
-        known.begin(initial)
+def _follow(tree: Tree, initial: Standing, memo: Memo | None, *, settle: bool) -> tuple[Tree, tuple[Pick | Drop, ...]]:
+    if memo is not None:
+        memo.begin(initial)
     circular = functions_in_circles(tree) if tree.functions else frozenset()
     moved = {function.method: roles_used(function.body, tree) for function in tree.functions}
-    follower = _Follower(moved, sets_of_functions(tree), circular, settle, initial, known=known)
+    follower = _Follower(moved, sets_of_functions(tree), circular, settle, initial, memo=memo)
     finished = {function.method: follower.function(function) for function in callees_first(tree)}
     body, _ = follower.block(tree.body, initial)
     events = tuple(replace(event, body=follower.block(event.body, {})[0]) for event in tree.events)

@@ -18,15 +18,15 @@ def known_device(context: Context, node: n.Node, device_id: str, field: str) -> 
     """Return a device that the program may use, now or later; what is wrong with it is told."""
     facts = context.surroundings.devices.get(device_id)
     if facts is None:
-        context.tell(node, "unknown_device", field, {"device": device_id})
+        context.report(node, "unknown_device", field, {"device": device_id})
         return None
     name = {"device": facts.description.name}
     if facts.lifecycle == "pending":
-        context.tell(node, "pending_device", field, name)
+        context.report(node, "pending_device", field, name)
     elif facts.lifecycle == "retired":
-        context.tell(node, "retired_device", field, name)
+        context.report(node, "retired_device", field, name)
     elif not facts.online:
-        context.tell(node, "offline_device", field, name)
+        context.report(node, "offline_device", field, name)
     return facts
 
 
@@ -38,7 +38,7 @@ def usable_device(
         facts = known_device(context, node, place.device, field)
         return None if facts is None else facts.description
     if place.value is None:
-        context.tell(node, missing_code, field)
+        context.report(node, missing_code, field)
     return None
 
 
@@ -49,7 +49,7 @@ def check_load_place(context: Context, node: n.Pick | n.Drop, *, gives: bool) ->
     if device is None:
         return
     if device.kind == "robot":
-        context.tell(node, "robot_as_place", node.place_field, {"device": device.name})
+        context.report(node, "robot_as_place", node.place_field, {"device": device.name})
         return
     thing = node.object.value if isinstance(node.object, Constant) else None
     things = device.gives if gives else device.takes
@@ -58,7 +58,7 @@ def check_load_place(context: Context, node: n.Pick | n.Drop, *, gives: bool) ->
         fix = None
         if len(things) == 1 and gives:
             fix = Fix("set_to", node.step, "object", things[0], {"value": things[0]})
-        context.tell(node, "not_given" if gives else "not_taken", node.place_field, details, fix)
+        context.report(node, "not_given" if gives else "not_taken", node.place_field, details, fix)
 
 
 def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, missing_code: str) -> None:
@@ -68,13 +68,13 @@ def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, mis
     elif place.place is not None:
         facts = context.surroundings.places.get(place.place)
         if facts is None:
-            context.tell(node, "unknown_place", field, {"place": place.place})
+            context.report(node, "unknown_place", field, {"place": place.place})
         else:
             _check_floor(context, node, (facts.x, facts.y), field)
     elif place.point is not None:
         _check_floor(context, node, place.point, field)
     elif place.value is None:
-        context.tell(node, missing_code, field)
+        context.report(node, missing_code, field)
 
 
 def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> None:
@@ -83,15 +83,15 @@ def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> 
     if floor is None:
         return
     if not floor.is_inside(*point):
-        context.tell(node, "place_outside", field)
+        context.report(node, "place_outside", field)
         return
     if not robots:
         return
     name = {"robot": context.robot_name(node.role)}
     if not any(floor.is_free(*point, robot.radius_m) for robot in robots):
-        context.tell(node, "place_blocked", field, name)
+        context.report(node, "place_blocked", field, name)
     elif not any(floor.is_reachable((r.pose.x, r.pose.y), point, r.radius_m) for r in robots):
-        context.tell(node, "place_unreachable", field, name)
+        context.report(node, "place_unreachable", field, name)
 
 
 def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
@@ -104,7 +104,7 @@ def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], 
             description = facts.description
             options = Options(tuple(spec.name for spec in description.properties))
             details: TextArguments = {"device": description.name, "property": part.property, "options": options}
-            context.tell(node, "unknown_property", field, details)
+            context.report(node, "unknown_property", field, details)
 
 
 def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, ...]) -> None:
@@ -115,15 +115,15 @@ def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, 
             return
         description = facts.description
         if description.kind != "robot":
-            context.tell(node, "not_a_robot", "role", {"device": description.name, "role": role.name})
+            context.report(node, "not_a_robot", "role", {"device": description.name, "role": role.name})
             return
         for method in needed:
             if description.method(method) is None:
-                context.tell(node, "cannot_do", "role", {"device": description.name, "method": method})
+                context.report(node, "cannot_do", "role", {"device": description.name, "method": method})
         return
     robots = context.robots(role.name)
     methods: TextArguments = {"methods": Options(role.can, "and")}
     if not robots:
-        context.tell(node, "no_robot_can", "role", methods)
+        context.report(node, "no_robot_can", "role", methods)
     elif not any(context.surroundings.devices[robot.id].online for robot in robots):
-        context.tell(node, "no_robot_online", "role", methods)
+        context.report(node, "no_robot_online", "role", methods)

@@ -39,11 +39,11 @@ def _check_goal(
     if all(goal is None for goal in goals):
         facts = context.surroundings.devices[place.device or ""]
         names: TextArguments = {"robot": context.robot_name(node.role), "device": facts.description.name}
-        context.tell(node, "station_unreachable", field, names)
+        context.report(node, "station_unreachable", field, names)
         return
     for zone in closed:
         if all(goal is None or is_in(goal, zone.points) for goal in goals):
-            context.tell(node, "place_in_keep_out", field, {"zone": zone.name})
+            context.report(node, "place_in_keep_out", field, {"zone": zone.name})
             return
 
 
@@ -78,4 +78,4 @@ def _check_sizes(context: Context, zones: tuple[Zone, ...]) -> None:
     smallest = min(robots, key=lambda robot: (robot.radius_m, robot.id), default=None)
     for zone in zones:
         if smallest is not None and area_m2(zone.points) < pi * smallest.radius_m**2:
-            context.tell_step("", "zone_too_small", f"zones.{zone.id}", {"zone": zone.name, "robot": smallest.name})
+            context.report_step("", "zone_too_small", f"zones.{zone.id}", {"zone": zone.name, "robot": smallest.name})

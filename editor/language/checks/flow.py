@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
-from editor.language.analysis.memo import Memory, Told
+from editor.language.analysis.memo import Findings, Memo
 from editor.language.checks.context import Context
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
-from editor.language.expressions.typing import constant_value
+from editor.language.expressions.value_types import constant_value
 from editor.language.expressions.values import parts_of
 from editor.language.messages.diagnostics import Fix
 from editor.language.tree import nodes as n
@@ -32,7 +32,7 @@ class _Flow:
     """The variables that each function sets."""
     beside: frozenset[str] = frozenset()
     """Variables that events or the branches of a Parallel set; they may change at any time."""
-    known: Memory | None = None
+    memo: Memo | None = None
     calls: int = 0
 
     def block(self, block: n.Block) -> Ways:
@@ -51,14 +51,14 @@ class _Flow:
 
     def _followed(self, node: n.Node) -> Ways:
         """Follow a step that holds others; without calls what is found depends on nothing else."""
-        if self.context is None or self.known is None:
+        if self.context is None or self.memo is None:
             return _FOLLOW[type(node)](self, node)
-        known: tuple[Ways, Told] | None = self.known.recall(node)
+        known: tuple[Ways, Findings] | None = self.memo.get(node)
         if known is None:
             calls, told = self.calls, len(self.context.found)
             known = _FOLLOW[type(node)](self, node), tuple(self.context.found[told:])
             if calls == self.calls:
-                self.known.keep(node, known)
+                self.memo.put(node, known)
         else:
             self.context.found.extend(known[1])
         return known[0]
@@ -67,7 +67,7 @@ class _Flow:
         rest = [node for node in block[last + 1 :] if node.step != block[last].step]
         if self.context is not None and rest:
             step = rest[0].step
-            self.context.tell(rest[0], "never_reached", "", fix=Fix("delete_step", step, "delete", None))
+            self.context.report(rest[0], "never_reached", "", fix=Fix("delete_step", step, "delete", None))
 
 
 def _if(flow: _Flow, node: n.If) -> Ways:
@@ -84,9 +84,9 @@ def _while(flow: _Flow, node: n.While) -> Ways:
     out = (inside - {"on", "break"}) | (ON if "break" in inside else NOWAY)
     if flow.context is not None and not out:
         if always is True:
-            flow.context.tell(node, "never_ends", "condition")
+            flow.context.report(node, "never_ends", "condition")
         elif always is None and not _may_change(flow, node):
-            flow.context.tell(node, "may_never_end", "condition")
+            flow.context.report(node, "may_never_end", "condition")
     return out if always is True else out | ON
 
 
@@ -178,9 +178,9 @@ def check_flow(context: Context) -> None:
     tree = context.tree
     sets = sets_of_functions(tree)
     flow = _Flow(ways_of_functions(tree), context, sets, _set_beside(tree, sets))
-    if context.memories is not None:
-        flow.known = context.memories.flow
-        flow.known.begin((flow.beside, sets))
+    if context.memos is not None:
+        flow.memo = context.memos.flow
+        flow.memo.begin((flow.beside, sets))
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         flow.block(block)
     if tree.functions:
@@ -210,7 +210,7 @@ def _check_endless_calls(context: Context, ways: Mapping[str, Ways]) -> None:
             name = {"function": function.name or function.method}
             for node in walk(function.body):
                 if isinstance(node, n.Call) and node.function in endless:
-                    context.tell(node, "calls_itself", "function", name)
+                    context.report(node, "calls_itself", "function", name)
 
 
 def _check_results(context: Context, ways: Mapping[str, Ways]) -> None:
@@ -223,14 +223,14 @@ def _check_results(context: Context, ways: Mapping[str, Ways]) -> None:
         if "on" in ways[function.method] and function.body:
             bare.append(function.body[-1])
         for node in bare:
-            context.tell(node, "no_value_on_some_way", "", name)
+            context.report(node, "no_value_on_some_way", "", name)
     for node in _all_nodes(context.tree):
         called = context.functions.get(node.function) if isinstance(node, n.Call) else None
         if isinstance(node, n.Call) and called is not None and called.result_type:
             if not node.result:
-                context.tell(node, "unused_result", "result", {"function": called.name or called.method})
+                context.report(node, "unused_result", "result", {"function": called.name or called.method})
             if not called.body:
-                context.tell(node, "no_value_on_some_way", "", {"function": called.name or called.method})
+                context.report(node, "no_value_on_some_way", "", {"function": called.name or called.method})
 
 
 def _all_nodes(tree: n.Tree) -> list[n.Node]:
@@ -250,7 +250,7 @@ def _check_use(context: Context) -> None:
                 left.append(context.functions[node.function].body)
     for function in tree.functions:
         if function.method not in called and function.body:
-            context.tell(function.body[0], "unused_function", "", {"function": function.name or function.method})
+            context.report(function.body[0], "unused_function", "", {"function": function.name or function.method})
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,17 +302,17 @@ def _block(context: Context, block: n.Block, around: _Around) -> None:
 
 def _break(context: Context, node: n.Break, around: _Around) -> None:
     if around.loop is None:
-        context.tell(node, "break_outside_loop", "")
+        context.report(node, "break_outside_loop", "")
     elif around.loop:
-        context.tell(node, around.loop, "")
+        context.report(node, around.loop, "")
 
 
 def _return(context: Context, node: n.Return, around: _Around) -> None:
     function = around.function
     if function is None:
-        context.tell(node, "return_outside_function", "", fix=Fix("make_end", node.step, "kind", "end"))
+        context.report(node, "return_outside_function", "", fix=Fix("make_end", node.step, "kind", "end"))
     elif around.barrier:
-        context.tell(node, around.barrier, "")
+        context.report(node, around.barrier, "")
     elif node.value is not None and not function.result_type:
         fix = Fix("remove", node.step, "value", None, {"value": "value"})
-        context.tell(node, "returns_unasked", "value", {"function": function.name or function.method}, fix)
+        context.report(node, "returns_unasked", "value", {"function": function.name or function.method}, fix)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.checks.context import Context
-from editor.language.expressions.typing import constant_value
+from editor.language.expressions.value_types import constant_value
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
 from editor.language.tree.traversal import callees_first, functions_in_circles
@@ -73,7 +73,7 @@ class _Follower:
         for name, field_name in read_by(node).items():
             if name in self.tracked and name not in state.sure:
                 code = "may_be_unset" if name in state.maybe else "unset_variable"
-                self.context.tell(node, code, field_name, {"variable": name})
+                self.context.report(node, code, field_name, {"variable": name})
 
     def sets(self, block: n.Block) -> Names:
         return set_in(block, self.sets_of)
@@ -201,7 +201,7 @@ def _check_use(context: Context, blocks: tuple[n.Block, ...]) -> None:
     for name, node in first.items():
         if name and name not in read:
             field_name = "result" if isinstance(node, n.Call) else "variable"
-            context.tell(node, "unused_variable", field_name, {"variable": name})
+            context.report(node, "unused_variable", field_name, {"variable": name})
 
 
 def _check_order(context: Context) -> None:

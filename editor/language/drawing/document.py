@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from string import ascii_lowercase
 
 from editor.language.analysis.positions import add_moves
-from editor.language.document.format_migrations import FORMAT, climb
+from editor.language.document.format_migrations import FORMAT, migrate
 from editor.language.document.fractional_index import keep_orders
 from editor.language.document.outline import PROGRAM, branches_of, make_outline, mapping
 from editor.language.drawing.alignment import align
@@ -23,7 +23,7 @@ from editor.language.drawing.merge import (
     with_document_names,
     without_unknown_names,
 )
-from editor.language.drawing.steps import Drawable, Drawer, Drawn, grouped
+from editor.language.drawing.steps import Drawable, EncodedStep, StepEncoder, grouped
 from editor.language.expressions import nodes as e
 from editor.language.expressions.values import read_point
 from editor.language.reading.document import read_document
@@ -58,7 +58,7 @@ class _Before:
 class _Builder:
     """The steps so far."""
 
-    drawer: Drawer
+    encoder: StepEncoder
     before: _Before
     layout: Layout
     functions: Functions
@@ -69,7 +69,7 @@ class _Builder:
 
     def block(self, parent: str, branch: str, block: Sequence[Drawable], *, framed: bool = False) -> None:
         """Draw the steps of one branch; those in a frame stand below each other."""
-        groups = [(nodes, self.drawer.draw(nodes)) for nodes in grouped(block)]
+        groups = [(nodes, self.encoder.draw(nodes)) for nodes in grouped(block)]
         ids = [self._id(nodes[-1].step, drawn[0]) for nodes, drawn in groups]
         orders = keep_orders([(step, self._order_before(step, parent, branch)) for step in ids])
         for step, order, (_, drawn) in zip(ids, orders, groups, strict=True):
@@ -91,7 +91,7 @@ class _Builder:
         same = isinstance(place, list | tuple) and len(place) == 3 and list(place[:2]) == [parent, branch]
         return str(place[2]) if same and isinstance(place, list | tuple) else None
 
-    def _step(self, step: str, place: list[str], drawn: Drawn, *, framed: bool) -> None:
+    def _step(self, step: str, place: list[str], drawn: EncodedStep, *, framed: bool) -> None:
         kind, given, branches = drawn
         raw = self.before.raw.get(step)
         names = self.functions.names.get(self._method(given), {}) if kind == "call" else {}
@@ -124,7 +124,7 @@ class _Builder:
                 self.layout.enter(head, name)
             self.block(step, name, inner, framed=in_frame)
 
-    def _room(self, drawn: Drawn) -> Room:
+    def _room(self, drawn: EncodedStep) -> Room:
         """Return the room for a step with all that stands below it in its frame."""
         kind, params, branches = drawn
         own = room_of(kind, params)
@@ -135,13 +135,13 @@ class _Builder:
         """Return the room for steps and all their branches below each other."""
         rooms: list[Room] = []
         for nodes in grouped(block):
-            kind, params, branches = self.drawer.draw(nodes)
+            kind, params, branches = self.encoder.draw(nodes)
             rooms += [room_of(kind, params), *(self._column(inner) for _, inner in branches)]
         return _stacked(rooms)
 
     def _method(self, given: Mapping[str, object]) -> str:
         wanted = given.get("function")
-        return next((method for method, key in self.drawer.function_ids.items() if key == wanted), "")
+        return next((method for method, key in self.encoder.function_ids.items() if key == wanted), "")
 
     def _named(self, given: Mapping[str, object], arguments: Mapping[str, str]) -> dict[str, object]:
         named = {key: with_document_names(value, self.names) for key, value in given.items()}
@@ -185,7 +185,7 @@ def tree_to_document(
     Steps that did not change, moved or changed a value keep their ids, positions and everything that no script
     says; drafts, comments and zones stay. New steps stand near their devices.
     """
-    old = mapping(climb(previous or {})) if previous else {}
+    old = mapping(migrate(previous or {})) if previous else {}
     if not old:
         return _draw(tree, surroundings, {}, n.Tree())
     before = _read(old, surroundings)
@@ -221,7 +221,7 @@ def _draw(
     for step in before.raw.values():
         layout.occupy(read_point(step.get("pos")), room_of(str(step.get("kind")), mapping(step.get("params"))))
     names = {**before.variables(), **names}
-    builder = _Builder(Drawer(role_ids, functions.ids), before, layout, functions, names)
+    builder = _Builder(StepEncoder(role_ids, functions.ids), before, layout, functions, names)
     builder.block(PROGRAM, "body", aligned.body)
     builder.block(PROGRAM, "events", aligned.events)
     for function in aligned.functions:
@@ -247,12 +247,12 @@ def _standing(surroundings: Surroundings) -> dict[str, str]:
 
 def _look_back(old: Mapping[str, object], tree: n.Tree) -> _Before:
     roles = {role.name: role.id for role in tree.roles}
-    drawer = Drawer(roles, {function.method: function.id for function in tree.functions})
+    encoder = StepEncoder(roles, {function.method: function.id for function in tree.functions})
     said: dict[str, tuple[str, Mapping[str, object]]] = {}
     left: list[Sequence[Drawable]] = [tree.body, tree.events, *(function.body for function in tree.functions)]
     for block in left:
         for nodes in grouped(block):
-            kind, params, branches = drawer.draw(nodes)
+            kind, params, branches = encoder.draw(nodes)
             said[nodes[-1].step] = (kind, params)
             left.extend(inner for _, inner in branches)
     steps = mapping(old.get("steps"))

@@ -26,7 +26,7 @@ class UnknownType(Exception):
     """A piece of a script that stands where a type is wanted names none."""
 
 
-def settle_type(type_name: object, unit: object = "") -> tuple[str, str]:
+def normal_type(type_name: object, unit: object = "") -> tuple[str, str]:
     """Return a type and its unit in their normal form; what is no type is empty, and only numbers have a unit."""
     name = type_name if isinstance(type_name, str) else ""
     name = _ALSO_CALLED.get(name, name)
@@ -37,7 +37,7 @@ def settle_type(type_name: object, unit: object = "") -> tuple[str, str]:
 
 def write_type(type_name: str, unit: str = "") -> str:
     """Return a type as the script writes it; empty when the type is not known."""
-    name, settled_unit = settle_type(type_name, unit)
+    name, settled_unit = normal_type(type_name, unit)
     if not name:
         return ""
     return f"{TYPE_NAMES[name]}({quote(settled_unit)})" if settled_unit else TYPE_NAMES[name]
@@ -62,7 +62,7 @@ def parse_type(node: ast.expr | None) -> tuple[str, str]:
 ANSWER_TYPES = ("boolean", "number", "text", "choice")
 
 
-def settle_answer(given: Mapping[str, object]) -> AnswerSpec:
+def normal_answer(given: Mapping[str, object]) -> AnswerSpec:
     """Return what is said of an answer; what does not belong to its type is left out, nonsense too."""
     kind = given.get("type")
     if kind == "number":

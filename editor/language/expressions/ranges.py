@@ -7,8 +7,8 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
-from editor.language.expressions.typing import Kind, Typing, property_spec
-from editor.language.expressions.unit_conversion import settle_units
+from editor.language.expressions.unit_conversion import convert_units
+from editor.language.expressions.value_types import TypeChecker, ValueType, property_spec
 from editor.language.expressions.values import COMPARISONS, is_number, parts_of
 from editor.language.site.surroundings import Surroundings
 
@@ -45,11 +45,11 @@ ANY = Range()
 
 
 def possible(
-    expression: Expression, surroundings: Surroundings, variables: Mapping[str, Kind] | None = None
+    expression: Expression, surroundings: Surroundings, variables: Mapping[str, ValueType] | None = None
 ) -> bool | None:
     """Tell whether a condition always holds (True), never holds (False), or may do either (None)."""
-    typing = Typing(surroundings, variables or {}, [])
-    return _truth(settle_units(expression, "", typing), surroundings)
+    checker = TypeChecker(surroundings, variables or {}, [])
+    return _truth(convert_units(expression, "", checker), surroundings)
 
 
 def range_of(expression: Expression, surroundings: Surroundings) -> Range:

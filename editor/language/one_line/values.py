@@ -12,8 +12,8 @@ from editor.language.drawing.merge import with_document_names
 from editor.language.expressions.names import member_name
 from editor.language.expressions.nodes import MISSING, Expression, Located, Quantity
 from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
-from editor.language.expressions.typing import Kind, Typing
 from editor.language.expressions.units import UNITS, unit_symbol
+from editor.language.expressions.value_types import TypeChecker, ValueType
 from editor.language.expressions.values import FUNCTIONS, UnknownParameter, read_value, with_role_ids, write_value
 from editor.language.messages.phrases import LANGUAGES, Refusal
 from editor.language.one_line.notation import Desugared, desugar
@@ -63,9 +63,9 @@ def print_line(value: object, line: LineScope) -> str:
     return "" if expression == MISSING else write_expression(expression, _LineNames(line))
 
 
-def kind_of_line(value: object, line: LineScope) -> Kind:
-    """Return what kind of value a Value of the document gives."""
-    return Typing(line.scope.surroundings, line.kinds, []).kind_of(_read(value, line))
+def type_of_line(value: object, line: LineScope) -> ValueType:
+    """Return the type of what a Value of the document gives."""
+    return TypeChecker(line.scope.surroundings, line.types, []).type_of(_read(value, line))
 
 
 def _read(value: object, line: LineScope) -> Expression:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from editor.language.expressions import nodes as e
-from editor.language.expressions.declarations import ANSWER_TYPES, settle_answer
+from editor.language.expressions.declarations import ANSWER_TYPES, normal_answer
 from editor.language.expressions.nodes import AnswerSpec
 from editor.language.parsing.expressions import Refused, Scope, parse_expression, parse_scalar, quoted
 from editor.language.tree import nodes as n
@@ -37,7 +37,7 @@ def _answer(call: ast.Call, named: dict[str | None, ast.expr]) -> AnswerSpec:
             given["options"] = [parse_scalar(item) for item in value.elts]
         elif name is not None:
             given[name] = parse_scalar(value)
-    answer = settle_answer(given)
+    answer = normal_answer(given)
     said = {"type": answer.type, "unit": answer.unit or None, "minimum": answer.minimum, "maximum": answer.maximum}
     known = {
         name: value for name, value in {**said, "options": list(answer.options) or None}.items() if value is not None

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from editor.language.allocation import paused_collector
-from editor.language.analysis.positions import settle_places
+from editor.language.analysis.positions import place_loads
 from editor.language.expressions import nodes as e
 from editor.language.expressions.names import RESERVED_ATTRIBUTES, unique_name
 from editor.language.messages.diagnostics import Diagnostic, Problem, put_into_words
@@ -108,7 +108,7 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
         parser.functions[name] = replace(function, body=parser.block(methods[name].body))
     roles, parameters = _roles_and_parameters(parser)
     tree = in_reading_order(n.Tree(body, tuple(parser.functions.values()), roles, parameters, events))
-    settled, homeless = settle_places(tree)
+    settled, homeless = place_loads(tree)
     for node in homeless:
         where = parser.origins[id(node)]
         parser.refusals.append(

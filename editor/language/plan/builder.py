@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 
 from editor.language.expressions import nodes as e
-from editor.language.expressions.typing import UNKNOWN_KIND, Kind, Typing
-from editor.language.expressions.unit_conversion import settle_units
+from editor.language.expressions.unit_conversion import convert_units
+from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker, ValueType
 from editor.language.plan import instructions as p
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
@@ -54,7 +54,7 @@ class Builder:
     compilers: Mapping[type[n.Node], Compiler]
     shared: frozenset[str]
     """The variables of the program."""
-    kinds: Mapping[str, Kind] = field(default_factory=dict)
+    types: Mapping[str, ValueType] = field(default_factory=dict)
     """What is known of the variables that can be seen here."""
     instructions: list[p.Instruction] = field(default_factory=list)
     calls: list[tuple[int, str]] = field(default_factory=list)
@@ -140,8 +140,8 @@ class Builder:
         """Return an expression as a plan has it: without quantities, in the wanted unit if one is wanted."""
         if isinstance(expression, e.Constant):
             return expression
-        typing = Typing(self.surroundings, self.kinds, [])
-        settled = self._named(settle_units(expression, unit, typing))
+        checker = TypeChecker(self.surroundings, self.types, [])
+        settled = self._named(convert_units(expression, unit, checker))
         self._note_readings(settled)
         return settled
 
@@ -158,7 +158,7 @@ class Builder:
 
     def unit_of(self, variable: str) -> str:
         """Return the unit that a variable is kept in, empty when it is not known."""
-        return self.kinds.get(variable, UNKNOWN_KIND).unit
+        return self.types.get(variable, UNKNOWN_TYPE).unit
 
     def _named(self, expression: e.Expression) -> e.Expression:
         return rename_variables(expression, self.renamed) if self.renamed else expression

@@ -13,7 +13,7 @@ from editor.language.plan import instructions as p
 from editor.language.plan.builder import Builder, Compiler, Leaves
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
-from editor.language.tree.variables import kinds_of_function, kinds_of_program, local_variables, program_variables
+from editor.language.tree.variables import local_variables, program_variables, types_in_function, types_in_program
 
 
 def _move(builder: Builder, node: n.Move, leaves: Leaves) -> None:
@@ -124,12 +124,12 @@ def compile_tree(
 ) -> p.Plan:
     """Return the plan of a tree that the checks found no error in; `line_of` gives the script line of each node."""
     shared = program_variables(tree)
-    kinds = kinds_of_program(tree, shared, surroundings)
-    builder = Builder(tree, surroundings, line_of, COMPILERS, shared, kinds)
+    types = types_in_program(tree, shared, surroundings)
+    builder = Builder(tree, surroundings, line_of, COMPILERS, shared, types)
     builder.block(tree.body)
     builder.add(p.End())
     entries = {function.method: _function(builder, function) for function in tree.functions}
-    builder.kinds, builder.own, builder.function = kinds, frozenset(), None
+    builder.types, builder.own, builder.function = types, frozenset(), None
     events = tuple(_event(builder, event) for event in tree.events)
     for address, method in builder.calls:
         invoke = builder.instructions[address].do
@@ -144,15 +144,15 @@ def compile_tree(
 def _function(builder: Builder, function: n.Function) -> int:
     """Compile a function and return where it begins."""
     entry = builder.here()
-    outside, builder.kinds = (
-        builder.kinds,
-        kinds_of_function(builder.tree, function, builder.kinds, builder.surroundings),
+    outside, builder.types = (
+        builder.types,
+        types_in_function(builder.tree, function, builder.types, builder.surroundings),
     )
     own = (*(parameter.name for parameter in function.parameters), *local_variables(function, builder.shared))
     builder.own, builder.function = frozenset(own), function
     builder.block(function.body)
     builder.add(p.Return())
-    builder.kinds = outside
+    builder.types = outside
     return entry
 
 

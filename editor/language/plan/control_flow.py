@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from editor.language.expressions import nodes as e
-from editor.language.expressions.typing import UNKNOWN_KIND, Typing
+from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker
 from editor.language.plan import instructions as p
 from editor.language.plan.builder import Around, Builder, Composite, Guard, Leaves, Loop
 from editor.language.tree import nodes as n
@@ -52,19 +52,19 @@ def compile_repeat(builder: Builder, node: n.Repeat, leaves: Leaves) -> None:
 
 def compile_for_each(builder: Builder, node: n.ForEach, leaves: Leaves) -> None:
     """Compile a For-each: a hidden variable counts, and tells which item comes next."""
-    typing = Typing(builder.surroundings, builder.kinds, [])
-    kind = typing.kind_of(node.items[0]) if node.items else UNKNOWN_KIND
-    items = [builder.value(item, kind.unit) for item in node.items]
+    checker = TypeChecker(builder.surroundings, builder.types, [])
+    value_type = checker.type_of(node.items[0]) if node.items else UNKNOWN_TYPE
+    items = [builder.value(item, value_type.unit) for item in node.items]
     index = e.Variable(builder.hide("item"))
     builder.add(p.Assign(index.name, _ZERO), node, enters=(node.step,))
     items = [_kept(builder, item) for item in items]
-    outside, kinds = builder.renamed, builder.kinds
+    outside, types = builder.renamed, builder.types
     variable = builder.hide(node.variable)
-    builder.renamed, builder.kinds = {**outside, node.variable: variable}, {**kinds, node.variable: kind}
+    builder.renamed, builder.types = {**outside, node.variable: variable}, {**types, node.variable: value_type}
     branch = builder.add(p.Jump(0), node)
     _choose(builder, index, variable, items)
     loop = _body(builder, node)
-    builder.renamed, builder.kinds = outside, kinds
+    builder.renamed, builder.types = outside, types
     builder.add(p.Assign(index.name, e.Operation("+", (index, _ONE))))
     builder.add(p.Jump(branch))
     builder.patch(branch, p.Branch(e.Operation("<", (index, e.Constant(len(items)))), builder.here()))

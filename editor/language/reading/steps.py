@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from editor.language.document.outline import Params, mapping
-from editor.language.expressions.declarations import settle_answer
+from editor.language.expressions.declarations import normal_answer
 from editor.language.expressions.names import local_name
 from editor.language.expressions.nodes import MISSING, Expression, Point, is_missing
 from editor.language.expressions.values import read_point
@@ -169,7 +169,7 @@ def _set(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
 
 def _ask(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     question, timeout = reader.value(step, params, "question"), reader.given(step, params, "timeout")
-    answer = settle_answer(mapping(params.get("answer")))
+    answer = normal_answer(mapping(params.get("answer")))
     return (Ask(question, answer, reader.variable(params), timeout, step),)
 
 
