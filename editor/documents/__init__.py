@@ -1,1 +1,1 @@
-"""The shared documents of programs: their content as Yjs and as plain JSON, and how the database keeps it."""
+"""The shared documents of programs: their content as Yjs and as plain JSON, and their rows in the database."""

@@ -33,7 +33,7 @@ class Stored:
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A change made here, which is to be kept: who made it, and the bytes of the document's own update."""
+    """A change made here, which is to be saved: who made it, and the bytes of the document's own update."""
 
     author: int | None
     update: bytes

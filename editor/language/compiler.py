@@ -1,4 +1,4 @@
-"""A document compiled: what the editor shows and what a run carries out, from one reading."""
+"""The compiler: a document read, checked, printed as a script and compiled to a plan, from one reading."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from editor.language.messages.phrases import LANGUAGES
 from editor.language.plan.compiler import compile_tree
 from editor.language.plan.instructions import Plan
 from editor.language.printing.script import Script, print_tree
-from editor.language.reading.document import Reading, read_document
+from editor.language.reading.document import ReadDocument, read_document
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree.nodes import COMPOSITES, Block, Tree, blocks_of
 from editor.language.tree.nodes import Move as MoveNode
@@ -53,7 +53,7 @@ class Look:
 
     document: object
     surroundings: Surroundings
-    reading: Reading
+    reading: ReadDocument
     tree: Tree
     found: list[tuple[Problem, int]]
     """The problems, each with the identity of its node."""

@@ -17,7 +17,7 @@ from editor.documents.store import flush_before_reading
 from editor.errors import NoSuchProgram
 from editor.programs.checking import DeviceWatch
 from editor.rooms.member import Close, Member
-from editor.rooms.permissions import find_standing
+from editor.rooms.permissions import find_permission
 from editor.rooms.room import Room
 from editor.rooms.runner import INTERRUPTED, OpenRoom, in_database, open_room
 from editor.rooms.stream import RoomStream, StreamLost, make_stream
@@ -76,7 +76,7 @@ class Hub:
             self._locks.pop(room.program, None)
 
     def _drop(self, opened: OpenRoom) -> None:
-        """A room ended by itself: what it holds is kept, and the next connection opens it anew."""
+        """A room ended by itself: what it holds is saved, and the next connection opens it anew."""
         if self._open.get(opened.room.program) is opened:
             del self._open[opened.room.program]
         self._start(self._stop_room, opened)
@@ -88,7 +88,7 @@ class Hub:
         """Write what waits of a program into the database."""
         opened = self._open.get(program_id)
         if opened is not None:
-            await opened.keep()
+            await opened.save()
 
     async def close(self) -> None:
         """Keep everything and end."""
@@ -130,12 +130,12 @@ class Hub:
             if await in_database(has_ended)(member.session):
                 member.close(Close(Close.SIGNED_OUT, "You are signed out. Sign in again."))
                 continue
-            standing = await in_database(find_standing)(member.person.id, room.program)
-            if standing is None:
+            permission = await in_database(find_permission)(member.person.id, room.program)
+            if permission is None:
                 member.close(Close(Close.NOT_FOUND, "The program was deleted, or you are no longer one of its site."))
                 continue
-            gained = standing.can_write and not member.can_write
-            member.can_write = standing.can_write
+            gained = permission.can_write and not member.can_write
+            member.can_write = permission.can_write
             if gained:
                 member.ask_for_state(room.document.state())
 

@@ -12,7 +12,7 @@ from registry.people.access import find_access
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class Permission:
     """What a person may do with a program: everybody of its site may look, authors may change."""
 
     site: str
@@ -20,11 +20,11 @@ class Standing:
     can_write: bool
 
 
-def find_standing(user_id: int, program_id: str) -> Standing | None:
-    """Return a person's standing; None when the program does not exist or is none of theirs: the two look the same."""
+def find_permission(user_id: int, program_id: str) -> Permission | None:
+    """Return what a person may do; None when the program does not exist or is none of theirs: the two look the same."""
     program = Program.objects.select_related("site").filter(pk=program_id).first()
     user = get_user_model().objects.filter(pk=user_id, is_active=True).first()
     access = find_access(user, program.site) if program and user else None
     if program is None or user is None or access is None:
         return None
-    return Standing(program.site.slug, Person(user.pk, user.display_name, user.initials), access.allows("author"))
+    return Permission(program.site.slug, Person(user.pk, user.display_name, user.initials), access.allows("author"))

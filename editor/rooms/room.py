@@ -1,4 +1,4 @@
-"""A room: one shared document and the connections that edit it, in strict order. No I/O: the hub carries for it."""
+"""A room: one shared document and the connections that edit it, in strict order. No I/O: the runner does it."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ class Room:
         self.document = document
         self.members: list[Member] = []
         self.board = AwarenessBoard()
-        self.to_keep: deque[Change] = deque()
-        self.to_tell: deque[Note] = deque()
+        self.to_save: deque[Change] = deque()
+        self.to_publish: deque[Note] = deque()
         self.touched = False
         self.saved_seq = 0
         self._bytes = len(document.encode())
@@ -104,11 +104,11 @@ class Room:
             return
         for change in (update, *held):
             self._change(member, change)
-        if first and not self.to_keep:
+        if first and not self.to_save:
             member.post(yjs_protocol.encode_saved(self.saved_seq, self.document.state()))
 
     def _change(self, member: Member, update: bytes) -> None:
-        """Apply a client's change, keep it, tell it to everybody else."""
+        """Apply a client's change, save it, publish it."""
         if update == EMPTY_UPDATE:
             return
         if self._leaves_a_hole(update):
@@ -117,8 +117,8 @@ class Room:
         self._check_size(update)
         steps = self.document.step_count()
         for change in self.document.apply(update):
-            self.to_keep.append(Change(member.person.id, change))
-            self.to_tell.append(Note("update", change))
+            self.to_save.append(Change(member.person.id, change))
+            self.to_publish.append(Note("update", change))
             self._spread(change, besides=member)
         if steps < self.document.step_count() > MOST_STEPS:
             raise Close(Close.TOO_LARGE, TOO_LARGE)
@@ -160,15 +160,15 @@ class Room:
                 self.board.hear(entry.origin, yjs_protocol.decode_awareness(note.data).entries)
                 self.wake()
             case "saved":
-                self.tell_saved(*decode_saved(note.data))
+                self.announce_saved(*decode_saved(note.data))
             case "state":
                 self._compare(note.data)
 
     def say_state(self) -> None:
         """Tell the other processes what is here, so that they can compare."""
-        self.to_tell.append(self._state_note())
+        self.to_publish.append(self._state_note())
         if here := self.board.here():
-            self.to_tell.append(Note("awareness", yjs_protocol.encode_entries(here)))
+            self.to_publish.append(Note("awareness", yjs_protocol.encode_entries(here)))
         self.wake()
 
     def _state_note(self) -> Note:
@@ -183,11 +183,11 @@ class Room:
             not yjs_encoding.is_within(theirs.items(), ours),
         )
         if they_lack:
-            self.to_tell.append(Note("update", self.document.encode(state)))
+            self.to_publish.append(Note("update", self.document.encode(state)))
         if we_lack:
-            self.to_tell.append(self._state_note())
+            self.to_publish.append(self._state_note())
         if not they_lack and not we_lack and digest != self.document.digest():
-            self.to_tell.append(Note("full", self.document.encode()))
+            self.to_publish.append(Note("full", self.document.encode()))
         self.wake()
 
     def _take_full(self, update: bytes) -> None:
@@ -200,7 +200,7 @@ class Room:
         """Take in what the database or a peer holds, in any order: after a gap. Raises BadUpdate."""
         self._take_full(SharedDocument(updates).encode())
 
-    def tell_saved(self, seq: int, state: bytes) -> None:
+    def announce_saved(self, seq: int, state: bytes) -> None:
         """Tell everybody what is in the database."""
         self.saved_seq = max(seq, self.saved_seq)
         frame = yjs_protocol.encode_saved(self.saved_seq, state)
@@ -211,7 +211,7 @@ class Room:
         """Send what has changed on the board since the last call."""
         here, elsewhere = self.board.take_changes()
         if here:
-            self.to_tell.append(Note("awareness", yjs_protocol.encode_entries(here)))
+            self.to_publish.append(Note("awareness", yjs_protocol.encode_entries(here)))
             self.wake()
         if here or elsewhere:
             for member in self.members:

@@ -1,6 +1,6 @@
-"""What each robot carries, followed along all ways through the program.
+"""What each robot carries, followed along all paths through the program.
 
-For every role and kind of object two numbers are kept: how many it carries at least and at most. Where ways meet
+For every role and kind of object two numbers are kept: how many it carries at least and at most. Where paths meet
 the range widens; in a loop, and after a failure, what changed is not known any more and nothing is said of it.
 """
 
@@ -68,10 +68,10 @@ class _Follower:
         """Follow a step outside of functions that holds others; what depends on nothing else is remembered."""
         known: tuple[Carried | None, Findings] | None = memo.get(node, carried)
         if known is None:
-            told, ways_out = len(self.found), (self.met, len(self.breaks[-1]) if self.breaks else 0)
+            reported, exits = len(self.found), (self.met, len(self.breaks[-1]) if self.breaks else 0)
             after = _FOLLOW[type(node)](self, node, carried, {})
-            known = after, tuple(self.found[told:])
-            if ways_out == (self.met, len(self.breaks[-1]) if self.breaks else 0):
+            known = after, tuple(self.found[reported:])
+            if exits == (self.met, len(self.breaks[-1]) if self.breaks else 0):
                 memo.put(node, known, carried)
         else:
             self.found.extend(known[1])
@@ -106,7 +106,7 @@ def _pick(follower: _Follower, node: n.Pick, carried: Carried, values: Mapping[s
         return _forget(carried, frozenset({node.role}))
     key, quantity = load
     capacity = follower.capacity(node.role)
-    if capacity and quantity > capacity:  # told already; what is really carried cannot be known
+    if capacity and quantity > capacity:  # reported already; what is really carried cannot be known
         return _forget(carried, frozenset({node.role}))
     mine = [(thing, count) for (role, thing), count in carried.items() if role == node.role and thing != _EVERYTHING]
     least, most = _total([count for _, count in mine])
@@ -164,10 +164,10 @@ def _loop(
     once, _ = _round(follower, node.body, carried, values)
     follower.silent = False
     entry = carried if once is None else _in_every_round(carried, once)
-    after, ways_out = _round(follower, node.body, entry, values)
+    after, exits = _round(follower, node.body, entry, values)
     over = _either(entry, after)
-    for way_out in ways_out:
-        over = _either(over, way_out)
+    for at_exit in exits:
+        over = _either(over, at_exit)
     return over
 
 
@@ -188,9 +188,9 @@ def _round(
 
 
 def _try(follower: _Follower, node: n.Try, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
-    """The catch begins anywhere in the body, the final part anywhere in both; it changes every way out."""
-    ways_out = [*follower.breaks[-1:], *follower.returns[-1:]]
-    marks = [len(way_out) for way_out in ways_out]
+    """The catch begins anywhere in the body, the final part anywhere in both; it changes every exit."""
+    exits = [*follower.breaks[-1:], *follower.returns[-1:]]
+    marks = [len(at_exit) for at_exit in exits]
     after = follower.block(node.body, carried, values)
     failed = _forget(carried, _roles(follower, node.body))
     if node.catches:
@@ -198,8 +198,8 @@ def _try(follower: _Follower, node: n.Try, carried: Carried, values: Mapping[str
     if not node.final:
         return after
     roles = _roles(follower, node.final)
-    for way_out, mark in zip(ways_out, marks, strict=True):
-        way_out[mark:] = [_forget(left, roles) for left in way_out[mark:]]
+    for at_exit, mark in zip(exits, marks, strict=True):
+        at_exit[mark:] = [_forget(left, roles) for left in at_exit[mark:]]
     final = follower.block(node.final, _forget(failed, _roles(follower, node.catch)), values)
     if after is None or final is None:
         return None
@@ -295,7 +295,7 @@ def _forget(carried: Carried, roles: frozenset[str]) -> Carried:
 
 
 def _either(first: Carried | None, second: Carried | None) -> Carried | None:
-    """Return what holds after one or the other; a way that leads nowhere has no say."""
+    """Return what holds after one or the other; a path that leads nowhere has no say."""
     if first is second or second is None:
         return first
     if first is None:

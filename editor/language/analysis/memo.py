@@ -17,7 +17,7 @@ from editor.language.tree.nodes import Node
 
 Key = TypeVar("Key")
 Findings = tuple[tuple[Problem, int], ...]
-"""Problems that were told of nodes, each with its node's identity."""
+"""Problems that were reported of nodes, each with its node's identity."""
 
 
 @dataclass(slots=True)

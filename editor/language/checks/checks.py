@@ -1,4 +1,4 @@
-"""The checks: what is wrong with a program, or odd about it; one small function for each construct."""
+"""All checks of a program, in their order; one small function for each kind of node."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from editor.language.expressions.nodes import Constant
 from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value, plain_type
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
 from editor.language.messages.phrases import Options, Span
-from editor.language.reading.document import Reading
+from editor.language.reading.document import ReadDocument
 from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
@@ -33,7 +33,7 @@ from vipo_device.protocol.description import ParameterSpec
 
 
 def check(
-    reading: Reading,
+    reading: ReadDocument,
     tree: n.Tree,
     surroundings: Surroundings,
     document: object = None,
@@ -100,14 +100,14 @@ def _check_block(context: Context, name: str, block: n.Block, types: Mapping[str
         return
     memo = context.memos.of_block(name, (context.variables, context.result))
     for node in nodes:
-        told: Findings | None = memo.get(node)
-        if told is None:
+        reported: Findings | None = memo.get(node)
+        if reported is None:
             before = len(context.found)
             CHECKS[type(node)](context, node)
             if not _looks_around(node):
                 memo.put(node, tuple(context.found[before:]))
         else:
-            context.found.extend(told)
+            context.found.extend(reported)
 
 
 _LOOK_AROUND = (n.Call, n.Parallel)
@@ -337,7 +337,7 @@ def _check_roles(context: Context) -> None:
         check_role(context, first[role.name], role, needed[role.name])
 
 
-def _check_left_over(context: Context, reading: Reading) -> None:
+def _check_left_over(context: Context, reading: ReadDocument) -> None:
     outline = reading.outline
     if not context.tree.body:
         context.found.append((Problem("empty_program"), 0))

@@ -15,7 +15,7 @@ from vipo_device.protocol.description import Description
 
 
 def known_device(context: Context, node: n.Node, device_id: str, field: str) -> DeviceFacts | None:
-    """Return a device that the program may use, now or later; what is wrong with it is told."""
+    """Return a device that the program may use, now or later; what is wrong with it is reported."""
     facts = context.surroundings.devices.get(device_id)
     if facts is None:
         context.report(node, "unknown_device", field, {"device": device_id})
@@ -78,7 +78,7 @@ def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, mis
 
 
 def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> None:
-    """Check that the robot fits at a point and finds a way to it; for any robot it is enough that one does."""
+    """Check that the robot fits at a point and finds a path to it; for any robot it is enough that one does."""
     floor, robots = context.surroundings.floor, context.robots(node.role)
     if floor is None:
         return
@@ -108,7 +108,7 @@ def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], 
 
 
 def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, ...]) -> None:
-    """Check that there is a robot for a role; it is told at the first step that needs it."""
+    """Check that there is a robot for a role; it is reported at the first step that needs it."""
     if role.device is not None:
         facts = known_device(context, node, role.device, "role")
         if facts is None:

@@ -14,7 +14,7 @@ from editor.language.tree.nodes import walk
 
 
 def check_library(context: Context, document: object) -> None:
-    """Check every function of the document that names a version of the library; told where it is called first."""
+    """Check every function of the document that names a version of the library; reported where it is called first."""
     library = context.surroundings.library
     if library is None:
         return

@@ -75,7 +75,7 @@ def _check_things(context: Context, node: n.Node, parts: Sequence[Expression], f
             context.report(node, "unknown_zone", field, {"zone": part.zone})
 
 
-def settled(context: Context, value: Expression, unit: str) -> Expression:
+def converted(context: Context, value: Expression, unit: str) -> Expression:
     """Return a value as it is in a unit when the program runs."""
     return convert_units(value, unit, TypeChecker(context.surroundings, context.variables, []))
 
@@ -147,7 +147,7 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
     wanted = ValueType(parameter.type, parameter.unit) if typed else UNKNOWN_TYPE
     if not check_value(context, node, value, field, wanted, parameter.name.capitalize()):
         return
-    value = settled(context, value, parameter.unit)
+    value = converted(context, value, parameter.unit)
     if isinstance(value, Constant):
         _check_limits(context, node, parameter, value, field)
 

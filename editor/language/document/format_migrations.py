@@ -1,4 +1,4 @@
-"""Documents of former formats, brought to the format of today one number at a time."""
+"""Documents of former formats, brought to the format of today one format at a time."""
 
 from __future__ import annotations
 

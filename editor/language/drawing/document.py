@@ -1,6 +1,4 @@
-"""Tree → document: a script becomes a drawing; what did not change keeps its id and place, new steps stand near
-their devices.
-"""
+"""Tree → document: a script becomes a drawing, in which what did not change keeps its id and its place."""
 
 from __future__ import annotations
 
@@ -12,15 +10,15 @@ from editor.language.analysis.positions import add_moves
 from editor.language.document.format_migrations import FORMAT, migrate
 from editor.language.document.fractional_index import keep_orders
 from editor.language.document.outline import PROGRAM, branches_of, make_outline, mapping
+from editor.language.document.references import with_document_names
 from editor.language.drawing.alignment import align
 from editor.language.drawing.layout import FRAMES, GAP_M, Layout, Room, room_of
 from editor.language.drawing.merge import (
     Functions,
-    keep_functions,
-    keep_parameters,
-    keep_roles,
-    keep_values,
-    with_document_names,
+    merge_functions,
+    merge_parameters,
+    merge_roles,
+    merge_values,
     without_unknown_names,
 )
 from editor.language.drawing.steps import Drawable, EncodedStep, StepEncoder, grouped
@@ -105,7 +103,7 @@ class _Builder:
             self.layout.follow(read_point(raw.get("pos")), room_of(kind, says))
             body = {**raw, "place": place}
             said = self._named(self.before.said[step][1], names)
-            params = keep_values(mapping(raw.get("params")), said, says)
+            params = merge_values(mapping(raw.get("params")), said, says)
         if kind == "parallel":
             letters = _letters(mapping(raw or {}).get("params"), len(branches))
             branches = tuple((letter, inner) for letter, (_, inner) in zip(letters, branches, strict=True))
@@ -213,9 +211,9 @@ def _draw(
     tree: n.Tree, surroundings: Surroundings, old: Mapping[str, object], tree_before: n.Tree
 ) -> dict[str, object]:
     aligned = align(tree, tree_before) if old else tree
-    functions = keep_functions(aligned, tree_before, mapping(old.get("functions")), set(mapping(old.get("steps"))))
-    roles, role_ids = keep_roles(aligned, tree_before, mapping(old.get("roles")))
-    parameters, names = keep_parameters(aligned, tree_before, mapping(old.get("parameters")))
+    functions = merge_functions(aligned, tree_before, mapping(old.get("functions")), set(mapping(old.get("steps"))))
+    roles, role_ids = merge_roles(aligned, tree_before, mapping(old.get("roles")))
+    parameters, names = merge_parameters(aligned, tree_before, mapping(old.get("parameters")))
     before = _look_back(old, tree_before)
     layout = Layout(surroundings)
     for step in before.raw.values():

@@ -1,4 +1,4 @@
-"""What each node is as a step: its kind, parameters and branches; one small function for each kind of node."""
+"""Nodes of the tree → steps of the document; one small function for each kind of node."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from editor.language.document.outline import mapping
+from editor.language.document.references import with_role_ids
 from editor.language.expressions.declarations import answer_to_json
 from editor.language.expressions.nodes import PlaceRef
-from editor.language.expressions.values import with_role_ids, write_argument, write_place, write_value
+from editor.language.expressions.values import write_argument, write_place, write_value
 from editor.language.tree import nodes as n
 
 EncodedStep = tuple[str, dict[str, object], tuple[tuple[str, n.Block], ...]]
@@ -32,7 +33,7 @@ class StepEncoder:
         return drawn[0], dict(mapping(with_role_ids(drawn[1], self.role_ids))), drawn[2]
 
 
-def _kept(**params: object) -> dict[str, object]:
+def _present(**params: object) -> dict[str, object]:
     """Return the parameters that have a value."""
     return {name: value for name, value in params.items() if value not in (None, [], {})}
 
@@ -40,7 +41,7 @@ def _kept(**params: object) -> dict[str, object]:
 def _pick_and_drop(encoder: StepEncoder, nodes: n.Block) -> EncodedStep:
     pick, drop = (node for node in nodes if isinstance(node, n.Pick | n.Drop))
     moves = [node for node in nodes[nodes.index(pick) :] if isinstance(node, n.Move)]
-    params = _kept(
+    params = _present(
         role=encoder.role_ids[pick.role],
         source=write_place(pick.at),
         target=write_place(drop.at),
@@ -53,36 +54,36 @@ def _pick_and_drop(encoder: StepEncoder, nodes: n.Block) -> EncodedStep:
 
 def _move(encoder: StepEncoder, node: n.Move) -> EncodedStep:
     route = [list(point) for point in node.route]
-    return "move", _kept(role=encoder.role_ids[node.role], to=write_place(node.to), route=route), ()
+    return "move", _present(role=encoder.role_ids[node.role], to=write_place(node.to), route=route), ()
 
 
 def _pick_or_drop(encoder: StepEncoder, node: n.Pick | n.Drop) -> EncodedStep:
     thing, quantity = write_value(node.object), write_value(node.quantity)
-    params = _kept(role=encoder.role_ids[node.role], at=write_place(node.at), object=thing, quantity=quantity)
+    params = _present(role=encoder.role_ids[node.role], at=write_place(node.at), object=thing, quantity=quantity)
     return "pick" if isinstance(node, n.Pick) else "drop", params, ()
 
 
 def _operate(encoder: StepEncoder, node: n.Operate) -> EncodedStep:
     arguments = {name: write_value(value) for name, value in node.arguments}
-    return "operate", _kept(device=write_place(node.device), method=node.method or None, args=arguments), ()
+    return "operate", _present(device=write_place(node.device), method=node.method or None, args=arguments), ()
 
 
 def _wait(encoder: StepEncoder, node: n.Wait) -> EncodedStep:
-    return "wait", _kept(duration=write_value(node.seconds)), ()
+    return "wait", _present(duration=write_value(node.seconds)), ()
 
 
 def _wait_until(encoder: StepEncoder, node: n.WaitUntil) -> EncodedStep:
     until = write_value(node.condition)
     missing = {} if until is None else until
-    return "wait", {"until": missing, **_kept(timeout=write_value(node.timeout_s))}, ()
+    return "wait", {"until": missing, **_present(timeout=write_value(node.timeout_s))}, ()
 
 
 def _if(encoder: StepEncoder, node: n.If) -> EncodedStep:
-    return "if", _kept(condition=write_value(node.condition)), (("then", node.then), ("else", node.otherwise))
+    return "if", _present(condition=write_value(node.condition)), (("then", node.then), ("else", node.otherwise))
 
 
 def _while(encoder: StepEncoder, node: n.While) -> EncodedStep:
-    return "while", _kept(condition=write_value(node.condition)), (("body", node.body),)
+    return "while", _present(condition=write_value(node.condition)), (("body", node.body),)
 
 
 def _parallel(encoder: StepEncoder, node: n.Parallel) -> EncodedStep:
@@ -100,30 +101,30 @@ def _try(encoder: StepEncoder, node: n.Try) -> EncodedStep:
 def _call(encoder: StepEncoder, node: n.Call) -> EncodedStep:
     arguments = {name: write_argument(value) for name, value in node.arguments}
     function, result = encoder.function_ids.get(node.function), node.result or None
-    return "call", _kept(function=function, args=arguments, result=result), ()
+    return "call", _present(function=function, args=arguments, result=result), ()
 
 
 def _repeat(encoder: StepEncoder, node: n.Repeat) -> EncodedStep:
-    return "repeat", _kept(times=write_value(node.times)), (("body", node.body),)
+    return "repeat", _present(times=write_value(node.times)), (("body", node.body),)
 
 
 def _for_each(encoder: StepEncoder, node: n.ForEach) -> EncodedStep:
     items = [write_value(item) for item in node.items]
-    return "for_each", _kept(variable=node.variable or None, items=items), (("body", node.body),)
+    return "for_each", _present(variable=node.variable or None, items=items), (("body", node.body),)
 
 
 def _set(encoder: StepEncoder, node: n.Set) -> EncodedStep:
-    return "set", _kept(variable=node.variable or None, value=write_value(node.value)), ()
+    return "set", _present(variable=node.variable or None, value=write_value(node.value)), ()
 
 
 def _ask(encoder: StepEncoder, node: n.Ask) -> EncodedStep:
     question, timeout = write_value(node.question), write_value(node.timeout_s)
     variable, answer = node.variable or None, answer_to_json(node.answer)
-    return "ask", _kept(question=question, answer=answer, variable=variable, timeout=timeout), ()
+    return "ask", _present(question=question, answer=answer, variable=variable, timeout=timeout), ()
 
 
 def _notify(encoder: StepEncoder, node: n.Notify) -> EncodedStep:
-    return "notify", _kept(message=write_value(node.message), level=node.level), ()
+    return "notify", _present(message=write_value(node.message), level=node.level), ()
 
 
 def _end(encoder: StepEncoder, node: n.End) -> EncodedStep:
@@ -131,7 +132,7 @@ def _end(encoder: StepEncoder, node: n.End) -> EncodedStep:
 
 
 def _return(encoder: StepEncoder, node: n.Return) -> EncodedStep:
-    return "return", _kept(value=write_value(node.value)), ()
+    return "return", _present(value=write_value(node.value)), ()
 
 
 def _break(encoder: StepEncoder, node: n.Break) -> EncodedStep:
@@ -139,7 +140,7 @@ def _break(encoder: StepEncoder, node: n.Break) -> EncodedStep:
 
 
 def _event(encoder: StepEncoder, node: n.Event) -> EncodedStep:
-    return "on_event", _kept(condition=write_value(node.condition), starts=node.starts), (("body", node.body),)
+    return "on_event", _present(condition=write_value(node.condition), starts=node.starts), (("body", node.body),)
 
 
 ENCODERS: Mapping[type[n.Node], Callable[..., EncodedStep]] = {

@@ -1,4 +1,4 @@
-"""The types of parameters and results as the script writes them: `Number("MIN")`, `Text`, `Place`."""
+"""What is declared of parameters, results and answers: type, unit and limits, as document and script have them."""
 
 from __future__ import annotations
 

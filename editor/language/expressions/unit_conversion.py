@@ -1,4 +1,4 @@
-"""Units are settled when a program is compiled: what meets is brought into one unit, and no plan has a Quantity."""
+"""Units are converted when a program is compiled: what meets is brought into one unit, and no plan has a Quantity."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ def convert_units(expression: Expression, wanted_unit: str, checker: TypeChecker
     """Return an expression without quantities, in the wanted unit if one is wanted (empty: in its own)."""
     if isinstance(expression, Constant):
         return expression
-    settled = expression if _units_in(expression) <= 1 else _settle(expression, checker)
-    return _into(settled, _type_of(expression, checker).unit, wanted_unit) if wanted_unit else settled
+    converted = expression if _units_in(expression) <= 1 else _convert(expression, checker)
+    return _into(converted, _type_of(expression, checker).unit, wanted_unit) if wanted_unit else converted
 
 
 def _units_in(expression: Expression) -> int:
@@ -36,19 +36,19 @@ def _type_of(expression: Expression, checker: TypeChecker) -> ValueType:
     return TypeChecker(checker.surroundings, checker.variables, []).type_of(expression)
 
 
-def _settle(expression: Expression, checker: TypeChecker) -> Expression:
+def _convert(expression: Expression, checker: TypeChecker) -> Expression:
     """Return the expression without quantities, in its own unit."""
     match expression:
         case Quantity(value=value):
             return Constant(value)
         case Operation(operator=name, arguments=arguments):
             if name == "text":
-                return Operation(name, tuple(_in_words(argument, checker) for argument in arguments))
+                return Operation(name, tuple(_as_text(argument, checker) for argument in arguments))
             if name in {"distance", "nearest"} or _is_in_zone(expression):
                 return Operation(name, _placed(name, arguments, checker))
             if name in _MEETING:
                 return _folded(Operation(name, _met(name, arguments, checker)), expression)
-            return _folded(Operation(name, tuple(_settle(argument, checker) for argument in arguments)), expression)
+            return _folded(Operation(name, tuple(_convert(argument, checker) for argument in arguments)), expression)
     return expression
 
 
@@ -56,11 +56,11 @@ def _met(name: str, arguments: tuple[Expression, ...], checker: TypeChecker) -> 
     """Return values that meet, all in one unit."""
     types = [_type_of(argument, checker) for argument in arguments]
     unit = common_unit(arguments, types)
-    settled = []
+    converted = []
     for index, (argument, value_type) in enumerate(zip(arguments, types, strict=True)):
         aside = name in {"+", "-"} and len(arguments) == 2 and _is_difference(index, arguments)
-        settled.append(_into(_settle(argument, checker), value_type.unit, unit, difference=aside))
-    return tuple(settled)
+        converted.append(_into(_convert(argument, checker), value_type.unit, unit, difference=aside))
+    return tuple(converted)
 
 
 def _is_difference(index: int, arguments: tuple[Expression, ...]) -> bool:
@@ -70,10 +70,10 @@ def _is_difference(index: int, arguments: tuple[Expression, ...]) -> bool:
     return index == 1
 
 
-def _in_words(part: Expression, checker: TypeChecker) -> Expression:
+def _as_text(part: Expression, checker: TypeChecker) -> Expression:
     if isinstance(part, Quantity):
         return Constant(f"{tidy(part.value)} {unit_symbol(part.unit)}")
-    return _settle(part, checker)
+    return _convert(part, checker)
 
 
 def _is_in_zone(expression: Operation) -> bool:
@@ -85,7 +85,7 @@ def _placed(name: str, arguments: tuple[Expression, ...], checker: TypeChecker) 
     """Return things with a place; a named place of the map is its point wherever only its place is asked for."""
     fixed = len(arguments) if name == "distance" else 1
     return tuple(
-        _point_of(argument, checker.surroundings) if index < fixed else _settle(argument, checker)
+        _point_of(argument, checker.surroundings) if index < fixed else _convert(argument, checker)
         for index, argument in enumerate(arguments)
     )
 
@@ -95,20 +95,25 @@ def _point_of(argument: Expression, surroundings: Surroundings) -> Expression:
     return argument if place is None else Located(point=(place.x, place.y))
 
 
-def _folded(settled: Operation, before: Expression) -> Expression:
+def _folded(converted: Operation, before: Expression) -> Expression:
     """Work out plain reckoning with quantities, so that a plan holds the number."""
-    numbers = [a.value for a in settled.arguments if isinstance(a, Constant) and is_number(a.value)]
-    if settled.operator not in ARITHMETIC or settled == before or len(numbers) != 2 or len(settled.arguments) != 2:
-        return settled
+    numbers = [a.value for a in converted.arguments if isinstance(a, Constant) and is_number(a.value)]
+    if (
+        converted.operator not in ARITHMETIC
+        or converted == before
+        or len(numbers) != 2
+        or len(converted.arguments) != 2
+    ):
+        return converted
     left, right = numbers
-    match settled.operator:
+    match converted.operator:
         case "+":
             return Constant(tidy(left + right))
         case "-":
             return Constant(tidy(left - right))
         case "*":
             return Constant(tidy(left * right))
-    return settled if right == 0 else Constant(tidy(left / right))
+    return converted if right == 0 else Constant(tidy(left / right))
 
 
 def _into(expression: Expression, source: str, target: str, *, difference: bool = False) -> Expression:

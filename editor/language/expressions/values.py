@@ -274,18 +274,6 @@ def write_argument(expression: Expression) -> object:
     return write_value(expression)
 
 
-def with_role_ids(value: object, role_ids: Mapping[str, str]) -> object:
-    """Return plain JSON in which Values name roles by their ids instead of their names in the script."""
-    if isinstance(value, list):
-        return [with_role_ids(item, role_ids) for item in value]
-    if not isinstance(value, dict):
-        return value
-    if set(value) == {"at"} and isinstance(value["at"], dict) and "role" in value["at"]:
-        name = value["at"]["role"]
-        return {"at": {"role": role_ids.get(name, name)}}
-    return {key: with_role_ids(item, role_ids) for key, item in value.items()}
-
-
 def write_place(place: PlaceRef) -> object:
     """Return the Place of the document for a place."""
     if place.device is not None:

@@ -1,4 +1,4 @@
-"""One grammar for people: a value as one line of text, read and printed; the script's, without `self.`."""
+"""A value as one line of text, parsed and printed: the grammar of the script, without `self.`."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Final
 
-from editor.language.drawing.merge import with_document_names
+from editor.language.document.references import with_document_names, with_role_ids
 from editor.language.expressions.names import member_name
 from editor.language.expressions.nodes import MISSING, Expression, Located, Quantity
 from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
 from editor.language.expressions.units import UNITS, unit_symbol
 from editor.language.expressions.value_types import TypeChecker, ValueType
-from editor.language.expressions.values import FUNCTIONS, UnknownParameter, read_value, with_role_ids, write_value
+from editor.language.expressions.values import FUNCTIONS, UnknownParameter, read_value, write_value
 from editor.language.messages.phrases import LANGUAGES, Refusal
 from editor.language.one_line.notation import Desugared, desugar
 from editor.language.one_line.scope import LineScope

@@ -1,4 +1,4 @@
-"""`self.ask(…)` and `self.notify(…)`: what people are asked and told."""
+"""`self.ask(…)` and `self.notify(…)`: the questions and notices for people."""
 
 from __future__ import annotations
 

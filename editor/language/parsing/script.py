@@ -108,8 +108,8 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
         parser.functions[name] = replace(function, body=parser.block(methods[name].body))
     roles, parameters = _roles_and_parameters(parser)
     tree = in_reading_order(n.Tree(body, tuple(parser.functions.values()), roles, parameters, events))
-    settled, homeless = place_loads(tree)
-    for node in homeless:
+    placed, unplaced = place_loads(tree)
+    for node in unplaced:
         where = parser.origins[id(node)]
         parser.refusals.append(
             Refused(where, "A pick or drop at an unknown place", f"Put self.{node.role}.move(…) before it.")
@@ -117,7 +117,7 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
     if parser.refusals:
         ordered = sorted(parser.refusals, key=lambda refused: (refused.line, refused.column))
         return Parsed(None, tuple(_refusal(refused) for refused in ordered))
-    return Parsed(settled)
+    return Parsed(placed)
 
 
 def _signature(name: str, method: ast.FunctionDef) -> n.Function:

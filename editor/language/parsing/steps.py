@@ -1,4 +1,4 @@
-"""The statements of a script → the nodes of a tree; what is refused is noted, so that all of it is told at once."""
+"""The statements of a script → the nodes of a tree; what is refused is noted, so that all of it is reported at once."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _FOR = "Write for _ in range(3): or for oven in [self.oven_a, self.oven_b]:."
 
 @dataclass(slots=True)
 class Parser:
-    """The methods of a task while they are read; refusals are gathered so that all are told at once."""
+    """The methods of a task while they are read; refusals are gathered so that all are reported at once."""
 
     methods: Mapping[str, ast.FunctionDef]
     scope: Scope

@@ -20,11 +20,11 @@ Compiler = Callable[..., None]
 
 @dataclass(slots=True, eq=False)
 class Guard:
-    """A guarded stretch around the step being compiled; one with a `flag` has a final part with ways out."""
+    """A guarded stretch around the step being compiled; one with a `flag` has a final part with exits."""
 
     flag: str = ""
     exits: list[tuple[int, int]] = field(default_factory=list)
-    """Addresses of the jumps into the final part, each with the address where the way goes on behind it."""
+    """Addresses of the jumps into the final part, each with the address where the path goes on behind it."""
 
 
 @dataclass(slots=True, eq=False)
@@ -103,7 +103,7 @@ class Builder:
             compilers[node.__class__](self, node, (node.step,) if last else ())
 
     def leave(self, node: n.Node) -> None:
-        """Mark a composite step as over, where its ways out meet."""
+        """Mark a composite step as over, where its exits meet."""
         self.add(p.Jump(self.here() + 1), node, leaves=(node.step,))
 
     def inside(self, *around: Around) -> Inside:
@@ -141,9 +141,9 @@ class Builder:
         if isinstance(expression, e.Constant):
             return expression
         checker = TypeChecker(self.surroundings, self.types, [])
-        settled = self._named(convert_units(expression, unit, checker))
-        self._note_readings(settled)
-        return settled
+        converted = self._named(convert_units(expression, unit, checker))
+        self._note_readings(converted)
+        return converted
 
     def _note_readings(self, expression: e.Expression) -> None:
         if isinstance(expression, e.Operation):

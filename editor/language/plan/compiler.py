@@ -1,4 +1,4 @@
-"""Tree → plan: flat instructions for the run machine; one small function for each construct."""
+"""Tree → plan: flat instructions for the run machine; one small function for each kind of node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tree → plan, what decides which step comes next: branches, loops, guards and the ways out of them."""
+"""Tree → plan, what decides which step comes next: branches, loops, guards and the exits from them."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def _body(builder: Builder, node: n.While | n.Repeat | n.ForEach) -> Loop:
 
 
 def _close(builder: Builder, node: n.Node, loop: Loop) -> None:
-    """All ways out of a loop meet behind it."""
+    """All exits of a loop meet behind it."""
     for address in loop.jumps:
         builder.patch(address, p.Jump(builder.here()))
     builder.leave(node)
@@ -147,7 +147,7 @@ def compile_try(builder: Builder, node: n.Try, leaves: Leaves) -> None:
 
 
 def _flag(builder: Builder, node: n.Try) -> str:
-    """Return the variable for ways out through the final part, empty where there are none."""
+    """Return the variable for exits through the final part, empty where there are none."""
     inside = (part for block in (node.body, node.catch) for part in walk(block))
     return builder.hide("way") if any(part.__class__ in _LEAVE for part in inside) else ""
 
@@ -176,7 +176,7 @@ def _final(builder: Builder, node: n.Try, guard: Guard) -> None:
 
 
 def compile_break(builder: Builder, node: n.Break, leaves: Leaves) -> None:
-    """Compile a Break: final parts on the way are carried out."""
+    """Compile a Break: final parts on the path are carried out."""
     loop = next((item for item in reversed(builder.around) if isinstance(item, Loop)), None)
     assert loop is not None, "the checks found a loop around this step"
     passed = _until(builder.around, loop)
@@ -193,7 +193,7 @@ def _until(around: list[Around], loop: Loop) -> list[Around]:
 
 
 def compile_return(builder: Builder, node: n.Return, leaves: Leaves) -> None:
-    """Compile a Return: its value is worked out before the final parts on the way."""
+    """Compile a Return: its value is worked out before the final parts on the path."""
     unit = builder.function.result_unit if builder.function else ""
     value = builder.given(node.value, unit)
     passed = builder.around[::-1]
@@ -211,7 +211,7 @@ def compile_return(builder: Builder, node: n.Return, leaves: Leaves) -> None:
 
 
 def _leave_guards(builder: Builder, passed: list[Around], left: list[Around]) -> None:
-    """Leave guards, the innermost first; behind each final part the way goes on here."""
+    """Leave guards, the innermost first; behind each final part the path goes on here."""
     for guard in left:
         if isinstance(guard, Guard):
             builder.add(p.TryEnd())

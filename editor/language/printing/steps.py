@@ -1,4 +1,4 @@
-"""The nodes of a tree → the lines of a script; one small function for each construct."""
+"""Nodes of the tree → lines of the script; one small function for each kind of node."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ from editor.language.tree.traversal import in_reading_order
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class ReadDocument:
     """A document as it was read: the tree without added moves, and what could not be read."""
 
     tree: Tree
@@ -34,7 +34,7 @@ class Reading:
     problems: tuple[Problem, ...]
 
 
-def read_document(document: object, memo: ReadMemo | None = None) -> Reading:
+def read_document(document: object, memo: ReadMemo | None = None) -> ReadDocument:
     """Read a document (plain JSON, format 2); nothing in it makes this raise.
 
     `memo` has the steps as they were read last, and has them as they are read now.
@@ -64,7 +64,7 @@ def read_document(document: object, memo: ReadMemo | None = None) -> Reading:
     tree = in_reading_order(Tree(body, tuple(finished), tuple(roles.values()), parameters, events))
     if format_of(document) > FORMAT:
         reader.problems.append(Problem("newer_format", "", "format", {"format": format_of(document)}))
-    return Reading(tree, outline, tuple(reader.problems))
+    return ReadDocument(tree, outline, tuple(reader.problems))
 
 
 def _read_events(reader: Reader) -> tuple[Event, ...]:

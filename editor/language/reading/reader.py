@@ -48,7 +48,7 @@ class Reader:
         return MISSING if found.device is None else Located(device=found.device)
 
     def value(self, step: str, params: Params, name: str, field_name: str = "") -> Expression:
-        """Return the expression in a parameter; what does not exist reads as missing, and is told."""
+        """Return the expression in a parameter; what does not exist reads as missing, and is reported."""
         value = params.get(name)
         if value is None:
             return MISSING
@@ -63,7 +63,7 @@ class Reader:
         return None if is_missing(value) else value
 
     def place(self, step: str, params: Params, name: str) -> PlaceRef:
-        """Return the place in a parameter; what does not exist reads as missing, and is told."""
+        """Return the place in a parameter; what does not exist reads as missing, and is reported."""
         try:
             return read_place(params.get(name), self.names)
         except UnknownParameter as error:
@@ -111,10 +111,10 @@ class Reader:
     def _read(self, step: str, memo: ReadMemo) -> tuple[Node, ...]:
         """Read a step and keep what depends on nothing but it and the names that it sees."""
         around, self.looked_around = self.looked_around, False
-        told = len(self.problems)
+        reported = len(self.problems)
         nodes = self.readers[self.outline.kinds[step]](self, step, self.outline.params[step])
         if not self.looked_around:
-            memo.steps[step] = StepRead(nodes, tuple(self.problems[told:]), self.names)
+            memo.steps[step] = StepRead(nodes, tuple(self.problems[reported:]), self.names)
         self.looked_around = self.looked_around or around
         return nodes
 

@@ -45,7 +45,7 @@ class FloorFacts(Protocol):
         """Tell whether a robot of that radius can stand at the point."""
 
     def is_reachable(self, from_xy: tuple[float, float], to_xy: tuple[float, float], radius_m: float) -> bool:
-        """Tell whether a robot of that radius finds a way."""
+        """Tell whether a robot of that radius finds a path."""
 
     def has_machine(self, device_id: str) -> bool:
         """Tell whether the machine stands on this floor."""

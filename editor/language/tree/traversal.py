@@ -1,4 +1,4 @@
-"""Ways through a tree: every node in reading order, functions as they are called, what each robot has to do."""
+"""Traversals of a tree: every node in reading order, functions as they are called, what each robot has to do."""
 
 from __future__ import annotations
 

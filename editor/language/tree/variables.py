@@ -1,4 +1,4 @@
-"""Which variables the steps set and read."""
+"""The variables of a program: which steps set and read them, who sees each of them, and what they hold."""
 
 from __future__ import annotations
 
