@@ -87,7 +87,7 @@ def test_an_example_ends_well_when_it_is_rehearsed(path: Path) -> None:
     assert [(each["step"], each["kind"]) for each in result["errors"]] == CAUGHT.get(path.stem, [])
     assert (result["collisions"], result["near_misses"]) == ([], [])
     steps = {step for step, each in program.document["steps"].items() if each["kind"] == "notify"}
-    told = [each["text"].removeprefix("Findings: ") for each in result["log"] if each["step"] in steps]
+    told = [each["text"].removeprefix("Told: ") for each in result["log"] if each["step"] in steps]
     assert told == NOTICES.get(path.stem, [])
 
 
@@ -103,7 +103,7 @@ def test_a_person_is_called_when_the_mixer_is_gone() -> None:
     assert result["ok"] is True
     assert {each["kind"] for each in result["errors"]} == {"timed_out"}
     texts = [each["text"] for each in result["log"]]
-    assert "Findings: No paint came out of the mixer after 3 tries" in texts
+    assert "Told: No paint came out of the mixer after 3 tries" in texts
 
 
 def _retried(fault: Fault) -> dict[str, Any]:
