@@ -10,13 +10,12 @@ from editor.language.analysis.memo import Memo, Memos
 from editor.language.analysis.positions import add_moves
 from editor.language.checks.checks import check
 from editor.language.document.format_migrations import migrate
-from editor.language.messages.diagnostics import Diagnostic, Fix, Problem, arguments_to_json, put_into_words
-from editor.language.messages.phrases import LANGUAGES
+from editor.language.messages.diagnostics import Diagnostic, Problem, diagnostic_to_json, put_into_words
 from editor.language.plan.compiler import compile_tree
 from editor.language.plan.instructions import Plan
 from editor.language.printing.script import Script, print_tree
 from editor.language.reading.document import ReadDocument, read_document
-from editor.language.site.surroundings import Surroundings
+from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree.nodes import COMPOSITES, Block, Tree, blocks_of
 from editor.language.tree.nodes import Move as MoveNode
 from editor.language.tree.numbering import number_steps, numbers_in_script
@@ -89,15 +88,9 @@ class Look:
 def look_at(document: object, surroundings: Surroundings, memos: Memos | None = None) -> Look:
     """Read and check a document; what the memos hold of the last look is used, and they then hold this one."""
     reading = read_document(migrate(document), memos.read if memos else None)
-    tree = add_moves(reading.tree, _standing(surroundings), memos.positions if memos else None)
+    tree = add_moves(reading.tree, standing_places(surroundings), memos.positions if memos else None)
     found = check(reading, tree, surroundings, document, memos)
     return Look(document, surroundings, reading, tree, found, memos.printed if memos else None)
-
-
-def _standing(surroundings: Surroundings) -> dict[str, str]:
-    return {
-        name: facts.standing_at for name, facts in surroundings.devices.items() if facts.standing_at is not None
-    }  # fmt: skip
 
 
 def _added_moves(tree: Tree) -> tuple[str, ...]:
@@ -144,33 +137,6 @@ def compiled_to_json(compiled: Compiled, revision: int = 0) -> dict[str, object]
         "added_moves": list(compiled.added_moves),
         "order": list(compiled.order),
         "depth": dict(compiled.depth),
-    }
-
-
-def diagnostic_to_json(diagnostic: Diagnostic) -> dict[str, object]:
-    """Return a diagnostic as plain JSON."""
-    return {
-        "code": diagnostic.code,
-        "severity": diagnostic.severity,
-        "step": diagnostic.step,
-        "field": diagnostic.field,
-        "message": diagnostic.message,
-        "messages": diagnostic.messages,
-        "when": diagnostic.when,
-        "args": arguments_to_json(diagnostic.args),
-        "line": diagnostic.line,
-        "fix": None if diagnostic.fix is None else _fix_to_json(diagnostic.fix),
-    }
-
-
-def _fix_to_json(fix: Fix) -> dict[str, object]:
-    return {
-        "label": fix.label,
-        "labels": {language: fix.label_in(language) for language in LANGUAGES},
-        "label_code": fix.label_code,
-        "step": fix.step,
-        "field": fix.field,
-        "value": fix.value,
     }
 
 

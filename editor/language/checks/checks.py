@@ -9,8 +9,7 @@ from typing import cast
 from editor.language.analysis.loads import follow_loads
 from editor.language.analysis.memo import Findings, Memos
 from editor.language.checks.context import Context
-from editor.language.checks.devices import check_load_place, check_place, check_role, usable_device
-from editor.language.checks.floor import check_floor
+from editor.language.checks.devices import check_floor, check_load_place, check_place, check_role, usable_device
 from editor.language.checks.flow import check_flow, check_leaving
 from editor.language.checks.library import check_library
 from editor.language.checks.parallel import check_branches, check_parallel

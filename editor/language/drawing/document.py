@@ -25,7 +25,7 @@ from editor.language.drawing.steps import Drawable, EncodedStep, StepEncoder, gr
 from editor.language.expressions import nodes as e
 from editor.language.expressions.values import read_point
 from editor.language.reading.document import read_document
-from editor.language.site.surroundings import Surroundings
+from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree import nodes as n
 
 VARIABLE_FIELDS = frozenset({"variable", "result"})
@@ -194,7 +194,7 @@ def tree_to_document(
 
 
 def _read(document: Mapping[str, object], surroundings: Surroundings) -> n.Tree:
-    return add_moves(read_document(document).tree, _standing(surroundings))
+    return add_moves(read_document(document).tree, standing_places(surroundings))
 
 
 def _without_unknown_names(old: Mapping[str, object], tree: n.Tree) -> dict[str, object]:
@@ -236,11 +236,6 @@ def _draw(
         "parameters": parameters,
         "zones": dict(mapping(old.get("zones"))),
     }
-
-
-def _standing(surroundings: Surroundings) -> dict[str, str]:
-    known = ((name, facts.standing_at) for name, facts in surroundings.devices.items())
-    return {name: at for name, at in known if at is not None}
 
 
 def _look_back(old: Mapping[str, object], tree: n.Tree) -> _Before:

@@ -81,3 +81,9 @@ def what_programs_see(surroundings: Surroundings) -> object:
         for d in (facts.description,)
     ]
     return [*surroundings.devices], devices, surroundings.places
+
+
+def standing_places(surroundings: Surroundings) -> dict[str, str]:
+    """Return beside which device each robot stands, as far as it is known: robot id → device id."""
+    known = ((name, facts.standing_at) for name, facts in surroundings.devices.items())
+    return {name: place for name, place in known if place is not None}
