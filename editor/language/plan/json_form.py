@@ -189,7 +189,7 @@ def _load(kind: type[p.Pick] | type[p.Drop], b: Mapping[str, Any]) -> p.Pick | p
     return kind(b["role"], _place_from_json(b["at"]), thing, quantity)
 
 
-_ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
+ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "Move": lambda b: p.Move(b["role"], _place_from_json(b["to"]), tuple(_point(point) for point in b["route"])),
     "Pick": lambda b: _load(p.Pick, b),
     "Drop": lambda b: _load(p.Drop, b),
@@ -216,5 +216,5 @@ _ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
 
 
 def _instruction_from_json(body: Mapping[str, Any]) -> p.Instruction:
-    do = _ACTIONS[body["do"]](body)
+    do = ACTIONS[body["do"]](body)
     return p.Instruction(do, body["step"], int(body["line"]), tuple(body["enters"]), tuple(body["leaves"]))

@@ -58,7 +58,7 @@ def read_by(node: n.Node) -> dict[str, str]:
     return found
 
 
-_VALUES: Mapping[type[n.Node], tuple[tuple[str, str], ...]] = {
+VALUES: Mapping[type[n.Node], tuple[tuple[str, str], ...]] = {
     n.Move: (("to", "to"),),
     n.Pick: (("at", ""), ("object", "object"), ("quantity", "quantity")),
     n.Drop: (("at", ""), ("object", "object"), ("quantity", "quantity")),
@@ -80,7 +80,7 @@ _VALUES: Mapping[type[n.Node], tuple[tuple[str, str], ...]] = {
 
 def values_of(node: n.Node) -> Iterator[tuple[str, Expression]]:
     """Yield the values of a step, not those of the steps in it, each with its field."""
-    for attribute, field in _VALUES.get(type(node), ()):
+    for attribute, field in VALUES.get(type(node), ()):
         value = getattr(node, attribute)
         if attribute == "arguments":
             yield from ((f"args.{name}", given) for name, given in value)
