@@ -9,9 +9,8 @@ from contextlib import suppress
 from channels.generic.websocket import AsyncWebsocketConsumer
 
 from editor.rooms import yjs_protocol
-from editor.rooms.hub import Hub, hub_of_this_loop
+from editor.rooms.hub import Hub, Permission, find_permission, hub_of_this_loop
 from editor.rooms.member import Close, Member
-from editor.rooms.permissions import Permission, find_permission
 from editor.rooms.room import Room
 from editor.rooms.runner import in_database
 from registry.people.sessions import session_of_socket

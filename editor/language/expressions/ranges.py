@@ -1,4 +1,4 @@
-"""What a condition can ever be: reckoned with the ranges that devices declare for their properties."""
+"""What a condition can ever be: computed with the ranges that devices declare for their properties."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def range_of(expression: Expression, surroundings: Surroundings) -> Range:
         name, arguments = expression.operator, expression.arguments
         if name in {"count", "now", "distance"}:
             return _counted(name, arguments, surroundings)
-        return _reckoned(name, [range_of(argument, surroundings) for argument in arguments])
+        return _computed(name, [range_of(argument, surroundings) for argument in arguments])
     return ANY
 
 
@@ -81,7 +81,7 @@ def _counted(name: str, arguments: Sequence[Expression], surroundings: Surroundi
     return Range(truths.count(True), len(truths) - truths.count(False))
 
 
-def _reckoned(name: str, ranges: Sequence[Range]) -> Range:
+def _computed(name: str, ranges: Sequence[Range]) -> Range:
     match name, ranges:
         case "-", [only]:
             return Range(-only.most, -only.least)

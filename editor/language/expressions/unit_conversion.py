@@ -96,7 +96,7 @@ def _point_of(argument: Expression, surroundings: Surroundings) -> Expression:
 
 
 def _folded(converted: Operation, before: Expression) -> Expression:
-    """Work out plain reckoning with quantities, so that a plan holds the number."""
+    """Work out plain arithmetic with quantities, so that a plan holds the number."""
     numbers = [a.value for a in converted.arguments if isinstance(a, Constant) and is_number(a.value)]
     if (
         converted.operator not in ARITHMETIC

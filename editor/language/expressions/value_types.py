@@ -127,9 +127,9 @@ class TypeChecker:
             return METRES if name == "distance" else TEXT
         if name in {"text", "now"}:
             return TEXT if name == "text" else SECONDS
-        return self._reckoned(expression, types)
+        return self._computed(expression, types)
 
-    def _reckoned(self, expression: Operation, types: list[ValueType]) -> ValueType:
+    def _computed(self, expression: Operation, types: list[ValueType]) -> ValueType:
         """Return the type of a number that is worked out from numbers."""
         name = expression.operator
         for value_type in types:
