@@ -1,25 +1,25 @@
 """What the other apps may ask of the editor; everything else in this app is its own affair."""
 
+from editor.documents.store import get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram
 from editor.programs.checking import build_surroundings
 from editor.programs.library import get_function, save_function, search_library
-from editor.programs.one_line_values import ExpressionView, print_expression, read_expression
+from editor.programs.one_line import ExpressionView, print_expression, read_expression
 from editor.programs.programs import (
     compile_version,
     compile_version_to_json,
     create_program,
     delete_program,
     get_compiled,
-    get_document,
     get_program,
     get_version,
     list_programs,
     list_versions,
     pin_version,
     rename_program,
+    seed_programs,
 )
 from editor.programs.scripts import DrawnScript, draw_script
-from editor.programs.seeding import seed_programs
 from editor.programs.views import AuthorView, LibraryView, ProgramView, VersionView
 
 __all__ = [

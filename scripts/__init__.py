@@ -1,1 +1,1 @@
-"""scripts."""
+"""Commands for whoever works on VIPO: pages and pictures written from the code, and mutation tests."""

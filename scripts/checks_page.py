@@ -20,7 +20,7 @@ from editor.language.parsing.script import parse_script
 from editor.language.site.json_form import surroundings_from_json
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, Surroundings
 from registry.floorplan.plan import FREE, OCCUPIED, FloorPlan, Grid
-from scripts.check_meanings import GROUPS, MEANINGS
+from scripts.check_explanations import EXPLANATIONS, GROUPS
 
 ROOT = Path(__file__).resolve().parents[1]
 CASES = ROOT / "tests" / "cases" / "checks"
@@ -109,7 +109,7 @@ def _section(code: str, site: Surroundings) -> str:
     bad, good = read_case(code, "bad", site), read_case(code, "good", site)
     lines = [
         f"\n### `{code}`",
-        f"{severity.capitalize()}{', *for now*' if code in NOT_NOW else ''}. {MEANINGS[code]}",
+        f"{severity.capitalize()}{', *for now*' if code in NOT_NOW else ''}. {EXPLANATIONS[code]}",
         "",
         f"- English: {english}",
         f"- Deutsch: {TEXTS_DE[code]}",

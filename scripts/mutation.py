@@ -22,11 +22,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "editor/language"
 COPIED = (
-    "editor", "registry", "simulation", "execution", "connectors", "vipo_site", "tests", "examples", "docs",
-    "pyproject.toml",
+    "editor", "vipo_device", "registry", "simulation", "execution", "connectors", "vipo_site", "bench", "scripts",
+    "tests", "examples", "docs", "pyproject.toml",
 )  # fmt: skip
-TEXTS = ("texts", "texts_de", "words_de", "line_texts", "mistakes_de", "refusals_de", "meanings", "checks_page")
-"""Modules of sentences, and the one that writes a page."""
+TEXTS = ("en", "de", "syntax_errors_de", "refusals_de")
+"""Modules of sentences."""
 CONFIGURATION = """[cosmic-ray]
 module-path = "{package}"
 timeout = 300.0

@@ -1,23 +1,21 @@
-"""A document compiled: what the editor shows and what a run carries out, from one reading."""
+"""The compiler: a document read, checked, printed as a script and compiled to a plan, from one reading."""
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from editor.language.analysis.memo import Memories, Memory
+from editor.language.allocation import paused_collector
+from editor.language.analysis.memo import Memo, Memos
 from editor.language.analysis.positions import add_moves
 from editor.language.checks.checks import check
-from editor.language.document.migrations import climb
-from editor.language.messages.diagnostics import Diagnostic, Fix, Problem, arguments_to_json, put_into_words
-from editor.language.messages.phrases import LANGUAGES
+from editor.language.document.format_migrations import migrate
+from editor.language.messages.diagnostics import Diagnostic, Problem, diagnostic_to_json, put_into_words
 from editor.language.plan.compiler import compile_tree
 from editor.language.plan.instructions import Plan
 from editor.language.printing.script import Script, print_tree
-from editor.language.reading.document import Reading, read_document
-from editor.language.site.surroundings import Surroundings
+from editor.language.reading.document import ReadDocument, read_document
+from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree.nodes import COMPOSITES, Block, Tree, blocks_of
 from editor.language.tree.nodes import Move as MoveNode
 from editor.language.tree.numbering import number_steps, numbers_in_script
@@ -44,7 +42,7 @@ class Compiled:
 
 def compile_document(document: object, surroundings: Surroundings) -> Compiled:
     """Compile a document (plain JSON, of any format so far) for a site. Nothing in the document makes this raise."""
-    with without_collector():
+    with paused_collector():
         return look_at(document, surroundings).compiled()
 
 
@@ -54,11 +52,11 @@ class Look:
 
     document: object
     surroundings: Surroundings
-    reading: Reading
+    reading: ReadDocument
     tree: Tree
     found: list[tuple[Problem, int]]
     """The problems, each with the identity of its node."""
-    printed: Memory | None
+    printed: Memo | None
 
     def diagnostics(self) -> tuple[Diagnostic, ...]:
         """Return the problems in words, in reading order."""
@@ -87,18 +85,12 @@ class Look:
         return print_tree(self.tree, self.surroundings, numbers, zone_names(self.document), self.printed)
 
 
-def look_at(document: object, surroundings: Surroundings, memories: Memories | None = None) -> Look:
-    """Read and check a document; what the memories hold of the last look is used, and they then hold this one."""
-    reading = read_document(climb(document), memories.read if memories else None)
-    tree = add_moves(reading.tree, _standing(surroundings), memories.positions if memories else None)
-    found = check(reading, tree, surroundings, document, memories)
-    return Look(document, surroundings, reading, tree, found, memories.printed if memories else None)
-
-
-def _standing(surroundings: Surroundings) -> dict[str, str]:
-    return {
-        name: facts.standing_at for name, facts in surroundings.devices.items() if facts.standing_at is not None
-    }  # fmt: skip
+def look_at(document: object, surroundings: Surroundings, memos: Memos | None = None) -> Look:
+    """Read and check a document; what the memos hold of the last look is used, and they then hold this one."""
+    reading = read_document(migrate(document), memos.read if memos else None)
+    tree = add_moves(reading.tree, standing_places(surroundings), memos.positions if memos else None)
+    found = check(reading, tree, surroundings, document, memos)
+    return Look(document, surroundings, reading, tree, found, memos.printed if memos else None)
 
 
 def _added_moves(tree: Tree) -> tuple[str, ...]:
@@ -148,33 +140,6 @@ def compiled_to_json(compiled: Compiled, revision: int = 0) -> dict[str, object]
     }
 
 
-def diagnostic_to_json(diagnostic: Diagnostic) -> dict[str, object]:
-    """Return a diagnostic as plain JSON."""
-    return {
-        "code": diagnostic.code,
-        "severity": diagnostic.severity,
-        "step": diagnostic.step,
-        "field": diagnostic.field,
-        "message": diagnostic.message,
-        "messages": diagnostic.messages,
-        "when": diagnostic.when,
-        "args": arguments_to_json(diagnostic.args),
-        "line": diagnostic.line,
-        "fix": None if diagnostic.fix is None else _fix_to_json(diagnostic.fix),
-    }
-
-
-def _fix_to_json(fix: Fix) -> dict[str, object]:
-    return {
-        "label": fix.label,
-        "labels": {language: fix.label_in(language) for language in LANGUAGES},
-        "label_code": fix.label_code,
-        "step": fix.step,
-        "field": fix.field,
-        "value": fix.value,
-    }
-
-
 class EditedProgram:
     """One program, looked at again and again; it says of each document just what `compile_document` says.
 
@@ -185,7 +150,7 @@ class EditedProgram:
 
     def __init__(self) -> None:
         """Know nothing yet."""
-        self._memories = Memories()
+        self._memories = Memos()
 
     def look(self, document: object, surroundings: Surroundings) -> Look:
         """Read and check the document as it is now."""
@@ -194,19 +159,3 @@ class EditedProgram:
     def compile(self, document: object, surroundings: Surroundings) -> Compiled:
         """Return all forms of the program as it is now."""
         return self.look(document, surroundings).compiled()
-
-
-@contextmanager
-def without_collector() -> Iterator[None]:
-    """Make objects without looking for circles among them; memory is given back by counting references as ever.
-
-    It looks through all that is new again and again while a large tree grows, for up to a quarter of the time of
-    reading a script (docs/adr/0012).
-    """
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()

@@ -1,1 +1,1 @@
-"""Programs as rows: their documents, versions, scripts, checks, and the library of functions."""
+"""Programs as rows: their versions, scripts and checks, and the library of functions."""

@@ -1,8 +1,9 @@
-"""A program checked against its site: what the language says of the document, kept and told to who watches."""
+"""A program checked against its site: what the language says of the document, stored, and published to who watches."""
 
 from __future__ import annotations
 
 import hashlib
+import time
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
@@ -65,6 +66,11 @@ def _floor(site: str) -> FloorFacts | None:
         return None
 
 
+def new_revision() -> int:
+    """Return a number for a look at a document; later looks have higher numbers, in every process."""
+    return time.time_ns() // 1_000_000
+
+
 def compiled_json(compiled: Compiled, revision: int) -> dict[str, Any]:
     """Return a compiled program as docs/architecture.md shows it; a higher revision is a later look."""
     return {**compiled_to_json(compiled), "revision": revision}
@@ -73,7 +79,7 @@ def compiled_json(compiled: Compiled, revision: int) -> dict[str, Any]:
 def check_program(
     *, program_id: str, document: Mapping[str, Any], revision: int, edited: EditedProgram | None = None
 ) -> dict[str, Any]:
-    """Check and print a program's document and keep what lists show of it. Raises NoSuchProgram.
+    """Check and print a program's document and store what lists show of it. Raises NoSuchProgram.
 
     `edited` has what was found when the program was looked at last, where it is looked at again and again.
     """
@@ -82,13 +88,13 @@ def check_program(
         raise NoSuchProgram("There is no such program. It may have been deleted.")
     surroundings = build_surroundings(site=program.site.slug)
     compiled = (edited or EditedProgram()).look(document, surroundings).compiled(with_plan=False)
-    _keep(program_id, document, compiled, fingerprint_of(surroundings))
-    _keep_uses(program, document)
+    _store(program_id, document, compiled, fingerprint_of(surroundings))
+    _store_uses(program, document)
     return compiled_json(compiled, revision)
 
 
 def check_and_publish(program_id: str, document: Mapping[str, Any], revision: int, edited: EditedProgram) -> None:
-    """Compile a program's document and tell all who watch its site. Raises NoSuchProgram."""
+    """Compile a program's document and publish it to all who watch its site. Raises NoSuchProgram."""
     body = check_program(program_id=program_id, document=document, revision=revision, edited=edited)
     site = Program.objects.values_list("site__slug", flat=True).get(pk=program_id)
     fanout.publish(site, {"type": "compiled", "program": program_id, **body})
@@ -114,7 +120,7 @@ def _without_pose(description: Description) -> Description:
     return replace(description, pose=Pose(0, 0)) if description.kind == "robot" else description
 
 
-def _keep(program_id: str, document: Mapping[str, Any], compiled: Compiled, fingerprint: str) -> None:
+def _store(program_id: str, document: Mapping[str, Any], compiled: Compiled, fingerprint: str) -> None:
     severities = [diagnostic.severity for diagnostic in compiled.diagnostics]
     kinds = sorted({str(step["kind"]) for step in document["steps"].values() if isinstance(step.get("kind"), str)})
     Program.objects.filter(pk=program_id).update(
@@ -142,8 +148,8 @@ def devices_in(document: Mapping[str, Any]) -> frozenset[str]:
     return frozenset(found)
 
 
-def _keep_uses(program: Program, document: Mapping[str, Any]) -> None:
-    """Keep which library functions the program holds."""
+def _store_uses(program: Program, document: Mapping[str, Any]) -> None:
+    """Store which library functions the program holds."""
     wanted = set(_sources(document))
     known = {str(pk) for pk in program.library_uses.values_list("function_id", flat=True)}
     if wanted == known:

@@ -9,14 +9,14 @@ from uuid import UUID
 from django.db import transaction
 from django.db.models import Count, Q, QuerySet
 
+from editor.documents.shared_document import empty_document, migrate_document
+from editor.documents.store import get_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.language import compile_document
-from editor.language.document.migrations import FORMAT
+from editor.language.document.format_migrations import FORMAT
 from editor.models import LibraryFunction, LibraryVersion, Program
 from editor.programs.checking import build_surroundings
-from editor.programs.programs import get_document
 from editor.programs.views import LibraryView, view_author
-from editor.rooms.document import climb_document, empty_document
 from registry.live import fanout
 
 MOST_NAME, MOST_DESCRIPTION = 120, 500
@@ -83,8 +83,8 @@ def save_function(
 def print_function(definition: Mapping[str, Any], site: str) -> str:
     """Return the script of a function alone, as it reads in a program of the site."""
     functions = {definition["id"]: definition["function"], **definition["functions"]}
-    climbed = climb_document(definition)
-    document = {**empty_document(), "functions": functions, "steps": climbed["steps"]}
+    migrated = migrate_document(definition)
+    document = {**empty_document(), "functions": functions, "steps": migrated["steps"]}
     return compile_document(document, build_surroundings(site=site)).script
 
 
@@ -131,5 +131,5 @@ def _view(row: LibraryFunction, version: LibraryVersion) -> LibraryView:
         used_in=used_in,
         updated_at=row.updated_at,
         script=version.script,
-        definition=climb_document(version.definition),
+        definition=migrate_document(version.definition),
     )

@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 from uuid import UUID
 
 from django.apps import apps
+from django.conf import settings
 from django.db import transaction
 from django.utils import timezone
 
+from editor.documents.shared_document import (
+    SharedDocument,
+    digest_of,
+    empty_document,
+    encode_document,
+    migrate_document,
+)
+from editor.documents.store import get_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.language import Compiled, Surroundings, compile_document
 from editor.models import Program, Snapshot, Version
-from editor.programs.checking import build_surroundings, check_program, compiled_json, fingerprint_of
+from editor.programs.checking import build_surroundings, check_program, compiled_json, fingerprint_of, new_revision
 from editor.programs.views import ProgramView, VersionView, view_author
-from editor.rooms.document import SharedDocument, climb_document, digest_of, empty_document, encode_document
-from editor.rooms.hub import flush_program
-from editor.rooms.runner import new_revision
-from editor.rooms.store import load_document
 from registry import services as registry
 from registry.live.fanout import publish
 
@@ -43,7 +50,7 @@ def get_program(*, program_id: UUID | str) -> ProgramView:
 
 def create_program(*, site: str, name: str, document: Mapping[str, Any] | None = None, user: Any = None) -> ProgramView:
     """Make a program, empty or from a plain document. Raises BadRequest for a bad name."""
-    plain = climb_document(document or empty_document())
+    plain = migrate_document(document or empty_document())
     data = encode_document(plain)
     site_id = _site_id(site)
     with transaction.atomic():
@@ -72,14 +79,6 @@ def delete_program(*, program_id: UUID | str) -> None:
     with transaction.atomic():
         program.delete()
         transaction.on_commit(lambda: publish(site, {"type": "programs"}))
-
-
-def get_document(*, program_id: UUID | str) -> dict[str, Any]:
-    """Return a program's document as it is now, as plain JSON in today's format. Raises NoSuchProgram."""
-    flush_program(str(program_id))
-    document = SharedDocument(load_document(str(program_id)).updates)
-    document.climb()
-    return document.to_json()
 
 
 def get_compiled(*, program_id: UUID | str) -> dict[str, Any]:
@@ -186,7 +185,30 @@ def _version_view(row: Version) -> VersionView:
         number=row.number,
         author=view_author(row.author),
         message=row.message,
-        document=climb_document(row.document),
+        document=migrate_document(row.document),
         script=row.script,
         created_at=row.created_at,
     )
+
+
+_SEEDS = (("Paint order", "paint-order.json"), ("First errand", None))
+
+
+def seed_programs(*, site: str) -> None:
+    """Give a site the example programs that it does not have yet; harmless when done again."""
+    have = set(Program.objects.filter(site__slug=site).values_list("name", flat=True))
+    for name, file in reversed(_SEEDS):
+        if name in have:
+            continue
+        document = empty_document() if file is None else _read_example(Path(settings.BASE_DIR) / "examples" / file)
+        if document is not None:
+            create_program(site=site, name=name, document=document)
+
+
+def _read_example(path: Path) -> dict[str, Any] | None:
+    """Return the document of an example file: bare, or under `document`; None while there is no such file."""
+    if not path.exists():
+        return None
+    body: dict[str, Any] = json.loads(path.read_text())
+    document: dict[str, Any] = body.get("document", body)
+    return document

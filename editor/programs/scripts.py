@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 from uuid import UUID
 
+from editor.documents.store import get_document
 from editor.errors import EditorError
 from editor.language import Diagnostic, compile_document, parse_script, tree_to_document
 from editor.language.messages.phrases import LANGUAGES, Refusal
 from editor.programs.checking import build_surroundings
-from editor.programs.programs import get_document, get_program
+from editor.programs.programs import get_program
 
 LONGEST_SCRIPT = 400_000
 _POSITION_ARGUMENTS = ("end_line", "end_column", "found", "instead")

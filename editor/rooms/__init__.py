@@ -1,1 +1,1 @@
-"""The shared document while people edit it: rooms, members, the y-protocol, and what is kept of it."""
+"""A program while people edit it together: its members, their messages, and what passes between processes."""

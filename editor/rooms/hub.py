@@ -1,4 +1,4 @@
-"""The rooms of this process: who enters, which are open, and what concerns all of them."""
+"""The rooms of this process: who enters and what they may do there, which are open, and what concerns all of them."""
 
 from __future__ import annotations
 
@@ -7,20 +7,24 @@ import uuid
 import weakref
 from collections import defaultdict
 from collections.abc import Callable, Coroutine
+from dataclasses import dataclass
 from typing import Any
 
 from django.conf import settings
+from django.contrib.auth import get_user_model
 from django.db import DatabaseError
 
+from editor.documents.shared_document import BadUpdate
+from editor.documents.store import flush_before_reading
 from editor.errors import NoSuchProgram
+from editor.models import Program
 from editor.programs.checking import DeviceWatch
-from editor.rooms.document import BadUpdate
-from editor.rooms.member import Close, Member
-from editor.rooms.permissions import find_standing
+from editor.rooms.member import Close, Member, Person
 from editor.rooms.room import Room
 from editor.rooms.runner import INTERRUPTED, OpenRoom, in_database, open_room
 from editor.rooms.stream import RoomStream, StreamLost, make_stream
 from registry.live import fanout
+from registry.people.access import find_access
 from registry.people.sessions import has_ended
 
 CLOSE_EMPTY_AFTER_S = 5.0
@@ -75,7 +79,7 @@ class Hub:
             self._locks.pop(room.program, None)
 
     def _drop(self, opened: OpenRoom) -> None:
-        """A room ended by itself: what it holds is kept, and the next connection opens it anew."""
+        """A room ended by itself: what it holds is saved, and the next connection opens it anew."""
         if self._open.get(opened.room.program) is opened:
             del self._open[opened.room.program]
         self._start(self._stop_room, opened)
@@ -87,7 +91,7 @@ class Hub:
         """Write what waits of a program into the database."""
         opened = self._open.get(program_id)
         if opened is not None:
-            await opened.keep()
+            await opened.save()
 
     async def close(self) -> None:
         """Keep everything and end."""
@@ -129,12 +133,12 @@ class Hub:
             if await in_database(has_ended)(member.session):
                 member.close(Close(Close.SIGNED_OUT, "You are signed out. Sign in again."))
                 continue
-            standing = await in_database(find_standing)(member.person.id, room.program)
-            if standing is None:
+            permission = await in_database(find_permission)(member.person.id, room.program)
+            if permission is None:
                 member.close(Close(Close.NOT_FOUND, "The program was deleted, or you are no longer one of its site."))
                 continue
-            gained = standing.can_write and not member.can_write
-            member.can_write = standing.can_write
+            gained = permission.can_write and not member.can_write
+            member.can_write = permission.can_write
             if gained:
                 member.ask_for_state(room.document.state())
 
@@ -146,6 +150,7 @@ def hub_of_this_loop() -> Hub:
     """Return the hub of the running event loop, made at first use."""
     loop = asyncio.get_running_loop()
     if loop not in _hubs:
+        flush_before_reading(flush_program)
         _hubs[loop] = Hub(make_stream(settings.VIPO_STREAM_URL))
     return _hubs[loop]
 
@@ -162,3 +167,22 @@ def _is_on(loop: asyncio.AbstractEventLoop) -> bool:
         return asyncio.get_running_loop() is loop
     except RuntimeError:
         return False
+
+
+@dataclass(frozen=True, slots=True)
+class Permission:
+    """What a person may do with a program: everybody of its site may look, authors may change."""
+
+    site: str
+    person: Person
+    can_write: bool
+
+
+def find_permission(user_id: int, program_id: str) -> Permission | None:
+    """Return what a person may do; None when the program does not exist or is none of theirs: the two look the same."""
+    program = Program.objects.select_related("site").filter(pk=program_id).first()
+    user = get_user_model().objects.filter(pk=user_id, is_active=True).first()
+    access = find_access(user, program.site) if program and user else None
+    if program is None or user is None or access is None:
+        return None
+    return Permission(program.site.slug, Person(user.pk, user.display_name, user.initials), access.allows("author"))

@@ -155,6 +155,6 @@ class Member:
             raise Close(Close.MALFORMED, "The client sends changes and never says what it has (sync step 2).")
 
     def take_held(self) -> list[bytes]:
-        """Hand over the updates that were kept."""
+        """Hand over the updates that were held back."""
         held, self._held, self._held_bytes = self._held, [], 0
         return held

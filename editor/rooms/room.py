@@ -1,14 +1,15 @@
-"""A room: one shared document and the connections that edit it, in strict order. No I/O: the hub carries for it."""
+"""A room: one shared document and the connections that edit it, in strict order. No I/O: the runner does it."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 
+from editor.documents import yjs_encoding
+from editor.documents.shared_document import EMPTY_UPDATE, BadUpdate, SharedDocument
+from editor.documents.store import Change
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
-from editor.rooms.document import EMPTY_UPDATE, BadUpdate, SharedDocument
 from editor.rooms.member import MIB, Close, Member
 from editor.rooms.stream import Entry, Note
 
@@ -16,14 +17,6 @@ MOST_MEMBERS = 50
 MOST_DOCUMENT_BYTES = 8 * MIB
 MOST_STEPS = 5000
 TOO_LARGE = "The program is full: it may have 8 MiB and 5,000 steps. Remove steps, or make a second program of a part."
-
-
-@dataclass(frozen=True, slots=True)
-class Change:
-    """A change made here, which is to be kept: who made it, and the bytes of the document's own update."""
-
-    author: int | None
-    update: bytes
 
 
 class Room:
@@ -40,8 +33,8 @@ class Room:
         self.document = document
         self.members: list[Member] = []
         self.board = AwarenessBoard()
-        self.to_keep: deque[Change] = deque()
-        self.to_tell: deque[Note] = deque()
+        self.to_save: deque[Change] = deque()
+        self.to_publish: deque[Note] = deque()
         self.touched = False
         self.saved_seq = 0
         self._bytes = len(document.encode())
@@ -68,9 +61,9 @@ class Room:
         member.spend_bytes(len(frame), now_s)
         try:
             message = yjs_protocol.decode_frame(frame)
-        except yjs_protocol.FrameTooLarge as error:
+        except yjs_encoding.FrameTooLarge as error:
             raise Close(Close.TOO_LARGE, str(error)) from error
-        except yjs_protocol.BadFrame as error:
+        except yjs_encoding.BadFrame as error:
             raise Close(Close.MALFORMED, str(error)) from error
         if isinstance(message, yjs_protocol.Awareness):
             self._receive_awareness(member, message, now_s)
@@ -78,7 +71,7 @@ class Room:
         member.spend_frame(now_s)
         try:
             self._receive_sync(member, message)
-        except (BadUpdate, yjs_protocol.BadFrame) as error:
+        except (BadUpdate, yjs_encoding.BadFrame) as error:
             raise Close(Close.MALFORMED, f"The change is not one of a Yjs document: {error}") from error
 
     def _receive_awareness(self, member: Member, message: yjs_protocol.Awareness, now_s: float) -> None:
@@ -111,11 +104,11 @@ class Room:
             return
         for change in (update, *held):
             self._change(member, change)
-        if first and not self.to_keep:
+        if first and not self.to_save:
             member.post(yjs_protocol.encode_saved(self.saved_seq, self.document.state()))
 
     def _change(self, member: Member, update: bytes) -> None:
-        """Apply a client's change, keep it, tell it to everybody else."""
+        """Apply a client's change, save it, publish it."""
         if update == EMPTY_UPDATE:
             return
         if self._leaves_a_hole(update):
@@ -124,19 +117,19 @@ class Room:
         self._check_size(update)
         steps = self.document.step_count()
         for change in self.document.apply(update):
-            self.to_keep.append(Change(member.person.id, change))
-            self.to_tell.append(Note("update", change))
+            self.to_save.append(Change(member.person.id, change))
+            self.to_publish.append(Note("update", change))
             self._spread(change, besides=member)
         if steps < self.document.step_count() > MOST_STEPS:
             raise Close(Close.TOO_LARGE, TOO_LARGE)
 
     def _leaves_a_hole(self, update: bytes) -> bool:
         """Tell whether a change begins after what is known of its client: Yjs would wait for the rest, pycrdt not."""
-        first = yjs_protocol.first_of_update(update)
+        first = yjs_encoding.first_of_update(update)
         if first is None:
             return False
         client, clock = first
-        return clock > yjs_protocol.decode_state_vector(self.document.state()).get(client, 0)
+        return clock > yjs_encoding.decode_state_vector(self.document.state()).get(client, 0)
 
     def _check_size(self, update: bytes) -> None:
         self._bytes += len(update)
@@ -167,15 +160,15 @@ class Room:
                 self.board.hear(entry.origin, yjs_protocol.decode_awareness(note.data).entries)
                 self.wake()
             case "saved":
-                self.tell_saved(*decode_saved(note.data))
+                self.announce_saved(*decode_saved(note.data))
             case "state":
                 self._compare(note.data)
 
     def say_state(self) -> None:
         """Tell the other processes what is here, so that they can compare."""
-        self.to_tell.append(self._state_note())
+        self.to_publish.append(self._state_note())
         if here := self.board.here():
-            self.to_tell.append(Note("awareness", yjs_protocol.encode_entries(here)))
+            self.to_publish.append(Note("awareness", yjs_protocol.encode_entries(here)))
         self.wake()
 
     def _state_note(self) -> Note:
@@ -184,17 +177,17 @@ class Room:
     def _compare(self, data: bytes) -> None:
         """Give the other process what it lacks; say what is here if something is lacking here."""
         digest, state = data[:64].decode(), data[64:]
-        theirs, ours = yjs_protocol.decode_state_vector(state), yjs_protocol.decode_state_vector(self.document.state())
+        theirs, ours = yjs_encoding.decode_state_vector(state), yjs_encoding.decode_state_vector(self.document.state())
         they_lack, we_lack = (
-            not yjs_protocol.is_within(ours.items(), theirs),
-            not yjs_protocol.is_within(theirs.items(), ours),
+            not yjs_encoding.is_within(ours.items(), theirs),
+            not yjs_encoding.is_within(theirs.items(), ours),
         )
         if they_lack:
-            self.to_tell.append(Note("update", self.document.encode(state)))
+            self.to_publish.append(Note("update", self.document.encode(state)))
         if we_lack:
-            self.to_tell.append(self._state_note())
+            self.to_publish.append(self._state_note())
         if not they_lack and not we_lack and digest != self.document.digest():
-            self.to_tell.append(Note("full", self.document.encode()))
+            self.to_publish.append(Note("full", self.document.encode()))
         self.wake()
 
     def _take_full(self, update: bytes) -> None:
@@ -207,7 +200,7 @@ class Room:
         """Take in what the database or a peer holds, in any order: after a gap. Raises BadUpdate."""
         self._take_full(SharedDocument(updates).encode())
 
-    def tell_saved(self, seq: int, state: bytes) -> None:
+    def announce_saved(self, seq: int, state: bytes) -> None:
         """Tell everybody what is in the database."""
         self.saved_seq = max(seq, self.saved_seq)
         frame = yjs_protocol.encode_saved(self.saved_seq, state)
@@ -218,7 +211,7 @@ class Room:
         """Send what has changed on the board since the last call."""
         here, elsewhere = self.board.take_changes()
         if here:
-            self.to_tell.append(Note("awareness", yjs_protocol.encode_entries(here)))
+            self.to_publish.append(Note("awareness", yjs_protocol.encode_entries(here)))
             self.wake()
         if here or elsewhere:
             for member in self.members:
@@ -245,11 +238,11 @@ def _nobody() -> None:
 
 def encode_saved_note(seq: int, state: bytes) -> Note:
     """Return the note that tells the other processes what has been saved."""
-    return Note("saved", yjs_protocol.encode_integer(seq) + state)
+    return Note("saved", yjs_encoding.encode_integer(seq) + state)
 
 
 def decode_saved(data: bytes) -> tuple[int, bytes]:
     """Return the number and the state vector of a note."""
-    reader = yjs_protocol.Reader(data)
+    reader = yjs_encoding.Reader(data)
     seq = reader.integer()
     return seq, reader.rest()

@@ -13,19 +13,26 @@ from channels.db import database_sync_to_async
 from django.db import DatabaseError
 from django.utils import timezone
 
+from editor.documents.shared_document import BadUpdate, SharedDocument
+from editor.documents.store import (
+    COMPACT_AFTER_ROWS,
+    Change,
+    SnapshotDiffers,
+    append_changes,
+    compact_document,
+    load_document,
+)
+from editor.documents.yjs_encoding import BadFrame
 from editor.errors import NoSuchProgram
 from editor.language.compiler import EditedProgram
-from editor.programs.checking import check_and_publish
-from editor.rooms.document import BadUpdate, SharedDocument
+from editor.programs.checking import check_and_publish, new_revision
 from editor.rooms.member import Close
-from editor.rooms.room import Change, Room, encode_saved_note
-from editor.rooms.store import COMPACT_AFTER_ROWS, SnapshotDiffers, append_changes, compact_document, load_document
+from editor.rooms.room import Room, encode_saved_note
 from editor.rooms.stream import BEGINNING, Entry, RoomStream, StreamLost
-from editor.rooms.yjs_protocol import BadFrame
 
 log = logging.getLogger(__name__)
-KEEP_EVERY_S = 0.25
-TELL_EVERY_S = 0.01
+SAVE_EVERY_S = 0.25
+PUBLISH_EVERY_S = 0.01
 AWARENESS_EVERY_S = 0.033
 CHECK_AFTER_S = 0.08
 COMPARE_EVERY_S = 30.0
@@ -53,10 +60,10 @@ class OpenRoom:
         self._on_end = on_end
         self._edited = EditedProgram()
         self._ended = False
-        self._keeping = asyncio.Lock()
-        self._telling = asyncio.Lock()
+        self._saving = asyncio.Lock()
+        self._publishing = asyncio.Lock()
         self._heard_at: dict[str, float] = {}
-        self._events = {name: asyncio.Event() for name in ("keep", "tell", "awareness", "check")}
+        self._events = {name: asyncio.Event() for name in ("save", "publish", "awareness", "check")}
         self._tasks: list[asyncio.Task[None]] = []
         room.wake = self.wake
 
@@ -68,8 +75,8 @@ class OpenRoom:
     def start(self) -> None:
         """Start the tasks."""
         loops: tuple[Coroutine[Any, Any, None], ...] = (
-            self._when("tell", TELL_EVERY_S, self._tell),
-            self._when("keep", KEEP_EVERY_S, self.keep),
+            self._when("publish", PUBLISH_EVERY_S, self._publish),
+            self._when("save", SAVE_EVERY_S, self.save),
             self._when("awareness", AWARENESS_EVERY_S, self._spread_awareness),
             self._when("check", CHECK_AFTER_S, self.check),
             self._every(COMPARE_EVERY_S, self.room.say_state),
@@ -80,12 +87,12 @@ class OpenRoom:
         self.room.say_state()
 
     async def stop(self) -> None:
-        """Keep and tell what is left, and end the tasks."""
+        """Save and publish what is left, and end the tasks."""
         self._ended = True
-        await self.keep()
+        await self.save()
         self.room.spread_awareness()
         with suppress(StreamLost):
-            await self._tell()
+            await self._publish()
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
@@ -114,9 +121,9 @@ class OpenRoom:
             self.room.close_all(Close(Close.COME_AGAIN, INTERRUPTED))
             self._on_end(self)
 
-    async def _tell(self) -> None:
-        async with self._telling:
-            queue = self.room.to_tell
+    async def _publish(self) -> None:
+        async with self._publishing:
+            queue = self.room.to_publish
             notes = [queue.popleft() for _ in range(len(queue))]
             if notes:
                 await self._stream.append(self.room.program, self.room.origin, notes)
@@ -153,10 +160,10 @@ class OpenRoom:
         stored = await in_database(load_document)(self.room.program)
         self.room.take_over(list(stored.updates))
 
-    async def keep(self) -> None:
+    async def save(self) -> None:
         """Write what waits into the database, then tell everybody that it is saved."""
-        async with self._keeping:
-            queue = self.room.to_keep
+        async with self._saving:
+            queue = self.room.to_save
             changes = list(queue)
             if not changes:
                 return
@@ -169,13 +176,13 @@ class OpenRoom:
                 return
             except DatabaseError as error:
                 log.warning("Program %s could not be saved; it is tried again: %s", self.room.program, error)
-                asyncio.get_running_loop().call_later(RETRY_AFTER_S, self._events["keep"].set)
+                asyncio.get_running_loop().call_later(RETRY_AFTER_S, self._events["save"].set)
                 return
             for _ in changes:
                 queue.popleft()
-            self.room.tell_saved(seq, state)
-            self.room.to_tell.append(encode_saved_note(seq, state))
-            self._events["tell"].set()
+            self.room.announce_saved(seq, state)
+            self.room.to_publish.append(encode_saved_note(seq, state))
+            self._events["publish"].set()
             if rows >= COMPACT_AFTER_ROWS:
                 await self._compact()
 
@@ -202,11 +209,6 @@ class OpenRoom:
             self._edited = EditedProgram()
 
 
-def new_revision() -> int:
-    """Return a number for a look at a document; later looks have higher numbers, in every process."""
-    return time.time_ns() // 1_000_000
-
-
 async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Callable[[OpenRoom], None]) -> OpenRoom:
     """Load a program's document: the snapshot, the rows after it, what the stream has beyond them; in today's format.
 
@@ -215,12 +217,12 @@ async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Ca
     stored = await in_database(load_document)(program_id)
     tail, after = await _read_tail(stream, program_id)
     document = SharedDocument([*stored.updates, *tail])
-    climbed = document.climb()
+    migrated = document.migrate()
     room = Room(program_id, stored.site, origin, document)
     room.saved_seq = stored.seq
     opened = OpenRoom(room, stream, after, on_end)
-    if tail or climbed:
-        _keep_what_is_not_stored(room, stored.updates)
+    if tail or migrated:
+        _save_what_is_missing(room, stored.updates)
     opened.start()
     return opened
 
@@ -233,8 +235,8 @@ async def _read_tail(stream: RoomStream, program_id: str) -> tuple[list[bytes], 
     return updates, after
 
 
-def _keep_what_is_not_stored(room: Room, stored: tuple[bytes, ...]) -> None:
-    """Keep what a process that died between telling and keeping left in the stream, and the climb to today's format."""
+def _save_what_is_missing(room: Room, stored: tuple[bytes, ...]) -> None:
+    """Save what is only in the stream, because its process died before it saved, and the migration of the format."""
     kept = SharedDocument(stored)
     if kept.state() != room.document.state() or kept.digest() != room.document.digest():
-        room.to_keep.append(Change(None, room.document.encode(kept.state())))
+        room.to_save.append(Change(None, room.document.encode(kept.state())))

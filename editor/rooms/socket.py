@@ -9,9 +9,8 @@ from contextlib import suppress
 from channels.generic.websocket import AsyncWebsocketConsumer
 
 from editor.rooms import yjs_protocol
-from editor.rooms.hub import Hub, hub_of_this_loop
+from editor.rooms.hub import Hub, Permission, find_permission, hub_of_this_loop
 from editor.rooms.member import Close, Member
-from editor.rooms.permissions import Standing, find_standing
 from editor.rooms.room import Room
 from editor.rooms.runner import in_database
 from registry.people.sessions import session_of_socket
@@ -29,26 +28,26 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
         """Accept, see who it is, and enter the room."""
         await self.accept()
         try:
-            standing = await self._standing()
-            await self._enter(standing)
+            permission = await self._permission()
+            await self._enter(permission)
         except Close as close:
             await self._refuse(close)
 
-    async def _standing(self) -> Standing:
+    async def _permission(self) -> Permission:
         user = self.scope.get("user")
         if user is None or not user.is_authenticated:
             raise Close(Close.SIGNED_OUT, "You are signed out. Sign in again.")
-        standing = await in_database(find_standing)(user.pk, str(self.scope["url_route"]["kwargs"]["program"]))
-        if standing is None:
+        permission = await in_database(find_permission)(user.pk, str(self.scope["url_route"]["kwargs"]["program"]))
+        if permission is None:
             raise Close(Close.NOT_FOUND, "There is no such program, or you are not one of its site.")
-        return standing
+        return permission
 
-    async def _enter(self, standing: Standing) -> None:
+    async def _enter(self, permission: Permission) -> None:
         self._waiting = asyncio.Event()
         self.hub = hub_of_this_loop()
         member = Member(
-            standing.person,
-            can_write=standing.can_write,
+            permission.person,
+            can_write=permission.can_write,
             wake=self._waiting.set,
             session=session_of_socket(self.scope),
         )

@@ -7,18 +7,18 @@ import operator
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from editor.language.expressions.values import arity_fits
-from editor.language.plan.instructions import (
+from editor.language.expressions.nodes import (
     Constant,
     Expression,
     Located,
     Operation,
     PlaceRef,
-    Plan,
     Quantity,
     Reading,
     Variable,
 )
+from editor.language.expressions.values import arity_fits
+from editor.language.plan.instructions import Plan
 from execution.machine.places import CLOCK, NO_ZONES, ROLE, Facts, Point, Zones, distance_m, lies_in, position_of
 from vipo_device.protocol.description import Scalar
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from editor.language.expressions import nodes as e
 from editor.language.plan import instructions as p
 from execution.machine.ending import OVER, end_run, leave_call, remove, unwind
 from execution.machine.state import MAIN, Activation, Thread
@@ -52,7 +53,7 @@ def invoke(turn: Turn, thread: Thread, action: p.Invoke) -> Thread:
     return replace(thread, calls=(*thread.calls, call), at=action.entry)
 
 
-def leave_function(turn: Turn, thread: Thread, value: p.Expression | None) -> Thread:
+def leave_function(turn: Turn, thread: Thread, value: e.Expression | None) -> Thread:
     """Leave the function's frame, with its value."""
     result = None if value is None else turn.scalar(thread, value)
     call = thread.calls[-1]

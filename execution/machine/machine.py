@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+from editor.language.expressions.nodes import Expression, PlaceRef
 from editor.language.plan import instructions as p
 from execution.machine.ending import begin_guard, end_guard, end_run, finish, rethrow, unwind
 from execution.machine.evaluation import EvaluationError, NoReading, in_words
@@ -254,7 +255,7 @@ def _order(turn: Turn, thread: Thread, action: p.Move | p.Pick | p.Drop | p.Call
             return Mission(kind, _target(turn, thread, action.at), action.role, thing, quantity)
 
 
-def _target(turn: Turn, thread: Thread, place: p.PlaceRef) -> Target:
+def _target(turn: Turn, thread: Thread, place: PlaceRef) -> Target:
     if place.point is not None:
         return Target(point=place.point)
     if place.value is not None:
@@ -271,6 +272,6 @@ def _ask_people(turn: Turn, thread: Thread, action: p.AskPerson) -> Thread:
     return thread
 
 
-def _text(turn: Turn, thread: Thread, message: p.Expression) -> str:
+def _text(turn: Turn, thread: Thread, message: Expression) -> str:
     """Return what people are told, in a reasonable length."""
     return in_words(turn.scalar(thread, message)).strip()[:500]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from editor.language.plan.instructions import AnswerSpec
+from editor.language.expressions.nodes import AnswerSpec
 from execution.machine.floor_task import Mission
 from vipo_device.protocol.description import Scalar
 

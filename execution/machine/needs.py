@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from editor.language.plan.instructions import Located, Operation, Plan
+from editor.language.expressions.nodes import Located, Operation
+from editor.language.plan.instructions import Plan
 from execution.machine.evaluation import located_things, needs_the_clock, parts_of_plan, watched_properties
 from execution.machine.places import CLOCK, ROLE, X, Y
 from vipo_device.protocol.description import Scalar

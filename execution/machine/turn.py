@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from editor.language.expressions import nodes as e
 from editor.language.plan import instructions as p
 from execution.machine.evaluation import evaluate_number, evaluate_scalar, is_true
 from execution.machine.messages import Action, CancelTimer, SetTimer, StepEntered, StepLeft
@@ -97,19 +98,19 @@ class Turn:
         if name is not None:
             self.frames[MAIN if shared else thread.calls[-1].frame][name] = value
 
-    def scalar(self, thread: Thread, expression: p.Expression) -> Scalar:
+    def scalar(self, thread: Thread, expression: e.Expression) -> Scalar:
         """Return what an expression is worth in a thread."""
         return evaluate_scalar(expression, self.variables(thread), self.facts, self.zones)
 
-    def number(self, thread: Thread, expression: p.Expression) -> float:
+    def number(self, thread: Thread, expression: e.Expression) -> float:
         """Return what an expression that gives a number is worth in a thread."""
         return evaluate_number(expression, self.variables(thread), self.facts, self.zones)
 
-    def holds(self, thread: Thread | None, condition: p.Expression) -> bool:
+    def holds(self, thread: Thread | None, condition: e.Expression) -> bool:
         """Tell whether a condition holds in a thread, or with the program's variables."""
         return is_true(condition, self.variables(thread) if thread else self.frames[MAIN], self.facts, self.zones)
 
-    def seconds(self, thread: Thread, expression: p.Expression) -> float:
+    def seconds(self, thread: Thread, expression: e.Expression) -> float:
         """Return a time to wait in seconds."""
         seconds = self.number(thread, expression)
         if seconds < 0:

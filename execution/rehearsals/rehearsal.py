@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from editor.language import compile_document
-from editor.language.plan.instructions import AnswerSpec, Plan, RoleBinding
+from editor.language.expressions.nodes import AnswerSpec
+from editor.language.plan.instructions import Plan, RoleBinding
 from editor.language.site.surroundings import PlaceFacts
 from execution.machine import machine
 from execution.machine import messages as r

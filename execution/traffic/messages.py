@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from editor.language.plan.instructions import Zone
+from editor.language.expressions.nodes import Zone
 from execution.machine.floor_task import Mission
 from vipo_device.protocol.description import Scalar
 

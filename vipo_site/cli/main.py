@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from editor.language import compile_document, compiled_to_json, plan_to_json
-from editor.language.compiler import Compiled, diagnostic_to_json
+from editor.language.compiler import Compiled
+from editor.language.messages.diagnostics import diagnostic_to_json
 from editor.language.messages.phrases import LANGUAGES, Language
 from vipo_device.descriptions.forms import FORMS
 from vipo_site.cli import account, call, devices

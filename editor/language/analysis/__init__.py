@@ -1,1 +1,1 @@
-"""What is found by following a program: where robots stand, what they carry."""
+"""What is found by following a tree along its paths, and the memos that spare a second walk."""

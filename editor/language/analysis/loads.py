@@ -1,6 +1,6 @@
-"""What each robot carries, followed along all ways through the program.
+"""What each robot carries, followed along all paths through the program.
 
-For every role and kind of object two numbers are kept: how many it carries at least and at most. Where ways meet
+For every role and kind of object two numbers are kept: how many it carries at least and at most. Where paths meet
 the range widens; in a loop, and after a failure, what changed is not known any more and nothing is said of it.
 """
 
@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
-from editor.language.analysis.memo import Memory, Told
+from editor.language.analysis.memo import Findings, Memo
+from editor.language.expressions.nodes import Constant, Expression, Variable
 from editor.language.expressions.values import is_number
 from editor.language.messages.diagnostics import Problem
 from editor.language.messages.phrases import Argument
-from editor.language.plan.instructions import Constant, Expression, Variable
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import walk
+from editor.language.tree.nodes import walk
 from editor.language.tree.variables import set_by
 
 ANY = (0, None)
@@ -44,40 +44,40 @@ class _Follower:
     """For each loop around, innermost last, what is carried at the steps that leave it."""
     returns: list[list[Carried]] = field(default_factory=list)
     """The same for the functions being followed."""
-    known: Memory | None = None
+    memo: Memo | None = None
     met: int = 0
     """Calls that were met, also those that were not followed."""
 
     def block(self, block: n.Block, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
         """Return what is carried after a block; None where its end is never reached."""
         after: Carried | None = carried
-        known = None if self.silent or self.depth else self.known
+        memo = None if self.silent or self.depth else self.memo
         for node in block:
             follow = _FOLLOW.get(node.__class__)
             if follow is None:
                 continue
             if after is None:
                 break
-            if known is None or node.__class__ not in n.COMPOSITES:
+            if memo is None or node.__class__ not in n.COMPOSITES:
                 after = follow(self, node, after, values)
             else:
-                after = self._followed(node, after, known)
+                after = self._followed(node, after, memo)
         return after
 
-    def _followed(self, node: n.Node, carried: Carried, memory: Memory) -> Carried | None:
+    def _followed(self, node: n.Node, carried: Carried, memo: Memo) -> Carried | None:
         """Follow a step outside of functions that holds others; what depends on nothing else is remembered."""
-        known: tuple[Carried | None, Told] | None = memory.recall(node, carried)
+        known: tuple[Carried | None, Findings] | None = memo.get(node, carried)
         if known is None:
-            told, ways_out = len(self.found), (self.met, len(self.breaks[-1]) if self.breaks else 0)
+            reported, exits = len(self.found), (self.met, len(self.breaks[-1]) if self.breaks else 0)
             after = _FOLLOW[type(node)](self, node, carried, {})
-            known = after, tuple(self.found[told:])
-            if ways_out == (self.met, len(self.breaks[-1]) if self.breaks else 0):
-                memory.keep(node, known, carried)
+            known = after, tuple(self.found[reported:])
+            if exits == (self.met, len(self.breaks[-1]) if self.breaks else 0):
+                memo.put(node, known, carried)
         else:
             self.found.extend(known[1])
         return known[0]
 
-    def tell(self, node: n.Pick | n.Drop, code: str, args: dict[str, Argument]) -> None:
+    def report(self, node: n.Pick | n.Drop, code: str, args: dict[str, Argument]) -> None:
         if not self.silent:
             problem = Problem(code, node.step, "quantity", {"robot": self.robot(node.role), **args})
             self.found.append((problem, id(node)))
@@ -106,16 +106,16 @@ def _pick(follower: _Follower, node: n.Pick, carried: Carried, values: Mapping[s
         return _forget(carried, frozenset({node.role}))
     key, quantity = load
     capacity = follower.capacity(node.role)
-    if capacity and quantity > capacity:  # told already; what is really carried cannot be known
+    if capacity and quantity > capacity:  # reported already; what is really carried cannot be known
         return _forget(carried, frozenset({node.role}))
     mine = [(thing, count) for (role, thing), count in carried.items() if role == node.role and thing != _EVERYTHING]
     least, most = _total([count for _, count in mine])
     if capacity:
         if least + quantity > capacity:
             load_text = ", ".join(f"{count[0]} {thing}" for thing, count in sorted(mine) if count[0])
-            follower.tell(node, "carrying_too_much", {"carried": load_text, "capacity": capacity})
+            follower.report(node, "carrying_too_much", {"carried": load_text, "capacity": capacity})
         elif most is not None and most + quantity > capacity and (node.role, _EVERYTHING) not in carried:
-            follower.tell(node, "may_carry_too_much", {"capacity": capacity})
+            follower.report(node, "may_carry_too_much", {"capacity": capacity})
     before = _count(carried, key)
     after = (min(before[0] + quantity, capacity or quantity), None if before[1] is None else before[1] + quantity)
     return {**carried, key: after}
@@ -141,9 +141,9 @@ def _drop(follower: _Follower, node: n.Drop, carried: Carried, values: Mapping[s
     if before[1] is not None:
         args: dict[str, Argument] = {"object": key[1], "quantity": quantity, "carried": before[1]}
         if before[1] < quantity:
-            follower.tell(node, "drops_nothing", args)
+            follower.report(node, "drops_nothing", args)
         elif before[0] < quantity:
-            follower.tell(node, "may_drop_nothing", args)
+            follower.report(node, "may_drop_nothing", args)
     after = (max(before[0] - quantity, 0), None if before[1] is None else max(before[1] - quantity, 0))
     return {**carried, key: after}
 
@@ -164,10 +164,10 @@ def _loop(
     once, _ = _round(follower, node.body, carried, values)
     follower.silent = False
     entry = carried if once is None else _in_every_round(carried, once)
-    after, ways_out = _round(follower, node.body, entry, values)
+    after, exits = _round(follower, node.body, entry, values)
     over = _either(entry, after)
-    for way_out in ways_out:
-        over = _either(over, way_out)
+    for at_exit in exits:
+        over = _either(over, at_exit)
     return over
 
 
@@ -188,9 +188,9 @@ def _round(
 
 
 def _try(follower: _Follower, node: n.Try, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
-    """The catch begins anywhere in the body, the final part anywhere in both; it changes every way out."""
-    ways_out = [*follower.breaks[-1:], *follower.returns[-1:]]
-    marks = [len(way_out) for way_out in ways_out]
+    """The catch begins anywhere in the body, the final part anywhere in both; it changes every exit."""
+    exits = [*follower.breaks[-1:], *follower.returns[-1:]]
+    marks = [len(at_exit) for at_exit in exits]
     after = follower.block(node.body, carried, values)
     failed = _forget(carried, _roles(follower, node.body))
     if node.catches:
@@ -198,8 +198,8 @@ def _try(follower: _Follower, node: n.Try, carried: Carried, values: Mapping[str
     if not node.final:
         return after
     roles = _roles(follower, node.final)
-    for way_out, mark in zip(ways_out, marks, strict=True):
-        way_out[mark:] = [_forget(left, roles) for left in way_out[mark:]]
+    for at_exit, mark in zip(exits, marks, strict=True):
+        at_exit[mark:] = [_forget(left, roles) for left in at_exit[mark:]]
     final = follower.block(node.final, _forget(failed, _roles(follower, node.catch)), values)
     if after is None or final is None:
         return None
@@ -295,7 +295,7 @@ def _forget(carried: Carried, roles: frozenset[str]) -> Carried:
 
 
 def _either(first: Carried | None, second: Carried | None) -> Carried | None:
-    """Return what holds after one or the other; a way that leads nowhere has no say."""
+    """Return what holds after one or the other; a path that leads nowhere has no say."""
     if first is second or second is None:
         return first
     if first is None:
@@ -308,18 +308,18 @@ def _either(first: Carried | None, second: Carried | None) -> Carried | None:
 
 
 def follow_loads(
-    tree: n.Tree, capacity: Callable[[str], int], robot: Callable[[str], Argument], known: Memory | None = None
+    tree: n.Tree, capacity: Callable[[str], int], robot: Callable[[str], Argument], memo: Memo | None = None
 ) -> list[tuple[Problem, int]]:
     """Return what is wrong with what robots carry, each with its node's identity.
 
-    `capacity` tells how many objects a role's robot holds (0: not known), `robot` what to call it; `known` has what
+    `capacity` tells how many objects a role's robot holds (0: not known), `robot` what to call it; `memo` has what
     was found at the last look.
     """
     functions = {function.method: function for function in tree.functions}
-    follower = _Follower(functions, capacity, robot, known=known)
-    if known is not None:
+    follower = _Follower(functions, capacity, robot, memo=memo)
+    if memo is not None:
         drivers = frozenset(node.role for f in tree.functions for node in walk(f.body) if isinstance(node, n.LOADS))
-        known.begin((drivers, [(role.name, capacity(role.name), robot(role.name)) for role in tree.roles]))
+        memo.begin((drivers, [(role.name, capacity(role.name), robot(role.name)) for role in tree.roles]))
     follower.block(tree.body, {}, {})
     for event in tree.events:
         follower.block(event.body, _forget({}, frozenset(role.name for role in tree.roles)), {})

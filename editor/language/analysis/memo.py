@@ -16,12 +16,12 @@ from editor.language.messages.diagnostics import Problem
 from editor.language.tree.nodes import Node
 
 Key = TypeVar("Key")
-Told = tuple[tuple[Problem, int], ...]
-"""Problems that were told of nodes, each with its node's identity."""
+Findings = tuple[tuple[Problem, int], ...]
+"""Problems that were reported of nodes, each with its node's identity."""
 
 
 @dataclass(slots=True)
-class Memory:
+class Memo:
     """What one pass found. Entries hold their nodes, so that no other object takes over their identity."""
 
     _context: object = None
@@ -33,7 +33,7 @@ class Memory:
         same = context == self._context
         self._context, self._last, self._now = context, self._now if same else {}, {}
 
-    def recall(self, node: Node, given: object = None) -> Any:
+    def get(self, node: Node, given: object = None) -> Any:
         """Return what was found of this very node when as much was given; None where nothing is known."""
         entry = self._last.get(id(node))
         if entry is None or entry[1] != given:
@@ -41,7 +41,7 @@ class Memory:
         self._now[id(node)] = entry
         return entry[2]
 
-    def keep(self, node: Node, found: object, given: object = None) -> None:
+    def put(self, node: Node, found: object, given: object = None) -> None:
         """Keep what was found of a node."""
         self._now[id(node)] = (node, given, found)
 
@@ -56,7 +56,7 @@ class StepRead:
 
 
 @dataclass(slots=True)
-class ReadSteps:
+class ReadMemo:
     """The steps of a document as they were read last."""
 
     last: LastOutline = field(default_factory=LastOutline)
@@ -102,25 +102,25 @@ def _same(before: object, after: object) -> bool:
 
 
 @dataclass(slots=True)
-class Memories:
+class Memos:
     """What all passes over one program found."""
 
-    read: ReadSteps = field(default_factory=ReadSteps)
-    positions: Memory = field(default_factory=Memory)
-    flow: Memory = field(default_factory=Memory)
-    loads: Memory = field(default_factory=Memory)
-    printed: Memory = field(default_factory=Memory)
+    read: ReadMemo = field(default_factory=ReadMemo)
+    positions: Memo = field(default_factory=Memo)
+    flow: Memo = field(default_factory=Memo)
+    loads: Memo = field(default_factory=Memo)
+    printed: Memo = field(default_factory=Memo)
     _around: object = None
-    _last: dict[str, Memory] = field(default_factory=dict)
-    _blocks: dict[str, Memory] = field(default_factory=dict)
+    _last: dict[str, Memo] = field(default_factory=dict)
+    _blocks: dict[str, Memo] = field(default_factory=dict)
 
     def begin_checks(self, around: object) -> None:
         """Begin to check the steps for themselves, with this around them."""
         self._last = self._blocks if around == self._around else {}
         self._around, self._blocks = around, {}
 
-    def of_block(self, name: str, context: object) -> Memory:
+    def of_block(self, name: str, context: object) -> Memo:
         """Return what was found of the steps of the program's body, of an event's or of a function's."""
-        known = self._blocks.setdefault(name, self._last.get(name) or Memory())
+        known = self._blocks.setdefault(name, self._last.get(name) or Memo())
         known.begin(context)
         return known

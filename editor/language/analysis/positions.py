@@ -11,12 +11,11 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from editor.language.analysis.memo import Memory
-from editor.language.plan.instructions import PlaceRef, Variable
+from editor.language.analysis.memo import Memo
+from editor.language.expressions.nodes import NOWHERE, PlaceRef, Variable
 from editor.language.tree.nodes import (
     DRIVES,
     LOADS,
-    NOWHERE,
     Ask,
     Block,
     Break,
@@ -41,8 +40,9 @@ from editor.language.tree.nodes import (
     Wait,
     WaitUntil,
     While,
+    walk,
 )
-from editor.language.tree.traversal import callees_first, functions_in_circles, roles_used, walk
+from editor.language.tree.traversal import callees_first, functions_in_circles, roles_used
 from editor.language.tree.variables import set_in, sets_of_functions
 
 Standing = dict[str, PlaceRef]
@@ -68,7 +68,7 @@ class _Found:
 
 @dataclass(slots=True)
 class _Follower:
-    """The walk over one tree; `settle` is True for a parsed script, whose picks get the place of their robot.
+    """The walk over one tree; `from_script` is True for a parsed script, whose picks get the place of their robot.
 
     Where a block is never left at its end, what stands after it is None.
     """
@@ -77,17 +77,17 @@ class _Follower:
     """Function → the roles whose robot it moves."""
     sets: Mapping[str, frozenset[str]]
     circular: frozenset[str]
-    settle: bool
+    from_script: bool
     initial: Standing
     relied_on: dict[str, str] = field(default_factory=dict)
     """Roles whose place at the beginning matters, with that place."""
-    homeless: list[Pick | Drop] = field(default_factory=list)
+    unplaced: list[Pick | Drop] = field(default_factory=list)
     """Picks and drops of a script before which no move is known."""
     exits: dict[str, Standing] = field(default_factory=dict)
     breaks: list[list[Standing]] = field(default_factory=list)
     """For each loop around, innermost last, where the robots stand at the steps that leave it."""
     returns: list[Standing] = field(default_factory=list)
-    known: Memory | None = None
+    memo: Memo | None = None
     calls: int = 0
 
     def block(self, block: Block, standing: Standing) -> tuple[Block, Standing | None]:
@@ -121,17 +121,17 @@ class _Follower:
 
     def _followed(self, node: _Composite, before: Standing) -> tuple[Node, Standing | None]:
         """Follow a step that holds others; what depends on nothing else is remembered."""
-        if self.known is None:
+        if self.memo is None:
             return self._composite(node, before)
-        known: _Found | None = self.known.recall(node, before)
+        known: _Found | None = self.memo.get(node, before)
         if known is None:
             outside, self.relied_on = self.relied_on, {}
-            ways_out = self.calls, len(self.returns), len(self.breaks[-1]) if self.breaks else 0
+            exits = self.calls, len(self.returns), len(self.breaks[-1]) if self.breaks else 0
             inner, after = self._composite(node, before)
             known = _Found(inner, after, self.relied_on)
             self.relied_on = outside
-            if ways_out == (self.calls, len(self.returns), len(self.breaks[-1]) if self.breaks else 0):
-                self.known.keep(node, known, before)
+            if exits == (self.calls, len(self.returns), len(self.breaks[-1]) if self.breaks else 0):
+                self.memo.put(node, known, before)
         self.relied_on.update(known.relied_on)
         return known.node, known.after
 
@@ -143,12 +143,12 @@ class _Follower:
 
     def _load(self, node: Pick | Drop, standing: Standing, nodes: list[Node]) -> Standing:
         here = standing.get(node.role)
-        if self.settle:
+        if self.from_script:
             self._rely(node.role, here)
             if here is None:
-                self.homeless.append(node)
-            place, settled = here or NOWHERE, node.__class__
-            nodes.append(settled(node.role, place, node.object, node.quantity, node.step, node.place_field, node.route))
+                self.unplaced.append(node)
+            place, make = here or NOWHERE, node.__class__
+            nodes.append(make(node.role, place, node.object, node.quantity, node.step, node.place_field, node.route))
             return standing
         if here is not None and here == node.at:
             self._rely(node.role, here)
@@ -181,16 +181,16 @@ class _Follower:
         self.breaks.append([])
         own = {node.variable} if isinstance(node, ForEach) else set()
         inner, after = self.block(node.body, _without_values(self._after_some_of(node.body, before), own))
-        ways_out = self.breaks.pop()
+        exits = self.breaks.pop()
         over = _agreed(before, after)
-        for way_out in ways_out:
-            over = _agreed(over, way_out)
+        for at_exit in exits:
+            over = _agreed(over, at_exit)
         return _with_body(node, inner), None if over is None else _without_values(over, own)
 
     def _try(self, node: Try, before: Standing) -> tuple[Node, Standing | None]:
-        """The catch begins anywhere in the body, the final part anywhere in both; it changes every way out."""
-        ways_out = [*self.breaks[-1:], self.returns]
-        marks = [len(way_out) for way_out in ways_out]
+        """The catch begins anywhere in the body, the final part anywhere in both; it changes every exit."""
+        exits = [*self.breaks[-1:], self.returns]
+        marks = [len(at_exit) for at_exit in exits]
         body, after = self.block(node.body, before)
         unsure = self._after_some_of(node.body, before)
         handler, after_catch = self.block(node.catch, unsure)
@@ -198,8 +198,8 @@ class _Follower:
             after = _agreed(after, after_catch)
         if not node.final:
             return Try(node.kinds, body, handler, (), node.catches, node.step), after
-        for way_out, mark in zip(ways_out, marks, strict=True):
-            way_out[mark:] = [self._after_some_of(node.final, standing) for standing in way_out[mark:]]
+        for at_exit, mark in zip(exits, marks, strict=True):
+            at_exit[mark:] = [self._after_some_of(node.final, standing) for standing in at_exit[mark:]]
         final, after_final = self.block(node.final, self._after_some_of(node.catch, unsure))
         whole = Try(node.kinds, body, handler, final, node.catches, node.step)
         if after is None or after_final is None:
@@ -285,45 +285,45 @@ def _without_values(standing: Standing, names: AbstractSet[str]) -> Standing:
 
 
 def _agreed(first: Standing | None, second: Standing | None) -> Standing | None:
-    """Return what holds where two ways meet; one that leads nowhere has no say."""
+    """Return what holds where two paths meet; one that leads nowhere has no say."""
     if first is None or second is None:
         return second if first is None else first
     return {role: place for role, place in first.items() if second.get(role) == place}
 
 
-def add_moves(tree: Tree, standing_at: Mapping[str, str], known: Memory | None = None) -> Tree:
+def add_moves(tree: Tree, standing_at: Mapping[str, str], memo: Memo | None = None) -> Tree:
     """Return the tree with the moves that were missing; `standing_at` says where known robots stand (device ids).
 
-    `known` has what was found at the last look.
+    `memo` has what was found at the last look.
     """
     initial = {
         role.name: PlaceRef(device=standing_at[role.device])
         for role in tree.roles
         if role.device is not None and role.device in standing_at
     }
-    return _follow(tree, initial, known, settle=False)[0]
+    return _follow(tree, initial, memo, from_script=False)[0]
 
 
-def settle_places(tree: Tree) -> tuple[Tree, tuple[Pick | Drop, ...]]:
+def place_loads(tree: Tree) -> tuple[Tree, tuple[Pick | Drop, ...]]:
     """Return the tree of a parsed script with the places of its picks and drops, and those without a place."""
     initial = {role.name: PlaceRef(device=role.at) for role in tree.roles if role.at is not None}
-    return _follow(tree, initial, None, settle=True)
+    return _follow(tree, initial, None, from_script=True)
 
 
 def _follow(
-    tree: Tree, initial: Standing, known: Memory | None, *, settle: bool
+    tree: Tree, initial: Standing, memo: Memo | None, *, from_script: bool
 ) -> tuple[Tree, tuple[Pick | Drop, ...]]:
-    if known is not None:
-        known.begin(initial)
+    if memo is not None:
+        memo.begin(initial)
     circular = functions_in_circles(tree) if tree.functions else frozenset()
     moved = {function.method: roles_used(function.body, tree) for function in tree.functions}
-    follower = _Follower(moved, sets_of_functions(tree), circular, settle, initial, known=known)
+    follower = _Follower(moved, sets_of_functions(tree), circular, from_script, initial, memo=memo)
     finished = {function.method: follower.function(function) for function in callees_first(tree)}
     body, _ = follower.block(tree.body, initial)
     events = tuple(replace(event, body=follower.block(event.body, {})[0]) for event in tree.events)
     roles = tuple(_with_place(role, follower.relied_on.get(role.name)) for role in tree.roles)
     done = tuple(finished[function.method] for function in tree.functions)
-    return Tree(body, done, roles, tree.parameters, events), tuple(follower.homeless)
+    return Tree(body, done, roles, tree.parameters, events), tuple(follower.unplaced)
 
 
 def _with_place(role: Role, at: str | None) -> Role:

@@ -1,1 +1,1 @@
-"""What is wrong with a program, or odd about it, by subject."""
+"""The checks: what is wrong with a program at its site, or odd about it."""

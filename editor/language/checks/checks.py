@@ -1,4 +1,4 @@
-"""The checks: what is wrong with a program, or odd about it; one small function for each construct."""
+"""All checks of a program, in their order; one small function for each kind of node."""
 
 from __future__ import annotations
 
@@ -7,43 +7,43 @@ from dataclasses import replace
 from typing import cast
 
 from editor.language.analysis.loads import follow_loads
-from editor.language.analysis.memo import Memories, Told
+from editor.language.analysis.memo import Findings, Memos
 from editor.language.checks.context import Context
-from editor.language.checks.devices import check_load_place, check_place, check_role, usable_device
-from editor.language.checks.floor import check_floor
+from editor.language.checks.devices import check_floor, check_load_place, check_place, check_role, usable_device
 from editor.language.checks.flow import check_flow, check_leaving
 from editor.language.checks.library import check_library
 from editor.language.checks.parallel import check_branches, check_parallel
 from editor.language.checks.values import check_argument, check_condition, check_quantity, check_value, has_missing
 from editor.language.checks.variables import check_variables
 from editor.language.document.outline import PROGRAM, Outline
-from editor.language.expressions.typing import NUMBER, SECONDS, TEXT, Kind, constant_value, plain_type
+from editor.language.expressions import nodes as e
+from editor.language.expressions.nodes import Constant
+from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value, plain_type
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
 from editor.language.messages.phrases import Options, Span
-from editor.language.plan.instructions import Constant
-from editor.language.reading.document import Reading
+from editor.language.reading.document import ReadDocument
 from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree import nodes as n
-from editor.language.tree.scopes import program_variables
-from editor.language.tree.traversal import needed_of_roles, walk
-from editor.language.tree.variable_types import kinds_of_function, kinds_of_program
+from editor.language.tree.nodes import walk
+from editor.language.tree.traversal import needed_of_roles
+from editor.language.tree.variables import program_variables, types_in_function, types_in_program
 from editor.language.tree.zones import read_zones
 from vipo_device.protocol.description import ParameterSpec
 
 
 def check(
-    reading: Reading,
+    reading: ReadDocument,
     tree: n.Tree,
     surroundings: Surroundings,
     document: object = None,
-    memories: Memories | None = None,
+    memos: Memos | None = None,
 ) -> list[tuple[Problem, int]]:
     """Return the problems of a program, each with the identity of its node (0: none); the order is always the same.
 
-    `tree` is the reading's tree with the moves that were put in, `document` what was read; `memories` have what was
+    `tree` is the reading's tree with the moves that were put in, `document` what was read; `memos` have what was
     found at the last look.
     """
-    context = Context(tree, surroundings, memories=memories)
+    context = Context(tree, surroundings, memos=memos)
     context.zones = frozenset(zone.id for zone in read_zones(document))
     found = context.found
     found.extend((problem, 0) for problem in reading.problems)
@@ -59,7 +59,7 @@ def check(
     check_parallel(context)
     check_library(context, document)
     check_floor(context, document)
-    context.found.extend(follow_loads(tree, context.capacity, context.robot_name, memories.loads if memories else None))
+    context.found.extend(follow_loads(tree, context.capacity, context.robot_name, memos.loads if memos else None))
     _check_left_over(context, reading)
     return context.found
 
@@ -67,17 +67,17 @@ def check(
 def _check_steps(context: Context) -> None:
     """Check every step for itself, with what is known where it stands."""
     tree, site = context.tree, context.surroundings
-    kinds = kinds_of_program(tree, program_variables(tree), site)
-    if context.memories is not None:
-        context.memories.begin_checks(_all_around(context))
-    _check_block(context, PROGRAM, tree.body, kinds)
+    types = types_in_program(tree, program_variables(tree), site)
+    if context.memos is not None:
+        context.memos.begin_checks(_all_around(context))
+    _check_block(context, PROGRAM, tree.body, types)
     for event in tree.events:
-        _check_block(context, event.step, event.body, kinds)
+        _check_block(context, event.step, event.body, types)
         check_condition(context, cast("n.Node", event), event.condition, "condition")  # an event has a step as nodes do
     for function in tree.functions:
-        context.result = Kind(plain_type(function.result_type), function.result_unit)
-        _check_block(context, function.method, function.body, kinds_of_function(tree, function, kinds, site))
-    context.result = Kind()
+        context.result = ValueType(plain_type(function.result_type), function.result_unit)
+        _check_block(context, function.method, function.body, types_in_function(tree, function, types, site))
+    context.result = ValueType()
 
 
 def _all_around(context: Context) -> object:
@@ -87,26 +87,26 @@ def _all_around(context: Context) -> object:
     return functions, roles, context.zones, what_programs_see(context.surroundings)
 
 
-def _check_block(context: Context, name: str, block: n.Block, kinds: Mapping[str, Kind]) -> None:
+def _check_block(context: Context, name: str, block: n.Block, types: Mapping[str, ValueType]) -> None:
     nodes = context.tree.walked(block)
     if context.tree.holds(n.ForEach):
         loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
-        kinds = {name: kind for name, kind in kinds.items() if name not in loops}
-    context.variables = kinds
-    if context.memories is None:
+        types = {name: value_type for name, value_type in types.items() if name not in loops}
+    context.variables = types
+    if context.memos is None:
         for node in nodes:
             CHECKS[type(node)](context, node)
         return
-    known = context.memories.of_block(name, (context.variables, context.result))
+    memo = context.memos.of_block(name, (context.variables, context.result))
     for node in nodes:
-        told: Told | None = known.recall(node)
-        if told is None:
+        reported: Findings | None = memo.get(node)
+        if reported is None:
             before = len(context.found)
             CHECKS[type(node)](context, node)
             if not _looks_around(node):
-                known.keep(node, tuple(context.found[before:]))
+                memo.put(node, tuple(context.found[before:]))
         else:
-            context.found.extend(told)
+            context.found.extend(reported)
 
 
 _LOOK_AROUND = (n.Call, n.Parallel)
@@ -147,27 +147,27 @@ def _operate(context: Context, node: n.Operate) -> None:
         if len(device.methods) == 1:
             only = device.methods[0].name
             fix = Fix("choose", node.step, "method", only, {"value": only})
-        context.tell(node, "missing_method", "method", {"device": device.name, "options": known}, fix)
+        context.report(node, "missing_method", "method", {"device": device.name, "options": known}, fix)
         return
     method = device.method(node.method)
     if method is None:
         details: TextArguments = {"device": device.name, "method": node.method, "options": known}
-        context.tell(node, "unknown_method", "method", details)
+        context.report(node, "unknown_method", "method", details)
         return
     given = dict(node.arguments)
     for parameter in method.parameters:
-        value = given.pop(parameter.name, n.MISSING)
+        value = given.pop(parameter.name, e.MISSING)
         check_argument(context, node, parameter, value, node.method, "missing_argument")
     options = Options(tuple(parameter.name for parameter in method.parameters))
     for name in given:
         details = {"method": node.method, "argument": name, "options": options}
         fix = Fix("remove", node.step, f"args.{name}", None, {"value": name})
-        context.tell(node, "unknown_argument", f"args.{name}", details, fix)
+        context.report(node, "unknown_argument", f"args.{name}", details, fix)
 
 
 def _wait(context: Context, node: n.Wait) -> None:
     if has_missing(node.seconds):
-        context.tell(node, "missing_seconds", "duration")
+        context.report(node, "missing_seconds", "duration")
     else:
         check_value(context, node, node.seconds, "duration", SECONDS, "The time to wait")
         _check_time(context, node, node.seconds, "duration", "The time to wait")
@@ -182,16 +182,16 @@ def _wait_until(context: Context, node: n.WaitUntil) -> None:
 
 def _check_time(context: Context, node: n.Node, value: object, field: str, subject: str) -> None:
     if isinstance(value, Constant) and isinstance(value.value, int | float) and value.value < 0:
-        context.tell(node, "out_of_range", field, {"subject": subject, "range": Span(0, None, "s")})
+        context.report(node, "out_of_range", field, {"subject": subject, "range": Span(0, None, "s")})
 
 
 def _if(context: Context, node: n.If) -> None:
     check_condition(context, node, node.condition, "condition")
     always = constant_value(node.condition)
     if always is False:
-        context.tell(node, "never_runs", "condition")
+        context.report(node, "never_runs", "condition")
     elif always is True and node.otherwise:
-        context.tell(node, "always_true", "condition")
+        context.report(node, "always_true", "condition")
 
 
 def _while(context: Context, node: n.While) -> None:
@@ -199,7 +199,7 @@ def _while(context: Context, node: n.While) -> None:
     if has_missing(node.condition):
         return
     if constant_value(node.condition) is False:
-        context.tell(node, "never_runs", "condition")
+        context.report(node, "never_runs", "condition")
 
 
 def _try(context: Context, node: n.Try) -> None:
@@ -224,58 +224,58 @@ def _call(context: Context, node: n.Call) -> None:
     function = context.functions.get(node.function)
     if function is None:
         if not any(p.step == node.step and p.code == "unknown_function" for p, _ in context.found):
-            context.tell(node, "missing_function", "function", fix=_only_function(context, node))
+            context.report(node, "missing_function", "function", fix=_only_function(context, node))
         return
     given = dict(node.arguments)
     for parameter in function.parameters:
-        value = given.get(parameter.name, n.MISSING)
+        value = given.get(parameter.name, e.MISSING)
         kind = parameter.type if parameter.type in {"number", "text", "boolean", "object", "device", "place"} else ""
-        if value != n.MISSING or parameter.default is None:
+        if value != e.MISSING or parameter.default is None:
             spec = ParameterSpec(parameter.name, kind or "text", parameter.unit)  # type: ignore[arg-type]
             name = function.name or function.method
             check_argument(context, node, spec, value, name, "missing_function_argument", typed=bool(kind))
 
     if node.result and not function.result_type:
         fix = Fix("remove", node.step, "result", None, {"value": node.result})
-        context.tell(node, "gives_nothing", "result", {"function": function.name or function.method}, fix)
+        context.report(node, "gives_nothing", "result", {"function": function.name or function.method}, fix)
 
 
 def _repeat(context: Context, node: n.Repeat) -> None:
     if has_missing(node.times):
-        context.tell(node, "missing_times", "times")
+        context.report(node, "missing_times", "times")
     elif check_value(context, node, node.times, "times", NUMBER, "How many times"):
         times = constant_value(node.times)
         if isinstance(times, int | float) and (times < 0 or times != int(times)):
-            context.tell(node, "times_not_whole", "times", fix=fix_value(node.step, "times", max(0, round(times))))
+            context.report(node, "times_not_whole", "times", fix=fix_value(node.step, "times", max(0, round(times))))
 
 
 def _for_each(context: Context, node: n.ForEach) -> None:
     if not node.variable:
-        context.tell(node, "missing_variable", "variable")
+        context.report(node, "missing_variable", "variable")
     if not node.items or any(map(has_missing, node.items)):
-        context.tell(node, "missing_items", "items")
+        context.report(node, "missing_items", "items")
     for item in node.items:
         if not has_missing(item):
-            check_value(context, node, item, "items", Kind(), "A value")
+            check_value(context, node, item, "items", ValueType(), "A value")
 
 
 def _set(context: Context, node: n.Set) -> None:
     if not node.variable:
-        context.tell(node, "missing_variable", "variable")
+        context.report(node, "missing_variable", "variable")
     if has_missing(node.value):
-        context.tell(node, "missing_value", "value")
+        context.report(node, "missing_value", "value")
     else:
-        known = context.variables.get(node.variable, Kind())
+        known = context.variables.get(node.variable, ValueType())
         check_value(context, node, node.value, "value", known, "The variable")
 
 
 def _ask(context: Context, node: n.Ask) -> None:
     if has_missing(node.question):
-        context.tell(node, "missing_question", "question")
+        context.report(node, "missing_question", "question")
     else:
         check_value(context, node, node.question, "question", TEXT, "The question")
     if node.answer.type == "choice" and len(node.answer.options) < 2:
-        context.tell(node, "missing_options", "answer")
+        context.report(node, "missing_options", "answer")
     if node.timeout_s is not None:
         check_value(context, node, node.timeout_s, "timeout", SECONDS, "The time limit")
         _check_time(context, node, node.timeout_s, "timeout", "The time limit")
@@ -283,7 +283,7 @@ def _ask(context: Context, node: n.Ask) -> None:
 
 def _notify(context: Context, node: n.Notify) -> None:
     if has_missing(node.message):
-        context.tell(node, "missing_message", "message")
+        context.report(node, "missing_message", "message")
     else:
         check_value(context, node, node.message, "message", TEXT, "The message")
 
@@ -291,7 +291,7 @@ def _notify(context: Context, node: n.Notify) -> None:
 def _return(context: Context, node: n.Return) -> None:
     if node.value is not None:
         if has_missing(node.value):
-            context.tell(node, "missing_value", "value")
+            context.report(node, "missing_value", "value")
         else:
             check_value(context, node, node.value, "value", context.result, "The result")
 
@@ -336,7 +336,7 @@ def _check_roles(context: Context) -> None:
         check_role(context, first[role.name], role, needed[role.name])
 
 
-def _check_left_over(context: Context, reading: Reading) -> None:
+def _check_left_over(context: Context, reading: ReadDocument) -> None:
     outline = reading.outline
     if not context.tree.body:
         context.found.append((Problem("empty_program"), 0))

@@ -6,8 +6,9 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from editor.language.analysis.memo import Memories
-from editor.language.expressions.typing import UNKNOWN_KIND, Kind
+from editor.language.analysis.memo import Memos
+from editor.language.expressions import nodes as e
+from editor.language.expressions.value_types import UNKNOWN_TYPE, ValueType
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Driver, Robot
 from editor.language.site.surroundings import DeviceFacts, Surroundings
@@ -23,18 +24,18 @@ class Context:
 
     tree: n.Tree
     surroundings: Surroundings
-    variables: Mapping[str, Kind] = field(default_factory=dict)
+    variables: Mapping[str, ValueType] = field(default_factory=dict)
     """What is known of the parameters and variables that can be seen in the block being checked."""
-    result: Kind = UNKNOWN_KIND
+    result: ValueType = UNKNOWN_TYPE
     """What the function being checked gives back."""
     zones: frozenset[str] = frozenset()
     """The ids of the zones that the document has."""
     found: list[tuple[Problem, int]] = field(default_factory=list)
     functions: Mapping[str, n.Function] = field(init=False)
     roles: Mapping[str, n.Role] = field(init=False)
-    memories: Memories | None = None
+    memos: Memos | None = None
     """What was found at the last look."""
-    stations: dict[tuple[str, str], tuple[n.Point | None, ...]] = field(default_factory=dict)
+    stations: dict[tuple[str, str], tuple[e.Point | None, ...]] = field(default_factory=dict)
     """Where each robot of a role would stand to serve a device, as far as it was asked for."""
     _robots: dict[str, tuple[Description, ...]] = field(default_factory=dict)
     _names: dict[str, Robot] = field(default_factory=dict)
@@ -43,13 +44,13 @@ class Context:
         self.functions = {function.method: function for function in self.tree.functions}
         self.roles = {role.name: role for role in self.tree.roles}
 
-    def tell(
+    def report(
         self, node: n.Node, code: str, field_name: str, args: TextArguments | None = None, fix: Fix | None = None
     ) -> None:
         """Note a problem with a field of a node's step."""
         self.found.append((Problem(code, node.step, field_name, args or {}, fix), id(node)))
 
-    def tell_step(
+    def report_step(
         self, step: str, code: str, field_name: str, args: TextArguments | None = None, fix: Fix | None = None
     ) -> None:
         """Note a problem with a step that has no node of its own."""

@@ -1,31 +1,34 @@
-"""Checks of devices and places: whether they exist, can do what is asked, and can be reached."""
+"""Checks of devices and places: whether they exist, can do what is asked, can be reached, and have room beside them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import pi
 
 from editor.language.checks.context import Context
+from editor.language.expressions import nodes as e
+from editor.language.expressions.nodes import Constant, Expression, PlaceRef, Reading, Zone
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
-from editor.language.plan.instructions import Constant, Expression, PlaceRef, Reading
 from editor.language.site.surroundings import DeviceFacts
 from editor.language.tree import nodes as n
+from editor.language.tree.zones import area_m2, is_in, read_zones
 from vipo_device.protocol.description import Description
 
 
 def known_device(context: Context, node: n.Node, device_id: str, field: str) -> DeviceFacts | None:
-    """Return a device that the program may use, now or later; what is wrong with it is told."""
+    """Return a device that the program may use, now or later; what is wrong with it is reported."""
     facts = context.surroundings.devices.get(device_id)
     if facts is None:
-        context.tell(node, "unknown_device", field, {"device": device_id})
+        context.report(node, "unknown_device", field, {"device": device_id})
         return None
     name = {"device": facts.description.name}
     if facts.lifecycle == "pending":
-        context.tell(node, "pending_device", field, name)
+        context.report(node, "pending_device", field, name)
     elif facts.lifecycle == "retired":
-        context.tell(node, "retired_device", field, name)
+        context.report(node, "retired_device", field, name)
     elif not facts.online:
-        context.tell(node, "offline_device", field, name)
+        context.report(node, "offline_device", field, name)
     return facts
 
 
@@ -37,7 +40,7 @@ def usable_device(
         facts = known_device(context, node, place.device, field)
         return None if facts is None else facts.description
     if place.value is None:
-        context.tell(node, missing_code, field)
+        context.report(node, missing_code, field)
     return None
 
 
@@ -48,7 +51,7 @@ def check_load_place(context: Context, node: n.Pick | n.Drop, *, gives: bool) ->
     if device is None:
         return
     if device.kind == "robot":
-        context.tell(node, "robot_as_place", node.place_field, {"device": device.name})
+        context.report(node, "robot_as_place", node.place_field, {"device": device.name})
         return
     thing = node.object.value if isinstance(node.object, Constant) else None
     things = device.gives if gives else device.takes
@@ -57,7 +60,7 @@ def check_load_place(context: Context, node: n.Pick | n.Drop, *, gives: bool) ->
         fix = None
         if len(things) == 1 and gives:
             fix = Fix("set_to", node.step, "object", things[0], {"value": things[0]})
-        context.tell(node, "not_given" if gives else "not_taken", node.place_field, details, fix)
+        context.report(node, "not_given" if gives else "not_taken", node.place_field, details, fix)
 
 
 def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, missing_code: str) -> None:
@@ -67,30 +70,30 @@ def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, mis
     elif place.place is not None:
         facts = context.surroundings.places.get(place.place)
         if facts is None:
-            context.tell(node, "unknown_place", field, {"place": place.place})
+            context.report(node, "unknown_place", field, {"place": place.place})
         else:
             _check_floor(context, node, (facts.x, facts.y), field)
     elif place.point is not None:
         _check_floor(context, node, place.point, field)
     elif place.value is None:
-        context.tell(node, missing_code, field)
+        context.report(node, missing_code, field)
 
 
-def _check_floor(context: Context, node: n.Move, point: n.Point, field: str) -> None:
-    """Check that the robot fits at a point and finds a way to it; for any robot it is enough that one does."""
+def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> None:
+    """Check that the robot fits at a point and finds a path to it; for any robot it is enough that one does."""
     floor, robots = context.surroundings.floor, context.robots(node.role)
     if floor is None:
         return
     if not floor.is_inside(*point):
-        context.tell(node, "place_outside", field)
+        context.report(node, "place_outside", field)
         return
     if not robots:
         return
     name = {"robot": context.robot_name(node.role)}
     if not any(floor.is_free(*point, robot.radius_m) for robot in robots):
-        context.tell(node, "place_blocked", field, name)
+        context.report(node, "place_blocked", field, name)
     elif not any(floor.is_reachable((r.pose.x, r.pose.y), point, r.radius_m) for r in robots):
-        context.tell(node, "place_unreachable", field, name)
+        context.report(node, "place_unreachable", field, name)
 
 
 def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
@@ -103,26 +106,94 @@ def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], 
             description = facts.description
             options = Options(tuple(spec.name for spec in description.properties))
             details: TextArguments = {"device": description.name, "property": part.property, "options": options}
-            context.tell(node, "unknown_property", field, details)
+            context.report(node, "unknown_property", field, details)
 
 
 def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, ...]) -> None:
-    """Check that there is a robot for a role; it is told at the first step that needs it."""
+    """Check that there is a robot for a role; it is reported at the first step that needs it."""
     if role.device is not None:
         facts = known_device(context, node, role.device, "role")
         if facts is None:
             return
         description = facts.description
         if description.kind != "robot":
-            context.tell(node, "not_a_robot", "role", {"device": description.name, "role": role.name})
+            context.report(node, "not_a_robot", "role", {"device": description.name, "role": role.name})
             return
         for method in needed:
             if description.method(method) is None:
-                context.tell(node, "cannot_do", "role", {"device": description.name, "method": method})
+                context.report(node, "cannot_do", "role", {"device": description.name, "method": method})
         return
     robots = context.robots(role.name)
     methods: TextArguments = {"methods": Options(role.can, "and")}
     if not robots:
-        context.tell(node, "no_robot_can", "role", methods)
+        context.report(node, "no_robot_can", "role", methods)
     elif not any(context.surroundings.devices[robot.id].online for robot in robots):
-        context.tell(node, "no_robot_online", "role", methods)
+        context.report(node, "no_robot_online", "role", methods)
+
+
+def check_floor(context: Context, document: object) -> None:
+    """Check where robots are sent, and the zones of the document."""
+    zones = read_zones(document)
+    if context.surroundings.floor is None and not zones:
+        return
+    tree = context.tree
+    closed = [zone for zone in zones if zone.rule == "keep_out"]
+    for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
+        for node in tree.walked(block):
+            if isinstance(node, n.LOADS):
+                _check_goal(context, node, node.at, node.place_field, closed)
+            elif isinstance(node, n.Move) and not node.added:
+                _check_goal(context, node, node.to, "to", closed)
+    _check_sizes(context, zones)
+
+
+def _check_goal(
+    context: Context, node: n.Move | n.Pick | n.Drop, place: PlaceRef, field: str, closed: list[Zone]
+) -> None:
+    """Check that the robot finds the machine's station, and that its goal is not kept free of robots."""
+    goals = _goals(context, node.role, place)
+    if not goals:
+        return
+    if all(goal is None for goal in goals):
+        facts = context.surroundings.devices[place.device or ""]
+        names: TextArguments = {"robot": context.robot_name(node.role), "device": facts.description.name}
+        context.report(node, "station_unreachable", field, names)
+        return
+    for zone in closed:
+        if all(goal is None or is_in(goal, zone.points) for goal in goals):
+            context.report(node, "place_in_keep_out", field, {"zone": zone.name})
+            return
+
+
+def _goals(context: Context, role: str, place: PlaceRef) -> tuple[e.Point | None, ...]:
+    """Return where each robot of the role would stand, None where it cannot; empty when that is not known."""
+    if place.point is not None:
+        return (place.point,)
+    named = context.surroundings.places.get(place.place or "")
+    if named is not None:
+        return ((named.x, named.y),)
+    floor, key = context.surroundings.floor, (role, place.device or "")
+    if place.device is None or floor is None or not floor.has_machine(place.device):
+        return ()
+    if key not in context.stations:
+        robots = context.robots(role)
+        context.stations[key] = tuple(_station(context, place.device, robot) for robot in robots)
+    return context.stations[key]
+
+
+def _station(context: Context, device: str, robot: Description) -> e.Point | None:
+    floor = context.surroundings.floor
+    station = None if floor is None else floor.station(device, robot.radius_m)
+    if floor is None or station is None:
+        return None
+    here = (robot.pose.x, robot.pose.y)
+    return station if floor.is_reachable(here, station, robot.radius_m) else None
+
+
+def _check_sizes(context: Context, zones: tuple[Zone, ...]) -> None:
+    """A zone in which not even the smallest robot has room changes nothing for any."""
+    robots = [f.description for f in context.surroundings.devices.values() if f.description.kind == "robot"]
+    smallest = min(robots, key=lambda robot: (robot.radius_m, robot.id), default=None)
+    for zone in zones:
+        if smallest is not None and area_m2(zone.points) < pi * smallest.radius_m**2:
+            context.report_step("", "zone_too_small", f"zones.{zone.id}", {"zone": zone.name, "robot": smallest.name})

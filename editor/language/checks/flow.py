@@ -1,63 +1,64 @@
-"""Checks of the ways through a program: what is never reached, what never ends, which function gives no value."""
+"""Checks of the paths through a program: what is never reached, what never ends, which function gives no value."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
-from editor.language.analysis.memo import Memory, Told
+from editor.language.analysis.memo import Findings, Memo
 from editor.language.checks.context import Context
-from editor.language.expressions.typing import constant_value
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
+from editor.language.expressions.value_types import constant_value
 from editor.language.expressions.values import parts_of
 from editor.language.messages.diagnostics import Fix
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import callees_first, functions_in_circles, walk
+from editor.language.tree.nodes import walk
+from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import set_in, sets_of_functions
 
-Ways = frozenset[str]
+Outcomes = frozenset[str]
 """How a block can be left: `on` to what follows, `break`, `return`, `end`; without any it never ends."""
-ON, NOWAY = frozenset({"on"}), Ways()
+ON, NO_OUTCOME = frozenset({"on"}), Outcomes()
 _STATES_TIME = frozenset({"now", "distance", "nearest"})
 
 
 @dataclass(slots=True)
 class _Flow:
-    """One look at all ways; `context` is None while the functions are only being understood."""
+    """One look at all paths; `context` is None while the functions are only being understood."""
 
-    functions: dict[str, Ways] = field(default_factory=dict)
+    functions: dict[str, Outcomes] = field(default_factory=dict)
     context: Context | None = None
     sets: Mapping[str, frozenset[str]] = field(default_factory=dict)
     """The variables that each function sets."""
     beside: frozenset[str] = frozenset()
     """Variables that events or the branches of a Parallel set; they may change at any time."""
-    known: Memory | None = None
+    memo: Memo | None = None
     calls: int = 0
 
-    def block(self, block: n.Block) -> Ways:
+    def block(self, block: n.Block) -> Outcomes:
         """Return how the block can be left."""
-        ways = ON
+        outcomes = ON
         for index, node in enumerate(block):
             follow = _FOLLOW.get(type(node))
             if follow is None:
                 continue
             after = self._followed(node) if node.__class__ in n.COMPOSITES else follow(self, node)
-            ways = (ways - ON) | after
-            if "on" not in ways:
+            outcomes = (outcomes - ON) | after
+            if "on" not in outcomes:
                 self._tell_unreached(block, index)
                 break
-        return ways
+        return outcomes
 
-    def _followed(self, node: n.Node) -> Ways:
+    def _followed(self, node: n.Node) -> Outcomes:
         """Follow a step that holds others; without calls what is found depends on nothing else."""
-        if self.context is None or self.known is None:
+        if self.context is None or self.memo is None:
             return _FOLLOW[type(node)](self, node)
-        known: tuple[Ways, Told] | None = self.known.recall(node)
+        known: tuple[Outcomes, Findings] | None = self.memo.get(node)
         if known is None:
-            calls, told = self.calls, len(self.context.found)
-            known = _FOLLOW[type(node)](self, node), tuple(self.context.found[told:])
+            calls, reported = self.calls, len(self.context.found)
+            known = _FOLLOW[type(node)](self, node), tuple(self.context.found[reported:])
             if calls == self.calls:
-                self.known.keep(node, known)
+                self.memo.put(node, known)
         else:
             self.context.found.extend(known[1])
         return known[0]
@@ -66,10 +67,10 @@ class _Flow:
         rest = [node for node in block[last + 1 :] if node.step != block[last].step]
         if self.context is not None and rest:
             step = rest[0].step
-            self.context.tell(rest[0], "never_reached", "", fix=Fix("delete_step", step, "delete", None))
+            self.context.report(rest[0], "never_reached", "", fix=Fix("delete_step", step, "delete", None))
 
 
-def _if(flow: _Flow, node: n.If) -> Ways:
+def _if(flow: _Flow, node: n.If) -> Outcomes:
     then, otherwise = flow.block(node.then), flow.block(node.otherwise)
     always = constant_value(node.condition)
     if isinstance(always, bool):
@@ -77,15 +78,15 @@ def _if(flow: _Flow, node: n.If) -> Ways:
     return then | otherwise
 
 
-def _while(flow: _Flow, node: n.While) -> Ways:
+def _while(flow: _Flow, node: n.While) -> Outcomes:
     inside = flow.block(node.body)
     always = constant_value(node.condition)
-    out = (inside - {"on", "break"}) | (ON if "break" in inside else NOWAY)
+    out = (inside - {"on", "break"}) | (ON if "break" in inside else NO_OUTCOME)
     if flow.context is not None and not out:
         if always is True:
-            flow.context.tell(node, "never_ends", "condition")
+            flow.context.report(node, "never_ends", "condition")
         elif always is None and not _may_change(flow, node):
-            flow.context.tell(node, "may_never_end", "condition")
+            flow.context.report(node, "may_never_end", "condition")
     return out if always is True else out | ON
 
 
@@ -105,9 +106,9 @@ def _is_measured(part: Expression) -> bool:
     return isinstance(part, Reading) or (isinstance(part, Located) and (part.role or part.zone) is not None)
 
 
-def _repeat(flow: _Flow, node: n.Repeat | n.ForEach) -> Ways:
+def _repeat(flow: _Flow, node: n.Repeat | n.ForEach) -> Outcomes:
     inside = flow.block(node.body)
-    out = (inside - {"break"}) | (ON if "break" in inside else NOWAY)
+    out = (inside - {"break"}) | (ON if "break" in inside else NO_OUTCOME)
     return out if _runs_at_least_once(node) else out | ON
 
 
@@ -118,33 +119,33 @@ def _runs_at_least_once(node: n.Repeat | n.ForEach) -> bool:
     return isinstance(times, int | float) and times >= 1
 
 
-def _parallel(flow: _Flow, node: n.Parallel) -> Ways:
+def _parallel(flow: _Flow, node: n.Parallel) -> Outcomes:
     branches = [flow.block(branch) for branch in node.branches]
-    ends = {"end"} if any("end" in ways for ways in branches) else set()
-    return frozenset(ends | ({"on"} if all("on" in ways for ways in branches) else set()))
+    ends = {"end"} if any("end" in outcomes for outcomes in branches) else set()
+    return frozenset(ends | ({"on"} if all("on" in outcomes for outcomes in branches) else set()))
 
 
-def _try(flow: _Flow, node: n.Try) -> Ways:
-    ways = flow.block(node.body)
+def _try(flow: _Flow, node: n.Try) -> Outcomes:
+    outcomes = flow.block(node.body)
     if node.catches:
-        ways |= flow.block(node.catch)
+        outcomes |= flow.block(node.catch)
     final = flow.block(node.final)
-    return ways | (final - ON) if "on" in final else final
+    return outcomes | (final - ON) if "on" in final else final
 
 
-def _call(flow: _Flow, node: n.Call) -> Ways:
+def _call(flow: _Flow, node: n.Call) -> Outcomes:
     flow.calls += 1
-    ways = flow.functions.get(node.function)
-    if ways is None:
+    outcomes = flow.functions.get(node.function)
+    if outcomes is None:
         return ON
-    return (ON if ways & {"on", "return"} else NOWAY) | (ways & {"end"})
+    return (ON if outcomes & {"on", "return"} else NO_OUTCOME) | (outcomes & {"end"})
 
 
-def _leave(way: str) -> Callable[[_Flow, n.Node], Ways]:
-    return lambda flow, node: frozenset({way})
+def _leave(outcome: str) -> Callable[[_Flow, n.Node], Outcomes]:
+    return lambda flow, node: frozenset({outcome})
 
 
-_FOLLOW: Mapping[type[n.Node], Callable[..., Ways]] = {
+_FOLLOW: Mapping[type[n.Node], Callable[..., Outcomes]] = {
     n.If: _if,
     n.While: _while,
     n.Repeat: _repeat,
@@ -158,28 +159,28 @@ _FOLLOW: Mapping[type[n.Node], Callable[..., Ways]] = {
 }
 
 
-def ways_of_functions(tree: n.Tree) -> dict[str, Ways]:
+def outcomes_of_functions(tree: n.Tree) -> dict[str, Outcomes]:
     """Return how each function can be left; a call of itself that never comes back leads nowhere."""
-    flow = _Flow({function.method: NOWAY for function in tree.functions})
+    flow = _Flow({function.method: NO_OUTCOME for function in tree.functions})
     changed, functions = bool(tree.functions), callees_first(tree)
     while changed:
         changed = False
         for function in functions:
-            ways = flow.block(function.body)
-            if ways != flow.functions[function.method]:
-                flow.functions[function.method] = ways
+            outcomes = flow.block(function.body)
+            if outcomes != flow.functions[function.method]:
+                flow.functions[function.method] = outcomes
                 changed = True
     return flow.functions
 
 
 def check_flow(context: Context) -> None:
-    """Check all ways through the program, its events and its functions."""
+    """Check all paths through the program, its events and its functions."""
     tree = context.tree
     sets = sets_of_functions(tree)
-    flow = _Flow(ways_of_functions(tree), context, sets, _set_beside(tree, sets))
-    if context.memories is not None:
-        flow.known = context.memories.flow
-        flow.known.begin((flow.beside, sets))
+    flow = _Flow(outcomes_of_functions(tree), context, sets, _set_beside(tree, sets))
+    if context.memos is not None:
+        flow.memo = context.memos.flow
+        flow.memo.begin((flow.beside, sets))
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         flow.block(block)
     if tree.functions:
@@ -201,35 +202,35 @@ def _set_beside(tree: n.Tree, sets: Mapping[str, frozenset[str]]) -> frozenset[s
     return names
 
 
-def _check_endless_calls(context: Context, ways: Mapping[str, Ways]) -> None:
-    """A function that calls itself must have a way on which it does not."""
-    endless = {method for method in functions_in_circles(context.tree) if not ways[method]}
+def _check_endless_calls(context: Context, outcomes: Mapping[str, Outcomes]) -> None:
+    """A function that calls itself must have a path on which it does not."""
+    endless = {method for method in functions_in_circles(context.tree) if not outcomes[method]}
     for function in context.tree.functions:
         if function.method in endless:
             name = {"function": function.name or function.method}
             for node in walk(function.body):
                 if isinstance(node, n.Call) and node.function in endless:
-                    context.tell(node, "calls_itself", "function", name)
+                    context.report(node, "calls_itself", "function", name)
 
 
-def _check_results(context: Context, ways: Mapping[str, Ways]) -> None:
-    """A function that gives a value gives one on every way, and whoever calls it takes the value."""
+def _check_results(context: Context, outcomes: Mapping[str, Outcomes]) -> None:
+    """A function that gives a value gives one on every path, and whoever calls it takes the value."""
     for function in context.tree.functions:
         if not function.result_type:
             continue
         name = {"function": function.name or function.method}
         bare: list[n.Node] = [node for node in walk(function.body) if isinstance(node, n.Return) and node.value is None]
-        if "on" in ways[function.method] and function.body:
+        if "on" in outcomes[function.method] and function.body:
             bare.append(function.body[-1])
         for node in bare:
-            context.tell(node, "no_value_on_some_way", "", name)
+            context.report(node, "no_value_on_some_way", "", name)
     for node in _all_nodes(context.tree):
         called = context.functions.get(node.function) if isinstance(node, n.Call) else None
         if isinstance(node, n.Call) and called is not None and called.result_type:
             if not node.result:
-                context.tell(node, "unused_result", "result", {"function": called.name or called.method})
+                context.report(node, "unused_result", "result", {"function": called.name or called.method})
             if not called.body:
-                context.tell(node, "no_value_on_some_way", "", {"function": called.name or called.method})
+                context.report(node, "no_value_on_some_way", "", {"function": called.name or called.method})
 
 
 def _all_nodes(tree: n.Tree) -> list[n.Node]:
@@ -249,12 +250,12 @@ def _check_use(context: Context) -> None:
                 left.append(context.functions[node.function].body)
     for function in tree.functions:
         if function.method not in called and function.body:
-            context.tell(function.body[0], "unused_function", "", {"function": function.name or function.method})
+            context.report(function.body[0], "unused_function", "", {"function": function.name or function.method})
 
 
 @dataclass(frozen=True, slots=True)
 class _Around:
-    """What stands around a step; `None` where there is none, else the code of what would be left on the way there."""
+    """What stands around a step; `None` where there is none, else the code of what would be left on the path there."""
 
     function: n.Function | None = None
     barrier: str = ""
@@ -301,17 +302,17 @@ def _block(context: Context, block: n.Block, around: _Around) -> None:
 
 def _break(context: Context, node: n.Break, around: _Around) -> None:
     if around.loop is None:
-        context.tell(node, "break_outside_loop", "")
+        context.report(node, "break_outside_loop", "")
     elif around.loop:
-        context.tell(node, around.loop, "")
+        context.report(node, around.loop, "")
 
 
 def _return(context: Context, node: n.Return, around: _Around) -> None:
     function = around.function
     if function is None:
-        context.tell(node, "return_outside_function", "", fix=Fix("make_end", node.step, "kind", "end"))
+        context.report(node, "return_outside_function", "", fix=Fix("make_end", node.step, "kind", "end"))
     elif around.barrier:
-        context.tell(node, around.barrier, "")
+        context.report(node, around.barrier, "")
     elif node.value is not None and not function.result_type:
         fix = Fix("remove", node.step, "value", None, {"value": "value"})
-        context.tell(node, "returns_unasked", "value", {"function": function.name or function.method}, fix)
+        context.report(node, "returns_unasked", "value", {"function": function.name or function.method}, fix)

@@ -10,11 +10,11 @@ from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.site.surroundings import LibraryFacts
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import walk
+from editor.language.tree.nodes import walk
 
 
 def check_library(context: Context, document: object) -> None:
-    """Check every function of the document that names a version of the library; told where it is called first."""
+    """Check every function of the document that names a version of the library; reported where it is called first."""
     library = context.surroundings.library
     if library is None:
         return
@@ -50,7 +50,7 @@ def _check_version(
     library, version = source
     name: TextArguments = {"function": function.name or function.method, "version": version}
     if facts is None or version not in facts.versions:
-        context.tell_step(step, "version_gone", "source", name)
+        context.report_step(step, "version_gone", "source", name)
         return
     newest = max(facts.versions)
     if newest == version:
@@ -58,7 +58,7 @@ def _check_version(
     if facts.versions[newest] == facts.versions[version]:
         value = {"function": function.id, "library": library, "version": newest}
         fix = Fix("use_version", step, "source.version", value, {"value": newest})
-        context.tell_step(step, "newer_version", "source", {**name, "newest": newest}, fix)
+        context.report_step(step, "newer_version", "source", {**name, "newest": newest}, fix)
     else:
         takes = Options(tuple(given for given, _ in facts.versions[newest]))
-        context.tell_step(step, "signature_changed", "source", {**name, "newest": newest, "parameters": takes})
+        context.report_step(step, "signature_changed", "source", {**name, "newest": newest, "parameters": takes})

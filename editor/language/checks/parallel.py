@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from editor.language.checks.context import Context
-from editor.language.expressions.typing import constant_value
+from editor.language.expressions.nodes import Constant, Expression, Operation, Variable
+from editor.language.expressions.value_types import constant_value
 from editor.language.expressions.values import parts_of
 from editor.language.messages.diagnostics import Fix
-from editor.language.plan.instructions import Constant, Expression, Operation, Variable
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import roles_used, walk
+from editor.language.tree.nodes import walk
+from editor.language.tree.traversal import roles_used
 from editor.language.tree.variables import set_by
 
 
@@ -23,7 +24,7 @@ def check_branches(context: Context, node: n.Parallel) -> None:
         for key in sorted(mine.keys() & theirs.keys()):
             names = {"first": _letter(first), "second": _letter(second)}
             robot = context.driver_name(theirs[key])
-            context.tell(
+            context.report(
                 node,
                 "shared_robot",
                 "branches",
@@ -58,7 +59,7 @@ def check_parallel(context: Context) -> None:
         if event.starts == "branch":
             for key, role in sorted(_drivers(context, event.body).items()):
                 if key in main:
-                    context.tell_step(event.step, "event_shares_robot", "", {"robot": context.driver_name(role)})
+                    context.report_step(event.step, "event_shares_robot", "", {"robot": context.driver_name(role)})
     if tree.holds(n.Parallel):
         for node in _all_nodes(tree):
             if isinstance(node, n.Parallel):
@@ -84,7 +85,7 @@ def _check_waiting(context: Context, node: n.Parallel) -> None:
         if _only_after(context, node, first, second) and _only_after(context, node, second, first):
             letters = {"first": _letter(first.branch), "second": _letter(second.branch)}
             names = {**letters, "variable": first.variable, "other": second.variable}
-            context.tell(node, "branches_wait", "branches", names)
+            context.report(node, "branches_wait", "branches", names)
 
 
 def _waits(branch: int, block: n.Block) -> Iterator[_Wait]:

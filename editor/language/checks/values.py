@@ -6,26 +6,27 @@ from collections.abc import Sequence
 
 from editor.language.checks.context import Context
 from editor.language.checks.devices import check_readings, known_device
+from editor.language.expressions import nodes as e
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading
 from editor.language.expressions.ranges import first_limited_reading, possible
-from editor.language.expressions.typing import (
+from editor.language.expressions.unit_conversion import convert_units
+from editor.language.expressions.units import same_dimension
+from editor.language.expressions.value_types import (
     BOOLEAN,
     NUMBER,
     TEXT,
     TYPE_WORDS,
-    UNKNOWN_KIND,
-    Kind,
-    Typing,
+    UNKNOWN_TYPE,
+    TypeChecker,
+    ValueType,
     constant_value,
     plain_type,
     property_spec,
     unit_word,
 )
-from editor.language.expressions.unit_conversion import settle_units
-from editor.language.expressions.units import same_dimension
 from editor.language.expressions.values import is_number, parts_of
 from editor.language.messages.diagnostics import TextArguments, fix_value
 from editor.language.messages.phrases import Amounts, Options, Plural, Span
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Reading
 from editor.language.tree import nodes as n
 from vipo_device.protocol.description import ParameterSpec
 
@@ -40,7 +41,7 @@ def has_missing(expression: Expression) -> bool:
 
 
 def check_value(
-    context: Context, node: n.Node, value: Expression, field: str, wanted: Kind, subject: str
+    context: Context, node: n.Node, value: Expression, field: str, wanted: ValueType, subject: str
 ) -> bool:  # fmt: skip
     """Check what a value reads and of which type and unit it is; tell whether it is good."""
     before = len(context.found)
@@ -48,16 +49,16 @@ def check_value(
         parts = parts_of(value)
         check_readings(context, node, parts, field)
         _check_things(context, node, parts, field)
-    typing = Typing(context.surroundings, context.variables, [])
-    kind = typing.kind_of(value)
-    for mismatch in typing.mismatches:
-        context.tell(node, mismatch.code, field, mismatch.args)
-    if kind.type and wanted.type and kind.type != plain_type(wanted.type):
-        details = {"subject": subject, "wanted": TYPE_WORDS[wanted.type], "given": TYPE_WORDS[kind.type]}
-        context.tell(node, "wrong_type", field, details)
-    elif kind.unit and wanted.unit and not same_dimension(kind.unit, wanted.unit):
-        units = {"subject": subject, "wanted": unit_word(wanted.unit), "given": unit_word(kind.unit)}
-        context.tell(node, "wrong_unit", field, units)
+    checker = TypeChecker(context.surroundings, context.variables, [])
+    value_type = checker.type_of(value)
+    for mismatch in checker.mismatches:
+        context.report(node, mismatch.code, field, mismatch.args)
+    if value_type.type and wanted.type and value_type.type != plain_type(wanted.type):
+        details = {"subject": subject, "wanted": TYPE_WORDS[wanted.type], "given": TYPE_WORDS[value_type.type]}
+        context.report(node, "wrong_type", field, details)
+    elif value_type.unit and wanted.unit and not same_dimension(value_type.unit, wanted.unit):
+        units = {"subject": subject, "wanted": unit_word(wanted.unit), "given": unit_word(value_type.unit)}
+        context.report(node, "wrong_unit", field, units)
     return len(context.found) == before
 
 
@@ -69,20 +70,20 @@ def _check_things(context: Context, node: n.Node, parts: Sequence[Expression], f
         if part.device is not None:
             known_device(context, node, part.device, field)
         elif part.place is not None and part.place not in context.surroundings.places:
-            context.tell(node, "unknown_place", field, {"place": part.place})
+            context.report(node, "unknown_place", field, {"place": part.place})
         elif part.zone is not None and part.zone not in context.zones:
-            context.tell(node, "unknown_zone", field, {"zone": part.zone})
+            context.report(node, "unknown_zone", field, {"zone": part.zone})
 
 
-def settled(context: Context, value: Expression, unit: str) -> Expression:
+def converted(context: Context, value: Expression, unit: str) -> Expression:
     """Return a value as it is in a unit when the program runs."""
-    return settle_units(value, unit, Typing(context.surroundings, context.variables, []))
+    return convert_units(value, unit, TypeChecker(context.surroundings, context.variables, []))
 
 
 def check_condition(context: Context, node: n.Node, condition: Expression, field: str) -> None:
     """Check a condition: it must be there, and give yes or no."""
     if has_missing(condition):
-        context.tell(node, "missing_condition", field)
+        context.report(node, "missing_condition", field)
     elif check_value(context, node, condition, field, BOOLEAN, "A condition"):
         _check_possible(context, node, condition, field)
 
@@ -93,14 +94,14 @@ def _check_possible(context: Context, node: n.Node, condition: Expression, field
     if verdict is None:
         return
     if isinstance(node, n.WaitUntil) and verdict is False and node.timeout_s is None:
-        context.tell(node, "waits_for_ever", field)
+        context.report(node, "waits_for_ever", field)
     elif constant_value(condition) is None:
         reading = first_limited_reading(condition, context.surroundings)
         if verdict is False and _each_is_possible(context, condition):
-            context.tell(node, "contradiction", field)
+            context.report(node, "contradiction", field)
         elif reading is not None:
             code = "always_true_in_range" if verdict else "never_true_in_range"
-            context.tell(node, code, field, _declared(context, reading))
+            context.report(node, code, field, _declared(context, reading))
 
 
 def _each_is_possible(context: Context, condition: Expression) -> bool:
@@ -137,16 +138,16 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
     """Check one argument of a method or a function against what is declared of it."""
     field = f"args.{parameter.name}"
     if has_missing(value):
-        if parameter.required or value != n.MISSING:
+        if parameter.required or value != e.MISSING:
             limits = Span(parameter.minimum, parameter.maximum, unit_word(parameter.unit), ": ")
             details = {"argument": parameter.name, "method": method, "function": method}
             fix = None if parameter.minimum is None else fix_value(node.step, field, parameter.minimum)
-            context.tell(node, missing_code, field, {**details, "range": limits}, fix)
+            context.report(node, missing_code, field, {**details, "range": limits}, fix)
         return
-    wanted = Kind(parameter.type, parameter.unit) if typed else UNKNOWN_KIND
+    wanted = ValueType(parameter.type, parameter.unit) if typed else UNKNOWN_TYPE
     if not check_value(context, node, value, field, wanted, parameter.name.capitalize()):
         return
-    value = settled(context, value, parameter.unit)
+    value = converted(context, value, parameter.unit)
     if isinstance(value, Constant):
         _check_limits(context, node, parameter, value, field)
 
@@ -154,7 +155,7 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
 def _check_limits(context: Context, node: n.Node, parameter: ParameterSpec, value: Constant, field: str) -> None:
     given, subject = value.value, parameter.name.capitalize()
     if parameter.options and given not in parameter.options:
-        context.tell(node, "not_an_option", field, {"subject": subject, "options": Options(parameter.options)})
+        context.report(node, "not_an_option", field, {"subject": subject, "options": Options(parameter.options)})
     if not is_number(given):
         return
     nearest = given
@@ -165,7 +166,7 @@ def _check_limits(context: Context, node: n.Node, parameter: ParameterSpec, valu
     if nearest != given:
         limits = Span(parameter.minimum, parameter.maximum, unit_word(parameter.unit))
         fix = fix_value(node.step, field, int(nearest) if float(nearest).is_integer() else nearest)
-        context.tell(node, "out_of_range", field, {"subject": subject, "range": limits}, fix)
+        context.report(node, "out_of_range", field, {"subject": subject, "range": limits}, fix)
 
 
 def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
@@ -177,7 +178,9 @@ def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
         thing = node.object.value if isinstance(node.object, Constant) else None
         details = {"things": Plural(thing if isinstance(thing, str) else "")}
         fix = fix_value(node.step, "quantity", 1)
-        context.tell(node, "missing_quantity", "quantity", {**details, "robot": robot, "range": Amounts(capacity)}, fix)
+        context.report(
+            node, "missing_quantity", "quantity", {**details, "robot": robot, "range": Amounts(capacity)}, fix
+        )
         return
     if not check_value(context, node, node.quantity, "quantity", NUMBER, "The quantity"):
         return
@@ -185,10 +188,10 @@ def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
     if not is_number(quantity):
         return
     if quantity <= 0 or quantity != int(quantity):
-        context.tell(node, "quantity_not_positive", "quantity", {}, fix_value(node.step, "quantity", 1))
+        context.report(node, "quantity_not_positive", "quantity", {}, fix_value(node.step, "quantity", 1))
     elif capacity and quantity > capacity:
         fix = fix_value(node.step, "quantity", capacity)
-        context.tell(node, "quantity_above_capacity", "quantity", {"robot": robot, "range": Amounts(capacity)}, fix)
+        context.report(node, "quantity_above_capacity", "quantity", {"robot": robot, "range": Amounts(capacity)}, fix)
 
 
 def _check_object(context: Context, node: n.Pick | n.Drop) -> None:
@@ -201,6 +204,6 @@ def _check_object(context: Context, node: n.Pick | n.Drop) -> None:
     else:
         things = list(facts.description.gives if isinstance(node, n.Pick) else facts.description.takes)
     fix = fix_value(node.step, "object", things[0]) if len(things) == 1 else None
-    context.tell(
+    context.report(
         node, "missing_object", "object", {"options": Options(tuple(things), "or", "there is nothing here")}, fix
     )

@@ -6,9 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.checks.context import Context
-from editor.language.expressions.typing import constant_value
+from editor.language.expressions.value_types import constant_value
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import callees_first, functions_in_circles, walk
+from editor.language.tree.nodes import walk
+from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import SETTERS, read_by, set_by, set_in, sets_of_functions
 
 Names = frozenset[str]
@@ -16,7 +17,7 @@ Names = frozenset[str]
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """The variables that have a value here on every way, and those that have one on some way."""
+    """The variables that have a value here on every path, and those that have one on some path."""
 
     sure: Names = frozenset()
     maybe: Names = frozenset()
@@ -29,7 +30,7 @@ class _State:
 
 
 def _meet(*states: _State | None) -> _State | None:
-    """Return what holds where these ways meet; None: no way leads there."""
+    """Return what holds where these paths meet; None: no path leads there."""
     alive = [state for state in states if state is not None]
     if not alive:
         return None
@@ -40,7 +41,7 @@ def _meet(*states: _State | None) -> _State | None:
 
 @dataclass(slots=True)
 class _Follower:
-    """The walk along all ways; it tells nothing while the functions are only being understood."""
+    """The walk along all paths; it reports nothing while the functions are only being understood."""
 
     context: Context
     shared: Names
@@ -50,7 +51,7 @@ class _Follower:
     telling: bool = False
     tracked: Names = frozenset()
     effects: dict[str, Names] = field(default_factory=dict)
-    """Function → the program's variables that it sets on every way."""
+    """Function → the program's variables that it sets on every path."""
     entries: dict[str, _State | None] = field(default_factory=dict)
     """Function → what is set where it is called."""
     breaks: list[list[_State]] = field(default_factory=list)
@@ -72,7 +73,7 @@ class _Follower:
         for name, field_name in read_by(node).items():
             if name in self.tracked and name not in state.sure:
                 code = "may_be_unset" if name in state.maybe else "unset_variable"
-                self.context.tell(node, code, field_name, {"variable": name})
+                self.context.report(node, code, field_name, {"variable": name})
 
     def sets(self, block: n.Block) -> Names:
         return set_in(block, self.sets_of)
@@ -111,12 +112,12 @@ def _loop(follower: _Follower, node: n.While | n.Repeat | n.ForEach, state: _Sta
     if isinstance(node, n.ForEach):
         inside = inside.plus(frozenset({node.variable}))
     once = follower.block(node.body, inside)
-    ways_out = follower.breaks.pop()
+    exits = follower.breaks.pop()
     if isinstance(node, n.While):
         over = None if constant_value(node.condition) is True else _meet(state, once)
     else:
         over = once if _surely_runs(node) else _meet(state, once)
-    return _meet(over, *ways_out)
+    return _meet(over, *exits)
 
 
 def _surely_runs(node: n.Repeat | n.ForEach) -> bool:
@@ -200,7 +201,7 @@ def _check_use(context: Context, blocks: tuple[n.Block, ...]) -> None:
     for name, node in first.items():
         if name and name not in read:
             field_name = "result" if isinstance(node, n.Call) else "variable"
-            context.tell(node, "unused_variable", field_name, {"variable": name})
+            context.report(node, "unused_variable", field_name, {"variable": name})
 
 
 def _check_order(context: Context) -> None:

@@ -1,1 +1,1 @@
-"""The document that people draw, as plain JSON: its outline, its order, its former formats."""
+"""The document that people draw, as plain JSON: its outline, the order of its steps, its former formats."""

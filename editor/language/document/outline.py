@@ -149,18 +149,18 @@ def leads_on(
 
 def _circle_breakers(places: Mapping[str, Place]) -> list[str]:
     """Return the step with the smallest id of each circle of parents."""
-    settled: set[str] = set()
+    visited: set[str] = set()
     breakers: list[str] = []
     for name in places:
-        way: dict[str, None] = {}
+        path: dict[str, None] = {}
         here = name
-        while here in places and here not in settled and here not in way:
-            way[here] = None
+        while here in places and here not in visited and here not in path:
+            path[here] = None
             here = places[here][0]
-        if here in way:
-            steps = list(way)
+        if here in path:
+            steps = list(path)
             breakers.append(min(steps[steps.index(here) :]))
-        settled.update(way)
+        visited.update(path)
     return breakers
 
 

@@ -1,1 +1,1 @@
-"""Tree → document: where the steps of a script stand on the map, and what stays of the drawing before."""
+"""Tree → document: an edited script drawn over the document that people had before."""

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field, fields, replace
 from difflib import SequenceMatcher
 from typing import Any, get_args
 
+from editor.language.drawing.steps import Drawable, natural_length
 from editor.language.tree import nodes as n
-from editor.language.tree.grouping import Drawable, natural_length
 
 _LARGEST_TABLE = 250_000
 _CLASSES: tuple[Any, ...] = (*get_args(n.Node), n.Event)

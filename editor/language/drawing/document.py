@@ -1,6 +1,4 @@
-"""Tree → document: a script becomes a drawing; what did not change keeps its id and place, new steps stand near
-their devices.
-"""
+"""Tree → document: a script becomes a drawing, in which what did not change keeps its id and its place."""
 
 from __future__ import annotations
 
@@ -9,27 +7,26 @@ from dataclasses import dataclass, field
 from string import ascii_lowercase
 
 from editor.language.analysis.positions import add_moves
+from editor.language.document.format_migrations import FORMAT, migrate
 from editor.language.document.fractional_index import keep_orders
-from editor.language.document.migrations import FORMAT, climb
 from editor.language.document.outline import PROGRAM, branches_of, make_outline, mapping
+from editor.language.document.references import with_document_names
 from editor.language.drawing.alignment import align
-from editor.language.drawing.chip_sizes import FRAMES, Room, room_of
-from editor.language.drawing.layout import GAP_M, Layout
+from editor.language.drawing.layout import FRAMES, GAP_M, Layout, Room, room_of
 from editor.language.drawing.merge import (
     Functions,
-    keep_functions,
-    keep_parameters,
-    keep_roles,
-    keep_values,
-    with_document_names,
+    merge_functions,
+    merge_parameters,
+    merge_roles,
+    merge_values,
     without_unknown_names,
 )
-from editor.language.drawing.steps import Drawer, Drawn
+from editor.language.drawing.steps import Drawable, EncodedStep, StepEncoder, grouped
+from editor.language.expressions import nodes as e
 from editor.language.expressions.values import read_point
 from editor.language.reading.document import read_document
-from editor.language.site.surroundings import Surroundings
+from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree import nodes as n
-from editor.language.tree.grouping import Drawable, grouped
 
 VARIABLE_FIELDS = frozenset({"variable", "result"})
 """Parameters that name a variable."""
@@ -59,7 +56,7 @@ class _Before:
 class _Builder:
     """The steps so far."""
 
-    drawer: Drawer
+    encoder: StepEncoder
     before: _Before
     layout: Layout
     functions: Functions
@@ -70,7 +67,7 @@ class _Builder:
 
     def block(self, parent: str, branch: str, block: Sequence[Drawable], *, framed: bool = False) -> None:
         """Draw the steps of one branch; those in a frame stand below each other."""
-        groups = [(nodes, self.drawer.draw(nodes)) for nodes in grouped(block)]
+        groups = [(nodes, self.encoder.draw(nodes)) for nodes in grouped(block)]
         ids = [self._id(nodes[-1].step, drawn[0]) for nodes, drawn in groups]
         orders = keep_orders([(step, self._order_before(step, parent, branch)) for step in ids])
         for step, order, (_, drawn) in zip(ids, orders, groups, strict=True):
@@ -92,7 +89,7 @@ class _Builder:
         same = isinstance(place, list | tuple) and len(place) == 3 and list(place[:2]) == [parent, branch]
         return str(place[2]) if same and isinstance(place, list | tuple) else None
 
-    def _step(self, step: str, place: list[str], drawn: Drawn, *, framed: bool) -> None:
+    def _step(self, step: str, place: list[str], drawn: EncodedStep, *, framed: bool) -> None:
         kind, given, branches = drawn
         raw = self.before.raw.get(step)
         names = self.functions.names.get(self._method(given), {}) if kind == "call" else {}
@@ -106,7 +103,7 @@ class _Builder:
             self.layout.follow(read_point(raw.get("pos")), room_of(kind, says))
             body = {**raw, "place": place}
             said = self._named(self.before.said[step][1], names)
-            params = keep_values(mapping(raw.get("params")), said, says)
+            params = merge_values(mapping(raw.get("params")), said, says)
         if kind == "parallel":
             letters = _letters(mapping(raw or {}).get("params"), len(branches))
             branches = tuple((letter, inner) for letter, (_, inner) in zip(letters, branches, strict=True))
@@ -125,7 +122,7 @@ class _Builder:
                 self.layout.enter(head, name)
             self.block(step, name, inner, framed=in_frame)
 
-    def _room(self, drawn: Drawn) -> Room:
+    def _room(self, drawn: EncodedStep) -> Room:
         """Return the room for a step with all that stands below it in its frame."""
         kind, params, branches = drawn
         own = room_of(kind, params)
@@ -136,13 +133,13 @@ class _Builder:
         """Return the room for steps and all their branches below each other."""
         rooms: list[Room] = []
         for nodes in grouped(block):
-            kind, params, branches = self.drawer.draw(nodes)
+            kind, params, branches = self.encoder.draw(nodes)
             rooms += [room_of(kind, params), *(self._column(inner) for _, inner in branches)]
         return _stacked(rooms)
 
     def _method(self, given: Mapping[str, object]) -> str:
         wanted = given.get("function")
-        return next((method for method, key in self.drawer.function_ids.items() if key == wanted), "")
+        return next((method for method, key in self.encoder.function_ids.items() if key == wanted), "")
 
     def _named(self, given: Mapping[str, object], arguments: Mapping[str, str]) -> dict[str, object]:
         named = {key: with_document_names(value, self.names) for key, value in given.items()}
@@ -152,7 +149,7 @@ class _Builder:
             named["args"] = {arguments.get(key, key): value for key, value in mapping(named["args"]).items()}
         return named
 
-    def _first_known(self, branches: tuple[tuple[str, n.Block], ...]) -> n.Point | None:
+    def _first_known(self, branches: tuple[tuple[str, n.Block], ...]) -> e.Point | None:
         """Return where the first step stands that was there before and now stands in a new one."""
         for _, block in branches:
             for node in block:
@@ -186,7 +183,7 @@ def tree_to_document(
     Steps that did not change, moved or changed a value keep their ids, positions and everything that no script
     says; drafts, comments and zones stay. New steps stand near their devices.
     """
-    old = mapping(climb(previous or {})) if previous else {}
+    old = mapping(migrate(previous or {})) if previous else {}
     if not old:
         return _draw(tree, surroundings, {}, n.Tree())
     before = _read(old, surroundings)
@@ -197,7 +194,7 @@ def tree_to_document(
 
 
 def _read(document: Mapping[str, object], surroundings: Surroundings) -> n.Tree:
-    return add_moves(read_document(document).tree, _standing(surroundings))
+    return add_moves(read_document(document).tree, standing_places(surroundings))
 
 
 def _without_unknown_names(old: Mapping[str, object], tree: n.Tree) -> dict[str, object]:
@@ -214,15 +211,15 @@ def _draw(
     tree: n.Tree, surroundings: Surroundings, old: Mapping[str, object], tree_before: n.Tree
 ) -> dict[str, object]:
     aligned = align(tree, tree_before) if old else tree
-    functions = keep_functions(aligned, tree_before, mapping(old.get("functions")), set(mapping(old.get("steps"))))
-    roles, role_ids = keep_roles(aligned, tree_before, mapping(old.get("roles")))
-    parameters, names = keep_parameters(aligned, tree_before, mapping(old.get("parameters")))
+    functions = merge_functions(aligned, tree_before, mapping(old.get("functions")), set(mapping(old.get("steps"))))
+    roles, role_ids = merge_roles(aligned, tree_before, mapping(old.get("roles")))
+    parameters, names = merge_parameters(aligned, tree_before, mapping(old.get("parameters")))
     before = _look_back(old, tree_before)
     layout = Layout(surroundings)
     for step in before.raw.values():
         layout.occupy(read_point(step.get("pos")), room_of(str(step.get("kind")), mapping(step.get("params"))))
     names = {**before.variables(), **names}
-    builder = _Builder(Drawer(role_ids, functions.ids), before, layout, functions, names)
+    builder = _Builder(StepEncoder(role_ids, functions.ids), before, layout, functions, names)
     builder.block(PROGRAM, "body", aligned.body)
     builder.block(PROGRAM, "events", aligned.events)
     for function in aligned.functions:
@@ -241,19 +238,14 @@ def _draw(
     }
 
 
-def _standing(surroundings: Surroundings) -> dict[str, str]:
-    known = ((name, facts.standing_at) for name, facts in surroundings.devices.items())
-    return {name: at for name, at in known if at is not None}
-
-
 def _look_back(old: Mapping[str, object], tree: n.Tree) -> _Before:
     roles = {role.name: role.id for role in tree.roles}
-    drawer = Drawer(roles, {function.method: function.id for function in tree.functions})
+    encoder = StepEncoder(roles, {function.method: function.id for function in tree.functions})
     said: dict[str, tuple[str, Mapping[str, object]]] = {}
     left: list[Sequence[Drawable]] = [tree.body, tree.events, *(function.body for function in tree.functions)]
     for block in left:
         for nodes in grouped(block):
-            kind, params, branches = drawer.draw(nodes)
+            kind, params, branches = encoder.draw(nodes)
             said[nodes[-1].step] = (kind, params)
             left.extend(inner for _, inner in branches)
     steps = mapping(old.get("steps"))

@@ -16,7 +16,7 @@ Names = Mapping[str, str]
 _DEFAULT_ROLE = "robot"
 
 
-def keep_values(raw: Plain, said: Plain, says: Plain) -> dict[str, object]:
+def merge_values(raw: Plain, said: Plain, says: Plain) -> dict[str, object]:
     """Return parameters where only what the script says differently is new.
 
     `raw` is what the document holds, `said` what the script said of it, `says` what the script says now.
@@ -24,12 +24,12 @@ def keep_values(raw: Plain, said: Plain, says: Plain) -> dict[str, object]:
     kept = {name: value for name, value in raw.items() if name not in said or _same(said[name], says.get(name))}
     for name, value in says.items():
         if name not in said or not _same(said[name], value):
-            kept[name] = _kept_inside(raw.get(name), said.get(name), value) if name == "args" else value
+            kept[name] = _merge_inside(raw.get(name), said.get(name), value) if name == "args" else value
     return kept
 
 
-def _kept_inside(raw: object, said: object, says: object) -> object:
-    return keep_values(mapping(raw), mapping(said), mapping(says))
+def _merge_inside(raw: object, said: object, says: object) -> object:
+    return merge_values(mapping(raw), mapping(said), mapping(says))
 
 
 def without_unknown_names(raw: Plain, said: Plain) -> dict[str, object]:
@@ -66,16 +66,7 @@ def _text(value: object) -> str:
     return value if isinstance(value, str) else ""
 
 
-def with_document_names(value: object, names: Names) -> object:
-    """Return a value with its parameters and variables under the names that the document has for them."""
-    if isinstance(value, Mapping):
-        if value.keys() == {"param"}:
-            return {"param": names.get(str(value["param"]), value["param"])}
-        return {key: with_document_names(inner, names) for key, inner in value.items()}
-    return [with_document_names(inner, names) for inner in value] if isinstance(value, list) else value
-
-
-def keep_roles(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, object], dict[str, str]]:
+def merge_roles(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, object], dict[str, str]]:
     """Return the document's roles, and the id of each role by its name in the script; unused roles stay."""
     roles: dict[str, object] = dict(old)
     ids: dict[str, str] = {}
@@ -116,7 +107,7 @@ class Functions:
     names: Mapping[str, Names]
 
 
-def keep_functions(tree: n.Tree, before: n.Tree, old: Plain, taken: set[str]) -> Functions:
+def merge_functions(tree: n.Tree, before: n.Tree, old: Plain, taken: set[str]) -> Functions:
     """Return the functions of a tree as the document has them."""
     functions: dict[str, object] = {}
     ids: dict[str, str] = {}
@@ -149,7 +140,7 @@ def _function(function: n.Function, former: n.Function | None, raw: Plain, known
     return changed
 
 
-def keep_parameters(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, object], Names]:
+def merge_parameters(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, object], Names]:
     """Return the program's parameters as the document has them, and their names there."""
     known = document_names(old, before.parameters)
     former = {p.name: p for p in before.parameters}

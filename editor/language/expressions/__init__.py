@@ -1,1 +1,1 @@
-"""Expressions and their values: types, units, ranges, names and text."""
+"""Expressions: their nodes, and their types, units, ranges, names and texts."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
-from editor.language.expressions.quoting import escape, quote
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.expressions.units import unit_symbol
 from editor.language.expressions.values import FUNCTIONS
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from vipo_device.protocol.description import Scalar
 
 _STRENGTH = {"or": 1, "and": 2, "not": 3, "+": 5, "-": 5, "*": 6, "/": 6}
@@ -118,3 +117,27 @@ _WRITERS: Mapping[type[Expression], Callable[[Any, Names, int], str]] = {
     Located: _located,
     Operation: _operation,
 }
+
+
+_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
+
+
+def quote(text: str) -> str:
+    """Return a text as a Python string in double quotes; what cannot be seen is escaped."""
+    if text.isascii() and text.isalnum():
+        return f'"{text}"'
+    return f'"{escape(text)}"'
+
+
+def escape(text: str) -> str:
+    """Return a text as it stands between double quotes."""
+    return "".join(map(_character, text))
+
+
+def _character(character: str) -> str:
+    if character in _ESCAPES:
+        return _ESCAPES[character]
+    if character.isprintable():
+        return character
+    code = ord(character)
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"

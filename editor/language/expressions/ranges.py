@@ -1,4 +1,4 @@
-"""What a condition can ever be: reckoned with the ranges that devices declare for their properties."""
+"""What a condition can ever be: computed with the ranges that devices declare for their properties."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from collections.abc import Mapping, Sequence
 from math import inf
 from typing import TYPE_CHECKING
 
-from editor.language.expressions.typing import Kind, Typing, property_spec
-from editor.language.expressions.unit_conversion import settle_units
+from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
+from editor.language.expressions.unit_conversion import convert_units
+from editor.language.expressions.value_types import TypeChecker, ValueType, property_spec
 from editor.language.expressions.values import COMPARISONS, is_number, parts_of
-from editor.language.plan.instructions import Constant, Expression, Operation, Reading, Variable
 from editor.language.site.surroundings import Surroundings
 
 if TYPE_CHECKING:
     from dataclasses import dataclass
 else:
-    from editor.language.expressions.frozen import dataclass
+    from editor.language.allocation import dataclass
 
 _DAY_S = 86400
 
@@ -45,11 +45,11 @@ ANY = Range()
 
 
 def possible(
-    expression: Expression, surroundings: Surroundings, variables: Mapping[str, Kind] | None = None
+    expression: Expression, surroundings: Surroundings, variables: Mapping[str, ValueType] | None = None
 ) -> bool | None:
     """Tell whether a condition always holds (True), never holds (False), or may do either (None)."""
-    typing = Typing(surroundings, variables or {}, [])
-    return _truth(settle_units(expression, "", typing), surroundings)
+    checker = TypeChecker(surroundings, variables or {}, [])
+    return _truth(convert_units(expression, "", checker), surroundings)
 
 
 def range_of(expression: Expression, surroundings: Surroundings) -> Range:
@@ -63,7 +63,7 @@ def range_of(expression: Expression, surroundings: Surroundings) -> Range:
         name, arguments = expression.operator, expression.arguments
         if name in {"count", "now", "distance"}:
             return _counted(name, arguments, surroundings)
-        return _reckoned(name, [range_of(argument, surroundings) for argument in arguments])
+        return _computed(name, [range_of(argument, surroundings) for argument in arguments])
     return ANY
 
 
@@ -81,7 +81,7 @@ def _counted(name: str, arguments: Sequence[Expression], surroundings: Surroundi
     return Range(truths.count(True), len(truths) - truths.count(False))
 
 
-def _reckoned(name: str, ranges: Sequence[Range]) -> Range:
+def _computed(name: str, ranges: Sequence[Range]) -> Range:
     match name, ranges:
         case "-", [only]:
             return Range(-only.most, -only.least)

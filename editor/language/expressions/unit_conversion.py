@@ -1,23 +1,23 @@
-"""Units are settled when a program is compiled: what meets is brought into one unit, and no plan has a Quantity."""
+"""Units are converted when a program is compiled: what meets is brought into one unit, and no plan has a Quantity."""
 
 from __future__ import annotations
 
-from editor.language.expressions.typing import Kind, Typing, common_unit, is_written
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading
 from editor.language.expressions.units import conversion, convert, same_dimension, tidy, unit_symbol
+from editor.language.expressions.value_types import TypeChecker, ValueType, common_unit, is_written
 from editor.language.expressions.values import ARITHMETIC, COMPARISONS, is_number
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Quantity, Reading
 from editor.language.site.surroundings import Surroundings
 
 _WITH_UNITS = frozenset({"now", "distance", "nearest", "text"})
 _MEETING = frozenset({*COMPARISONS, "+", "-", "min", "max", "abs", "round"})
 
 
-def settle_units(expression: Expression, wanted_unit: str, typing: Typing) -> Expression:
+def convert_units(expression: Expression, wanted_unit: str, checker: TypeChecker) -> Expression:
     """Return an expression without quantities, in the wanted unit if one is wanted (empty: in its own)."""
     if isinstance(expression, Constant):
         return expression
-    settled = expression if _units_in(expression) <= 1 else _settle(expression, typing)
-    return _into(settled, _kind(expression, typing).unit, wanted_unit) if wanted_unit else settled
+    converted = expression if _units_in(expression) <= 1 else _convert(expression, checker)
+    return _into(converted, _type_of(expression, checker).unit, wanted_unit) if wanted_unit else converted
 
 
 def _units_in(expression: Expression) -> int:
@@ -32,35 +32,35 @@ def _units_in(expression: Expression) -> int:
     return 1 if isinstance(expression, Reading) and isinstance(expression.device, Constant) else 2
 
 
-def _kind(expression: Expression, typing: Typing) -> Kind:
-    return Typing(typing.surroundings, typing.variables, []).kind_of(expression)
+def _type_of(expression: Expression, checker: TypeChecker) -> ValueType:
+    return TypeChecker(checker.surroundings, checker.variables, []).type_of(expression)
 
 
-def _settle(expression: Expression, typing: Typing) -> Expression:
+def _convert(expression: Expression, checker: TypeChecker) -> Expression:
     """Return the expression without quantities, in its own unit."""
     match expression:
         case Quantity(value=value):
             return Constant(value)
         case Operation(operator=name, arguments=arguments):
             if name == "text":
-                return Operation(name, tuple(_in_words(argument, typing) for argument in arguments))
+                return Operation(name, tuple(_as_text(argument, checker) for argument in arguments))
             if name in {"distance", "nearest"} or _is_in_zone(expression):
-                return Operation(name, _placed(name, arguments, typing))
+                return Operation(name, _placed(name, arguments, checker))
             if name in _MEETING:
-                return _folded(Operation(name, _met(name, arguments, typing)), expression)
-            return _folded(Operation(name, tuple(_settle(argument, typing) for argument in arguments)), expression)
+                return _folded(Operation(name, _met(name, arguments, checker)), expression)
+            return _folded(Operation(name, tuple(_convert(argument, checker) for argument in arguments)), expression)
     return expression
 
 
-def _met(name: str, arguments: tuple[Expression, ...], typing: Typing) -> tuple[Expression, ...]:
+def _met(name: str, arguments: tuple[Expression, ...], checker: TypeChecker) -> tuple[Expression, ...]:
     """Return values that meet, all in one unit."""
-    kinds = [_kind(argument, typing) for argument in arguments]
-    unit = common_unit(arguments, kinds)
-    settled = []
-    for index, (argument, kind) in enumerate(zip(arguments, kinds, strict=True)):
+    types = [_type_of(argument, checker) for argument in arguments]
+    unit = common_unit(arguments, types)
+    converted = []
+    for index, (argument, value_type) in enumerate(zip(arguments, types, strict=True)):
         aside = name in {"+", "-"} and len(arguments) == 2 and _is_difference(index, arguments)
-        settled.append(_into(_settle(argument, typing), kind.unit, unit, difference=aside))
-    return tuple(settled)
+        converted.append(_into(_convert(argument, checker), value_type.unit, unit, difference=aside))
+    return tuple(converted)
 
 
 def _is_difference(index: int, arguments: tuple[Expression, ...]) -> bool:
@@ -70,10 +70,10 @@ def _is_difference(index: int, arguments: tuple[Expression, ...]) -> bool:
     return index == 1
 
 
-def _in_words(part: Expression, typing: Typing) -> Expression:
+def _as_text(part: Expression, checker: TypeChecker) -> Expression:
     if isinstance(part, Quantity):
         return Constant(f"{tidy(part.value)} {unit_symbol(part.unit)}")
-    return _settle(part, typing)
+    return _convert(part, checker)
 
 
 def _is_in_zone(expression: Operation) -> bool:
@@ -81,11 +81,11 @@ def _is_in_zone(expression: Operation) -> bool:
     return isinstance(last, Located) and last.zone is not None
 
 
-def _placed(name: str, arguments: tuple[Expression, ...], typing: Typing) -> tuple[Expression, ...]:
+def _placed(name: str, arguments: tuple[Expression, ...], checker: TypeChecker) -> tuple[Expression, ...]:
     """Return things with a place; a named place of the map is its point wherever only its place is asked for."""
     fixed = len(arguments) if name == "distance" else 1
     return tuple(
-        _point_of(argument, typing.surroundings) if index < fixed else _settle(argument, typing)
+        _point_of(argument, checker.surroundings) if index < fixed else _convert(argument, checker)
         for index, argument in enumerate(arguments)
     )
 
@@ -95,20 +95,25 @@ def _point_of(argument: Expression, surroundings: Surroundings) -> Expression:
     return argument if place is None else Located(point=(place.x, place.y))
 
 
-def _folded(settled: Operation, before: Expression) -> Expression:
-    """Work out plain reckoning with quantities, so that a plan holds the number."""
-    numbers = [a.value for a in settled.arguments if isinstance(a, Constant) and is_number(a.value)]
-    if settled.operator not in ARITHMETIC or settled == before or len(numbers) != 2 or len(settled.arguments) != 2:
-        return settled
+def _folded(converted: Operation, before: Expression) -> Expression:
+    """Work out plain arithmetic with quantities, so that a plan holds the number."""
+    numbers = [a.value for a in converted.arguments if isinstance(a, Constant) and is_number(a.value)]
+    if (
+        converted.operator not in ARITHMETIC
+        or converted == before
+        or len(numbers) != 2
+        or len(converted.arguments) != 2
+    ):
+        return converted
     left, right = numbers
-    match settled.operator:
+    match converted.operator:
         case "+":
             return Constant(tidy(left + right))
         case "-":
             return Constant(tidy(left - right))
         case "*":
             return Constant(tidy(left * right))
-    return settled if right == 0 else Constant(tidy(left / right))
+    return converted if right == 0 else Constant(tidy(left / right))
 
 
 def _into(expression: Expression, source: str, target: str, *, difference: bool = False) -> Expression:

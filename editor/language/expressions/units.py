@@ -127,6 +127,6 @@ def convert(value: float, source: str, target: str) -> float:
 
 
 def tidy(value: float, digits: int = 12) -> float:
-    """Return a number without the dust of reckoning: so many digits, whole ones as int."""
+    """Return a number without the rounding errors of arithmetic: so many digits, whole ones as int."""
     rounded = float(f"{value:.{digits}g}")
     return int(rounded) if rounded.is_integer() and abs(rounded) < 1e15 else rounded

@@ -6,18 +6,20 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Final, TypeGuard
 
-from editor.language.expressions.units import unit_code
-from editor.language.plan.instructions import (
+from editor.language.expressions.nodes import (
+    MISSING,
+    NOWHERE,
     Constant,
     Expression,
     Located,
     Operation,
     PlaceRef,
+    Point,
     Quantity,
     Reading,
     Variable,
 )
-from editor.language.tree.nodes import MISSING, NOWHERE, Point
+from editor.language.expressions.units import unit_code
 from vipo_device.protocol.description import Scalar
 
 COMPARISONS = ("<", "<=", ">", ">=", "==", "!=", "in", "not in")
@@ -270,18 +272,6 @@ def write_argument(expression: Expression) -> object:
     if isinstance(expression, Located) and (expression.device is not None or expression.place is not None):
         return write_place(PlaceRef(expression.device, expression.place))
     return write_value(expression)
-
-
-def with_role_ids(value: object, role_ids: Mapping[str, str]) -> object:
-    """Return plain JSON in which Values name roles by their ids instead of their names in the script."""
-    if isinstance(value, list):
-        return [with_role_ids(item, role_ids) for item in value]
-    if not isinstance(value, dict):
-        return value
-    if set(value) == {"at"} and isinstance(value["at"], dict) and "role" in value["at"]:
-        name = value["at"]["role"]
-        return {"at": {"role": role_ids.get(name, name)}}
-    return {key: with_role_ids(item, role_ids) for key, item in value.items()}
 
 
 def write_place(place: PlaceRef) -> object:

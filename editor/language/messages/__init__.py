@@ -1,1 +1,1 @@
-"""What the language says to people, in each language, as data."""
+"""What is said to people about programs and scripts: the sentences of diagnostics in every language."""

@@ -1,4 +1,4 @@
-"""The sentences of the checks in German, by the codes and with the arguments of `texts.py`."""
+"""The sentences of the checks in German, by the codes and with the arguments of `en.py`."""
 
 from __future__ import annotations
 

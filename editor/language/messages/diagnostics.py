@@ -127,3 +127,30 @@ def fix_value(problem_step: str, field_name: str, value: Scalar) -> Fix:
     """Return the fix that enters a value."""
     shown: Argument = value if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
     return Fix("set_to", problem_step, field_name, value, {"value": shown})
+
+
+def diagnostic_to_json(diagnostic: Diagnostic) -> dict[str, object]:
+    """Return a diagnostic as plain JSON."""
+    return {
+        "code": diagnostic.code,
+        "severity": diagnostic.severity,
+        "step": diagnostic.step,
+        "field": diagnostic.field,
+        "message": diagnostic.message,
+        "messages": diagnostic.messages,
+        "when": diagnostic.when,
+        "args": arguments_to_json(diagnostic.args),
+        "line": diagnostic.line,
+        "fix": None if diagnostic.fix is None else _fix_to_json(diagnostic.fix),
+    }
+
+
+def _fix_to_json(fix: Fix) -> dict[str, object]:
+    return {
+        "label": fix.label,
+        "labels": {language: fix.label_in(language) for language in LANGUAGES},
+        "label_code": fix.label_code,
+        "step": fix.step,
+        "field": fix.field,
+        "value": fix.value,
+    }

@@ -1,4 +1,4 @@
-"""The sentences of the checks, by code; `texts_de.py` has them in German by the same codes and arguments."""
+"""The sentences of the checks, by code; `de.py` has them in German by the same codes and arguments."""
 
 from __future__ import annotations
 

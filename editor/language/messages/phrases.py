@@ -8,8 +8,8 @@ from functools import cache
 from typing import Literal
 
 from editor.language.messages.de import WORDS_DE
-from editor.language.messages.mistakes_de import MISTAKES_DE
 from editor.language.messages.refusals_de import REFUSALS_DE
+from editor.language.messages.syntax_errors_de import MISTAKES_DE
 
 Language = Literal["en", "de"]
 LANGUAGES: tuple[Language, ...] = ("en", "de")

@@ -1,1 +1,1 @@
-"""Script → tree."""
+"""Script → tree: the closed subset of Python that the language prints, read back."""

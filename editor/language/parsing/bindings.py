@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
-from editor.language.expressions.type_names import UnknownType, parse_type
+from editor.language.expressions import nodes as e
+from editor.language.expressions.declarations import UnknownType, parse_type
+from editor.language.expressions.nodes import Expression
 from editor.language.parsing.expressions import (
     Binding,
     Refused,
@@ -15,7 +17,6 @@ from editor.language.parsing.expressions import (
     parse_scalar,
     quoted,
 )
-from editor.language.plan.instructions import Expression
 from editor.language.tree import nodes as n
 
 
@@ -152,4 +153,4 @@ def parse_arguments(call: ast.Call, parameters: list[str], scope: Scope) -> n.Ar
         if name not in parameters or name in given:
             raise Refused(call, quoted(call), takes)
         given[name] = parse_expression(value, scope)
-    return tuple(sorted((item for item in given.items() if item[1] != n.MISSING), key=lambda item: item[0]))
+    return tuple(sorted((item for item in given.items() if item[1] != e.MISSING), key=lambda item: item[0]))

@@ -8,12 +8,22 @@ from dataclasses import dataclass, field
 from typing import Final, Literal
 
 from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
+from editor.language.expressions.nodes import (
+    MISSING,
+    NOWHERE,
+    Constant,
+    Expression,
+    Located,
+    PlaceRef,
+    Point,
+    Quantity,
+    Reading,
+    Variable,
+)
 from editor.language.expressions.units import UNITS, unit_code
 from editor.language.expressions.values import DEEPEST_EXPRESSION, FUNCTIONS, arity_fits, is_number, operation, plain
-from editor.language.messages.mistakes import instead_of_call, instead_of_expression
-from editor.language.plan.instructions import Constant, Expression, Located, PlaceRef, Quantity, Reading, Variable
+from editor.language.messages.syntax_errors import instead_of_call, instead_of_expression
 from editor.language.site.surroundings import Surroundings
-from editor.language.tree.nodes import MISSING, NOWHERE, Point
 from vipo_device.protocol.description import Description, Scalar
 
 _BINARY: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}

@@ -1,12 +1,13 @@
-"""`self.ask(…)` and `self.notify(…)`: what people are asked and told."""
+"""`self.ask(…)` and `self.notify(…)`: the questions and notices for people."""
 
 from __future__ import annotations
 
 import ast
 
-from editor.language.expressions.answers import ANSWER_TYPES, settle_answer
+from editor.language.expressions import nodes as e
+from editor.language.expressions.declarations import ANSWER_TYPES, normal_answer
+from editor.language.expressions.nodes import AnswerSpec
 from editor.language.parsing.expressions import Refused, Scope, parse_expression, parse_scalar, quoted
-from editor.language.plan.instructions import AnswerSpec
 from editor.language.tree import nodes as n
 
 _ASK = 'Write self.dry = self.ask("Is it dry?", type="boolean", timeout=600).'
@@ -23,9 +24,9 @@ def parse_ask(call: ast.Call, scope: Scope, variable: str = "") -> n.Ask:
     if len(call.args) != 1 or len(named) != len(call.keywords):
         raise Refused(call, quoted(call), _ASK)
     timeout = named.pop("timeout", None)
-    limit = n.MISSING if timeout is None else parse_expression(timeout, scope)
+    limit = e.MISSING if timeout is None else parse_expression(timeout, scope)
     question, answer = parse_expression(call.args[0], scope), _answer(call, named)
-    return n.Ask(question, answer, variable, None if limit == n.MISSING else limit)
+    return n.Ask(question, answer, variable, None if limit == e.MISSING else limit)
 
 
 def _answer(call: ast.Call, named: dict[str | None, ast.expr]) -> AnswerSpec:
@@ -36,7 +37,7 @@ def _answer(call: ast.Call, named: dict[str | None, ast.expr]) -> AnswerSpec:
             given["options"] = [parse_scalar(item) for item in value.elts]
         elif name is not None:
             given[name] = parse_scalar(value)
-    answer = settle_answer(given)
+    answer = normal_answer(given)
     said = {"type": answer.type, "unit": answer.unit or None, "minimum": answer.minimum, "maximum": answer.maximum}
     known = {
         name: value for name, value in {**said, "options": list(answer.options) or None}.items() if value is not None

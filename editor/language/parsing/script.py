@@ -10,11 +10,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 
-from editor.language.analysis.positions import settle_places
-from editor.language.compiler import without_collector
+from editor.language.allocation import paused_collector
+from editor.language.analysis.positions import place_loads
+from editor.language.expressions import nodes as e
 from editor.language.expressions.names import RESERVED_ATTRIBUTES, unique_name
 from editor.language.messages.diagnostics import Diagnostic, Problem, put_into_words
-from editor.language.messages.mistakes import count_characters, explain_syntax
+from editor.language.messages.syntax_errors import count_characters, explain_syntax
 from editor.language.parsing.bindings import Entry, parse_parameters, parse_run, read_type
 from editor.language.parsing.expressions import Refused, Scope, attribute_of_self, calls_in, quoted, robots_driven
 from editor.language.parsing.lines import parse_lines
@@ -39,7 +40,7 @@ def parse_script(text: str, surroundings: Surroundings) -> Parsed:
     """Return the tree of a script, or where it leaves the language; nothing in the text makes this raise."""
     if len(text) > LONGEST_SCRIPT:
         return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "The script is too long."}),))
-    with without_collector():
+    with paused_collector():
         return _parse_by_lines(text, surroundings) or parse_whole(text, surroundings)
 
 
@@ -107,8 +108,8 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
         parser.functions[name] = replace(function, body=parser.block(methods[name].body))
     roles, parameters = _roles_and_parameters(parser)
     tree = in_reading_order(n.Tree(body, tuple(parser.functions.values()), roles, parameters, events))
-    settled, homeless = settle_places(tree)
-    for node in homeless:
+    placed, unplaced = place_loads(tree)
+    for node in unplaced:
         where = parser.origins[id(node)]
         parser.refusals.append(
             Refused(where, "A pick or drop at an unknown place", f"Put self.{node.role}.move(…) before it.")
@@ -116,7 +117,7 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
     if parser.refusals:
         ordered = sorted(parser.refusals, key=lambda refused: (refused.line, refused.column))
         return Parsed(None, tuple(_refusal(refused) for refused in ordered))
-    return Parsed(settled)
+    return Parsed(placed)
 
 
 def _signature(name: str, method: ast.FunctionDef) -> n.Function:
@@ -148,7 +149,7 @@ def _event(parser: Parser, entry: Entry, method: ast.FunctionDef) -> n.Event:
         condition = parser.value(entry.condition)
     except Refused as refusal:
         parser.refusals.append(refusal)
-        condition = n.MISSING
+        condition = e.MISSING
     return n.Event(condition, parser.block(method.body), entry.starts)
 
 

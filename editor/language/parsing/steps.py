@@ -1,4 +1,4 @@
-"""The statements of a script → the nodes of a tree; what is refused is noted, so that all of it is told at once."""
+"""The statements of a script → the nodes of a tree; what is refused is noted, so that all of it is reported at once."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from dataclasses import dataclass, field, replace
 from string import ascii_lowercase
 
 from editor.language.document.outline import DEEPEST_STEP
+from editor.language.expressions import nodes as e
 from editor.language.expressions.names import ROBOT_METHODS, member_name
-from editor.language.messages.mistakes import instead_of_call, instead_of_statement
+from editor.language.expressions.nodes import Expression, PlaceRef
+from editor.language.messages.syntax_errors import instead_of_call, instead_of_statement
 from editor.language.parsing.bindings import parse_arguments
 from editor.language.parsing.expressions import (
     Refused,
@@ -23,9 +25,8 @@ from editor.language.parsing.expressions import (
 )
 from editor.language.parsing.questions import parse_ask, parse_notify
 from editor.language.parsing.variables import check_local, parse_target
-from editor.language.plan.instructions import Expression, PlaceRef
-from editor.language.printing.steps import ERROR_CLASSES
 from editor.language.tree import nodes as n
+from editor.language.tree.nodes import ERROR_CLASSES
 
 _KINDS = {name: kind for kind, name in ERROR_CLASSES.items()}
 _STATEMENTS = (
@@ -37,7 +38,7 @@ _FOR = "Write for _ in range(3): or for oven in [self.oven_a, self.oven_b]:."
 
 @dataclass(slots=True)
 class Parser:
-    """The methods of a task while they are read; refusals are gathered so that all are told at once."""
+    """The methods of a task while they are read; refusals are gathered so that all are reported at once."""
 
     methods: Mapping[str, ast.FunctionDef]
     scope: Scope
@@ -89,8 +90,8 @@ class Parser:
                 whole = ast.copy_location(ast.BinOp(target, operator, value), statement)
                 return n.Set(parse_target(target, self.scope, self.methods), self.value(whole))
             case ast.Return(value=value):
-                given = n.MISSING if value is None else self.value(value)
-                return n.Return(None if given == n.MISSING else given)
+                given = e.MISSING if value is None else self.value(value)
+                return n.Return(None if given == e.MISSING else given)
             case ast.Break():
                 return n.Break()
         return self._composite(statement)
@@ -209,7 +210,7 @@ class Parser:
 
 
 def _sorted_arguments(pairs: list[tuple[str, Expression]]) -> n.Arguments:
-    return tuple(sorted((pair for pair in dict(pairs).items() if pair[1] != n.MISSING), key=lambda pair: pair[0]))
+    return tuple(sorted((pair for pair in dict(pairs).items() if pair[1] != e.MISSING), key=lambda pair: pair[0]))
 
 
 def _text(node: ast.expr | None, call: ast.Call) -> str:
@@ -237,8 +238,8 @@ def _wait(parser: Parser, call: ast.Call) -> n.Node:
         raise Refused(
             call, quoted(call), "Write self.wait(60), or self.wait(until=self.oven.temperature < 40, timeout=600)."
         )
-    timeout = parser.value(named["timeout"]) if "timeout" in named else n.MISSING
-    return n.WaitUntil(parser.value(named["until"]), None if timeout == n.MISSING else timeout)
+    timeout = parser.value(named["timeout"]) if "timeout" in named else e.MISSING
+    return n.WaitUntil(parser.value(named["until"]), None if timeout == e.MISSING else timeout)
 
 
 def _parallel(parser: Parser, call: ast.Call) -> n.Node:
@@ -289,7 +290,7 @@ _OWN_CALLS: Mapping[str, Callable[[Parser, ast.Call], n.Node]] = {
 
 
 def _move(parser: Parser, call: ast.Call, role: str) -> n.Node:
-    route: tuple[n.Point, ...] = ()
+    route: tuple[e.Point, ...] = ()
     match call:
         case ast.Call(args=[to], keywords=[]):
             pass
@@ -306,7 +307,7 @@ def _load(kind: type[n.Pick] | type[n.Drop]) -> Callable[[Parser, ast.Call, str]
             keys = [key.value if isinstance(key, ast.Constant) else None for key in call.args[0].keys]
             if sorted(map(str, keys)) == ["object", "value"]:
                 values = dict(zip(keys, call.args[0].values, strict=True))
-                return kind(role, n.NOWHERE, parser.value(values["object"]), parser.value(values["value"]))
+                return kind(role, e.NOWHERE, parser.value(values["object"]), parser.value(values["value"]))
         raise Refused(call, quoted(call), 'Write self.robot.pick({"value": 1, "object": "box"}).')
 
     return parse

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 
-from editor.language.expressions.typing import UNKNOWN_KIND, Kind, Typing
-from editor.language.expressions.unit_conversion import settle_units
+from editor.language.expressions import nodes as e
+from editor.language.expressions.unit_conversion import convert_units
+from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker, ValueType
 from editor.language.plan import instructions as p
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
@@ -19,11 +20,11 @@ Compiler = Callable[..., None]
 
 @dataclass(slots=True, eq=False)
 class Guard:
-    """A guarded stretch around the step being compiled; one with a `flag` has a final part with ways out."""
+    """A guarded stretch around the step being compiled; one with a `flag` has a final part with exits."""
 
     flag: str = ""
     exits: list[tuple[int, int]] = field(default_factory=list)
-    """Addresses of the jumps into the final part, each with the address where the way goes on behind it."""
+    """Addresses of the jumps into the final part, each with the address where the path goes on behind it."""
 
 
 @dataclass(slots=True, eq=False)
@@ -53,7 +54,7 @@ class Builder:
     compilers: Mapping[type[n.Node], Compiler]
     shared: frozenset[str]
     """The variables of the program."""
-    kinds: Mapping[str, Kind] = field(default_factory=dict)
+    types: Mapping[str, ValueType] = field(default_factory=dict)
     """What is known of the variables that can be seen here."""
     instructions: list[p.Instruction] = field(default_factory=list)
     calls: list[tuple[int, str]] = field(default_factory=list)
@@ -102,14 +103,14 @@ class Builder:
             compilers[node.__class__](self, node, (node.step,) if last else ())
 
     def leave(self, node: n.Node) -> None:
-        """Mark a composite step as over, where its ways out meet."""
+        """Mark a composite step as over, where its exits meet."""
         self.add(p.Jump(self.here() + 1), node, leaves=(node.step,))
 
     def inside(self, *around: Around) -> Inside:
         """Compile what stands in a step; without a step it stands in a function, a branch or an event of its own."""
         return Inside(self, [*self.around, *around] if around else [])
 
-    def describe(self, place: p.PlaceRef) -> Description | None:
+    def describe(self, place: e.PlaceRef) -> Description | None:
         """Return the description of the device that stands for a place, if it is one of the site."""
         facts = self.surroundings.devices.get(place.device or "")
         return None if facts is None else facts.description
@@ -135,34 +136,34 @@ class Builder:
         """Return the name that a variable has in the plan."""
         return self.renamed.get(variable, variable)
 
-    def value(self, expression: p.Expression, unit: str = "") -> p.Expression:
+    def value(self, expression: e.Expression, unit: str = "") -> e.Expression:
         """Return an expression as a plan has it: without quantities, in the wanted unit if one is wanted."""
-        if isinstance(expression, p.Constant):
+        if isinstance(expression, e.Constant):
             return expression
-        typing = Typing(self.surroundings, self.kinds, [])
-        settled = self._named(settle_units(expression, unit, typing))
-        self._note_readings(settled)
-        return settled
+        checker = TypeChecker(self.surroundings, self.types, [])
+        converted = self._named(convert_units(expression, unit, checker))
+        self._note_readings(converted)
+        return converted
 
-    def _note_readings(self, expression: p.Expression) -> None:
-        if isinstance(expression, p.Operation):
+    def _note_readings(self, expression: e.Expression) -> None:
+        if isinstance(expression, e.Operation):
             for argument in expression.arguments:
                 self._note_readings(argument)
-        elif isinstance(expression, p.Reading) and isinstance(expression.device, p.Constant):
+        elif isinstance(expression, e.Reading) and isinstance(expression.device, e.Constant):
             self.readings.add((str(expression.device.value), expression.property))
 
-    def given(self, expression: p.Expression | None, unit: str = "") -> p.Expression | None:
+    def given(self, expression: e.Expression | None, unit: str = "") -> e.Expression | None:
         """Return an expression that may be left out as a plan has it."""
         return None if expression is None else self.value(expression, unit)
 
     def unit_of(self, variable: str) -> str:
         """Return the unit that a variable is kept in, empty when it is not known."""
-        return self.kinds.get(variable, UNKNOWN_KIND).unit
+        return self.types.get(variable, UNKNOWN_TYPE).unit
 
-    def _named(self, expression: p.Expression) -> p.Expression:
+    def _named(self, expression: e.Expression) -> e.Expression:
         return rename_variables(expression, self.renamed) if self.renamed else expression
 
-    def place(self, place: p.PlaceRef) -> p.PlaceRef:
+    def place(self, place: e.PlaceRef) -> e.PlaceRef:
         """Return a place as a plan has it."""
         if place.value is None or not self.renamed:
             return place
@@ -185,13 +186,13 @@ class Inside:
         self.builder.around = self.around
 
 
-def rename_variables(expression: p.Expression, renamed: Mapping[str, str]) -> p.Expression:
+def rename_variables(expression: e.Expression, renamed: Mapping[str, str]) -> e.Expression:
     """Return an expression with other names for some variables."""
     match expression:
-        case p.Variable(name=name):
-            return p.Variable(renamed[name]) if name in renamed else expression
-        case p.Reading(device=device, property=name):
-            return p.Reading(rename_variables(device, renamed), name)
-        case p.Operation(operator=operator, arguments=arguments):
-            return p.Operation(operator, tuple(rename_variables(argument, renamed) for argument in arguments))
+        case e.Variable(name=name):
+            return e.Variable(renamed[name]) if name in renamed else expression
+        case e.Reading(device=device, property=name):
+            return e.Reading(rename_variables(device, renamed), name)
+        case e.Operation(operator=operator, arguments=arguments):
+            return e.Operation(operator, tuple(rename_variables(argument, renamed) for argument in arguments))
     return expression

@@ -1,4 +1,4 @@
-"""Tree → plan: flat instructions for the run machine; one small function for each construct."""
+"""Tree → plan: flat instructions for the run machine; one small function for each kind of node."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from editor.language.expressions import nodes as e
 from editor.language.expressions.values import rename_roles
 from editor.language.plan import control_flow as flow
 from editor.language.plan import instructions as p
 from editor.language.plan.builder import Builder, Compiler, Leaves
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
-from editor.language.tree.scopes import local_variables, program_variables
-from editor.language.tree.variable_types import kinds_of_function, kinds_of_program
+from editor.language.tree.variables import local_variables, program_variables, types_in_function, types_in_program
 
 
 def _move(builder: Builder, node: n.Move, leaves: Leaves) -> None:
@@ -38,7 +38,7 @@ def _serve(builder: Builder, node: n.Pick | n.Drop, method: str, *, gives: bool)
     if device is None or not builder.can(device, method):
         return
     things = device.gives if gives else device.takes
-    if isinstance(node.object, p.Constant) and node.object.value not in things:
+    if isinstance(node.object, e.Constant) and node.object.value not in things:
         return
     values = {"object": builder.value(node.object), "value": builder.value(node.quantity)}
     builder.add(p.Call(node.at, method, values, node.role), node)
@@ -64,11 +64,11 @@ def _wait_until(builder: Builder, node: n.WaitUntil, leaves: Leaves) -> None:
 def _call(builder: Builder, node: n.Call, leaves: Leaves) -> None:
     function = next(f for f in builder.tree.functions if f.method == node.function)
     given = dict(node.arguments)
-    arguments: dict[str, p.Expression] = {}
+    arguments: dict[str, e.Expression] = {}
     for parameter in function.parameters:
         value = given.get(parameter.name)
         arguments[parameter.name] = (
-            p.Constant(parameter.default) if value is None else builder.value(value, parameter.unit)
+            e.Constant(parameter.default) if value is None else builder.value(value, parameter.unit)
         )
     result = builder.name(node.result) if node.result else None
     invoke = p.Invoke(0, function.name or function.method, arguments, result, builder.is_shared(node.result))
@@ -120,16 +120,16 @@ COMPILERS: Mapping[type[n.Node], Compiler] = {
 
 
 def compile_tree(
-    tree: n.Tree, surroundings: Surroundings, line_of: Mapping[int, int], zones: tuple[p.Zone, ...] = ()
+    tree: n.Tree, surroundings: Surroundings, line_of: Mapping[int, int], zones: tuple[e.Zone, ...] = ()
 ) -> p.Plan:
     """Return the plan of a tree that the checks found no error in; `line_of` gives the script line of each node."""
     shared = program_variables(tree)
-    kinds = kinds_of_program(tree, shared, surroundings)
-    builder = Builder(tree, surroundings, line_of, COMPILERS, shared, kinds)
+    types = types_in_program(tree, shared, surroundings)
+    builder = Builder(tree, surroundings, line_of, COMPILERS, shared, types)
     builder.block(tree.body)
     builder.add(p.End())
     entries = {function.method: _function(builder, function) for function in tree.functions}
-    builder.kinds, builder.own, builder.function = kinds, frozenset(), None
+    builder.types, builder.own, builder.function = types, frozenset(), None
     events = tuple(_event(builder, event) for event in tree.events)
     for address, method in builder.calls:
         invoke = builder.instructions[address].do
@@ -144,15 +144,15 @@ def compile_tree(
 def _function(builder: Builder, function: n.Function) -> int:
     """Compile a function and return where it begins."""
     entry = builder.here()
-    outside, builder.kinds = (
-        builder.kinds,
-        kinds_of_function(builder.tree, function, builder.kinds, builder.surroundings),
+    outside, builder.types = (
+        builder.types,
+        types_in_function(builder.tree, function, builder.types, builder.surroundings),
     )
     own = (*(parameter.name for parameter in function.parameters), *local_variables(function, builder.shared))
     builder.own, builder.function = frozenset(own), function
     builder.block(function.body)
     builder.add(p.Return())
-    builder.kinds = outside
+    builder.types = outside
     return entry
 
 

@@ -1,18 +1,19 @@
-"""Tree → plan, what decides which step comes next: branches, loops, guards and the ways out of them."""
+"""Tree → plan, what decides which step comes next: branches, loops, guards and the exits from them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from editor.language.expressions.typing import UNKNOWN_KIND, Typing
+from editor.language.expressions import nodes as e
+from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker
 from editor.language.plan import instructions as p
 from editor.language.plan.builder import Around, Builder, Composite, Guard, Leaves, Loop
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import walk
+from editor.language.tree.nodes import walk
 
 _LEAVE = frozenset({n.Return, n.Break})
-_ONE = p.Constant(1)
-_ZERO = p.Constant(0)
+_ONE = e.Constant(1)
+_ZERO = e.Constant(0)
 
 
 def compile_if(builder: Builder, node: n.If, leaves: Leaves) -> None:
@@ -39,47 +40,47 @@ def compile_while(builder: Builder, node: n.While, leaves: Leaves) -> None:
 
 def compile_repeat(builder: Builder, node: n.Repeat, leaves: Leaves) -> None:
     """Compile a Repeat: a hidden variable counts how many times are left."""
-    left = p.Variable(builder.hide("repeat"))
+    left = e.Variable(builder.hide("repeat"))
     builder.add(p.Assign(left.name, builder.value(node.times)), node, enters=(node.step,))
     branch = builder.add(p.Jump(0), node)
     loop = _body(builder, node)
-    builder.add(p.Assign(left.name, p.Operation("-", (left, _ONE))))
+    builder.add(p.Assign(left.name, e.Operation("-", (left, _ONE))))
     builder.add(p.Jump(branch))
-    builder.patch(branch, p.Branch(p.Operation(">=", (left, _ONE)), builder.here()))
+    builder.patch(branch, p.Branch(e.Operation(">=", (left, _ONE)), builder.here()))
     _close(builder, node, loop)
 
 
 def compile_for_each(builder: Builder, node: n.ForEach, leaves: Leaves) -> None:
     """Compile a For-each: a hidden variable counts, and tells which item comes next."""
-    typing = Typing(builder.surroundings, builder.kinds, [])
-    kind = typing.kind_of(node.items[0]) if node.items else UNKNOWN_KIND
-    items = [builder.value(item, kind.unit) for item in node.items]
-    index = p.Variable(builder.hide("item"))
+    checker = TypeChecker(builder.surroundings, builder.types, [])
+    value_type = checker.type_of(node.items[0]) if node.items else UNKNOWN_TYPE
+    items = [builder.value(item, value_type.unit) for item in node.items]
+    index = e.Variable(builder.hide("item"))
     builder.add(p.Assign(index.name, _ZERO), node, enters=(node.step,))
     items = [_kept(builder, item) for item in items]
-    outside, kinds = builder.renamed, builder.kinds
+    outside, types = builder.renamed, builder.types
     variable = builder.hide(node.variable)
-    builder.renamed, builder.kinds = {**outside, node.variable: variable}, {**kinds, node.variable: kind}
+    builder.renamed, builder.types = {**outside, node.variable: variable}, {**types, node.variable: value_type}
     branch = builder.add(p.Jump(0), node)
     _choose(builder, index, variable, items)
     loop = _body(builder, node)
-    builder.renamed, builder.kinds = outside, kinds
-    builder.add(p.Assign(index.name, p.Operation("+", (index, _ONE))))
+    builder.renamed, builder.types = outside, types
+    builder.add(p.Assign(index.name, e.Operation("+", (index, _ONE))))
     builder.add(p.Jump(branch))
-    builder.patch(branch, p.Branch(p.Operation("<", (index, p.Constant(len(items)))), builder.here()))
+    builder.patch(branch, p.Branch(e.Operation("<", (index, e.Constant(len(items)))), builder.here()))
     _close(builder, node, loop)
 
 
-def _kept(builder: Builder, item: p.Expression) -> p.Expression:
+def _kept(builder: Builder, item: e.Expression) -> e.Expression:
     """Return an item that stays as it is at the beginning of the loop."""
-    if isinstance(item, p.Constant | p.Located):
+    if isinstance(item, e.Constant | e.Located):
         return item
     name = builder.hide("value")
     builder.add(p.Assign(name, item))
-    return p.Variable(name)
+    return e.Variable(name)
 
 
-def _choose(builder: Builder, index: p.Variable, variable: str, items: Sequence[p.Expression]) -> None:
+def _choose(builder: Builder, index: e.Variable, variable: str, items: Sequence[e.Expression]) -> None:
     """Give the loop's variable the item whose turn it is."""
     found: list[int] = []
     for number, item in enumerate(items):
@@ -88,7 +89,7 @@ def _choose(builder: Builder, index: p.Variable, variable: str, items: Sequence[
         builder.add(p.Assign(variable, item))
         if not last:
             found.append(builder.add(p.Jump(0)))
-            is_this = p.Operation("==", (index, p.Constant(number)))
+            is_this = e.Operation("==", (index, e.Constant(number)))
             builder.patch(branch, p.Branch(is_this, builder.here()))
     for address in found:
         builder.patch(address, p.Jump(builder.here()))
@@ -102,7 +103,7 @@ def _body(builder: Builder, node: n.While | n.Repeat | n.ForEach) -> Loop:
 
 
 def _close(builder: Builder, node: n.Node, loop: Loop) -> None:
-    """All ways out of a loop meet behind it."""
+    """All exits of a loop meet behind it."""
     for address in loop.jumps:
         builder.patch(address, p.Jump(builder.here()))
     builder.leave(node)
@@ -146,7 +147,7 @@ def compile_try(builder: Builder, node: n.Try, leaves: Leaves) -> None:
 
 
 def _flag(builder: Builder, node: n.Try) -> str:
-    """Return the variable for ways out through the final part, empty where there are none."""
+    """Return the variable for exits through the final part, empty where there are none."""
     inside = (part for block in (node.body, node.catch) for part in walk(block))
     return builder.hide("way") if any(part.__class__ in _LEAVE for part in inside) else ""
 
@@ -169,13 +170,13 @@ def _final(builder: Builder, node: n.Try, guard: Guard) -> None:
     builder.add(p.Rethrow(), node)
     for number, (address, goes_on) in enumerate(guard.exits, start=1):
         builder.patch(address, p.Jump(begin))
-        is_this = p.Operation("==", (p.Variable(guard.flag), p.Constant(number)))
+        is_this = e.Operation("==", (e.Variable(guard.flag), e.Constant(number)))
         builder.add(p.Branch(is_this, builder.here() + 2))
         builder.add(p.Jump(goes_on))
 
 
 def compile_break(builder: Builder, node: n.Break, leaves: Leaves) -> None:
-    """Compile a Break: final parts on the way are carried out."""
+    """Compile a Break: final parts on the path are carried out."""
     loop = next((item for item in reversed(builder.around) if isinstance(item, Loop)), None)
     assert loop is not None, "the checks found a loop around this step"
     passed = _until(builder.around, loop)
@@ -192,7 +193,7 @@ def _until(around: list[Around], loop: Loop) -> list[Around]:
 
 
 def compile_return(builder: Builder, node: n.Return, leaves: Leaves) -> None:
-    """Compile a Return: its value is worked out before the final parts on the way."""
+    """Compile a Return: its value is worked out before the final parts on the path."""
     unit = builder.function.result_unit if builder.function else ""
     value = builder.given(node.value, unit)
     passed = builder.around[::-1]
@@ -200,21 +201,21 @@ def compile_return(builder: Builder, node: n.Return, leaves: Leaves) -> None:
     if not finals:
         builder.add(p.Return(value), node, enters=(node.step,), leaves=leaves)
         return
-    if value is not None and not isinstance(value, p.Constant):
+    if value is not None and not isinstance(value, e.Constant):
         name = builder.hide("result")
         builder.add(p.Assign(name, value), node, enters=(node.step,))
-        value = p.Variable(name)
+        value = e.Variable(name)
     builder.add(p.Jump(builder.here() + 1), node, enters=(node.step,), leaves=leaves)
     _leave_guards(builder, passed, passed[: passed.index(finals[-1]) + 1])
     builder.add(p.Return(value))
 
 
 def _leave_guards(builder: Builder, passed: list[Around], left: list[Around]) -> None:
-    """Leave guards, the innermost first; behind each final part the way goes on here."""
+    """Leave guards, the innermost first; behind each final part the path goes on here."""
     for guard in left:
         if isinstance(guard, Guard):
             builder.add(p.TryEnd())
             if guard.flag:
-                builder.add(p.Assign(guard.flag, p.Constant(len(guard.exits) + 1)))
+                builder.add(p.Assign(guard.flag, e.Constant(len(guard.exits) + 1)))
                 address = builder.add(p.Jump(0))
                 guard.exits.append((address, builder.here()))

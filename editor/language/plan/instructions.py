@@ -6,78 +6,15 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, Literal
 
+from editor.language.expressions.nodes import AnswerSpec, Expression, PlaceRef, Point, Zone
 from vipo_device.protocol.description import Scalar
 
 if TYPE_CHECKING:
     from dataclasses import dataclass
 else:
-    from editor.language.expressions.frozen import dataclass
+    from editor.language.allocation import dataclass
 
 PLAN_FORMAT = 2
-
-BinaryOperator = Literal["<", "<=", ">", ">=", "==", "!=", "and", "or", "+", "-", "*", "/", "in", "not in"]
-
-
-@dataclass(frozen=True, slots=True)
-class Constant:
-    """A value written in the program."""
-
-    value: Scalar | tuple[Scalar, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Variable:
-    """A parameter or a variable of the running frame."""
-
-    name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Reading:
-    """A device's property; `device` is a Constant with its id, or a Variable bound to one."""
-
-    device: Expression
-    property: str
-
-
-@dataclass(frozen=True, slots=True)
-class Operation:
-    """An operator or a function of the closed list, applied to its arguments; `not` and `-` take one."""
-
-    operator: str
-    arguments: tuple[Expression, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Quantity:
-    """A number with its unit as people wrote it; the compiler converts it, no plan has one."""
-
-    value: float
-    unit: str
-
-
-@dataclass(frozen=True, slots=True)
-class Located:
-    """Something that has a place: exactly one field is set. A device's and a place's value is its id."""
-
-    device: str | None = None
-    place: str | None = None
-    point: tuple[float, float] | None = None
-    role: str | None = None
-    zone: str | None = None
-
-
-Expression = Constant | Variable | Reading | Operation | Quantity | Located
-
-
-@dataclass(frozen=True, slots=True)
-class PlaceRef:
-    """Where to go: exactly one of the fields is set. `value` yields a device's or place's id when it runs."""
-
-    device: str | None = None
-    place: str | None = None
-    point: tuple[float, float] | None = None
-    value: Expression | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +23,7 @@ class Move:
 
     role: str
     to: PlaceRef
-    route: tuple[tuple[float, float], ...] = ()
+    route: tuple[Point, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,17 +150,6 @@ class Assign:
 
 
 @dataclass(frozen=True, slots=True)
-class AnswerSpec:
-    """What a question may be answered with: `type` is boolean, number, text or choice."""
-
-    type: str = "boolean"
-    unit: str = ""
-    minimum: float | None = None
-    maximum: float | None = None
-    options: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
 class AskPerson:
     """Ask the people of the site and wait; past `timeout_s` it fails as `timed_out`."""
 
@@ -290,17 +216,6 @@ class EventEntry:
     entry: int
     condition: Expression
     starts: Literal["branch", "run"] = "branch"
-
-
-@dataclass(frozen=True, slots=True)
-class Zone:
-    """A named area of the map: a polygon in metres that robots of this run keep out of, share, or go slowly in."""
-
-    id: str
-    name: str
-    rule: Literal["keep_out", "one_at_a_time", "slow"]
-    points: tuple[tuple[float, float], ...]
-    speed_m_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

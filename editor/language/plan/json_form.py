@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from editor.language.expressions import nodes as e
 from editor.language.plan import instructions as p
 
 _READABLE_FORMATS = (1, p.PLAN_FORMAT)
@@ -50,61 +51,61 @@ def plan_from_json(body: Mapping[str, Any]) -> p.Plan:
         raise UnreadablePlan(f"The plan cannot be read: {error!r}. Compile the program again.") from error
 
 
-def expression_to_json(expression: p.Expression | None) -> Any:
+def expression_to_json(expression: e.Expression | None) -> Any:
     """Return an expression as plain JSON."""
     match expression:
         case None:
             return None
-        case p.Constant(value=value):
+        case e.Constant(value=value):
             return {"const": list(value) if isinstance(value, tuple) else value}
-        case p.Variable(name=name):
+        case e.Variable(name=name):
             return {"var": name}
-        case p.Reading(device=device, property=name):
+        case e.Reading(device=device, property=name):
             return {"read": [expression_to_json(device), name]}
-        case p.Operation(operator=operator, arguments=arguments):
+        case e.Operation(operator=operator, arguments=arguments):
             return {"op": operator, "args": [expression_to_json(argument) for argument in arguments]}
-        case p.Located():
+        case e.Located():
             return {"at": _located_to_json(expression)}
     raise TypeError(f"A plan has no {type(expression).__name__}.")
 
 
-def _located_to_json(located: p.Located) -> dict[str, Any]:
+def _located_to_json(located: e.Located) -> dict[str, Any]:
     if located.point is not None:
         return {"point": list(located.point)}
     named = {name: getattr(located, name) for name in ("device", "place", "role", "zone")}
     return {name: value for name, value in named.items() if value is not None}
 
 
-def _located_from_json(body: Mapping[str, Any]) -> p.Located:
+def _located_from_json(body: Mapping[str, Any]) -> e.Located:
     point = body.get("point")
     given = {name: body.get(name) for name in ("device", "place", "role", "zone")}
-    return p.Located(point=None if point is None else _point(point), **given)
+    return e.Located(point=None if point is None else _point(point), **given)
 
 
-def expression_from_json(body: Any) -> p.Expression:
+def expression_from_json(body: Any) -> e.Expression:
     """Return the expression in the JSON."""
     if "const" in body:
         value = body["const"]
-        return p.Constant(tuple(value) if isinstance(value, list) else value)
+        return e.Constant(tuple(value) if isinstance(value, list) else value)
     if "var" in body:
-        return p.Variable(body["var"])
+        return e.Variable(body["var"])
     if "read" in body:
         device, name = body["read"]
-        return p.Reading(expression_from_json(device), name)
+        return e.Reading(expression_from_json(device), name)
     if "at" in body:
         return _located_from_json(body["at"])
-    return p.Operation(body["op"], tuple(expression_from_json(argument) for argument in body["args"]))
+    return e.Operation(body["op"], tuple(expression_from_json(argument) for argument in body["args"]))
 
 
-def _maybe(body: Any) -> p.Expression | None:
+def _maybe(body: Any) -> e.Expression | None:
     return None if body is None else expression_from_json(body)
 
 
-def _named(body: Mapping[str, Any]) -> dict[str, p.Expression]:
+def _named(body: Mapping[str, Any]) -> dict[str, e.Expression]:
     return {name: expression_from_json(value) for name, value in body.items()}
 
 
-def _place_to_json(place: p.PlaceRef) -> dict[str, Any]:
+def _place_to_json(place: e.PlaceRef) -> dict[str, Any]:
     if place.device is not None:
         return {"device": place.device}
     if place.place is not None:
@@ -114,10 +115,10 @@ def _place_to_json(place: p.PlaceRef) -> dict[str, Any]:
     return {"value": expression_to_json(place.value)}
 
 
-def _place_from_json(body: Mapping[str, Any]) -> p.PlaceRef:
+def _place_from_json(body: Mapping[str, Any]) -> e.PlaceRef:
     point = body.get("point")
     value = _maybe(body.get("value"))
-    return p.PlaceRef(body.get("device"), body.get("place"), None if point is None else _point(point), value)
+    return e.PlaceRef(body.get("device"), body.get("place"), None if point is None else _point(point), value)
 
 
 def _point(body: Any) -> tuple[float, float]:
@@ -128,11 +129,11 @@ def _point(body: Any) -> tuple[float, float]:
 def _value_to_json(value: Any) -> Any:
     """Return a field of an instruction as plain JSON."""
     match value:
-        case p.PlaceRef():
+        case e.PlaceRef():
             return _place_to_json(value)
-        case p.Constant() | p.Variable() | p.Reading() | p.Operation() | p.Located():
+        case e.Constant() | e.Variable() | e.Reading() | e.Operation() | e.Located():
             return expression_to_json(value)
-        case p.AnswerSpec():
+        case e.AnswerSpec():
             return _answer_to_json(value)
         case Mapping():
             return {name: expression_to_json(item) for name, item in value.items()}
@@ -150,13 +151,13 @@ def _instruction_to_json(instruction: p.Instruction) -> dict[str, Any]:
     return body | {"enters": list(instruction.enters), "leaves": list(instruction.leaves)}
 
 
-def _answer_to_json(answer: p.AnswerSpec) -> dict[str, Any]:
+def _answer_to_json(answer: e.AnswerSpec) -> dict[str, Any]:
     limits = {"minimum": answer.minimum, "maximum": answer.maximum}
     return {"type": answer.type, "unit": answer.unit, **limits, "options": list(answer.options)}
 
 
-def _answer_from_json(b: Mapping[str, Any]) -> p.AnswerSpec:
-    return p.AnswerSpec(b["type"], b["unit"], b["minimum"], b["maximum"], tuple(b["options"]))
+def _answer_from_json(b: Mapping[str, Any]) -> e.AnswerSpec:
+    return e.AnswerSpec(b["type"], b["unit"], b["minimum"], b["maximum"], tuple(b["options"]))
 
 
 def _ask(b: Mapping[str, Any]) -> p.AskPerson:
@@ -173,14 +174,14 @@ def _event_from_json(body: Mapping[str, Any]) -> p.EventEntry:
     return p.EventEntry(body["step"], int(body["entry"]), expression_from_json(body["condition"]), body["starts"])
 
 
-def _zone_to_json(zone: p.Zone) -> dict[str, Any]:
+def _zone_to_json(zone: e.Zone) -> dict[str, Any]:
     points = [list(point) for point in zone.points]
     return {"id": zone.id, "name": zone.name, "rule": zone.rule, "points": points, "speed_m_s": zone.speed_m_s}
 
 
-def _zone_from_json(body: Mapping[str, Any]) -> p.Zone:
+def _zone_from_json(body: Mapping[str, Any]) -> e.Zone:
     points = tuple(_point(point) for point in body["points"])
-    return p.Zone(body["id"], body["name"], body["rule"], points, body["speed_m_s"])
+    return e.Zone(body["id"], body["name"], body["rule"], points, body["speed_m_s"])
 
 
 def _load(kind: type[p.Pick] | type[p.Drop], b: Mapping[str, Any]) -> p.Pick | p.Drop:
@@ -188,7 +189,7 @@ def _load(kind: type[p.Pick] | type[p.Drop], b: Mapping[str, Any]) -> p.Pick | p
     return kind(b["role"], _place_from_json(b["at"]), thing, quantity)
 
 
-_ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
+ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "Move": lambda b: p.Move(b["role"], _place_from_json(b["to"]), tuple(_point(point) for point in b["route"])),
     "Pick": lambda b: _load(p.Pick, b),
     "Drop": lambda b: _load(p.Drop, b),
@@ -215,5 +216,5 @@ _ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
 
 
 def _instruction_from_json(body: Mapping[str, Any]) -> p.Instruction:
-    do = _ACTIONS[body["do"]](body)
+    do = ACTIONS[body["do"]](body)
     return p.Instruction(do, body["step"], int(body["line"]), tuple(body["enters"]), tuple(body["leaves"]))

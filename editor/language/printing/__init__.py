@@ -1,1 +1,1 @@
-"""Tree → script."""
+"""Tree → script: the Python text that people read and edit."""

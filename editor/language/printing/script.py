@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from editor.language.analysis.memo import Memory
+from editor.language.analysis.memo import Memo
+from editor.language.expressions.declarations import write_type
 from editor.language.expressions.names import RESERVED_ATTRIBUTES
-from editor.language.expressions.printing import scalar_text
-from editor.language.expressions.quoting import quote
-from editor.language.expressions.type_names import write_type
+from editor.language.expressions.printing import quote, scalar_text
 from editor.language.printing.steps import PRINTERS
 from editor.language.printing.writer import Printer
 from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree.nodes import Block, Event, Function, Parameter, Role, Tree
-from editor.language.tree.scopes import local_variables, program_variables
+from editor.language.tree.variables import local_variables, program_variables
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,18 +30,18 @@ def print_tree(
     surroundings: Surroundings,
     numbers: Mapping[str, str],
     zone_names: Mapping[str, str] | None = None,
-    known: Memory | None = None,
+    memo: Memo | None = None,
 ) -> Script:
     """Return the script of a tree whose steps have these numbers; zones are called by `zone_names`, by id.
 
-    `known` has what was printed last.
+    `memo` has what was printed last.
     """
     names = {role.name for role in tree.roles} | {function.method for function in tree.functions}
     shared = program_variables(tree)
     taken = RESERVED_ATTRIBUTES | names | shared | {parameter.name for parameter in tree.parameters}
-    printer = Printer(tree, surroundings, numbers, set(taken), PRINTERS, zone_names=zone_names or {}, known=known)
-    if known is not None:
-        known.begin(what_programs_see(surroundings))
+    printer = Printer(tree, surroundings, numbers, set(taken), PRINTERS, zone_names=zone_names or {}, memo=memo)
+    if memo is not None:
+        memo.begin(what_programs_see(surroundings))
     printer.line(0, "class Task(object):")
     _print_method(printer, "def new_task(self):", tree.body)
     for function in tree.functions:

@@ -1,15 +1,15 @@
-"""The nodes of a tree → the lines of a script; one small function for each construct."""
+"""Nodes of the tree → lines of the script; one small function for each kind of node."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
 from editor.language.expressions.names import member_name
-from editor.language.expressions.printing import scalar_text
-from editor.language.expressions.quoting import quote
-from editor.language.plan.instructions import PlaceRef
+from editor.language.expressions.nodes import PlaceRef
+from editor.language.expressions.printing import quote, scalar_text
 from editor.language.printing.writer import Printer, point_text
 from editor.language.tree.nodes import (
+    ERROR_CLASSES,
     Ask,
     Break,
     Call,
@@ -32,15 +32,6 @@ from editor.language.tree.nodes import (
     While,
 )
 from editor.language.tree.numbering import letters_of
-
-ERROR_CLASSES: Mapping[str, str] = {
-    "refused": "Refused",
-    "failed": "Failed",
-    "timed_out": "TimedOut",
-    "offline": "Offline",
-    "blocked": "Blocked",
-    "cancelled": "Cancelled",
-}
 
 
 def _move(printer: Printer, node: Move, depth: int) -> None:

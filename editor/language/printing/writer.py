@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from editor.language.analysis.memo import Memory
+from editor.language.analysis.memo import Memo
 from editor.language.expressions.names import member_name, unique_name
-from editor.language.expressions.printing import quantity_text, scalar_text, write_expression
-from editor.language.expressions.quoting import quote
-from editor.language.plan.instructions import Expression, Located, PlaceRef, Quantity
+from editor.language.expressions.nodes import Expression, Located, PlaceRef, Point, Quantity
+from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
 from editor.language.site.surroundings import Surroundings
-from editor.language.tree.nodes import COMPOSITES, Block, Node, Point, Tree
+from editor.language.tree.nodes import COMPOSITES, Block, Node, Tree
 
 _INDENTS = tuple("    " * depth for depth in range(80))
 
@@ -52,7 +51,7 @@ class Printer:
     """What people call the zones, by id."""
     zones: dict[str, str] = field(default_factory=dict)
     """Zones (by id) with their names in the script, in the order of first use."""
-    known: Memory | None = None
+    memo: Memo | None = None
     used: dict[PlaceRef | Located | str, str] = field(default_factory=dict)
     """The devices, places and zones that the step being printed names, in the order of first use."""
 
@@ -64,23 +63,23 @@ class Printer:
     def block(self, block: Block, depth: int) -> None:
         """Print a block; an empty one says so."""
         for node in block:
-            if self.known is not None and node.__class__ in COMPOSITES:
-                self._holding(self.known, node, depth)
+            if self.memo is not None and node.__class__ in COMPOSITES:
+                self._holding(self.memo, node, depth)
             else:
                 self.places.append((id(node), len(self.texts) + 1))
                 self.printers[type(node)](self, node, depth)
         if not block:
             self.line(depth, "pass")
 
-    def _holding(self, memory: Memory, node: Node, depth: int) -> None:
+    def _holding(self, memo: Memo, node: Node, depth: int) -> None:
         """Print a step that holds others, or take its lines as they were when all names are still the same."""
         given = depth, self.locals
-        known: _Printed | None = memory.recall(node, given)
+        known: _Printed | None = memo.get(node, given)
         begin = len(self.texts)
         if known is None or not self._names_still(known.names):
             known = self._print_anew(node, depth)
             if known is not None:
-                memory.keep(node, known, given)
+                memo.put(node, known, given)
         else:
             self.texts.extend(known.texts)
             self.steps.extend(known.steps)

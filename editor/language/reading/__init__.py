@@ -1,1 +1,1 @@
-"""Document → tree."""
+"""Document → tree: what people drew, read into typed nodes."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from editor.language.analysis.memo import ReadSteps
-from editor.language.document.migrations import FORMAT, format_of
+from editor.language.analysis.memo import ReadMemo
+from editor.language.document.format_migrations import FORMAT, format_of
 from editor.language.document.outline import EVENTS, PROGRAM, Outline, make_outline, mapping
 from editor.language.expressions.names import RESERVED_ATTRIBUTES, attribute_name, local_name
 from editor.language.expressions.values import Names
@@ -26,7 +26,7 @@ from editor.language.tree.traversal import in_reading_order
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class ReadDocument:
     """A document as it was read: the tree without added moves, and what could not be read."""
 
     tree: Tree
@@ -34,13 +34,13 @@ class Reading:
     problems: tuple[Problem, ...]
 
 
-def read_document(document: object, known: ReadSteps | None = None) -> Reading:
+def read_document(document: object, memo: ReadMemo | None = None) -> ReadDocument:
     """Read a document (plain JSON, format 2); nothing in it makes this raise.
 
-    `known` has the steps as they were read last, and has them as they are read now.
+    `memo` has the steps as they were read last, and has them as they are read now.
     """
     whole = mapping(document)
-    outline = make_outline(whole) if known is None else known.last.look(whole)
+    outline = make_outline(whole) if memo is None else memo.last.look(whole)
     parameters, names = read_parameters(by_id(whole.get("parameters")).items())
     taken = {*RESERVED_ATTRIBUTES, *names.values()}
     roles = read_roles(by_id(whole.get("roles")), taken)
@@ -53,18 +53,18 @@ def read_document(document: object, known: ReadSteps | None = None) -> Reading:
         if name not in names:
             names[name] = attribute_name(name, taken)
             taken.add(names[name])
-    reader = Reader(outline, roles, functions, {}, names, READERS, known=known)
+    reader = Reader(outline, roles, functions, {}, names, READERS, memo=memo)
     for key, function in functions.items():
         listed, reader.argument_names[key] = read_arguments(given[key], names)
         functions[key] = replace(function, parameters=listed)
-    if known is not None:
-        known.begin(outline, (roles, [(f.id, f.name, f) for f in functions.values()], reader.argument_names))
+    if memo is not None:
+        memo.begin(outline, (roles, [(f.id, f.name, f) for f in functions.values()], reader.argument_names))
     body, events = reader.block(PROGRAM, "body"), _read_events(reader)
     finished = [_with_body(reader, function, names, variables.get(key, ())) for key, function in functions.items()]
     tree = in_reading_order(Tree(body, tuple(finished), tuple(roles.values()), parameters, events))
     if format_of(document) > FORMAT:
         reader.problems.append(Problem("newer_format", "", "format", {"format": format_of(document)}))
-    return Reading(tree, outline, tuple(reader.problems))
+    return ReadDocument(tree, outline, tuple(reader.problems))
 
 
 def _read_events(reader: Reader) -> tuple[Event, ...]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from editor.language.document.outline import PROGRAM, Outline, mapping
+from editor.language.expressions.declarations import normal_type
 from editor.language.expressions.names import attribute_name, local_name, unique_name
-from editor.language.expressions.type_names import settle_type
 from editor.language.expressions.values import Names, plain
 from editor.language.tree.nodes import Function, Parameter, Role
 
@@ -66,7 +66,7 @@ def read_parameters(
             else:
                 hidden = (script for name, script in {**outside, **names}.items() if name != wanted)
                 names[wanted] = local_name(wanted, hidden)
-            default, (kind, unit) = plain(item.get("default")), settle_type(item.get("type"), item.get("unit"))
+            default, (kind, unit) = plain(item.get("default")), normal_type(item.get("type"), item.get("unit"))
             parameters.append(Parameter(names[wanted], default, kind, unit))
     return tuple(parameters), names
 
@@ -96,7 +96,7 @@ def read_functions(given: Mapping[str, Mapping[str, object]], taken: Iterable[st
         method = unique_name(name, used)
         used.add(method)
         result = mapping(item.get("result"))
-        functions[key] = Function(method, (), (), *settle_type(result.get("type"), result.get("unit")), key, name)
+        functions[key] = Function(method, (), (), *normal_type(result.get("type"), result.get("unit")), key, name)
     return functions
 
 

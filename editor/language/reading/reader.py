@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from editor.language.analysis.memo import ReadSteps, StepRead
+from editor.language.analysis.memo import ReadMemo, StepRead
 from editor.language.document.outline import Outline, Params
+from editor.language.expressions.nodes import MISSING, NOWHERE, Expression, Located, PlaceRef, is_missing
 from editor.language.expressions.values import Names, UnknownParameter, read_place, read_value
 from editor.language.messages.diagnostics import Fix, Problem
-from editor.language.plan.instructions import Expression, Located, PlaceRef
 from editor.language.reading.names import DEFAULT_ROLE, text_of
-from editor.language.tree.nodes import MISSING, NOWHERE, Block, Function, Node, Role, is_missing
+from editor.language.tree.nodes import Block, Function, Node, Role
 
 _DRIVING = frozenset({"move", "pick", "drop", "pick_and_drop"})
 
@@ -30,7 +30,7 @@ class Reader:
     readers: Mapping[str, Reads]
     """How each kind of step is read."""
     problems: list[Problem] = field(default_factory=list)
-    known: ReadSteps | None = None
+    memo: ReadMemo | None = None
     looked_around: bool = False
     """Whether a value was read that depends on other steps."""
     _driven: frozenset[str] | None = None
@@ -48,7 +48,7 @@ class Reader:
         return MISSING if found.device is None else Located(device=found.device)
 
     def value(self, step: str, params: Params, name: str, field_name: str = "") -> Expression:
-        """Return the expression in a parameter; what does not exist reads as missing, and is told."""
+        """Return the expression in a parameter; what does not exist reads as missing, and is reported."""
         value = params.get(name)
         if value is None:
             return MISSING
@@ -63,7 +63,7 @@ class Reader:
         return None if is_missing(value) else value
 
     def place(self, step: str, params: Params, name: str) -> PlaceRef:
-        """Return the place in a parameter; what does not exist reads as missing, and is told."""
+        """Return the place in a parameter; what does not exist reads as missing, and is reported."""
         try:
             return read_place(params.get(name), self.names)
         except UnknownParameter as error:
@@ -92,29 +92,29 @@ class Reader:
     def block(self, parent: str, branch: str) -> Block:
         """Return the nodes of one branch."""
         nodes: list[Node] = []
-        known, kinds, params = self.known, self.outline.kinds, self.outline.params
+        memo, kinds, params = self.memo, self.outline.kinds, self.outline.params
         for step in self.outline.children.get((parent, branch), ()):
-            if known is None:
+            if memo is None:
                 nodes.extend(self.readers[kinds[step]](self, step, params[step]))
             else:
-                nodes.extend(self._remembered(step, known))
+                nodes.extend(self._remembered(step, memo))
         return tuple(nodes)
 
-    def _remembered(self, step: str, known: ReadSteps) -> tuple[Node, ...]:
+    def _remembered(self, step: str, memo: ReadMemo) -> tuple[Node, ...]:
         """Return the nodes of a step as they were read last, or read it anew."""
-        last = known.steps.get(step)
+        last = memo.steps.get(step)
         if last is None or last.names != self.names:
-            return self._read(step, known)
+            return self._read(step, memo)
         self.problems.extend(last.problems)
         return last.nodes
 
-    def _read(self, step: str, known: ReadSteps) -> tuple[Node, ...]:
+    def _read(self, step: str, memo: ReadMemo) -> tuple[Node, ...]:
         """Read a step and keep what depends on nothing but it and the names that it sees."""
         around, self.looked_around = self.looked_around, False
-        told = len(self.problems)
+        reported = len(self.problems)
         nodes = self.readers[self.outline.kinds[step]](self, step, self.outline.params[step])
         if not self.looked_around:
-            known.steps[step] = StepRead(nodes, tuple(self.problems[told:]), self.names)
+            memo.steps[step] = StepRead(nodes, tuple(self.problems[reported:]), self.names)
         self.looked_around = self.looked_around or around
         return nodes
 

@@ -6,16 +6,16 @@ from collections.abc import Mapping
 from typing import Final
 
 from editor.language.document.outline import Params, mapping
-from editor.language.expressions.answers import settle_answer
+from editor.language.expressions.declarations import normal_answer
 from editor.language.expressions.names import local_name
+from editor.language.expressions.nodes import MISSING, Expression, Point, is_missing
 from editor.language.expressions.values import read_point
 from editor.language.messages.diagnostics import Problem, TextArguments
 from editor.language.messages.phrases import Options
-from editor.language.plan.instructions import Expression
 from editor.language.reading.names import text_of
 from editor.language.reading.reader import Reader, Reads
 from editor.language.tree.nodes import (
-    MISSING,
+    ERROR_CLASSES,
     Ask,
     Break,
     Call,
@@ -29,7 +29,6 @@ from editor.language.tree.nodes import (
     Operate,
     Parallel,
     Pick,
-    Point,
     Repeat,
     Return,
     Set,
@@ -37,11 +36,9 @@ from editor.language.tree.nodes import (
     Wait,
     WaitUntil,
     While,
-    is_missing,
 )
 
 _LISTS: Final = (list, tuple)
-FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
 
 
 def _move(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
@@ -116,7 +113,7 @@ def _parallel(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
 def _try(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     named = params.get("kinds")
     wanted = named if isinstance(named, _LISTS) else ()
-    kinds = tuple(kind for kind in FAILURE_KINDS if kind in wanted)
+    kinds = tuple(kind for kind in ERROR_CLASSES if kind in wanted)
     body, catch, final = reader.block(step, "body"), reader.block(step, "catch"), reader.block(step, "finally")
     catches = params.get("catch") is not False
     return (Try(kinds if catches else (), body, catch, final, catches, step),)
@@ -172,7 +169,7 @@ def _set(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
 
 def _ask(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     question, timeout = reader.value(step, params, "question"), reader.given(step, params, "timeout")
-    answer = settle_answer(mapping(params.get("answer")))
+    answer = normal_answer(mapping(params.get("answer")))
     return (Ask(question, answer, reader.variable(params), timeout, step),)
 
 

@@ -1,1 +1,1 @@
-"""What a program is checked against: devices and places as plain data."""
+"""The site that a program is checked against: its devices, places and library as plain data."""

@@ -45,7 +45,7 @@ class FloorFacts(Protocol):
         """Tell whether a robot of that radius can stand at the point."""
 
     def is_reachable(self, from_xy: tuple[float, float], to_xy: tuple[float, float], radius_m: float) -> bool:
-        """Tell whether a robot of that radius finds a way."""
+        """Tell whether a robot of that radius finds a path."""
 
     def has_machine(self, device_id: str) -> bool:
         """Tell whether the machine stands on this floor."""
@@ -81,3 +81,9 @@ def what_programs_see(surroundings: Surroundings) -> object:
         for d in (facts.description,)
     ]
     return [*surroundings.devices], devices, surroundings.places
+
+
+def standing_places(surroundings: Surroundings) -> dict[str, str]:
+    """Return beside which device each robot stands, as far as it is known: robot id → device id."""
+    known = ((name, facts.standing_at) for name, facts in surroundings.devices.items())
+    return {name: place for name, place in known if place is not None}

@@ -1,1 +1,1 @@
-"""The tree of a program: typed nodes, and ways to walk through it."""
+"""The tree of a program: its typed nodes, and what follows from them alone."""

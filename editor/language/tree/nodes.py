@@ -2,32 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, Final
 
-from editor.language.plan.instructions import AnswerSpec, Constant, Expression, PlaceRef
+from editor.language.expressions.nodes import AnswerSpec, Expression, PlaceRef, Point
 from vipo_device.protocol.description import Scalar
 
 if TYPE_CHECKING:
     from dataclasses import dataclass
 else:
-    from editor.language.expressions.frozen import dataclass
-
-MISSING = Constant(None)
-"""A value that is still to be entered."""
-
-
-def is_missing(expression: Expression) -> bool:
-    """Tell whether a value is still to be entered."""
-    return isinstance(expression, Constant) and expression.value is None
-
+    from editor.language.allocation import dataclass
 
 YES_OR_NO = AnswerSpec()
-NOWHERE = PlaceRef()
-"""A place that is still to be chosen."""
-
 Arguments = tuple[tuple[str, Expression], ...]
-Point = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,6 +290,15 @@ class Tree:
         return not self._kinds.isdisjoint(kinds)
 
 
+ERROR_CLASSES: Final[Mapping[str, str]] = {
+    "refused": "Refused",
+    "failed": "Failed",
+    "timed_out": "TimedOut",
+    "offline": "Offline",
+    "blocked": "Blocked",
+    "cancelled": "Cancelled",
+}
+"""The kinds of failures that a Try may catch, with their classes in the script."""
 COMPOSITES = frozenset({If, While, Repeat, ForEach, Parallel, Try})
 """The nodes that hold others."""
 _LOOPS: Final = (While, Repeat, ForEach)

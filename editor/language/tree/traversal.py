@@ -1,12 +1,11 @@
-"""Ways through a tree: every node in reading order, functions as they are called, what each robot has to do."""
+"""Traversals of a tree: every node in reading order, functions as they are called, what each robot has to do."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.tree.nodes import DRIVES, Block, Call, Function, Node, Role, Tree
-from editor.language.tree.nodes import walk as walk
+from editor.language.tree.nodes import DRIVES, Block, Call, Function, Node, Role, Tree, walk
 
 
 def reading_order(tree: Tree) -> tuple[Function, ...]:

@@ -6,9 +6,8 @@ from collections.abc import Mapping
 from typing import Literal
 
 from editor.language.document.outline import mapping
+from editor.language.expressions.nodes import Point, Zone
 from editor.language.expressions.values import is_number, read_point
-from editor.language.plan.instructions import Zone
-from editor.language.tree.nodes import Point
 
 Rule = Literal["keep_out", "one_at_a_time", "slow"]
 RULES: Mapping[str, Rule] = {"keep_out": "keep_out", "one_at_a_time": "one_at_a_time", "slow": "slow"}

@@ -10,8 +10,8 @@ import pytest
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
+from editor.documents.shared_document import SharedDocument, empty_document, encode_document
 from editor.rooms import yjs_protocol
-from editor.rooms.document import SharedDocument, empty_document, encode_document
 from tests.integration.editor.conftest import Web
 
 

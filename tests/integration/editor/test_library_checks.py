@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
+from editor.documents.shared_document import empty_document
 from editor.language import compile_document
 from editor.language.site.surroundings import LibraryFacts
 from editor.models import LibraryFunction, LibraryVersion
 from editor.programs.checking import DeviceWatch, build_surroundings, fingerprint_of
-from editor.rooms.document import empty_document
 from registry import services as registry
 from registry.models import Site
 

@@ -9,11 +9,10 @@ from uuid import uuid4
 import pytest
 
 from editor import services
+from editor.documents.shared_document import SharedDocument, empty_document, encode_document
+from editor.documents.store import Change, SnapshotDiffers, append_changes, compact_document, load_document
 from editor.errors import NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot, Version
-from editor.rooms.document import SharedDocument, empty_document, encode_document
-from editor.rooms.room import Change
-from editor.rooms.store import SnapshotDiffers, append_changes, compact_document, load_document
 from registry import services as registry
 from registry.models import Site
 

@@ -6,17 +6,8 @@ from uuid import uuid4
 import pytest
 
 from editor.language import plan_to_json
-from editor.language.plan.instructions import (
-    Constant,
-    End,
-    EventEnd,
-    EventEntry,
-    Instruction,
-    Operation,
-    Plan,
-    Reading,
-    Wait,
-)
+from editor.language.expressions.nodes import Constant, Operation, Reading
+from editor.language.plan.instructions import End, EventEnd, EventEntry, Instruction, Plan, Wait
 from execution import services
 from execution.models import ArmedProgram, Run, RunEvent
 from execution.runs import triggers

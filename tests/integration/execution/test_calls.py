@@ -11,7 +11,8 @@ import pytest
 from django.db import OperationalError
 from django.test import Client
 
-from editor.language.plan.instructions import Call, Constant, End, Instruction, Move, PlaceRef, Plan, RoleBinding
+from editor.language.expressions.nodes import Constant, PlaceRef
+from editor.language.plan.instructions import Call, End, Instruction, Move, Plan, RoleBinding
 from execution import services
 from execution.commands.manual_calls import NO_ANSWER, expire_calls
 from execution.commands.outbox import end_commands_of_those_out

@@ -2,20 +2,8 @@
 
 import pytest
 
-from editor.language.plan.instructions import (
-    Call,
-    Constant,
-    End,
-    EventEnd,
-    EventEntry,
-    Instruction,
-    Notify,
-    Operation,
-    PlaceRef,
-    Plan,
-    Reading,
-    Wait,
-)
+from editor.language.expressions.nodes import Constant, Operation, PlaceRef, Reading
+from editor.language.plan.instructions import Call, End, EventEnd, EventEntry, Instruction, Notify, Plan, Wait
 from execution import services
 from execution.models import Run, RunEvent
 from execution.runs.advance import advance_run

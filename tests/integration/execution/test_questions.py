@@ -5,21 +5,8 @@ from uuid import uuid4
 
 import pytest
 
-from editor.language.plan.instructions import (
-    AnswerSpec,
-    AskPerson,
-    Assign,
-    Branch,
-    Constant,
-    End,
-    Instruction,
-    Jump,
-    Notify,
-    Operation,
-    Plan,
-    Variable,
-    Wait,
-)
+from editor.language.expressions.nodes import AnswerSpec, Constant, Operation, Variable
+from editor.language.plan.instructions import AskPerson, Assign, Branch, End, Instruction, Jump, Notify, Plan, Wait
 from execution import services
 from execution.models import InboxEvent, Question, Run, RunEvent
 from tests.integration.execution.test_api import member

@@ -4,7 +4,8 @@ import sys
 from pathlib import Path
 
 from editor.language import plan_to_json
-from editor.language.plan.instructions import Constant, End, Instruction, Plan, Wait
+from editor.language.expressions.nodes import Constant
+from editor.language.plan.instructions import End, Instruction, Plan, Wait
 from execution.rehearsals.child_process import scene_to_json
 from execution.rehearsals.rehearsal import rehearse_program
 from simulation.world import Scene

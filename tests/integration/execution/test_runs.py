@@ -1,18 +1,7 @@
 import pytest
 
-from editor.language.plan.instructions import (
-    Call,
-    Constant,
-    Drop,
-    End,
-    Instruction,
-    Move,
-    Pick,
-    PlaceRef,
-    Plan,
-    RoleBinding,
-    Wait,
-)
+from editor.language.expressions.nodes import Constant, PlaceRef
+from editor.language.plan.instructions import Call, Drop, End, Instruction, Move, Pick, Plan, RoleBinding, Wait
 from execution import services
 from execution.models import Command, InboxEvent, Run, RunEvent
 from execution.runs.advance import advance_run

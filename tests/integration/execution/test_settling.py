@@ -4,18 +4,8 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from editor.language.plan.instructions import (
-    Branch,
-    Call,
-    Constant,
-    End,
-    Instruction,
-    Notify,
-    Operation,
-    PlaceRef,
-    Plan,
-    Reading,
-)
+from editor.language.expressions.nodes import Constant, Operation, PlaceRef, Reading
+from editor.language.plan.instructions import Branch, Call, End, Instruction, Notify, Plan
 from execution import services
 from execution.models import Command, InboxEvent, Run, RunEvent
 from registry.models import Device

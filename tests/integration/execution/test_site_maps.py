@@ -7,7 +7,8 @@ import pytest
 from django.test import Client
 
 from editor import services as editor
-from editor.language.plan.instructions import End, Instruction, Move, PlaceRef, Plan
+from editor.language.expressions.nodes import PlaceRef
+from editor.language.plan.instructions import End, Instruction, Move, Plan
 from execution import services
 from execution.models import Command, FloorState, Run
 from registry import services as registry

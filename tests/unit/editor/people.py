@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 from pycrdt import Doc, Map
 
+from editor.documents.shared_document import SharedDocument
 from editor.rooms import yjs_protocol
-from editor.rooms.document import SharedDocument
 from editor.rooms.member import Member, Person
 from editor.rooms.room import Room
 

@@ -10,9 +10,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pycrdt import Doc, Map
 
+from editor.documents.shared_document import SharedDocument, encode_document
 from editor.language import compile_document, compiled_to_json, plan_to_json
 from editor.language.document.outline import branches_of, make_outline
-from editor.rooms.document import SharedDocument, encode_document
 from tests.unit.language.site import factory
 
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))

@@ -8,7 +8,14 @@ from typing import Any
 import pytest
 from pycrdt import Doc, Map
 
-from editor.rooms.document import BadUpdate, SharedDocument, digest_of, empty_document, encode_document, merge
+from editor.documents.shared_document import (
+    BadUpdate,
+    SharedDocument,
+    digest_of,
+    empty_document,
+    encode_document,
+    merge,
+)
 
 PLAIN: dict[str, Any] = {
     "format": 1,
@@ -125,13 +132,13 @@ def test_an_old_document_climbs_by_the_same_update_in_every_process() -> None:
     first, second = old_document(), SharedDocument([old_document().encode()])
     before = first.encode()
     second = SharedDocument([before])
-    assert first.climb()
-    assert second.climb()
+    assert first.migrate()
+    assert second.migrate()
     assert first.encode() == second.encode()
     assert first.to_json()["format"] == 2
     assert first.to_json()["steps"]["w"]["params"] == {"duration": 5}
     assert first.to_json()["steps"]["u"]["params"] == {"timeout": 9}
-    assert not first.climb()
+    assert not first.migrate()
     assert SharedDocument([before, first.encode(), second.encode()]).digest() == first.digest()
 
 
@@ -140,8 +147,8 @@ def test_two_processes_that_climb_from_different_states_meet() -> None:
     second = SharedDocument([first.encode()])
     steps = {"x": {"kind": "wait", "params": {"seconds": 1}}}
     second.apply(encode_document({"format": 1, "steps": steps}))
-    assert first.climb()
-    assert second.climb()
+    assert first.migrate()
+    assert second.migrate()
     third = SharedDocument([first.encode(), second.encode()])
     assert third.to_json() == SharedDocument([second.encode(), first.encode()]).to_json()
     assert third.to_json()["steps"]["x"]["params"] == {"duration": 1}
@@ -151,7 +158,7 @@ def test_two_processes_that_climb_from_different_states_meet() -> None:
 def test_a_document_of_a_later_format_does_not_climb() -> None:
     document = SharedDocument([encode_document({"format": 9, "steps": {}})])
     before = document.encode()
-    assert not document.climb()
+    assert not document.migrate()
     assert document.encode() == before
 
 
@@ -162,7 +169,7 @@ def test_steps_that_are_not_shared_piece_by_piece_climb_whole() -> None:
     steps["half"] = Map({"kind": "wait", "params": {"seconds": 2}})
     steps["odd"] = 5
     document = SharedDocument([raw.get_update()])
-    assert document.climb()
+    assert document.migrate()
     assert {name: step for name, step in document.to_json()["steps"].items() if name != "odd"} == {
         "plain": {"kind": "wait", "params": {"duration": 1}},
         "half": {"kind": "wait", "params": {"duration": 2}},

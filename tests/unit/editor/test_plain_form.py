@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from pycrdt import Array, Doc, Map, Text
 
-from editor.rooms.document import BadUpdate, SharedDocument, empty_document, encode_document
+from editor.documents.shared_document import BadUpdate, SharedDocument, empty_document, encode_document
 
 VALUES: tuple[Any, ...] = (1, 1.5, True, "box", None, [1, {"param": "n"}], {"op": "<", "args": [1, 2]})
 IDS = tuple(f"s{index}" for index in range(6))

@@ -6,6 +6,7 @@ import random
 
 import pytest
 
+from editor.documents import yjs_encoding
 from editor.rooms import yjs_protocol
 from editor.rooms.member import FRAMES_PER_S, Close, Member, Person
 from editor.rooms.room import MOST_MEMBERS, Room
@@ -28,7 +29,7 @@ def test_a_change_reaches_the_others_and_not_its_sender() -> None:
     assert ada.read() == []
     bob.read()
     assert bob.steps() == {"s1": {"kind": "wait", "pos": [3, 0], "params": {}}}
-    assert [(change.author, len(here.to_tell)) for change in here.to_keep] == [(1, 1)]
+    assert [(change.author, len(here.to_publish)) for change in here.to_save] == [(1, 1)]
 
 
 def test_updates_wait_for_the_step_2_of_their_client() -> None:
@@ -36,7 +37,7 @@ def test_updates_wait_for_the_step_2_of_their_client() -> None:
     ada = Client(here)
     first, second = ada.edit("s1", 1), ada.edit("s2", 2)
     ada.send(yjs_protocol.encode_update(second))
-    assert (here.document.step_count(), len(here.to_keep)) == (0, 0)
+    assert (here.document.step_count(), len(here.to_save)) == (0, 0)
     ada.send(yjs_protocol.encode_step_2(first))
     assert here.document.to_json()["steps"].keys() == {"s1", "s2"}
 
@@ -47,7 +48,7 @@ def test_a_change_after_a_hole_is_not_let_in_and_the_client_is_asked() -> None:
     ada.read()
     lost, later = ada.edit("s1", 1), ada.edit("s1", 2)
     ada.send(yjs_protocol.encode_update(later))
-    assert (here.document.to_json()["steps"], list(here.to_keep)) == ({}, [])
+    assert (here.document.to_json()["steps"], list(here.to_save)) == ({}, [])
     ada.read()
     assert here.document.to_json()["steps"] == ada.steps()
     assert lost != later
@@ -64,7 +65,7 @@ def test_a_reader_is_answered_and_never_heard() -> None:
     reader.send(yjs_protocol.encode_step_1(b"\x00"))
     assert [type(message) for message in reader.read()] == [yjs_protocol.SyncStep2]
     assert list(here.document.to_json()["steps"]) == ["s1"]
-    assert len(here.to_keep) == 1
+    assert len(here.to_save) == 1
 
 
 def test_a_room_is_full_at_some_point() -> None:
@@ -120,11 +121,11 @@ def test_saved_carries_the_state_it_speaks_of() -> None:
     ada = Client(here)
     ada.read()
     ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
-    here.tell_saved(12, here.document.state())
+    here.announce_saved(12, here.document.state())
     frame = ada.member.outbox.pop()
-    reader = yjs_protocol.Reader(frame)
+    reader = yjs_encoding.Reader(frame)
     assert (reader.integer(), reader.integer()) == (yjs_protocol.SAVED, 12)
-    assert yjs_protocol.decode_state_vector(reader.sized(100))[1] > 0
+    assert yjs_encoding.decode_state_vector(reader.sized(100))[1] > 0
 
 
 def test_a_connection_that_does_not_read_is_sent_away() -> None:
@@ -158,8 +159,8 @@ class TwoProcesses:
     def carry(self, lose: bool = False) -> None:
         for _ in range(10):
             for origin, source in self.rooms.items():
-                while source.to_tell:
-                    note = source.to_tell.popleft()
+                while source.to_publish:
+                    note = source.to_publish.popleft()
                     if not lose:
                         self._deliver(origin, note)
 
@@ -187,7 +188,7 @@ def test_two_processes_hold_the_same_and_each_keeps_only_its_own() -> None:
     ada.read()
     assert a.document.digest() == b.document.digest()
     assert ada.steps() == bob.steps() == {"s1": {"kind": "wait", "pos": [2, 0], "params": {}}}
-    assert [[change.author for change in each.to_keep] for each in (a, b)] == [[1], [2]]
+    assert [[change.author for change in each.to_save] for each in (a, b)] == [[1], [2]]
 
 
 def test_what_the_stream_lost_is_found_by_comparing() -> None:

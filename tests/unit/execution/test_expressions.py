@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.expressions.values import COMPARISONS, FUNCTIONS
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from execution.machine.evaluation import EvaluationError, NoReading, evaluate, evaluate_number, is_true
 from execution.machine.places import lies_in
 

@@ -2,11 +2,11 @@ import json
 
 import pytest
 
+from editor.language.expressions.nodes import Constant, Operation, PlaceRef, Reading, Variable
 from editor.language.plan.instructions import (
     Assign,
     Branch,
     Call,
-    Constant,
     Drop,
     End,
     Fork,
@@ -15,15 +15,11 @@ from editor.language.plan.instructions import (
     Join,
     Jump,
     Move,
-    Operation,
     Pick,
-    PlaceRef,
     Plan,
-    Reading,
     Return,
     TryBegin,
     TryEnd,
-    Variable,
     Wait,
     WaitUntil,
 )

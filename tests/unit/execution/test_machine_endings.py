@@ -1,14 +1,13 @@
 """How a run ends: `final` handlers, an early End, branches that are called off."""
 
+from editor.language.expressions.nodes import Constant, PlaceRef
 from editor.language.plan.instructions import (
-    Constant,
     End,
     Fork,
     Instruction,
     Join,
     Jump,
     Move,
-    PlaceRef,
     Plan,
     Rethrow,
     TryBegin,

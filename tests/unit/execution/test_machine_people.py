@@ -2,12 +2,11 @@
 
 import json
 
+from editor.language.expressions.nodes import AnswerSpec, Constant, Operation, PlaceRef, Reading, Variable
 from editor.language.plan.instructions import (
-    AnswerSpec,
     AskPerson,
     Assign,
     Branch,
-    Constant,
     End,
     EventEnd,
     EventEntry,
@@ -16,13 +15,9 @@ from editor.language.plan.instructions import (
     Jump,
     Move,
     Notify,
-    Operation,
-    PlaceRef,
     Plan,
-    Reading,
     Return,
     TryBegin,
-    Variable,
     Wait,
 )
 from execution.machine import machine

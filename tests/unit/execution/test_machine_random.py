@@ -5,23 +5,24 @@ import json
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from editor.language.expressions import nodes as e
 from editor.language.plan import instructions as p
 from execution.machine import machine
 from execution.machine import messages as r
 
 SIZE = 12
 OPEN = {"running", "paused"}
-values = st.sampled_from([p.Constant(n) for n in (0, 1, 2, True, False, "box", "", -1)] + [
-    p.Variable("n"), p.Variable("x"), p.Reading(p.Constant("oven"), "heat"),
-    p.Operation("+", (p.Variable("n"), p.Constant(1))), p.Operation("<", (p.Variable("n"), p.Constant(3))),
-    p.Operation(">", (p.Reading(p.Constant("oven"), "heat"), p.Constant(50))),
+values = st.sampled_from([e.Constant(n) for n in (0, 1, 2, True, False, "box", "", -1)] + [
+    e.Variable("n"), e.Variable("x"), e.Reading(e.Constant("oven"), "heat"),
+    e.Operation("+", (e.Variable("n"), e.Constant(1))), e.Operation("<", (e.Variable("n"), e.Constant(3))),
+    e.Operation(">", (e.Reading(e.Constant("oven"), "heat"), e.Constant(50))),
 ])  # fmt: skip
-truths = st.sampled_from([p.Constant(True), p.Constant(False), p.Operation("<", (p.Variable("n"), p.Constant(3))),
-                          p.Operation(">", (p.Reading(p.Constant("oven"), "heat"), p.Constant(50)))])  # fmt: skip
+truths = st.sampled_from([e.Constant(True), e.Constant(False), e.Operation("<", (e.Variable("n"), e.Constant(3))),
+                          e.Operation(">", (e.Reading(e.Constant("oven"), "heat"), e.Constant(50)))])  # fmt: skip
 addresses = st.integers(0, SIZE)
-shelf = st.just(p.PlaceRef(device="shelf"))
+shelf = st.just(e.PlaceRef(device="shelf"))
 kinds = st.sampled_from([(), ("failed",), ("offline", "timed_out"), ("cancelled",)])
-maybe = st.sampled_from([None, p.Constant(5)])
+maybe = st.sampled_from([None, e.Constant(5)])
 names = st.sampled_from(["n", "x", "#i"])
 actions = st.one_of(
     st.builds(p.Move, st.just("robot"), shelf),
@@ -40,7 +41,7 @@ actions = st.one_of(
               st.booleans()),
     st.builds(p.Return, st.none() | values),
     st.builds(p.Assign, names, values, st.booleans()),
-    st.builds(p.AskPerson, values, st.just(p.AnswerSpec()), st.none() | names, st.booleans(), maybe),
+    st.builds(p.AskPerson, values, st.just(e.AnswerSpec()), st.none() | names, st.booleans(), maybe),
     st.builds(p.Notify, values, st.sampled_from(["info", "warning"])),
     st.builds(p.End, st.booleans()),
     st.just(p.EventEnd()),

@@ -2,11 +2,19 @@ import json
 
 import pytest
 
-from editor.language.plan.instructions import (
+from editor.language.expressions.nodes import (
     AnswerSpec,
+    Constant,
+    Located,
+    Operation,
+    PlaceRef,
+    Reading,
+    Variable,
+    Zone,
+)
+from editor.language.plan.instructions import (
     AskPerson,
     Branch,
-    Constant,
     Drop,
     End,
     EventEnd,
@@ -15,19 +23,13 @@ from editor.language.plan.instructions import (
     Instruction,
     Join,
     Jump,
-    Located,
     Move,
     Notify,
-    Operation,
     Pick,
-    PlaceRef,
     Plan,
-    Reading,
     RoleBinding,
-    Variable,
     Wait,
     WaitUntil,
-    Zone,
 )
 from execution.rehearsals.footprint_monitor import FootprintMonitor
 from execution.rehearsals.rehearsal import Conditions, rehearse

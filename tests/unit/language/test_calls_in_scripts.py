@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from editor.language import parse_script
-from editor.language.compiler import without_collector
+from editor.language.allocation import paused_collector
 from editor.language.parsing.expressions import calls_in
 from tests.unit.language.site import factory
 
@@ -39,7 +39,7 @@ def test_the_collector_is_on_again_when_a_script_was_read() -> None:
 def test_a_collector_that_was_off_stays_off() -> None:
     gc.disable()
     try:
-        with without_collector():
+        with paused_collector():
             assert not gc.isenabled()
         assert not gc.isenabled()
     finally:

@@ -8,10 +8,10 @@ from dataclasses import replace
 import pytest
 
 from editor.language.checks.context import Context
-from editor.language.checks.flow import check_flow, ways_of_functions
+from editor.language.checks.flow import check_flow, outcomes_of_functions
 from editor.language.checks.parallel import check_parallel
 from editor.language.checks.variables import check_variables
-from editor.language.plan.instructions import Constant, Expression, Operation, Reading, Variable
+from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
 from editor.language.tree.nodes import (
     Ask,
     Block,
@@ -146,7 +146,7 @@ def test_functions_that_only_call_each_other_never_end() -> None:
 def test_the_ways_out_of_functions_are_understood_together() -> None:
     stop = Function("stop", (), (End(),))
     outer = Function("outer", (), (If(HOT, (Call("stop"),)), Return()))
-    assert ways_of_functions(Tree((), (outer, stop))) == {"outer": {"end", "return"}, "stop": {"end"}}
+    assert outcomes_of_functions(Tree((), (outer, stop))) == {"outer": {"end", "return"}, "stop": {"end"}}
     assert flow(Call("stop"), PAUSE, functions=(stop,)) == [("s2", "never_reached")]
 
 

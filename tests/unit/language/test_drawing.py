@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from editor.language import compile_document, parse_script, tree_to_document
+from editor.language.document.format_migrations import migrate
 from editor.language.document.fractional_index import keep_orders, order_between
-from editor.language.document.migrations import climb
 from editor.language.drawing.alignment import common_row
 from tests.unit.language.site import factory
 from tests.unit.language.strategies import broken_documents, documents, json_values
@@ -329,7 +329,7 @@ def test_what_a_script_says_of_a_document_changes_nothing_in_it(document: dict[s
     compiled = compile_document(document, factory())
     parsed = parse_script(compiled.script, factory())
     assert parsed.tree is not None
-    assert tree_to_document(parsed.tree, factory(), document) == climb(document)
+    assert tree_to_document(parsed.tree, factory(), document) == migrate(document)
 
 
 @quick
@@ -340,7 +340,7 @@ def test_a_script_drawn_over_any_document_means_what_it_says(first: dict[str, An
     drawn = tree_to_document(tree, factory(), second)
     assert compile_document(drawn, factory()).tree == tree
     kept = compile_document(second, factory())
-    old: Any = climb(second)
+    old: Any = migrate(second)
     steps: Any = drawn["steps"]
     drafts = old["steps"].keys() - kept.numbers.keys()
     assert {name: steps[name]["params"] for name in drafts} == {name: old["steps"][name]["params"] for name in drafts}
@@ -369,7 +369,7 @@ def test_nothing_in_a_step_before_makes_drawing_raise(document: dict[str, Any], 
 
 
 def test_a_value_that_named_nothing_gets_no_sense_from_a_new_variable() -> None:
-    before = climb(
+    before = migrate(
         {
             "format": 2,
             "steps": {"w": {"kind": "wait", "place": ["program", "body", "V"], "pos": [1, -1],

@@ -8,12 +8,11 @@ from typing import Any
 import pytest
 
 from editor.language import Surroundings, compile_document, parse_script, tree_to_document
+from editor.language.expressions.nodes import MISSING, Constant, Operation, Reading
 from editor.language.expressions.ranges import ANY, Range, range_of
 from editor.language.expressions.units import conversion, convert
 from editor.language.expressions.values import LARGEST, is_number, read_value
 from editor.language.parsing.script import LONGEST_SCRIPT
-from editor.language.plan.instructions import Constant, Operation, Reading
-from editor.language.tree.nodes import MISSING
 from tests.unit.language.site import factory, with_device
 from vipo_device.protocol.description import ParameterSpec
 

@@ -8,7 +8,7 @@ import pytest
 
 from editor.language.messages.en import TEXTS
 from editor.language.site.surroundings import Surroundings
-from scripts.check_meanings import GROUPS, MEANINGS
+from scripts.check_explanations import EXPLANATIONS, GROUPS
 from scripts.checks_page import CASES, ROOT, read_case, read_site, write_page
 
 
@@ -31,7 +31,7 @@ def test_nothing_is_said_of_the_good_example(code: str) -> None:
 
 
 def test_every_code_has_its_place_on_the_page() -> None:
-    assert MEANINGS.keys() == TEXTS.keys()
+    assert EXPLANATIONS.keys() == TEXTS.keys()
     assert sorted(code for _, codes in GROUPS for code in codes) == sorted(TEXTS)
 
 

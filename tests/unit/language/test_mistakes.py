@@ -7,7 +7,7 @@ import re
 import pytest
 
 from editor.language import parse_script
-from editor.language.messages import mistakes
+from editor.language.messages import syntax_errors
 from editor.language.messages.phrases import refused_in_german
 from tests.unit.language.site import factory
 from tests.unit.language.test_parsing import script
@@ -96,9 +96,14 @@ def test_columns_count_characters_not_bytes() -> None:
 
 
 def sentences() -> list[str]:
-    tables = (mistakes.STATEMENTS, mistakes.EXPRESSIONS, mistakes.CALLS)
-    pairs = (*mistakes.SYNTAX, *mistakes.SYMBOLS)
-    fixed = [mistakes.ATTRIBUTE_ALONE, mistakes.VALUE_ALONE, mistakes.NOTHING_BEFORE, mistakes.UNKNOWN.format("no")]
+    tables = (syntax_errors.STATEMENTS, syntax_errors.EXPRESSIONS, syntax_errors.CALLS)
+    pairs = (*syntax_errors.SYNTAX, *syntax_errors.SYMBOLS)
+    fixed = [
+        syntax_errors.ATTRIBUTE_ALONE,
+        syntax_errors.VALUE_ALONE,
+        syntax_errors.NOTHING_BEFORE,
+        syntax_errors.UNKNOWN.format("no"),
+    ]
     said = [*(text for table in tables for text in table.values()), *(text for _, text in pairs), *fixed]
     return sorted({text.replace("{0}", "(") for text in said})
 

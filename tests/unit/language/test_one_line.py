@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from editor.language.expressions.typing import Kind
 from editor.language.expressions.units import UNITS
+from editor.language.expressions.value_types import ValueType
 from editor.language.expressions.values import FUNCTIONS
-from editor.language.parsing.line_scope import LineScope, make_line_scope
-from editor.language.parsing.one_line import NotUnderstood, kind_of_line, parse_line, print_line
+from editor.language.one_line.scope import LineScope, make_line_scope
+from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
 from tests.unit.language.site import factory
 
 DOCUMENT: dict[str, Any] = {
@@ -156,23 +156,23 @@ def test_a_line_that_is_no_value_says_where_and_why(text: str, column: int, mess
 @pytest.mark.parametrize(
     ("text", "kind"),
     [
-        ("curing_oven.temperature + 1", Kind("number", "DEG_C")),
-        ("minutes * 2", Kind("number", "MIN")),
-        ("10 m / 2 s", Kind("number", "")),
-        ("distance(curing_oven, dock_1)", Kind("number", "M")),
-        ("now()", Kind("number", "SEC")),
-        ("nearest(dock_1, curing_oven)", Kind("text")),
-        ("curing_oven in slow_area", Kind("boolean")),
-        ("count(True)", Kind("number")),
-        ('f"{count}"', Kind("text")),
-        ("count", Kind()),
-        ("slow_area", Kind("zone")),
-        ("point(1, 2)", Kind("point")),
+        ("curing_oven.temperature + 1", ValueType("number", "DEG_C")),
+        ("minutes * 2", ValueType("number", "MIN")),
+        ("10 m / 2 s", ValueType("number", "")),
+        ("distance(curing_oven, dock_1)", ValueType("number", "M")),
+        ("now()", ValueType("number", "SEC")),
+        ("nearest(dock_1, curing_oven)", ValueType("text")),
+        ("curing_oven in slow_area", ValueType("boolean")),
+        ("count(True)", ValueType("number")),
+        ('f"{count}"', ValueType("text")),
+        ("count", ValueType()),
+        ("slow_area", ValueType("zone")),
+        ("point(1, 2)", ValueType("point")),
     ],
 )
-def test_the_kind_of_a_line_is_known(text: str, kind: Kind) -> None:
+def test_the_kind_of_a_line_is_known(text: str, kind: ValueType) -> None:
     line = scope()
-    assert kind_of_line(parse_line(text, line), line) == kind
+    assert type_of_line(parse_line(text, line), line) == kind
 
 
 _LEAVES = st.one_of(

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from editor.language.expressions.nodes import Expression
 from editor.language.expressions.ranges import possible
 from editor.language.expressions.values import read_value
-from editor.language.parsing.line_scope import make_line_scope
-from editor.language.parsing.one_line import parse_line
-from editor.language.plan.instructions import Expression
+from editor.language.one_line.scope import make_line_scope
+from editor.language.one_line.values import parse_line
 from editor.language.site.surroundings import Surroundings
 from execution.machine.evaluation import EvaluationError, is_true
 from tests.unit.language.site import factory

@@ -6,16 +6,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from editor.language.expressions.typing import Kind, Typing
-from editor.language.expressions.unit_conversion import settle_units
+from editor.language.expressions.nodes import Constant, Expression, Quantity
+from editor.language.expressions.unit_conversion import convert_units
+from editor.language.expressions.value_types import TypeChecker, ValueType
 from editor.language.expressions.values import parts_of, read_value, write_value
-from editor.language.parsing.line_scope import make_line_scope
-from editor.language.parsing.one_line import parse_line
-from editor.language.plan.instructions import Constant, Expression, Quantity
+from editor.language.one_line.scope import make_line_scope
+from editor.language.one_line.values import parse_line
 from tests.unit.language.site import factory
 
 DOCUMENT = {"parameters": {"p": {"name": "minutes", "type": "number", "unit": "MIN"}, "n": {"name": "n"}}, "steps": {}}
-TYPING = Typing(factory(), {"minutes": Kind("number", "MIN")}, [])
+TYPING = TypeChecker(factory(), {"minutes": ValueType("number", "MIN")}, [])
 HEAT = {"property": ["curingOven01", "temperature"]}
 PRESSURE = {"property": ["paintMachine01", "pressure"]}
 MINUTES = {"param": "minutes"}
@@ -62,7 +62,7 @@ def op(name: str, *args: object) -> dict[str, object]:
     ],
 )
 def test_a_quantity_takes_the_unit_of_what_it_meets(text: str, unit: str, expected: object) -> None:
-    settled = settle_units(expression(text), unit, TYPING)
+    settled = convert_units(expression(text), unit, TYPING)
     assert not any(isinstance(part, Quantity) for part in parts_of(settled))
     if expected is not None:
         assert write_value(settled) == expected
@@ -70,16 +70,16 @@ def test_a_quantity_takes_the_unit_of_what_it_meets(text: str, unit: str, expect
 
 def test_a_named_place_is_its_point_where_only_its_place_is_asked_for() -> None:
     dock = factory().places["dock1"]
-    settled = settle_units(expression("distance(curing_oven, dock_1) < 2 m"), "", TYPING)
+    settled = convert_units(expression("distance(curing_oven, dock_1) < 2 m"), "", TYPING)
     oven, point = {"at": {"device": "curingOven01"}}, {"at": {"point": [dock.x, dock.y]}}
     assert write_value(settled) == op("<", op("distance", oven, point), 2)
 
 
 @given(st.integers(-1000, 1000), st.sampled_from(["SEC", "MIN", "HR"]), st.sampled_from(["SEC", "MIN", "HR"]))
 def test_there_and_back_is_the_same(value: int, source: str, target: str) -> None:
-    there = settle_units(Quantity(value, source), target, TYPING)
+    there = convert_units(Quantity(value, source), target, TYPING)
     assert isinstance(there, Constant)
     assert isinstance(there.value, int | float)
-    back = settle_units(Quantity(there.value, target), source, TYPING)
+    back = convert_units(Quantity(there.value, target), source, TYPING)
     assert isinstance(back, Constant)
     assert back.value == pytest.approx(value, abs=1e-6)

@@ -9,7 +9,7 @@ from string import Formatter
 import pytest
 
 from editor.language import checks
-from editor.language.expressions.typing import TYPE_WORDS
+from editor.language.expressions.value_types import TYPE_WORDS
 from editor.language.messages.de import FIX_TEXTS_DE, TEXTS_DE
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, put_into_words
 from editor.language.messages.en import FIX_TEXTS, NOT_NOW, TEXTS

@@ -1,4 +1,4 @@
-"""What to write instead, for the mistakes that people make most when they write a script."""
+"""What to write instead of Python that the language does not have, for the most frequent mistakes in scripts."""
 
 from __future__ import annotations
 

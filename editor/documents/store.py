@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from typing import Any
+from uuid import UUID
 
 from django.db import transaction
 
+from editor.documents.shared_document import SharedDocument
+from editor.documents.yjs_encoding import decode_state_vector
 from editor.errors import NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot
-from editor.rooms.document import SharedDocument
-from editor.rooms.room import Change
-from editor.rooms.yjs_protocol import decode_state_vector
 
 COMPACT_AFTER_ROWS = 500
 
@@ -28,6 +29,32 @@ class Stored:
     site: str
     updates: tuple[bytes, ...]
     seq: int
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A change made here, which is to be saved: who made it, and the bytes of the document's own update."""
+
+    author: int | None
+    update: bytes
+
+
+_flushes: list[Callable[[str], None]] = []
+
+
+def flush_before_reading(flush: Callable[[str], None]) -> None:
+    """Have `flush` write what this process still holds of a program before `get_document` reads the program."""
+    if flush not in _flushes:
+        _flushes.append(flush)
+
+
+def get_document(*, program_id: UUID | str) -> dict[str, Any]:
+    """Return a program's document as it is now, as plain JSON in today's format. Raises NoSuchProgram."""
+    for flush in _flushes:
+        flush(str(program_id))
+    document = SharedDocument(load_document(str(program_id)).updates)
+    document.migrate()
+    return document.to_json()
 
 
 def load_document(program_id: str) -> Stored:

@@ -129,5 +129,5 @@ _SECTIONS: Final = (
     ("Things that happen at once", _AT_ONCE),
     ("Scripts written by hand", _SCRIPTS),
 )
-MEANINGS: Final[Mapping[str, str]] = {code: text for _, section in _SECTIONS for code, text in section.items()}
+EXPLANATIONS: Final[Mapping[str, str]] = {code: text for _, section in _SECTIONS for code, text in section.items()}
 GROUPS: Final = tuple((title, tuple(section)) for title, section in _SECTIONS)

@@ -1,4 +1,4 @@
-"""A value of one line as Python: `10 min` becomes `quantity(10, "min")`; positions can be told in the line as typed."""
+"""A value of one line as Python: `10 min` becomes `quantity(10, "min")`; each character knows where it comes from."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What kind of value an expression gives, and whether its parts go together."""
+"""The type and the unit of what an expression gives, and whether its parts go together."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.expressions.units import UNITS, same_dimension, unit_symbol
 from editor.language.expressions.values import COMPARISONS, parts_of
-from editor.language.plan.instructions import Constant, Expression, Located, Operation, Quantity, Reading, Variable
 from editor.language.site.surroundings import Surroundings
 from vipo_device.protocol.description import PropertySpec
 
 if TYPE_CHECKING:
     from dataclasses import dataclass
 else:
-    from editor.language.expressions.frozen import dataclass
+    from editor.language.allocation import dataclass
 
 TYPE_WORDS: Mapping[str, str] = {
     "number": "a number", "text": "a text", "boolean": "yes or no", "list": "a list", "object": "a kind of object",
@@ -28,7 +28,7 @@ _TEXT_LIKE = frozenset({"object", "device", "place", "location"})
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class ValueType:
     """The type of a value (empty: not known) and its unit (empty: none, or not known)."""
 
     type: str = ""
@@ -43,10 +43,10 @@ class Mismatch:
     args: Mapping[str, str]
 
 
-UNKNOWN_KIND = Kind()
-NUMBER, TEXT, BOOLEAN = Kind("number"), Kind("text"), Kind("boolean")
-ZONE, POINT, LIST = Kind("zone"), Kind("point"), Kind("list")
-METRES, SECONDS = Kind("number", "M"), Kind("number", "SEC")
+UNKNOWN_TYPE = ValueType()
+NUMBER, TEXT, BOOLEAN = ValueType("number"), ValueType("text"), ValueType("boolean")
+ZONE, POINT, LIST = ValueType("zone"), ValueType("point"), ValueType("list")
+METRES, SECONDS = ValueType("number", "M"), ValueType("number", "SEC")
 
 
 def unit_word(unit: str) -> str:
@@ -67,19 +67,19 @@ def property_spec(reading: Reading, surroundings: Surroundings) -> PropertySpec 
 
 
 @dataclass(slots=True)
-class Typing:
+class TypeChecker:
     """Types expressions for one site; what does not go together is gathered in `mismatches`."""
 
     surroundings: Surroundings
-    variables: Mapping[str, Kind]
+    variables: Mapping[str, ValueType]
     mismatches: list[Mismatch]
 
-    def kind_of(self, expression: Expression) -> Kind:
-        """Return the kind of value that the expression gives."""
-        return _KINDS[expression.__class__](self, expression)
+    def type_of(self, expression: Expression) -> ValueType:
+        """Return the type of value that the expression gives."""
+        return _TYPES[expression.__class__](self, expression)
 
-    def constant(self, expression: Constant) -> Kind:
-        """Return the kind of a value that is written out."""
+    def constant(self, expression: Constant) -> ValueType:
+        """Return the type of a value that is written out."""
         value = expression.value
         if isinstance(value, bool):
             return BOOLEAN
@@ -87,73 +87,73 @@ class Typing:
             return NUMBER
         if isinstance(value, str):
             return TEXT
-        return LIST if isinstance(value, tuple) else UNKNOWN_KIND
+        return LIST if isinstance(value, tuple) else UNKNOWN_TYPE
 
-    def variable(self, expression: Variable) -> Kind:
-        """Return the kind of a parameter or a variable."""
-        return self.variables.get(expression.name, UNKNOWN_KIND)
+    def variable(self, expression: Variable) -> ValueType:
+        """Return the type of a parameter or a variable."""
+        return self.variables.get(expression.name, UNKNOWN_TYPE)
 
-    def reading(self, expression: Reading) -> Kind:
-        """Return the kind of a device's property."""
+    def reading(self, expression: Reading) -> ValueType:
+        """Return the type of a device's property."""
         spec = property_spec(expression, self.surroundings)
-        return UNKNOWN_KIND if spec is None else Kind(plain_type(spec.type), spec.unit)
+        return UNKNOWN_TYPE if spec is None else ValueType(plain_type(spec.type), spec.unit)
 
-    def quantity(self, expression: Quantity) -> Kind:
-        """Return the kind of a number with a unit."""
+    def quantity(self, expression: Quantity) -> ValueType:
+        """Return the type of a number with a unit."""
         if expression.unit not in UNITS:
             self.mismatches.append(Mismatch("unknown_unit", {"unit": expression.unit}))
-        return Kind("number", expression.unit)
+        return ValueType("number", expression.unit)
 
-    def located(self, expression: Located) -> Kind:
-        """Return the kind of something that has a place."""
+    def located(self, expression: Located) -> ValueType:
+        """Return the type of something that has a place."""
         if expression.zone is not None:
             return ZONE
         return TEXT if expression.point is None else POINT
 
-    def operation(self, expression: Operation) -> Kind:
-        """Return the kind of what an operation gives."""
+    def operation(self, expression: Operation) -> ValueType:
+        """Return the type of what an operation gives."""
         name, arguments = expression.operator, expression.arguments
-        kinds = [self.kind_of(argument) for argument in arguments]
+        types = [self.type_of(argument) for argument in arguments]
         if name in {"and", "or", "not", "count"}:
-            for kind in kinds:
-                self._need(kind, "boolean", f"“{name}”")
+            for value_type in types:
+                self._need(value_type, "boolean", f"“{name}”")
             return NUMBER if name == "count" else BOOLEAN
         if name in _COMPARISONS:
-            self._compare(name, expression, kinds[0], kinds[1])
+            self._compare(name, expression, types[0], types[1])
             return BOOLEAN
         if name in {"distance", "nearest"}:
-            for argument, kind in zip(arguments, kinds, strict=True):
-                self._need_place(argument, kind, name)
+            for argument, value_type in zip(arguments, types, strict=True):
+                self._need_place(argument, value_type, name)
             return METRES if name == "distance" else TEXT
         if name in {"text", "now"}:
             return TEXT if name == "text" else SECONDS
-        return self._reckoned(expression, kinds)
+        return self._computed(expression, types)
 
-    def _reckoned(self, expression: Operation, kinds: list[Kind]) -> Kind:
-        """Return the kind of a number that is worked out from numbers."""
+    def _computed(self, expression: Operation, types: list[ValueType]) -> ValueType:
+        """Return the type of a number that is worked out from numbers."""
         name = expression.operator
-        for kind in kinds:
-            self._need(kind, "number", f"“{name}”")
+        for value_type in types:
+            self._need(value_type, "number", f"“{name}”")
         if name in {"*", "/"}:
-            return Kind("number", _unit_of_product(name, kinds[0].unit, kinds[1].unit))
-        self._same_unit(kinds)
-        return Kind("number", common_unit(expression.arguments, kinds))
+            return ValueType("number", _unit_of_product(name, types[0].unit, types[1].unit))
+        self._same_unit(types)
+        return ValueType("number", common_unit(expression.arguments, types))
 
-    def _need_place(self, argument: Expression, kind: Kind, name: str) -> None:
+    def _need_place(self, argument: Expression, value_type: ValueType, name: str) -> None:
         """Only a point, or something that is known by its id, has a place."""
         written = isinstance(argument, Constant) or (isinstance(argument, Operation) and argument.operator != "nearest")
-        if kind.type not in {"", "text", "point"} or (written and kind.type):
-            words = {"subject": f"“{name}”", "wanted": TYPE_WORDS["place"], "given": TYPE_WORDS[kind.type]}
+        if value_type.type not in {"", "text", "point"} or (written and value_type.type):
+            words = {"subject": f"“{name}”", "wanted": TYPE_WORDS["place"], "given": TYPE_WORDS[value_type.type]}
             self.mismatches.append(Mismatch("wrong_type", words))
 
-    def _need(self, kind: Kind, wanted: str, subject: str) -> None:
-        if kind.type not in {"", wanted}:
-            given = TYPE_WORDS[kind.type]
+    def _need(self, value_type: ValueType, wanted: str, subject: str) -> None:
+        if value_type.type not in {"", wanted}:
+            given = TYPE_WORDS[value_type.type]
             self.mismatches.append(
                 Mismatch("wrong_type", {"subject": subject, "wanted": TYPE_WORDS[wanted], "given": given})
             )
 
-    def _compare(self, name: str, expression: Operation, left: Kind, right: Kind) -> None:
+    def _compare(self, name: str, expression: Operation, left: ValueType, right: ValueType) -> None:
         if right.type == "zone" and name in {"in", "not in"}:
             self._need_place(expression.arguments[0], left, name)
             return
@@ -171,31 +171,33 @@ class Typing:
         elif left.unit and right.unit and left.type == "number":
             self._same_unit([left, right])
 
-    def _same_unit(self, kinds: list[Kind]) -> None:
-        units = [kind.unit for kind in kinds if kind.unit]
+    def _same_unit(self, types: list[ValueType]) -> None:
+        units = [value_type.unit for value_type in types if value_type.unit]
         other = next((unit for unit in units if not same_dimension(unit, units[0])), None)
         if other is not None:
             words = {"subject": "The first value", "wanted": unit_word(units[0]), "given": unit_word(other)}
             self.mismatches.append(Mismatch("wrong_unit", words))
 
 
-_KINDS: Mapping[type[Expression], Callable[[Typing, Any], Kind]] = {
-    Constant: Typing.constant,
-    Variable: Typing.variable,
-    Reading: Typing.reading,
-    Quantity: Typing.quantity,
-    Located: Typing.located,
-    Operation: Typing.operation,
+_TYPES: Mapping[type[Expression], Callable[[TypeChecker, Any], ValueType]] = {
+    Constant: TypeChecker.constant,
+    Variable: TypeChecker.variable,
+    Reading: TypeChecker.reading,
+    Quantity: TypeChecker.quantity,
+    Located: TypeChecker.located,
+    Operation: TypeChecker.operation,
 }
 
 
-def common_unit(arguments: Sequence[Expression], kinds: Sequence[Kind]) -> str:
+def common_unit(arguments: Sequence[Expression], types: Sequence[ValueType]) -> str:
     """Return the unit in which values meet: that of the first one that is measured or given, else the first."""
-    units = [kind.unit for kind in kinds if kind.unit]
+    units = [value_type.unit for value_type in types if value_type.unit]
     if len(set(units)) <= 1:
         return units[0] if units else ""
-    paired = zip(arguments, kinds, strict=True)
-    return next((kind.unit for argument, kind in paired if kind.unit and not is_written(argument)), units[0])
+    paired = zip(arguments, types, strict=True)
+    return next(
+        (value_type.unit for argument, value_type in paired if value_type.unit and not is_written(argument)), units[0]
+    )
 
 
 def is_written(expression: Expression) -> bool:

@@ -9,14 +9,13 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.document.outline import Params, mapping
+from editor.language.expressions.declarations import normal_type
 from editor.language.expressions.names import unique_name
-from editor.language.expressions.type_names import settle_type
-from editor.language.expressions.typing import Kind, plain_type
+from editor.language.expressions.nodes import MISSING, Expression, Located
+from editor.language.expressions.value_types import ValueType, plain_type
 from editor.language.parsing.expressions import Binding, Scope
-from editor.language.plan.instructions import Expression, Located
 from editor.language.reading.document import read_document
 from editor.language.site.surroundings import Surroundings
-from editor.language.tree.nodes import MISSING
 
 _GIVEN = re.compile(r"^\s+self\.(\w+) = ctx\.(get|place|zone)\((\"(?:[^\"\\]|\\.)*\")")
 
@@ -28,7 +27,7 @@ class LineScope:
     scope: Scope
     names: dict[str, str] = field(default_factory=dict)
     """Parameters and variables: the name in the document → the name in the line."""
-    kinds: dict[str, Kind] = field(default_factory=dict)
+    types: dict[str, ValueType] = field(default_factory=dict)
     """What is known of parameters, by the name in the line."""
     roles: dict[str, Expression] = field(default_factory=dict)
     """What stands for the robot of a role, by the role's id."""
@@ -108,9 +107,9 @@ def _name_variables(line: LineScope, document: Mapping[str, object], step: str) 
     for name, body in _visible(document, step):
         if name and name not in line.names:
             line.names[name] = _variable_name(name, line.names.values())
-            kind, unit = settle_type(body.get("type"), body.get("unit"))
+            kind, unit = normal_type(body.get("type"), body.get("unit"))
             if kind:
-                line.kinds[line.names[name]] = Kind(plain_type(kind), unit)
+                line.types[line.names[name]] = ValueType(plain_type(kind), unit)
 
 
 def _variable_name(wanted: str, taken: Collection[str]) -> str:

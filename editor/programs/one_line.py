@@ -6,13 +6,14 @@ from dataclasses import dataclass, field
 from typing import Any
 from uuid import UUID
 
+from editor.documents.store import get_document
 from editor.language import compile_document
 from editor.language.expressions.names import member_name
-from editor.language.expressions.quoting import quote
-from editor.language.parsing.line_scope import LineScope, make_line_scope
-from editor.language.parsing.one_line import NotUnderstood, kind_of_line, parse_line, print_line
+from editor.language.expressions.printing import quote
+from editor.language.one_line.scope import LineScope, make_line_scope
+from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
 from editor.programs.checking import build_surroundings
-from editor.programs.programs import get_document, get_program
+from editor.programs.programs import get_program
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +66,7 @@ def read_expression(*, program_id: UUID | str, text: str, step: str = "", names:
         value = parse_line(text, line)
     except NotUnderstood as error:
         problem = LineProblemView(str(error), {**error.messages}, error.column)
-        return ExpressionView(None, text, "", "", problem, _names(line) if names else ())
+        return ExpressionView(None, text, "", "", problem, _line_names(line) if names else ())
     return _view(value, text, line, names=names)
 
 
@@ -76,8 +77,8 @@ def print_expression(*, program_id: UUID | str, value: Any, step: str = "", name
 
 
 def _view(value: Any, text: str, line: LineScope, *, names: bool) -> ExpressionView:
-    kind = kind_of_line(value, line)
-    return ExpressionView(value, text, kind.type, kind.unit, None, _names(line) if names else ())
+    value_type = type_of_line(value, line)
+    return ExpressionView(value, text, value_type.type, value_type.unit, None, _line_names(line) if names else ())
 
 
 def _scope(program_id: UUID | str, step: str) -> LineScope:
@@ -89,7 +90,7 @@ def _scope(program_id: UUID | str, step: str) -> LineScope:
 _KINDS = {"get": "device", "place": "place", "zone": "zone"}
 
 
-def _names(line: LineScope) -> tuple[NameView, ...]:
+def _line_names(line: LineScope) -> tuple[NameView, ...]:
     return (
         *(NameView(written, "variable", name) for name, written in line.names.items()),
         *(NameView(name, "robot", role) for name, role in line.role_ids.items()),

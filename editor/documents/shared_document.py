@@ -15,7 +15,7 @@ from typing import Any
 from pycrdt import Array, Doc, Map, Text, TransactionEvent, merge_updates
 from pycrdt import get_state as state_of_update
 
-from editor.language.document.migrations import FIRST_FORMAT, FORMAT, climb, format_of
+from editor.language.document.format_migrations import FIRST_FORMAT, FORMAT, format_of, migrate
 
 ROOTS = ("meta", "steps", "functions", "roles", "parameters", "zones")
 _CONTENT = ROOTS[1:]
@@ -118,13 +118,13 @@ class SharedDocument:
         self._changed.clear()
         return dict(self._steps)
 
-    def climb(self) -> bool:
+    def migrate(self) -> bool:
         """Bring the content to today's format, by the same update whoever does it; tell whether there was a need.
 
-        Old names that an old browser brings later are renamed by the next climb.
+        Old names that an old browser brings later are renamed by the next migrate.
         """
         before = self.to_json()
-        after: Any = climb({**before, "format": FIRST_FORMAT})
+        after: Any = migrate({**before, "format": FIRST_FORMAT})
         if format_of(before) > FORMAT or after == before:
             return False
         copy = _document_with(self.encode(), _client_id(self.digest(), self.state()))
@@ -205,11 +205,11 @@ def empty_document() -> dict[str, Any]:
     return {"format": FORMAT, "start_pos": None, **{name: {} for name in _CONTENT}}
 
 
-def climb_document(plain: Mapping[str, Any]) -> dict[str, Any]:
+def migrate_document(plain: Mapping[str, Any]) -> dict[str, Any]:
     """Return a plain document, or a library function's definition, in today's format."""
-    climbed = climb(plain)
-    assert isinstance(climbed, Mapping)
-    return dict(climbed)
+    migrated = migrate(plain)
+    assert isinstance(migrated, Mapping)
+    return dict(migrated)
 
 
 def encode_document(plain: Mapping[str, Any]) -> bytes:

@@ -1,4 +1,4 @@
-"""Documents of former formats, brought to the format of today one rung at a time."""
+"""Documents of former formats, brought to the format of today one format at a time."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ def format_of(document: object) -> int:
     return said if isinstance(said, int) and not isinstance(said, bool) and said > 0 else FIRST_FORMAT
 
 
-def climb(document: object) -> object:
+def migrate(document: object) -> object:
     """Return the document in today's format; one that is there already, or of a later format, as it is."""
     if not isinstance(document, Mapping):
         return document
-    climbed: Document = document
-    for rung in range(format_of(document), FORMAT):
-        climbed = {**_RUNGS[rung](climbed), "format": rung + 1}
-    return climbed
+    migrated: Document = document
+    for number in range(format_of(document), FORMAT):
+        migrated = {**_MIGRATIONS[number](migrated), "format": number + 1}
+    return migrated
 
 
 def _waits_without_units(document: Document) -> Document:
@@ -45,4 +45,4 @@ def _renamed(step: object) -> object:
     return {**step, "params": {**renamed, **kept}}
 
 
-_RUNGS: Final[Mapping[int, Callable[[Document], Document]]] = {1: _waits_without_units}
+_MIGRATIONS: Final[Mapping[int, Callable[[Document], Document]]] = {1: _waits_without_units}

@@ -1,25 +1,24 @@
-"""One grammar for people: a value as one line of text, read and printed; the script's, without `self.`."""
+"""A value as one line of text, parsed and printed: the grammar of the script, without `self.`."""
 
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from typing import Final
 
-from editor.language.drawing.merge import with_document_names
+from editor.language.document.references import with_document_names, with_role_ids
 from editor.language.expressions.names import member_name
-from editor.language.expressions.printing import quantity_text, scalar_text, write_expression
-from editor.language.expressions.quoting import quote
-from editor.language.expressions.typing import Kind, Typing
+from editor.language.expressions.nodes import MISSING, Expression, Located, Quantity
+from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
 from editor.language.expressions.units import UNITS, unit_symbol
-from editor.language.expressions.values import FUNCTIONS, UnknownParameter, read_value, with_role_ids, write_value
-from editor.language.messages.one_line import LINE_TEXTS
+from editor.language.expressions.value_types import TypeChecker, ValueType
+from editor.language.expressions.values import FUNCTIONS, UnknownParameter, read_value, write_value
 from editor.language.messages.phrases import LANGUAGES, Refusal
+from editor.language.one_line.notation import Desugared, desugar
+from editor.language.one_line.scope import LineScope
 from editor.language.parsing.expressions import Refused, parse_expression
-from editor.language.parsing.line_scope import LineScope
-from editor.language.parsing.line_sugar import Desugared, desugar
-from editor.language.plan.instructions import Expression, Located, Quantity
-from editor.language.tree.nodes import MISSING
 
 LONGEST_LINE = 2000
 _CALLED = frozenset({*FUNCTIONS, "quantity", "point"})
@@ -64,9 +63,9 @@ def print_line(value: object, line: LineScope) -> str:
     return "" if expression == MISSING else write_expression(expression, _LineNames(line))
 
 
-def kind_of_line(value: object, line: LineScope) -> Kind:
-    """Return what kind of value a Value of the document gives."""
-    return Typing(line.scope.surroundings, line.kinds, []).kind_of(_read(value, line))
+def type_of_line(value: object, line: LineScope) -> ValueType:
+    """Return the type of what a Value of the document gives."""
+    return TypeChecker(line.scope.surroundings, line.types, []).type_of(_read(value, line))
 
 
 def _read(value: object, line: LineScope) -> Expression:
@@ -182,3 +181,31 @@ def _alike(name: str, known: list[str]) -> list[str]:
 
 
 _SELF = ast.Name("self", ast.Load())
+
+
+LINE_TEXTS: Final[Mapping[str, Mapping[str, str]]] = {
+    "too_long": {"en": "The line is too long.", "de": "Die Zeile ist zu lang."},
+    "not_complete": {
+        "en": "Something is missing, or too much, here. Write for example: oven.temperature > 60.",
+        "de": "Hier fehlt etwas, oder etwas ist zu viel. Schreiben Sie zum Beispiel: oven.temperature > 60.",
+    },
+    "open_bracket": {"en": "A bracket is not closed.", "de": "Eine Klammer ist nicht geschlossen."},
+    "open_text": {
+        "en": "A text is not closed with a quotation mark.",
+        "de": "Ein Text ist nicht mit einem Anführungszeichen geschlossen.",
+    },
+    "closing_bracket": {
+        "en": "A bracket is closed that was never opened.",
+        "de": "Eine Klammer wird geschlossen, die nie geöffnet wurde.",
+    },
+    "bad_braces": {"en": "A value in braces is not complete.", "de": "Ein Wert in Klammern { } ist nicht vollständig."},
+    "not_in_value": {"en": "{found} cannot stand here. {instead}", "de": "{found} kann hier nicht stehen. {instead}"},
+    "unknown_name": {
+        "en": "There is nothing called “{name}” here.",
+        "de": "Hier gibt es nichts mit dem Namen „{name}“.",
+    },
+    "unknown_name_like": {
+        "en": "There is nothing called “{name}” here. Do you mean {options}?",
+        "de": "Hier gibt es nichts mit dem Namen „{name}“. Meinen Sie {options}?",
+    },
+}

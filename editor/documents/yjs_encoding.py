@@ -1,0 +1,115 @@
+"""How Yjs writes numbers, state vectors and updates as bytes, read with bounds. Pure.
+
+A state vector says how far somebody knows a document: for each client the clock, the number of its changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+MOST_INTEGER_BYTES = 8
+_MOST_INTEGER = 2**53 - 1
+
+
+class BadFrame(ValueError):
+    """The frame is not the protocol; the message says what is wrong with it."""
+
+
+class FrameTooLarge(BadFrame):
+    """The frame is well-formed so far, and larger than is taken."""
+
+
+class Reader:
+    """Reads a frame from its beginning; every read is bounded, and linear in what it reads."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+        self._at = 0
+
+    def integer(self) -> int:
+        """Read a variable-length unsigned integer of at most 53 bits."""
+        value = shift = 0
+        for position in range(self._at, min(self._at + MOST_INTEGER_BYTES, len(self._data))):
+            byte = self._data[position]
+            value |= (byte & 0x7F) << shift
+            shift += 7
+            if byte < 0x80:
+                self._at = position + 1
+                return self._checked(value)
+        if self._at + MOST_INTEGER_BYTES <= len(self._data):
+            raise BadFrame("A number in the message is longer than 53 bits.")
+        raise BadFrame("The message ends within a number.")
+
+    def _checked(self, value: int) -> int:
+        if value > _MOST_INTEGER:
+            raise BadFrame("A number in the message is longer than 53 bits.")
+        return value
+
+    def sized(self, limit: int) -> bytes:
+        """Read a length and that many bytes."""
+        length = self.integer()
+        if self._at + length > len(self._data):
+            raise BadFrame("The message ends before it should.")
+        if length > limit:
+            raise FrameTooLarge(f"A part of the message has {length} bytes; {limit} are taken.")
+        self._at += length
+        return self._data[self._at - length : self._at]
+
+    def rest(self) -> bytes:
+        """Read all that is left."""
+        at, self._at = self._at, len(self._data)
+        return self._data[at:]
+
+    def end(self) -> None:
+        """Make sure that nothing follows."""
+        if self._at != len(self._data):
+            raise BadFrame("Something follows the end of the message.")
+
+
+def decode_state_vector(data: bytes) -> dict[int, int]:
+    """Decode a state vector: {client: clock}. Raises BadFrame."""
+    reader = Reader(data)
+    count = reader.integer()
+    if count > len(data):
+        raise BadFrame("The state vector is shorter than it says.")
+    clocks = {}
+    for _ in range(count):
+        client = reader.integer()
+        clocks[client] = reader.integer()
+    reader.end()
+    return clocks
+
+
+def encode_state_vector(clocks: dict[int, int]) -> bytes:
+    """Encode a state vector."""
+    pairs = b"".join(encode_integer(client) + encode_integer(clock) for client, clock in clocks.items())
+    return encode_integer(len(clocks)) + pairs
+
+
+def is_within(lesser: Iterable[tuple[int, int]], greater: dict[int, int]) -> bool:
+    """Tell whether a state vector's clocks are all known to another one."""
+    return all(greater.get(client, 0) >= clock for client, clock in lesser)
+
+
+def first_of_update(update: bytes) -> tuple[int, int] | None:
+    """Return (client, clock) where an update of a single client begins; None when it has none or several."""
+    reader = Reader(update)
+    if reader.integer() != 1:
+        return None
+    reader.integer()
+    return reader.integer(), reader.integer()
+
+
+def encode_integer(value: int) -> bytes:
+    """Encode a variable-length unsigned integer."""
+    out = bytearray()
+    while value >= 0x80:
+        out.append(value & 0x7F | 0x80)
+        value >>= 7
+    out.append(value)
+    return bytes(out)
+
+
+def encode_sized(data: bytes) -> bytes:
+    """Encode bytes behind their length."""
+    return encode_integer(len(data)) + data
