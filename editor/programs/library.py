@@ -17,7 +17,7 @@ from editor.programs.checking import build_surroundings
 from editor.programs.programs import get_document
 from editor.programs.views import LibraryView, view_author
 from editor.rooms.document import climb_document, empty_document
-from registry.live import fanout
+from registry import services as registry
 
 MOST_NAME, MOST_DESCRIPTION = 120, 500
 
@@ -76,7 +76,7 @@ def save_function(
         LibraryVersion.objects.create(
             function=row, number=row.last_version, author=user, definition=definition, script=script
         )
-    fanout.publish(site, {"type": "library"})
+    registry.publish(site, {"type": "library"})
     return get_function(function_id=row.pk)
 
 

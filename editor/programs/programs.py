@@ -20,7 +20,7 @@ from editor.rooms.hub import flush_program
 from editor.rooms.runner import new_revision
 from editor.rooms.store import load_document
 from registry import services as registry
-from registry.live.fanout import publish
+from registry.services import publish
 
 MOST_NAME = 120
 MOST_CHECKED_AT_ONCE = 100

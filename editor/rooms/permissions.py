@@ -8,7 +8,7 @@ from django.contrib.auth import get_user_model
 
 from editor.models import Program
 from editor.rooms.member import Person
-from registry.people.access import find_access
+from registry.services import find_access
 
 
 @dataclass(frozen=True, slots=True)

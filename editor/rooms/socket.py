@@ -14,7 +14,7 @@ from editor.rooms.member import Close, Member
 from editor.rooms.permissions import Standing, find_standing
 from editor.rooms.room import Room
 from editor.rooms.runner import in_database
-from registry.people.sessions import session_of_socket
+from registry.services import session_of_socket
 
 
 class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]

@@ -11,8 +11,9 @@ from django.utils import timezone
 from ninja import Router
 
 from registry import services
-from registry.api.requests import sends, signed_in
-from registry.api.shapes import (
+from registry.devices.views import device_to_json
+from registry.people.access import require
+from registry.shapes import (
     ApprovedDevice,
     DeviceEdit,
     DeviceEventShape,
@@ -20,9 +21,9 @@ from registry.api.shapes import (
     Lifecycle,
     NewCredential,
     Topic,
+    sends,
+    signed_in,
 )
-from registry.devices.views import device_to_json
-from registry.people.access import require
 from vipo_device.descriptions.forms import CONTENT_TYPES, DescriptionForm
 from vipo_device.descriptions.reader import write_description
 from vipo_device.protocol.description import Pose

@@ -10,10 +10,9 @@ from django.utils import timezone
 from ninja import Router, Schema
 
 from registry import services
-from registry.api.requests import signed_in
-from registry.api.shapes import Reading
-from registry.devices.readings_history import MOST_POINTS
+from registry.devices.property_history import MOST_POINTS
 from registry.people.access import require
+from registry.shapes import Reading, signed_in
 
 router = Router(tags=["registry"])
 

@@ -15,8 +15,7 @@ from typing import Any
 from django.conf import settings
 from django.db import connection, transaction
 
-from registry.devices.history_texts import described
-from registry.devices.history_texts import said as in_words
+from registry.devices.history_texts import describe_change, history_text
 from registry.devices.legacy_topics import claim_topics
 from registry.devices.rows import (
     MOST_CHARACTERS,
@@ -45,7 +44,7 @@ WRITE_DESCRIPTION = """
 
 
 @dataclass(frozen=True, slots=True)
-class SaidDescription:
+class DescriptionMessage:
     """A description that came in."""
 
     device_id: str
@@ -57,7 +56,7 @@ class SaidDescription:
 class _News:
     """A description that was read and may be kept."""
 
-    said: SaidDescription
+    said: DescriptionMessage
     reading: Reading
 
 
@@ -72,13 +71,13 @@ def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> Devic
     if known.update(last_seen_at=at):
         device = known.get()
         return view_of(device, device.site.slug)
-    (fate,) = ingest_descriptions(descriptions=[SaidDescription(device_id, payload, at)])
+    (fate,) = ingest_descriptions(descriptions=[DescriptionMessage(device_id, payload, at)])
     if isinstance(fate, RegistryError):
         raise fate
     return fate
 
 
-def ingest_descriptions(*, descriptions: Sequence[SaidDescription]) -> tuple[Fate, ...]:
+def ingest_descriptions(*, descriptions: Sequence[DescriptionMessage]) -> tuple[Fate, ...]:
     """Take in descriptions of different devices, at most one of each; return what came of each, in the same order."""
     fates: dict[str, Fate] = {}
     found: list[_News] = []
@@ -186,11 +185,11 @@ def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[De
     device.source, device.source_hash = news.said.payload, source_hash(news.said.payload)
     device.source_type = CONTENT_TYPES[form]
     device.first_seen_at, device.last_seen_at = device.first_seen_at or at, at
-    if not (words := described(old, description)):
+    if not (words := describe_change(old, description)):
         return []
     news_line = line_of_history(device, at, "described", words, changes=list_changes(before, after) if before else ())
     packs = reversed(_packed(news.reading.notes))
-    mended = [in_words("mended", text=" ".join(n.text for n in pack), **facts_of(pack)) for pack in packs]
+    mended = [history_text("mended", text=" ".join(n.text for n in pack), **facts_of(pack)) for pack in packs]
     return [news_line, *(line_of_history(device, at, "mended", words) for words in mended)]
 
 

@@ -19,7 +19,7 @@ SENTENCES: Mapping[str, str] = {
     "knocked": "Knocked with the join key and brought a key of its own",
     "online": "Came online",
     "offline": "Left",
-    "silent": "Said nothing for {seconds} s",
+    "silent": "HistoryText nothing for {seconds} s",
     "flapping": "Comes and leaves all the time; not every time is written down",
     "error": "Reports an error: {text}",
     "recovered": "Reports no error any more",
@@ -47,7 +47,7 @@ MOST_PARTS = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class HistoryText:
     """A line of history in English, with its code and arguments."""
 
     text: str
@@ -55,20 +55,20 @@ class Said:
     args: Mapping[str, Any] = field(default_factory=dict)
 
 
-def said(code: str, **args: Any) -> Said:
+def history_text(code: str, **args: Any) -> HistoryText:
     """Return the line of a code with its arguments."""
-    return Said(SENTENCES[code].format_map(args), code, args)
+    return HistoryText(SENTENCES[code].format_map(args), code, args)
 
 
-def described(before: Description | None, after: Description) -> Said | None:
+def describe_change(before: Description | None, after: Description) -> HistoryText | None:
     """Say what changed in a description; None when its meaning is the same."""
     if before is None:
-        return said("described_first", name=after.name, **{"class": after.device_class or after.kind})
+        return history_text("described_first", name=after.name, **{"class": after.device_class or after.kind})
     parts = _parts(before, after)
     if not parts and replace(before, done=after.done) != after:
         parts = [{"code": "changed"}]
     text = "; ".join(PARTS[part["code"]].format_map(part) for part in parts)
-    return Said(text[:1].upper() + text[1:], "described", {"parts": parts[:MOST_PARTS]}) if parts else None
+    return HistoryText(text[:1].upper() + text[1:], "described", {"parts": parts[:MOST_PARTS]}) if parts else None
 
 
 def _parts(before: Description, after: Description) -> list[dict[str, Any]]:

@@ -9,13 +9,12 @@ from datetime import datetime
 from django.db import transaction
 from django.db.models import Count
 
-from registry.devices.history_texts import Said
-from registry.devices.thing_events import record_things
+from registry.devices.history_texts import HistoryText
+from registry.devices.things import record_things
 from registry.devices.views import DeviceView, changed_fields
 from registry.live.fanout import publish_all
 from registry.models import Device, DeviceEvent, RobotMapDraft, User
 from vipo_device.descriptions.changes import Change
-from vipo_device.descriptions.forms import CONTENT_TYPES
 from vipo_device.protocol.errors import RegistryError
 from vipo_device.protocol.faults import told
 from vipo_device.protocol.messages import is_device_id
@@ -27,14 +26,6 @@ EVENTS_TO_SPARE = 20
 MOST_CHARACTERS = 300
 RESERVED_IDS = frozenset({"server", ".", ".."})
 """The server's own name, and those that are no part of an address: no page and no call would reach such a device."""
-DONE_FLAG_ONLY_SQL = f"SELECT source_type = '{CONTENT_TYPES['paper']}' FROM registry_device WHERE id = {{device}}"  # noqa: S608 - a constant
-"""Whether a device (a column's name) describes itself by the paper's message, and so may answer by `done` alone.
-
-It asks about each device by its key: a look through all of them takes longer than all the rest of a claim.
-"""
-
-OUT_SQL = "SELECT lifecycle <> 'approved' FROM registry_device WHERE id = {device}"
-"""Whether a device (a column's name) does not take part: it is told nothing. It asks about each by its key, too."""
 
 
 class NoSuchDevice(RegistryError):
@@ -76,13 +67,13 @@ def line_of_history(
     device: Device,
     at: datetime,
     kind: str,
-    words: Said | str,
+    words: HistoryText | str,
     by: User | None = None,
     *,
     changes: tuple[Change, ...] = (),
 ) -> DeviceEvent:
     """Return a line of a device's history, which is not written yet; bare words have no code."""
-    line = words if isinstance(words, Said) else Said(words)
+    line = words if isinstance(words, HistoryText) else HistoryText(words)
     told = {"text": line.text[:MOST_CHARACTERS], "code": line.code, "args": dict(line.args)}
     differences = [asdict(change) for change in changes]
     return DeviceEvent(device=device, at=at, kind=kind, by=by, changes=differences, **told)
@@ -92,7 +83,7 @@ def write_event(
     device: Device,
     at: datetime,
     kind: str,
-    words: Said | str,
+    words: HistoryText | str,
     by: User | None = None,
     *,
     changes: tuple[Change, ...] = (),

@@ -164,7 +164,7 @@ def renew_join_key(options: argparse.Namespace) -> int:
     from vipo_device.protocol.errors import VipoError
 
     try:
-        _write(services.renew_join_key(site=options.site))
+        _write(services.renew_enrolment_key(site=options.site))
     except VipoError as error:
         return _complain(error.detail)
     return CLEAN

@@ -31,7 +31,7 @@ class Admitted(NamedTuple):
     topics: frozenset[str] = frozenset()
 
 
-class Doorkeeper(Protocol):
+class AccessControl(Protocol):
     """What the broker asks; every method may block and is called from a thread."""
 
     def admit(self, username: str, password: str) -> Admitted | None:
@@ -47,33 +47,33 @@ class Doorkeeper(Protocol):
         """Note how many messages of each device were dropped, and (device, line) for their histories."""
 
 
-class PasswordDoorkeeper:
+class PasswordAccess:
     """Lets in whoever a function accepts, for ever."""
 
     def __init__(self, check_password: CheckPassword) -> None:
         self._check_password = check_password
 
     def admit(self, username: str, password: str) -> Admitted | None:
-        """See Doorkeeper."""
+        """See AccessControl."""
         return Admitted() if self._check_password(username, password) else None
 
     def find_ended(self, _logins: Mapping[str, Login]) -> frozenset[str]:
-        """See Doorkeeper."""
+        """See AccessControl."""
         return frozenset()
 
     def wait(self) -> None:
-        """See Doorkeeper."""
+        """See AccessControl."""
         time.sleep(LOOK_EVERY_S)
 
     def record(self, _dropped: Mapping[str, int], _lines: Sequence[Line]) -> None:
-        """See Doorkeeper; without a registry there is nothing to note it in."""
+        """See AccessControl; without a registry there is nothing to note it in."""
 
 
-class RegistryDoorkeeper:
+class RegistryAccess:
     """Asks the registry's database."""
 
     def admit(self, username: str, password: str) -> Admitted | None:
-        """See Doorkeeper."""
+        """See AccessControl."""
         from registry import services
 
         close_old_connections()
@@ -84,7 +84,7 @@ class RegistryDoorkeeper:
             close_old_connections()
 
     def find_ended(self, logins: Mapping[str, Login]) -> frozenset[str]:
-        """See Doorkeeper."""
+        """See AccessControl."""
         from registry import services
 
         close_old_connections()
@@ -94,14 +94,13 @@ class RegistryDoorkeeper:
             close_old_connections()
 
     def wait(self) -> None:
-        """See Doorkeeper."""
-        from registry.broker.accounts import BROKER_CHANNEL
-        from registry.live.fanout import wait_wake
+        """See AccessControl."""
+        from registry import services
 
-        wait_wake(BROKER_CHANNEL, LOOK_EVERY_S)
+        services.wait_account_change(timeout_s=LOOK_EVERY_S)
 
     def record(self, dropped: Mapping[str, int], lines: Sequence[Line]) -> None:
-        """See Doorkeeper."""
+        """See AccessControl."""
         from registry import services
 
         close_old_connections()

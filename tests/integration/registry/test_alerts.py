@@ -132,7 +132,7 @@ def test_a_device_that_comes_and_leaves_and_a_foreign_key_are_told(mixer: str) -
     Device.objects.filter(pk=mixer).update(lifecycle="pending")
     assert services.check_device_password(username=mixer, password="k" * 30) is None
     with pytest.raises(BadDevice):
-        services.admit_newcomer(site="hall", device_id=mixer, payload=b'{"key": "%s"}' % (b"kdj3o0-" * 5), at=NOW)
+        services.enrol_device(site="hall", device_id=mixer, payload=b'{"key": "%s"}' % (b"kdj3o0-" * 5), at=NOW)
     Device.objects.filter(pk=mixer).update(lifecycle="approved", online=True)
     services.flush_alerts()
     assert sorted(alerts()) == [("flapping", "", 1), ("foreign_knock", "", 1), ("wrong_key", "", 1)]

@@ -71,7 +71,7 @@ def test_one_with_a_key_of_its_own_keeps_it(hall: str, capsys: pytest.CaptureFix
 
 
 def test_a_new_join_key_ends_the_old_one(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
-    services.set_join_key(site="hall", join_key="j" * 32)
+    services.set_enrolment_key(site="hall", key="j" * 32)
     code, out, err = told(capsys, "join-key", "hall")
     assert (code, err) == (0, "")
     assert services.check_device_password(username="join:hall", password=out.strip())

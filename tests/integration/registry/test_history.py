@@ -12,7 +12,7 @@ from django.test import Client
 
 from registry import services
 from registry.devices import readings as samples
-from registry.devices.readings import Bucket, SampleBuffer
+from registry.devices.samples import Bucket, SampleBuffer
 from registry.models import Device, Sample, User
 from vipo_device.protocol.description import PropertySpec
 

@@ -16,7 +16,7 @@ from lxml import etree
 
 from registry import services
 from registry.devices import readings
-from registry.devices.readings import SampleBuffer
+from registry.devices.samples import SampleBuffer
 from registry.models import Device, Membership, User
 from registry.mtconnect import agent, streams
 from registry.mtconnect.agent import Question
