@@ -32,6 +32,7 @@ def device_role(device_id: str, topics: Sequence[str] = ()) -> Role:
 def enrolment_role(name: str) -> Role:
     """Return what somebody with a site's enrolment key may do: enrol, and hear nothing."""
     site = name.removeprefix(ENROLMENT)
+    # brokers that run know the role by this name
     return {"rolename": f"door {site}", "acls": [_allow("publishClientSend", f"vipo/v1/join/{site}/+")]}
 
 

@@ -119,7 +119,7 @@ def _site_for(slug: str, sites: Mapping[str, Site]) -> Site:
 
 
 def _make_rows(found: Sequence[_News], sites: Mapping[str, Site]) -> dict[str, Fate]:
-    """Make rows for newcomers, before any is locked; return who has no site to stand at."""
+    """Make rows for devices that nobody knows, before any is locked; return who has no site to stand at."""
     ids = [news.said.device_id for news in found]
     there = set(Device.objects.filter(pk__in=ids).values_list("pk", flat=True)) if ids else set()
     rows, homeless = list[Device](), dict[str, Fate]()
@@ -194,7 +194,7 @@ def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[De
 
 
 def _may_choose_site(device: Device) -> bool:
-    """Tell whether a device may still say where it belongs; one that has a key came through the door of its site."""
+    """Tell whether a device may still say where it belongs; one that has a key enrolled at its site."""
     return device.lifecycle == Device.Lifecycle.PENDING and not device.description and not device.credential_hash
 
 

@@ -44,8 +44,8 @@ class NotRetired(RegistryError):
 def approve_device(*, site: str, device_id: str, by: User | None, at: datetime) -> Decided:
     """Let a pending device take part, with a key of its own. Raises NoSuchDevice, NotPending, BrokerAway.
 
-    One that came with the join key gets a key at once; one that came with its own keeps that unless it takes the new
-    one over MQTT.
+    One that came with the enrolment key gets a key at once; one that came with its own keeps that unless it takes the
+    new one over MQTT.
     """
     credential = make_credential()
     with transaction.atomic():
@@ -80,7 +80,7 @@ def retire_device(*, site: str, device_id: str, by: User | None, at: datetime) -
 
 
 def readmit_device(*, site: str, device_id: str, by: User | None, at: datetime) -> DeviceView:
-    """Let a retired device's id come back, as a newcomer without a key. Raises NoSuchDevice, NotRetired."""
+    """Let a retired device's id come back, pending and without a key. Raises NoSuchDevice, NotRetired."""
     with transaction.atomic():
         device = lock_device(site, device_id)
         if device.lifecycle != Lifecycle.RETIRED:

@@ -1,4 +1,4 @@
-"""`vipo devices`, `vipo alerts`, `vipo approve`, `vipo join-key`: devices for whoever may read the database."""
+"""`vipo devices`, `vipo alerts`, `vipo approve`, `vipo enrolment-key`: devices for whoever may read the database."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CLEAN, UNUSABLE = 0, 2
 DEVICES = "List the devices of a site, or of all sites, with their state."
 ALERTS = "List the alerts of a site, or of all sites, that are not over."
 APPROVE = "Let a pending device take part, and print its new key this once."
-JOIN_KEY = "Make a new join key for a site's newcomers, and print it this once; the old one ends."
+ENROLMENT_KEY = "Make a new key with which unknown devices enrol at a site, and print it this once; the old one ends."
 ALERT_COLUMNS = ("severity", "site", "device", "state", "times", "since", "what")
 COLUMNS = ("id", "name", "site", "kind", "life", "state", "last seen")
 
@@ -52,10 +52,10 @@ def add_approve_arguments(sub: argparse.ArgumentParser) -> None:
     sub.set_defaults(run=approve)
 
 
-def add_join_key_arguments(sub: argparse.ArgumentParser) -> None:
-    """Describe what stands behind `vipo join-key`."""
+def add_enrolment_key_arguments(sub: argparse.ArgumentParser) -> None:
+    """Describe what stands behind `vipo enrolment-key`, which was called `vipo join-key`."""
     sub.add_argument("site", help="the site's short name")
-    sub.set_defaults(run=renew_join_key)
+    sub.set_defaults(run=renew_enrolment_key)
 
 
 def list_devices(options: argparse.Namespace) -> int:
@@ -157,8 +157,8 @@ def _decide_topic(device: DeviceView, options: argparse.Namespace) -> int:
     return CLEAN
 
 
-def renew_join_key(options: argparse.Namespace) -> int:
-    """Make a site's door a new key and print it; return 0, or 2 when that cannot be."""
+def renew_enrolment_key(options: argparse.Namespace) -> int:
+    """Give a site a new enrolment key and print it; return 0, or 2 when that cannot be."""
     _set_up()
     from registry import services
     from vipo_device.protocol.errors import VipoError

@@ -115,7 +115,7 @@ class _Parser(argparse.ArgumentParser):
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(prog="vipo", description="Check, print, plan and rehearse programs for robots and machines.")
     names = "|".join(
-        [*(name for name, _, _ in _COMMANDS), "describe", "call", "devices", "alerts", "approve", "join-key"]
+        [*(name for name, _, _ in _COMMANDS), "describe", "call", "devices", "alerts", "approve", "enrolment-key"]
     )
     commands = parser.add_subparsers(required=True, metavar=names, parser_class=_Parser)
     for name, command, text in _COMMANDS:
@@ -138,10 +138,11 @@ def _parser() -> argparse.ArgumentParser:
         ("devices", devices.DEVICES, devices.add_devices_arguments),
         ("alerts", devices.ALERTS, devices.add_alerts_arguments),
         ("approve", devices.APPROVE, devices.add_approve_arguments),
-        ("join-key", devices.JOIN_KEY, devices.add_join_key_arguments),
         ("account", account.ACCOUNT, account.add_account_arguments),
     ):
         add(commands.add_parser(word, help=text, description=text))
+    word, text = "enrolment-key", devices.ENROLMENT_KEY
+    devices.add_enrolment_key_arguments(commands.add_parser(word, aliases=["join-key"], help=text, description=text))
     return parser
 
 

@@ -18,14 +18,15 @@ if TYPE_CHECKING:
 CheckPassword = Callable[[str, str], bool]
 Line = tuple[str, str, Mapping[str, Any]]
 """For a device's history: its id, an English sentence, and what a screen says that from."""
-DOOR = "join:"
+ENROLMENT = "join:"
+"""Before a site's name: the user name of who enrols there (docs/protocol.md)."""
 LOOK_EVERY_S = 2.0
-_KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
+_ENROL = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
 _STOP = re.compile(r"vipo/v1/site/[^/#]+/stop")
 
 
 class Admitted(NamedTuple):
-    """Somebody who may come in: the hash of their own key (empty with the join key), and their legacy topics."""
+    """Somebody who may come in: the hash of their own key (empty with an enrolment key), and their legacy topics."""
 
     key: str = ""
     topics: frozenset[str] = frozenset()
@@ -113,10 +114,10 @@ class RegistryAccess:
 
 
 def may_publish(username: str, topic: str) -> bool:
-    """Say whether somebody may write to a topic: a device under its own `up/`, a newcomer at its site's door."""
-    if username.startswith(DOOR):
-        knock = _KNOCK.fullmatch(topic)
-        return knock is not None and knock[1] == username.removeprefix(DOOR)
+    """Say whether somebody may write to a topic: a device under its own `up/`, who enrols at its own site."""
+    if username.startswith(ENROLMENT):
+        enrolment = _ENROL.fullmatch(topic)
+        return enrolment is not None and enrolment[1] == username.removeprefix(ENROLMENT)
     return topic.startswith(f"vipo/v1/dev/{username}/up/") and not {"+", "#"} & set(topic)
 
 
@@ -125,7 +126,7 @@ def may_subscribe(username: str, topic_filter: str, topics: Collection[str] = ()
 
     `topics` are the legacy ones that an admin has confirmed for it.
     """
-    if username.startswith(DOOR):
+    if username.startswith(ENROLMENT):
         return False
     if topic_filter.startswith(f"vipo/v1/dev/{username}/down/") or topic_filter in topics:
         return True

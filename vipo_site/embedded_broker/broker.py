@@ -1,7 +1,7 @@
 """The embedded MQTT broker: amqtt with VIPO's own rules about who may do what.
 
 amqtt 0.12 is used through a subclass, because as it comes it (1) drops the session that a stranger names before it
-asks for a password, (2) sends wills without asking the topic rules, (3) gives every newcomer the retained messages of
+asks for a password, (2) sends wills without asking the topic rules, (3) sends whoever comes the retained messages of
 all other clients' subscriptions, (4) loses a message when somebody subscribes while it is being spread, (5) never ends
 a connection that fell silent, (6) waits for ever on a CONNECT of MQTT 5, and (7) has no bound on what is said too fast,
 not read, kept, asked for or begun. What is dropped is counted for the device's page, as the gateway counts.

@@ -1,4 +1,4 @@
-"""The embedded MQTT broker's life: amqtt in a thread of this process, with VIPO's own rules (see broker_core)."""
+"""The embedded MQTT broker's life: amqtt in a thread of this process, with VIPO's own rules (see `broker`)."""
 
 from __future__ import annotations
 

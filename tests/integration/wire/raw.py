@@ -111,7 +111,7 @@ def raw(broker: EmbeddedBroker, hello: bytes, answer: bytes = b"\x00\x00") -> It
 
 
 class Notebook(PasswordAccess):
-    """A access_control that lets in whoever knows the word, and keeps what is noted."""
+    """Lets in whoever knows the word, and keeps what is noted."""
 
     def __init__(self, word: str) -> None:
         super().__init__(lambda _username, password: password == word)
