@@ -55,8 +55,7 @@ from registry.devices.rows import BadDevice, NoSuchDevice
 from registry.devices.samples import flush_samples, note_samples, prune_samples
 from registry.devices.states import StateMessage, find_unchanged, ingest_state, ingest_states
 from registry.devices.views import DeviceView, device_to_json
-from registry.live.fanout import EVERY_SITE, Message, listen, publish, publish_all, wait_wake, wake
-from registry.live.outage import Outage
+from registry.live.fanout import EVERY_SITE, Message, Outage, listen, publish, publish_all, wait_wake, wake
 from registry.maps.robot_map_parts import ingest_map_part
 from registry.maps.robot_maps import NoRobotMap, RobotMapFacts, RobotMapView, get_robot_map, get_robot_map_facts
 from registry.maps.site_maps import (

@@ -15,7 +15,7 @@ from django.test.utils import CaptureQueriesContext
 
 from registry import services
 from registry.alerts import buffer as alert_notes
-from registry.alerts import list as alert_list
+from registry.alerts import inbox
 from registry.alerts.alerts import Raised
 from registry.alerts.buffer import AGAIN_S, NoteBuffer
 from registry.live import fanout
@@ -255,7 +255,7 @@ def test_what_only_concerns_admins_is_theirs_alone(mixer: str, person: Callable[
 
 
 def test_old_alerts_are_forgotten_and_never_open_ones(mixer: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(alert_list, "KEPT_AT_MOST", 3)
+    monkeypatch.setattr(inbox, "KEPT_AT_MOST", 3)
     for day in range(6):
         at = NOW - timedelta(days=8 * day)
         DeviceAlert.objects.create(device_id=mixer, code="error", first_at=at, last_at=at, over_at=at)
