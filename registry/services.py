@@ -27,7 +27,7 @@ from registry.devices.credentials import (
     revoke_credential,
     rotate_credential,
 )
-from registry.devices.descriptions import DescriptionMessage, ingest_description, ingest_descriptions
+from registry.devices.descriptions import DescriptionMessage, find_unchanged, ingest_description, ingest_descriptions
 from registry.devices.enrolment import ReservedDevice, enrol_device, expect_device, reserve_device
 from registry.devices.legacy_topics import TopicNotAsked, TopicTaken, confirm_topic, list_granted_topics, withdraw_topic
 from registry.devices.lifecycle import (
@@ -53,7 +53,7 @@ from registry.devices.queries import (
 )
 from registry.devices.rows import BadDevice, NoSuchDevice
 from registry.devices.samples import flush_samples, note_samples, prune_samples
-from registry.devices.states import StateMessage, find_unchanged, ingest_state, ingest_states
+from registry.devices.states import StateMessage, ingest_state, ingest_states
 from registry.devices.views import DeviceView, device_to_json
 from registry.live.fanout import EVERY_SITE, Message, Outage, listen, publish, publish_all, wait_wake, wake
 from registry.maps.robot_map_parts import ingest_map_part

@@ -21,7 +21,7 @@ from registry.models import Device, DeviceAlert, DeviceEvent
 CALM = timedelta(seconds=10)
 BLIP = timedelta(seconds=5)
 """A device that is back within this time was not away."""
-SETTLING = timedelta(minutes=1)
+START_GRACE = timedelta(minutes=1)
 """So long after the watch began devices may still come back that only VIPO itself had lost."""
 PENDING_PATIENCE = timedelta(hours=1)
 PENDING_GONE = timedelta(days=1)
@@ -82,7 +82,7 @@ def _find_away(
     limit = timedelta(seconds=settings.VIPO_OFFLINE_ALERT_S)
     found: Causes = {}
     for device, seen in away.items():
-        is_settled = now - since >= SETTLING and now - seen >= BLIP
+        is_settled = now - since >= START_GRACE and now - seen >= BLIP
         if (device, AT_WORK) in there or (device in at_work and is_settled):
             found[device, AT_WORK] = {}
         elif (device, OFFLINE) in there or now - max(seen, since) >= limit:

@@ -20,8 +20,8 @@ from django.db import transaction
 from registry.broker.accounts import Account, accounts
 from registry.broker.mosquitto_file import ENROLMENT
 from registry.devices.authentication import list_broker_hashes
-from registry.devices.history_texts import history_text
-from registry.devices.rows import STARTS, announce, forget_starts, lock_device, write_event
+from registry.devices.history import history_text, write_event
+from registry.devices.rows import STARTS, announce, forget_starts, lock_device
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, User
 from registry.sites.sites import set_enrolment_key

@@ -9,23 +9,15 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import datetime, timedelta
 from typing import Any
 
 from django.conf import settings
 from django.db import connection, transaction
 
-from registry.devices.history_texts import describe_change, history_text
+from registry.devices.history import MOST_CHARACTERS, describe_change, history_text, line_of_history, write_lines
 from registry.devices.legacy_topics import claim_topics
-from registry.devices.rows import (
-    MOST_CHARACTERS,
-    BadDevice,
-    NoSuchDevice,
-    announce_all,
-    check_id,
-    line_of_history,
-    write_lines,
-)
+from registry.devices.rows import BadDevice, NoSuchDevice, announce_all, check_id
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, DeviceEvent, Site, TopicClaim
 from vipo_device.descriptions.changes import list_changes
@@ -37,6 +29,7 @@ from vipo_device.protocol.faults import Fault, facts_of, told
 from vipo_device.protocol.topics import list_asked
 
 MOST_LINES = 8
+SEEN_EVERY = timedelta(seconds=5)
 WRITE_DESCRIPTION = """
     UPDATE registry_device SET site_id = %s, done = %s, description = %s, description_hash = %s, source = %s,
     source_hash = %s, source_type = %s, first_seen_at = %s, last_seen_at = %s WHERE id = %s
@@ -62,6 +55,18 @@ class _News:
 
 Fate = DeviceView | RegistryError
 """The device as it is now, or why its description was refused."""
+
+
+def find_unchanged(*, descriptions: Mapping[str, bytes], at: datetime) -> frozenset[str]:
+    """Return which of these devices have described themselves in these very bytes before, and note that they spoke."""
+    digests = {device: source_hash(payload) for device, payload in descriptions.items()}
+    rows = Device.objects.filter(pk__in=list(digests), description__isnull=False)
+    known = rows.values_list("pk", "source_hash", "last_seen_at")
+    same = {device: seen for device, digest, seen in known if digests[device] == digest}
+    quiet = [device for device, seen in same.items() if seen is None or at - seen >= SEEN_EVERY]
+    if quiet:
+        Device.objects.filter(pk__in=quiet).update(last_seen_at=at)
+    return frozenset(same)
 
 
 def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> DeviceView:

@@ -16,8 +16,8 @@ from django.db import transaction
 
 from registry.alerts.buffer import note_alert
 from registry.broker.accounts import Account, accounts
-from registry.devices.history_texts import history_text
-from registry.devices.rows import STARTS, BadDevice, check_id, forget_starts, write_event
+from registry.devices.history import history_text, write_event
+from registry.devices.rows import STARTS, BadDevice, check_id, forget_starts
 from registry.models import Device, User
 from registry.sites.sites import find_site
 from vipo_device.protocol.credentials import (

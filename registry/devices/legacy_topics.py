@@ -13,8 +13,8 @@ from datetime import datetime
 from django.db import transaction
 
 from registry.broker.accounts import accounts
-from registry.devices.history_texts import history_text
-from registry.devices.rows import announce, lock_device, write_event
+from registry.devices.history import history_text, write_event
+from registry.devices.rows import announce, lock_device
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, TopicClaim, User
 from vipo_device.protocol.description import Description, description_from_json

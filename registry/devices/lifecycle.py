@@ -13,9 +13,9 @@ from datetime import datetime
 from django.db import transaction
 
 from registry.devices.credentials import Decided, deliver_key, give_key, lock_out, replace_key, require_approved
-from registry.devices.history_texts import HistoryText, history_text
+from registry.devices.history import HistoryText, history_text, write_event
 from registry.devices.legacy_topics import claim_again, release_topics
-from registry.devices.rows import STARTS, BadDevice, announce, forget_starts, lock_device, write_event
+from registry.devices.rows import STARTS, BadDevice, announce, forget_starts, lock_device
 from registry.devices.things import record_thing
 from registry.devices.views import DeviceView, view_of
 from registry.live.fanout import publish

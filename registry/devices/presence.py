@@ -16,8 +16,8 @@ from django.db import transaction
 from django.utils import timezone
 
 from registry.alerts.buffer import note_alert
-from registry.devices.history_texts import history_text
-from registry.devices.rows import BadDevice, announce, check_id, write_event
+from registry.devices.history import history_text, write_event
+from registry.devices.rows import BadDevice, announce, check_id
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, DeviceEvent, Site
 from vipo_device.protocol.messages import parse_presence

@@ -9,23 +9,20 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from datetime import datetime, timedelta
+from datetime import datetime
 from typing import Any
 
 from django.db import connection, transaction
 
-from registry.devices.history_texts import history_text
-from registry.devices.rows import write_event
+from registry.devices.history import history_text, write_event
 from registry.devices.views import DeviceView, changed_state, view_of
 from registry.live.fanout import publish_all
 from registry.models import Device
-from vipo_device.descriptions.reader import source_hash
 from vipo_device.protocol.description import DeviceState
 from vipo_device.protocol.errors import RegistryError
 from vipo_device.protocol.messages import parse_state
 
 MOST_READINGS = 128
-SEEN_EVERY = timedelta(seconds=5)
 WRITE_STATE = """
     UPDATE registry_device SET boot = %s, seq = %s, done = %s, command = %s, properties = %s, pose = %s, online = %s,
     last_seen_at = %s WHERE id = %s
@@ -125,15 +122,3 @@ def _tell_trouble(device: Device, before: DeviceView, after: DeviceView, at: dat
         write_event(device, at, "error", history_text("error", text=after.activity.text))
     elif before.status == "error" and after.status not in ("error", "offline"):
         write_event(device, at, "recovered", history_text("recovered"))
-
-
-def find_unchanged(*, descriptions: Mapping[str, bytes], at: datetime) -> frozenset[str]:
-    """Return which of these devices have described themselves in these very bytes before, and note that they spoke."""
-    digests = {device: source_hash(payload) for device, payload in descriptions.items()}
-    rows = Device.objects.filter(pk__in=list(digests), description__isnull=False)
-    known = rows.values_list("pk", "source_hash", "last_seen_at")
-    same = {device: seen for device, digest, seen in known if digests[device] == digest}
-    quiet = [device for device, seen in same.items() if seen is None or at - seen >= SEEN_EVERY]
-    if quiet:
-        Device.objects.filter(pk__in=quiet).update(last_seen_at=at)
-    return frozenset(same)

@@ -8,9 +8,8 @@ from datetime import datetime, timedelta
 
 from django.db import transaction
 
-from registry.devices.history_texts import history_text
+from registry.devices.history import history_text, write_event
 from registry.devices.queries import get_device
-from registry.devices.rows import write_event
 from registry.floorplan.map_message import plain_grid
 from registry.floorplan.plan import UNKNOWN, Grid
 from registry.live.fanout import publish

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from registry.devices.history_texts import MOST_PARTS, PARTS, SENTENCES, describe_change, history_text
+from registry.devices.history import MOST_PARTS, PARTS, SENTENCES, describe_change, history_text
 from vipo_device.protocol.description import Description, MethodSpec, Pose, PropertySpec, Size
 
 MIXER = Description("mixer", "Mixer", "machine", "mixer", Pose(0, 0), Size(1, 1, 1))
