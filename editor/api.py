@@ -21,7 +21,7 @@ from editor.shapes import (
     Parameters,
 )
 from registry import services as registry
-from registry.people.access import NotAMember, require
+from registry.services import NotAMember, require
 
 router = Router(tags=["editor"])
 

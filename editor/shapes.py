@@ -1,4 +1,4 @@
-"""The shapes of documents and compiled programs over HTTP: described, not checked (see `registry.api.unchecked`)."""
+"""The shapes of documents and compiled programs over HTTP: described, not checked (see `registry.shapes`)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from ninja import Field, Schema
 
-from registry.api.unchecked import Shown
+from registry.shapes import Shown
 
 Position = tuple[float, float]
 

@@ -28,8 +28,8 @@ from execution.shapes import (
     StartRehearsal,
     StartRun,
 )
-from registry.api.shapes import Stop
-from registry.people.access import NotAMember, require
+from registry.services import NotAMember, require
+from registry.shapes import Stop
 
 router = Router(tags=["execution"])
 

@@ -9,8 +9,8 @@ from ninja import Field, Router, Schema
 
 from execution import services
 from registry import services as registry
-from registry.api.requests import signed_in
-from registry.people.access import require
+from registry.services import require
+from registry.shapes import signed_in
 
 router = Router(tags=["execution"])
 Version = Annotated[int, Field(ge=0, lt=2**31)]

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from ninja import Field, Schema
 
 from editor.shapes import Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
-from registry.api.unchecked import Shown
+from registry.shapes import Shown
 
 RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cancelled"]
 StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]

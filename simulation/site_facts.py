@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from registry import services as registry
-from registry.demo import devices as demo
-from registry.demo.factory import make_grid, read_plan
 from registry.floorplan.plan import Grid
 from vipo_device.descriptions.reader import read_description, write_description
 from vipo_device.protocol.description import Description, Pose
@@ -39,9 +37,9 @@ class SiteFacts:
 
 def demo_facts() -> SiteFacts:
     """Return the painting factory as its files describe it."""
-    sources = [path.read_bytes() for path in sorted(demo.DEVICES.glob("*.ttl"))]
+    sources = registry.read_demo_descriptions().values()
     devices = tuple(VirtualDevice(read_description(source), source) for source in sources)
-    return SiteFacts(demo.SITE, make_grid(read_plan()), devices)
+    return SiteFacts(registry.DEMO_SITE, registry.get_demo_grid(), devices)
 
 
 def read_site_facts(slug: str) -> SiteFacts:
@@ -52,7 +50,7 @@ def read_site_facts(slug: str) -> SiteFacts:
     """
     known = registry.list_devices(site=slug)
     grid = registry.get_map(site=slug).grid
-    if slug == demo.SITE:
+    if slug == registry.DEMO_SITE:
         devices = demo_facts().devices
     else:
         simulated = [d.canonical for d in known if d.canonical.simulated and d.lifecycle == "approved"]

@@ -66,8 +66,8 @@ INSTALLED_APPS = [
 ]
 MIDDLEWARE = [
     "django.middleware.security.SecurityMiddleware",
-    "vipo_site.http.headers.SecurityHeaders",
-    "vipo_site.http.refusals.TellMethods",
+    "vipo_site.http.middleware.SecurityHeaders",
+    "vipo_site.http.middleware.TellMethods",
     "django.contrib.sessions.middleware.SessionMiddleware",
     "django.middleware.common.CommonMiddleware",
     "django.middleware.csrf.CsrfViewMiddleware",

@@ -15,7 +15,6 @@ from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFa
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
 from registry import services as registry
 from registry.floorplan.plan import FloorPlan, machine_beside
-from registry.live import fanout
 from vipo_device.protocol.description import Description, Pose
 
 _CHANGES_THAT_MATTER = ("lifecycle", "name", "methods", "gives", "takes", "capacity")
@@ -61,7 +60,7 @@ def _kind(kind: str) -> Any:
 
 def _floor(site: str) -> FloorFacts | None:
     try:
-        return registry.get_floor(site=site)
+        return registry.get_floor_plan(site=site)
     except registry.NoMap:
         return None
 
@@ -97,7 +96,7 @@ def check_and_publish(program_id: str, document: Mapping[str, Any], revision: in
     """Compile a program's document and publish it to all who watch its site. Raises NoSuchProgram."""
     body = check_program(program_id=program_id, document=document, revision=revision, edited=edited)
     site = Program.objects.values_list("site__slug", flat=True).get(pk=program_id)
-    fanout.publish(site, {"type": "compiled", "program": program_id, **body})
+    registry.publish(site, {"type": "compiled", "program": program_id, **body})
 
 
 def fingerprint_of(surroundings: Surroundings) -> str:

@@ -17,7 +17,7 @@ from editor.language.document.format_migrations import FORMAT
 from editor.models import LibraryFunction, LibraryVersion, Program
 from editor.programs.checking import build_surroundings
 from editor.programs.views import LibraryView, view_author
-from registry.live import fanout
+from registry import services as registry
 
 MOST_NAME, MOST_DESCRIPTION = 120, 500
 
@@ -76,7 +76,7 @@ def save_function(
         LibraryVersion.objects.create(
             function=row, number=row.last_version, author=user, definition=definition, script=script
         )
-    fanout.publish(site, {"type": "library"})
+    registry.publish(site, {"type": "library"})
     return get_function(function_id=row.pk)
 
 

@@ -27,7 +27,7 @@ from editor.models import Program, Snapshot, Version
 from editor.programs.checking import build_surroundings, check_program, compiled_json, fingerprint_of, new_revision
 from editor.programs.views import ProgramView, VersionView, view_author
 from registry import services as registry
-from registry.live.fanout import publish
+from registry.services import publish
 
 MOST_NAME = 120
 MOST_CHECKED_AT_ONCE = 100

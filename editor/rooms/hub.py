@@ -23,9 +23,8 @@ from editor.rooms.member import Close, Member, Person
 from editor.rooms.room import Room
 from editor.rooms.runner import INTERRUPTED, OpenRoom, in_database, open_room
 from editor.rooms.stream import RoomStream, StreamLost, make_stream
-from registry.live import fanout
-from registry.people.access import find_access
-from registry.people.sessions import has_ended
+from registry import services as registry
+from registry.services import find_access, has_ended
 
 CLOSE_EMPTY_AFTER_S = 5.0
 FLUSH_LIMIT_S = 5.0
@@ -110,15 +109,15 @@ class Hub:
     async def _listen(self) -> None:
         if self._stop_listening is None:
             self._stop_listening = lambda: None
-            self._stop_listening = await asyncio.to_thread(fanout.listen, self._hear)
+            self._stop_listening = await asyncio.to_thread(registry.listen, self._hear)
 
-    def _hear(self, site: str, message: fanout.Message) -> None:
+    def _hear(self, site: str, message: registry.Message) -> None:
         """Called on a foreign thread for every live message."""
         if message.get("type") in _HEARD and not self.loop.is_closed():
             self.loop.call_soon_threadsafe(self._on_live, site, message)
 
-    def _on_live(self, site: str, message: fanout.Message) -> None:
-        rooms = [opened for opened in self._open.values() if site in (opened.room.site, fanout.EVERY_SITE)]
+    def _on_live(self, site: str, message: registry.Message) -> None:
+        rooms = [opened for opened in self._open.values() if site in (opened.room.site, registry.EVERY_SITE)]
         if message["type"] in {"members", "programs", "hello"}:
             for opened in rooms:
                 self._start(self._review, opened.room)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from editor.rooms import yjs_protocol
 
 if TYPE_CHECKING:
-    from registry.people.sessions import Session
+    from registry.services import Session
 
 KIB, MIB = 1024, 1024 * 1024
 FRAMES_PER_S, BURST_FRAMES = 60.0, 600.0

@@ -13,7 +13,7 @@ from editor.rooms.hub import Hub, Permission, find_permission, hub_of_this_loop
 from editor.rooms.member import Close, Member
 from editor.rooms.room import Room
 from editor.rooms.runner import in_database
-from registry.people.sessions import session_of_socket
+from registry.services import session_of_socket
 
 
 class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]

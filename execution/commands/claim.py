@@ -32,22 +32,24 @@ def _words(values: Iterable[str]) -> str:
     return ", ".join(f"'{value}'" for value in values)
 
 
-_DONE_FLAG_ONLY = registry.DONE_FLAG_ONLY_SQL.format(device="execution_command.device")
+_DUE = f"""
+SELECT DISTINCT device FROM execution_command WHERE status IN ({_words(Command.OPEN)}) AND send_after <= %s
+"""  # noqa: S608 - made of this product's own constants only
 # `IS TRUE` makes PostgreSQL look devices up in a hash: a join, planned when little was open, takes seconds in a rush.
 _CLAIM = f"""
-WITH due AS MATERIALIZED (
-    SELECT DISTINCT device FROM execution_command
-    WHERE status IN ({_words(Command.OPEN)}) AND send_after <= %(now)s
+WITH ready AS MATERIALIZED (
+    SELECT <each ready>
+), idless AS MATERIALIZED (
+    SELECT <each idless>
 ), waiting AS MATERIALIZED (
     SELECT id, site_id, device, position, piece, tries, method, send_after, min(position) OVER lane AS oldest,
         min(CASE WHEN piece AND status IN ({_words(UNANSWERED)}) THEN position END) OVER lane AS unanswered_piece
     FROM execution_command
-    WHERE status IN ({_words(Command.OPEN)}) AND (device IN (SELECT device FROM due)) IS TRUE
+    WHERE status IN ({_words(Command.OPEN)}) AND (device IN (SELECT device FROM ready)) IS TRUE
     WINDOW lane AS (PARTITION BY site_id, device)
 ), chosen AS MATERIALIZED (
     SELECT id FROM waiting
-    WHERE send_after <= %(now)s AND ({registry.OUT_SQL.format(device="waiting.device")}) IS NOT TRUE
-    AND (method IN ({_words(CONTROLS)}) OR (
+    WHERE send_after <= %(now)s AND (method IN ({_words(CONTROLS)}) OR (
         site_id NOT IN (SELECT site_id FROM execution_sitestop WHERE active)
         AND NOT (piece AND position > coalesce(unanswered_piece, position))
         AND (tries > 0 OR position - oldest < {WINDOW} OR {WINDOW} > (
@@ -66,27 +68,36 @@ WITH due AS MATERIALIZED (
     <lock>
 )<haste>
 UPDATE execution_command SET tries = tries + 1, send_after = CASE
-    WHEN ({_DONE_FLAG_ONLY}) THEN %(never)s
+    WHEN execution_command.device IN (SELECT device FROM idless) THEN %(never)s
     WHEN status NOT IN ({_words(UNANSWERED)}) THEN %(last)s
     WHEN tries = 0 THEN %(first)s WHEN tries = 1 THEN %(second)s WHEN tries = 2 THEN %(third)s
     ELSE %(last)s END
 FROM taken <hasty> WHERE id = taken_id
-RETURNING site_id, position, id, device, method, arguments, ttl_s, (
-    SELECT topic FROM ({registry.CONFIRMED_TOPICS_SQL}) AS told
-    WHERE told.device_id = execution_command.device AND told.method = execution_command.method
-)
+RETURNING site_id, position, id, device, method, arguments, ttl_s
 """  # noqa: S608 - made of this product's own constants only
 _MARK = "UPDATE execution_command SET status = 'sent', sent_at = %s WHERE status = 'pending' AND id IN (<ids>)"
-_HASTE = f""", haste AS MATERIALIZED (
+_HASTE = """, haste AS MATERIALIZED (
     SELECT set_config('synchronous_commit', 'off', true) WHERE NOT EXISTS (
-        SELECT 1 FROM execution_command JOIN taken ON id = taken_id WHERE ({_DONE_FLAG_ONLY})
+        SELECT 1 FROM execution_command JOIN taken ON id = taken_id WHERE device IN (SELECT device FROM idless)
     )
-)"""  # noqa: S608 - made of this product's own constants only
+)"""
 """A claim does not wait for the disk. One that a crash of the database forgets is made again, with the same ids, which
 devices know; so it waits where a device knows none."""
 _DIALECTS = {
-    "postgresql": {"<lock>": "FOR UPDATE SKIP LOCKED", "<haste>": _HASTE, "<hasty>": "LEFT JOIN haste ON true"},
-    "sqlite": {"<lock>": "", "<haste>": "", "<hasty>": ""},
+    "postgresql": {
+        "<each ready>": "json_array_elements_text(%(ready)s::json) AS device",
+        "<each idless>": "json_array_elements_text(%(idless)s::json) AS device",
+        "<lock>": "FOR UPDATE SKIP LOCKED",
+        "<haste>": _HASTE,
+        "<hasty>": "LEFT JOIN haste ON true",
+    },
+    "sqlite": {
+        "<each ready>": "value AS device FROM json_each(%(ready)s)",
+        "<each idless>": "value AS device FROM json_each(%(idless)s)",
+        "<lock>": "",
+        "<haste>": "",
+        "<hasty>": "",
+    },
 }
 """SQLite lets one write at a time: two that claim at once come one after the other."""
 _CLAIMS = {
@@ -113,12 +124,21 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
     cancel go out. A piece of way waits until the robot has accepted the piece before it: with a gateway that died
     in between, it would otherwise cut the corner through a wall. Nothing new goes out while a command that is
     `WINDOW` older is open: asked again, the device might have forgotten it.
-    All that is one statement: a command waits for this, and each question more is a millisecond.
+    Taking is one statement; before it stand two short questions, and none where nothing is due.
     """
+    now = datetime.now(UTC)
     with _preparing_cursor() as cursor:
-        cursor.execute(_CLAIMS[connection.vendor], _parameters(datetime.now(UTC), limit))
+        cursor.execute(_DUE, [connection.ops.adapt_datetimefield_value(now)])
+        due = [device for (device,) in cursor.fetchall()]
+        facts = registry.list_delivery_facts(devices=due) if due else {}
+        ready = [device for device in due if device not in facts or facts[device].takes_part]
+        if not ready:
+            return ()
+        idless = [device for device in ready if device in facts and facts[device].knows_no_ids]
+        told = {"ready": json.dumps(ready), "idless": json.dumps(idless)}
+        cursor.execute(_CLAIMS[connection.vendor], _parameters(now, limit) | told)
         rows = cursor.fetchall()
-    return tuple(_outgoing(*row[2:]) for row in sorted(rows, key=lambda row: row[:2]))
+    return tuple(_outgoing(facts.get(row[3]), *row[2:]) for row in sorted(rows, key=lambda row: row[:2]))
 
 
 @contextmanager
@@ -148,8 +168,9 @@ def _parameters(now: datetime, limit: int) -> dict[str, Any]:
 
 
 def _outgoing(
-    key: UUID | str, device: str, method: str, arguments: str, ttl_s: float, legacy_topic: str | None
+    facts: registry.DeliveryFacts | None, key: UUID | str, device: str, method: str, arguments: str, ttl_s: float
 ) -> OutgoingCommand:
+    legacy_topic = facts.topics.get(method) if facts else None
     command = str(UUID(str(key)))  # SQLite keeps it without dashes
     payload = messages.command_payload(command, json.loads(arguments), ttl_s)
     return OutgoingCommand(command, device, legacy_topic or messages.down_topic(device, method), payload, ttl_s)

@@ -24,7 +24,6 @@ from execution.models import Command, FloorState, Run
 from execution.runs.reasons import cause_of
 from execution.traffic import floor
 from registry import services as registry
-from registry.live import fanout
 
 EXPIRY_S = 30.0
 """A call that no device has answered after so long is given up: a person waits, and a late start would surprise."""
@@ -54,7 +53,7 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
         _check_free(row, registry.get_device(site=site, device_id=device_id))
         command = _write(row, device_id, method, given, by)
         mailbox.post(mailbox.site_target(site), [(f"call:{command.id}", _news(command))])
-        transaction.on_commit(lambda: fanout.wake("gateway"))
+        transaction.on_commit(lambda: registry.wake("gateway"))
     return call_to_json(command)
 
 

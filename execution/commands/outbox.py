@@ -13,7 +13,6 @@ from execution.commands.claim import CONTROLS, LAST_RETRY_S, UNANSWERED
 from execution.models import Command
 from execution.runs.reasons import SENTENCES
 from registry import services as registry
-from registry.live import fanout
 from vipo_device.protocol.description import Scalar
 
 CONTROL_LIMIT_S = 60.0
@@ -50,7 +49,7 @@ def record_ack(
         if row is None or row.device != device or row.status not in Command.OPEN:
             return False
         if row.piece and row.status in UNANSWERED:
-            transaction.on_commit(lambda: fanout.wake("gateway"))
+            transaction.on_commit(lambda: registry.wake("gateway"))
         row.status, row.why = STATUS[status], why[:500]
         row.sent_at = row.sent_at or at
         if status in FINAL:

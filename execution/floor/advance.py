@@ -21,7 +21,6 @@ from execution.traffic import messages as m
 from execution.traffic.floor_state import FloorState as State
 from execution.traffic.layout import Layout, make_layout
 from registry import services as registry
-from registry.live import fanout
 from vipo_device.protocol.description import Description, Pose
 
 TRAFFIC_EVERY_S = 0.2
@@ -151,7 +150,7 @@ def _write(slug: str, row: FloorState, before: State, after: State, actions: tup
     for number, action in enumerate(actions):
         _tell_run(row, number, action)
     if commands:
-        transaction.on_commit(lambda: fanout.wake("gateway"))
+        transaction.on_commit(lambda: registry.wake("gateway"))
 
 
 def _is_active(state: State) -> bool:
@@ -219,7 +218,7 @@ def _publish_traffic(slug: str, layout: Layout, state: State) -> None:
     seen = repr(robots)
     if seen != last and now - last_at >= TRAFFIC_EVERY_S:
         _published[slug] = (now, seen)
-        fanout.publish(slug, {"type": "traffic", "robots": robots})
+        registry.publish(slug, {"type": "traffic", "robots": robots})
 
 
 def _shown(layout: Layout, state: State, name: str) -> Mapping[str, Any]:

@@ -14,7 +14,6 @@ from execution.floor.advance import site_id
 from execution.models import ArmedProgram, Run, SiteStop
 from execution.runs.advance import OPEN
 from registry import services as registry
-from registry.live import fanout
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +64,7 @@ def reset_stop(*, site: str, by: str) -> StopView:
 def _disarm_all(site: str) -> None:
     """No program starts by itself after a stop until somebody arms it again."""
     if ArmedProgram.objects.filter(site__slug=site).delete()[0]:
-        transaction.on_commit(lambda: fanout.publish(site, {"type": "armed", "programs": []}))
+        transaction.on_commit(lambda: registry.publish(site, {"type": "armed", "programs": []}))
 
 
 def _lock(site: str) -> SiteStop:
@@ -78,6 +77,6 @@ def _latch(row: SiteStop, site: str, *, active: bool, by: str) -> None:
     row.save()
     registry.set_site_stop(site=site, active=active, by=by, at=row.at)
     message = {"type": "stop", "active": active, "by": by, "at": row.at.isoformat()}
-    transaction.on_commit(lambda: fanout.publish(site, message))
+    transaction.on_commit(lambda: registry.publish(site, message))
     for channel in ("stops", "gateway"):  # what there is to look at, then the hint that ends the gateway's wait
-        transaction.on_commit(partial(fanout.wake, channel))
+        transaction.on_commit(partial(registry.wake, channel))

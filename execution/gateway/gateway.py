@@ -23,8 +23,7 @@ from execution.gateway.ingest import KNOCK, Taker
 from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
 from execution.ticker.alerts import note_complaint
 from registry import services as registry
-from registry.live import fanout
-from registry.live.outage import Outage
+from registry.services import Outage
 from vipo_device.protocol import messages
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import facts_of, fault
@@ -155,14 +154,14 @@ class Gateway:
                 log.exception("Sending commands failed.")
                 busy = not stopping.wait(1.0)
             if not busy:
-                fanout.wait_wake(WAKE_CHANNEL, POLL_S)
+                registry.wait_wake(WAKE_CHANNEL, POLL_S)
         connection.close()
 
     def _send_once(self) -> bool:
         """Publish what waits; True when there may be more."""
         if self._greeting_due.is_set():
             self._greet()
-        if fanout.wait_wake(STOPS_CHANNEL, 0):
+        if registry.wait_wake(STOPS_CHANNEL, 0):
             self._publish_stops()
         commands = execution.claim_commands(limit=CLAIM_LIMIT)
         self._outage.end()

@@ -14,7 +14,7 @@ from django.db import DatabaseError, InterfaceError, OperationalError, connectio
 from execution import services as execution
 from execution.gateway.queue import Entry
 from registry import services as registry
-from registry.live.outage import Outage
+from registry.services import Outage
 from vipo_device.protocol import messages
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.mqtt_client import Message
@@ -82,13 +82,13 @@ class Taker:
     def _take_states(self, entries: list[Entry]) -> bool:
         """Take in states of different devices with one question and one write; False when that did not work."""
         at = datetime.now(UTC)
-        said = [registry.SaidState(e.device, e.message.payload, at, e.message.retained) for e in entries]
+        said = [registry.StateMessage(e.device, e.message.payload, at, e.message.retained) for e in entries]
         return self._take_together(entries, "state", lambda: registry.ingest_states(states=said), at)
 
     def _take_descriptions(self, entries: list[Entry]) -> bool:
         """Take in descriptions of different devices with few statements; False when that did not work."""
         at = datetime.now(UTC)
-        said = [registry.SaidDescription(e.device, e.message.payload, at) for e in entries]
+        said = [registry.DescriptionMessage(e.device, e.message.payload, at) for e in entries]
         return self._take_together(entries, "desc", lambda: registry.ingest_descriptions(descriptions=said), at)
 
     def _take_together(
@@ -147,7 +147,7 @@ class Taker:
         at = datetime.now(UTC)
         if kind == KNOCK:
             site, _ = messages.read_join_topic(message.topic) or ("", "")
-            registry.admit_newcomer(site=site, device_id=device, payload=message.payload, at=at)
+            registry.enrol_device(site=site, device_id=device, payload=message.payload, at=at)
         elif kind == "ack":
             ack = messages.parse_ack(message.payload)
             execution.record_ack(

@@ -21,7 +21,6 @@ from execution.rehearsals.child_process import scene_to_json
 from execution.runs.programs import Prepared
 from execution.runs.views import rehearsal_to_json
 from registry import services as registry
-from registry.live import fanout
 from simulation.world import Scene
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -123,4 +122,4 @@ def _end(row: Rehearsal, status: str, reason: str = "") -> None:
 
 def _publish(row: Rehearsal) -> None:
     message = {"type": "rehearsal", "id": str(row.id), "status": row.status, "progress": row.progress}
-    fanout.publish(row.site.slug, message)
+    registry.publish(row.site.slug, message)

@@ -11,7 +11,7 @@ from django.db import transaction
 from execution.machine import messages as r
 from execution.models import Run, RunEvent
 from execution.runs.views import event_to_json, run_to_json
-from registry.live import fanout
+from registry import services as registry
 
 TOLD_AT_LEAST = 100
 ANSWERS = {"DONE": "is done", "FAILED": "failed", "REJECTED": "refused", "CANCELED": "was called off"}
@@ -154,4 +154,4 @@ class Journal:
         messages = [{"type": "run_event", "run": str(run.id), "event": event_to_json(row)} for row in rows]
         messages.append({"type": "run", "run": run_to_json(run)})
 
-        transaction.on_commit(lambda: fanout.publish_all([(slug, message) for message in messages]))
+        transaction.on_commit(lambda: registry.publish_all([(slug, message) for message in messages]))

@@ -9,7 +9,7 @@ from django.db import transaction
 from execution.machine import messages as r
 from execution.models import Run
 from execution.runs.journal import Journal
-from registry.live import fanout
+from registry import services as registry
 
 SHOWN_PER_MINUTE = 20
 WINDOW = timedelta(minutes=1)
@@ -25,7 +25,7 @@ def tell(run: Run, journal: Journal, action: r.Tell) -> None:
     journal.say("notice", action.text, step=action.step, code="told", level=action.level)
     message = {"type": "notice", "run": str(run.id), "text": action.text, "level": action.level}
     slug = run.site.slug
-    transaction.on_commit(lambda: fanout.publish(slug, message))
+    transaction.on_commit(lambda: registry.publish(slug, message))
 
 
 def _count(run: Run, journal: Journal) -> dict[str, int]:

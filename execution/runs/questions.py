@@ -16,7 +16,7 @@ from execution.errors import AlreadyAnswered, AnswerNotFitting, NotFound, NotPos
 from execution.machine.messages import AskPeople
 from execution.models import Question, Run
 from execution.runs.views import question_to_json
-from registry.live import fanout
+from registry import services as registry
 from vipo_device.protocol.description import Scalar
 
 LONGEST_ANSWER = 500
@@ -124,4 +124,4 @@ def publish(row: Question) -> None:
     """Show a question as it is now to whoever watches the site, once the transaction is through."""
     message = {"type": "question", "question": question_to_json(row)}
     slug = row.run.site.slug
-    transaction.on_commit(lambda: fanout.publish(slug, message))
+    transaction.on_commit(lambda: registry.publish(slug, message))

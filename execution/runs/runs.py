@@ -17,7 +17,7 @@ from execution.models import Run, RunEvent
 from execution.runs.advance import OPEN
 from execution.runs.programs import Prepared
 from execution.runs.views import event_to_json, run_to_json
-from registry.live import fanout
+from registry import services as registry
 
 EVENTS_AT_ONCE = 1000
 
@@ -36,7 +36,7 @@ def start_run(*, prepared: Prepared, by: str, entry: int = 0) -> dict[str, Any]:
 def _announce(prepared: Prepared, row: Run) -> dict[str, Any]:
     view = run_to_json(row)
     mailbox.hint(mailbox.run_target(row.id))
-    transaction.on_commit(lambda: fanout.publish(prepared.site, {"type": "run", "run": view}))
+    transaction.on_commit(lambda: registry.publish(prepared.site, {"type": "run", "run": view}))
     return view
 
 

@@ -23,7 +23,7 @@ from execution.runs.facts import site_facts
 from execution.runs.programs import Prepared
 from execution.runs.runs import start_run
 from execution.runs.views import armed_to_json
-from registry.live import fanout
+from registry import services as registry
 
 PLANS_KEPT = 64
 _plans: OrderedDict[tuple[UUID, datetime], Plan] = OrderedDict()
@@ -66,7 +66,7 @@ def disarm_program(*, program_id: UUID, site: str) -> None:
 
 
 def _announce(site: str) -> None:
-    transaction.on_commit(lambda: fanout.publish(site, {"type": "armed", "programs": list_armed(site=site)}))
+    transaction.on_commit(lambda: registry.publish(site, {"type": "armed", "programs": list_armed(site=site)}))
 
 
 def start_armed(now: datetime) -> int:

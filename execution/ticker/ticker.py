@@ -17,7 +17,6 @@ from execution.models import FloorState, InboxEvent, Lease, Rehearsal, Run, Time
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
 from registry import services as registry
-from registry.live import fanout
 
 LEASE_S = 5.0
 TICK_SITES_S = 0.5
@@ -124,7 +123,7 @@ def _sweep_rehearsals(now: datetime) -> None:
         reason = "The process that rehearsed it has died. Start it again."
         Rehearsal.objects.filter(id=row.id, status=Rehearsal.Status.RUNNING).update(status="failed", reason=reason)
         message = {"type": "rehearsal", "id": str(row.id), "status": "failed", "progress": row.progress}
-        fanout.publish(row.site.slug, message)
+        registry.publish(row.site.slug, message)
 
 
 _ticker = Ticker()

@@ -16,7 +16,7 @@ from django.db import transaction
 from django.db.models import Q
 
 from registry.alerts.causes import CAUSES, AlertCode
-from registry.alerts.views import tell
+from registry.alerts.views import publish_alerts
 from registry.models import Device, DeviceAlert
 
 SAME_WITHIN = timedelta(minutes=5)
@@ -50,7 +50,7 @@ def raise_alerts(*, raised: Sequence[Raised]) -> None:
         wanted = {(r.device_id, r.code): r for r in raised if r.device_id in here}
         known = _lock_known(wanted)
         changed = [row.pk for key, row in known.items() if _raise_again(row, wanted[key])]
-        tell(changed + _insert([r for key, r in wanted.items() if key not in known]))
+        publish_alerts(changed + _insert([r for key, r in wanted.items() if key not in known]))
 
 
 def _lock_known(wanted: Mapping[tuple[str, AlertCode], Raised]) -> dict[tuple[str, AlertCode], DeviceAlert]:
@@ -93,7 +93,7 @@ def reword_alert(*, alert_id: int, args: Mapping[str, Any], at: datetime) -> Non
     """Say an open alert in other words; it is not counted as raised again."""
     with transaction.atomic():
         if DeviceAlert.objects.filter(pk=alert_id, over_at=None).update(args=dict(args), last_at=at):
-            tell([alert_id])
+            publish_alerts([alert_id])
 
 
 def end_alert(*, device_id: str, code: AlertCode, at: datetime) -> None:
@@ -110,4 +110,4 @@ def end_alerts(*, ids: Collection[int], at: datetime) -> None:
         open_rows = DeviceAlert.objects.select_for_update().filter(pk__in=ids, over_at=None)
         still_open = list(open_rows.order_by("pk").values_list("pk", flat=True))
         DeviceAlert.objects.filter(pk__in=still_open).update(over_at=at)
-        tell(still_open)
+        publish_alerts(still_open)

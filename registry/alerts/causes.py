@@ -30,6 +30,7 @@ AlertCode = Literal[
     "command_timed_out",
 ]
 SOON = timedelta(minutes=10)
+LOW_BATTERY_PERCENT = 15.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +69,7 @@ CAUSES: Mapping[AlertCode, Cause] = {
 }
 
 
-def say(code: AlertCode, args: Mapping[str, Any]) -> str:
+def sentence_of(code: AlertCode, args: Mapping[str, Any]) -> str:
     """Return an alert as an English sentence."""
     sentence = CAUSES[code].text.format_map({"method": args.get("method", "a command")})
     why = str(args.get("why", ""))

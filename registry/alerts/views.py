@@ -11,7 +11,7 @@ from typing import Any, Literal, cast
 from django.db import transaction
 from django.db.models import QuerySet
 
-from registry.alerts.causes import CAUSES, AlertCode, say
+from registry.alerts.causes import CAUSES, AlertCode, sentence_of
 from registry.live.fanout import publish_all
 from registry.models import DeviceAlert
 
@@ -67,7 +67,7 @@ def view_of(row: DeviceAlert) -> AlertView:
     )
 
 
-def tell(ids: Collection[int]) -> None:
+def publish_alerts(ids: Collection[int]) -> None:
     """Tell the browsers of these alerts, once the transaction holds."""
     if not ids:
         return
@@ -93,7 +93,7 @@ def alert_to_json(alert: AlertView) -> dict[str, Any]:
         "severity": cause.severity,
         "role": cause.role,
         "args": dict(alert.args),
-        "text": say(alert.code, alert.args),
+        "text": sentence_of(alert.code, alert.args),
         "count": alert.count,
         "state": alert.state,
         "first_at": alert.first_at.isoformat(),

@@ -15,17 +15,16 @@ from django.conf import settings
 from django.db.models import Q
 
 from registry.alerts.alerts import Raised, end_alerts, raise_alerts, reword_alert
-from registry.alerts.causes import CAUSES, AlertCode
-from registry.devices.views import LOW_BATTERY_PERCENT
+from registry.alerts.causes import CAUSES, LOW_BATTERY_PERCENT, AlertCode
 from registry.models import Device, DeviceAlert, DeviceEvent
 
 CALM = timedelta(seconds=10)
 BLIP = timedelta(seconds=5)
 """A device that is back within this time was not away."""
-SETTLING = timedelta(minutes=1)
+START_GRACE = timedelta(minutes=1)
 """So long after the watch began devices may still come back that only VIPO itself had lost."""
-NEWCOMER_PATIENCE = timedelta(hours=1)
-NEWCOMER_GONE = timedelta(days=1)
+PENDING_PATIENCE = timedelta(hours=1)
+PENDING_GONE = timedelta(days=1)
 MOST_CHARACTERS = 300
 OFFLINE: Final = "offline"
 AT_WORK: Final = "offline_at_work"
@@ -50,7 +49,7 @@ def watch_devices(*, now: datetime, since: datetime, at_work: Collection[str]) -
     """Raise and end alerts by how devices are; `since` is when this watch began, `at_work` who is needed now."""
     there = _list_open()
     away = dict(_list_away())
-    causes = {**_find_away(away, there, now, since, at_work), **_find_told(), **_find_newcomers(now)}
+    causes = {**_find_away(away, there, now, since, at_work), **_find_told(), **_find_pending(now)}
     raise_alerts(raised=[Raised(device, code, now, args) for (device, code), args in causes.items()
                          if (device, code) not in there])  # fmt: skip
     for (device, code), args in causes.items():
@@ -83,7 +82,7 @@ def _find_away(
     limit = timedelta(seconds=settings.VIPO_OFFLINE_ALERT_S)
     found: Causes = {}
     for device, seen in away.items():
-        is_settled = now - since >= SETTLING and now - seen >= BLIP
+        is_settled = now - since >= START_GRACE and now - seen >= BLIP
         if (device, AT_WORK) in there or (device in at_work and is_settled):
             found[device, AT_WORK] = {}
         elif (device, OFFLINE) in there or now - max(seen, since) >= limit:
@@ -106,11 +105,11 @@ def _find_told() -> Causes:
     return found
 
 
-def _find_newcomers(now: datetime) -> Causes:
+def _find_pending(now: datetime) -> Causes:
     """Find who has waited long for a decision, and was there within the last day."""
     rows = Device.objects.filter(lifecycle="pending", description__isnull=False)
-    rows = rows.filter(first_seen_at__lt=now - NEWCOMER_PATIENCE, last_seen_at__gt=now - NEWCOMER_GONE)
-    lately = DeviceEvent.objects.filter(kind="readmitted", at__gt=now - NEWCOMER_PATIENCE)
+    rows = rows.filter(first_seen_at__lt=now - PENDING_PATIENCE, last_seen_at__gt=now - PENDING_GONE)
+    lately = DeviceEvent.objects.filter(kind="readmitted", at__gt=now - PENDING_PATIENCE)
     return {(pk, "newcomer_waits"): {} for pk in rows.exclude(events__in=lately).values_list("pk", flat=True)}
 
 

@@ -10,11 +10,10 @@ from ninja import Router, Schema
 
 from registry import services
 from registry.alerts.causes import AlertCode, Severity
-from registry.alerts.list import NoSuchAlert
+from registry.alerts.inbox import NoSuchAlert
 from registry.alerts.views import AlertState
-from registry.api.requests import signed_in
-from registry.api.unchecked import Shown
 from registry.people.access import find_access, require
+from registry.shapes import Shown, signed_in
 
 router = Router(tags=["registry"])
 

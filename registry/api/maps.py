@@ -10,12 +10,11 @@ from django.http import HttpRequest, HttpResponse
 from ninja import Router, Schema
 
 from registry import services
-from registry.api.requests import sends, signed_in
-from registry.api.shapes import MapShape, Origin
 from registry.floorplan.comparison import Trouble
 from registry.floorplan.map_server import write_pgm, write_yaml
 from registry.floorplan.plan import Grid
 from registry.people.access import require
+from registry.shapes import MapShape, Origin, sends, signed_in
 
 router = Router(tags=["registry"])
 CELLS, PGM = "application/octet-stream", "image/x-portable-graymap"

@@ -9,7 +9,6 @@ from django.http import HttpRequest, HttpResponse, StreamingHttpResponse
 from django.utils import timezone
 from ninja import Field, Query, Router, Schema
 
-from registry.api.requests import signed_in
 from registry.mtconnect import agent as mtconnect_agent
 from registry.mtconnect import streams
 from registry.mtconnect.agent import AgentError, Answer, Question
@@ -17,6 +16,7 @@ from registry.mtconnect.documents import Agent, ErrorCode, write_error
 from registry.mtconnect.streams import Listener
 from registry.people.access import require
 from registry.people.sessions import session_of
+from registry.shapes import signed_in
 
 router = Router(tags=["mtconnect"])
 XML, STREAM = "application/xml", "multipart/x-mixed-replace"

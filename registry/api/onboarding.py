@@ -12,9 +12,8 @@ from ninja import Router, Schema
 from pydantic import Field
 
 from registry import services
-from registry.api.requests import signed_in
-from registry.devices.enrolment import expect_newcomer
 from registry.people.access import require
+from registry.shapes import signed_in
 from vipo_device.descriptions.forms import BadDescription, DescriptionForm
 from vipo_device.descriptions.reader import read, write_description
 from vipo_device.protocol.description import description_to_json
@@ -87,14 +86,14 @@ def add_newcomer(request: HttpRequest, slug: str, body: NewDevice) -> dict[str, 
     """Reserve an id for a device that will come, and tell its key this once; it still waits for approval then."""
     user = signed_in(request)
     require(user, slug, "admin")
-    return asdict(expect_newcomer(site=slug, device_id=body.id.strip(), by=user, at=timezone.now()))
+    return asdict(services.reserve_device(site=slug, device_id=body.id.strip(), by=user, at=timezone.now()))
 
 
 @router.post("/sites/{slug}/join-key", response=Door)
 def renew_join_key(request: HttpRequest, slug: str) -> dict[str, Any]:
     """Make a new join key for a site's newcomers, and tell it this once; the old one ends."""
     require(signed_in(request), slug, "admin")
-    return {"site": slug, "join_key": services.renew_join_key(site=slug), "broker": str(settings.VIPO_BROKER_URL)}
+    return {"site": slug, "join_key": services.renew_enrolment_key(site=slug), "broker": str(settings.VIPO_BROKER_URL)}
 
 
 @router.post("/sites/{slug}/describe", response=LookShape)

@@ -15,14 +15,14 @@ from ninja import Router
 from ninja.errors import HttpError
 from ninja.utils import check_csrf
 
-from registry.api.shapes import (
-    Me,
-    SignIn,
-)
-from registry.devices.thing_events import call_listeners
+from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import User
 from registry.people.sign_in import check_sign_in
+from registry.shapes import (
+    Me,
+    SignIn,
+)
 
 router = Router(tags=["registry"])
 

@@ -9,13 +9,13 @@ from ninja import File, Form, Router
 from ninja.files import UploadedFile
 
 from registry import services
-from registry.api.requests import signed_in
-from registry.api.shapes import (
-    SiteShape,
-)
-from registry.devices.views import site_to_json
 from registry.floorplan.map_server import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap
 from registry.people.access import require
+from registry.shapes import (
+    SiteShape,
+    signed_in,
+)
+from registry.sites.views import site_to_json
 
 router = Router(tags=["registry"])
 

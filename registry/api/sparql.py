@@ -9,8 +9,8 @@ from django.http.request import MediaType
 from ninja import Router
 
 from registry import services
-from registry.api.requests import signed_in
 from registry.people.access import require
+from registry.shapes import signed_in
 from registry.sparql.queries import MOST_QUERY_CHARACTERS, BadQuery
 
 router = Router(tags=["registry"])

@@ -6,9 +6,9 @@ from django.http import HttpRequest, HttpResponse, HttpResponseBase
 from ninja import Query, Router
 
 from registry import services
-from registry.api.requests import signed_in
 from registry.devices.things import EVENTS, EventName, device_id_of
 from registry.people.access import require
+from registry.shapes import signed_in
 from registry.thing_directory.answers import answer_thing, change_thing, open_stream, sends
 from registry.thing_directory.pages import Page, answer_page, list_page
 

@@ -19,7 +19,7 @@ from django.db import transaction
 from django.utils.module_loading import import_string
 
 from registry.broker.mosquitto_file import role_of
-from registry.live.fanout import wake
+from registry.live.fanout import wait_wake, wake
 from vipo_device.protocol.errors import RegistryError
 from vipo_device.protocol.mqtt_client import MqttClient
 
@@ -39,7 +39,7 @@ class BrokerAway(RegistryError):
 
 @dataclass(frozen=True, slots=True)
 class Account:
-    """Who may come in: a device's id or a site's door (`join:<site>`), the key, and a device's legacy topics."""
+    """Who may come in: a device's id (or `join:<site>` to enrol at a site), the key, and a device's legacy topics."""
 
     name: str
     key: str
@@ -169,3 +169,8 @@ def accounts() -> BrokerAccounts:
     """Return this mode's implementation."""
     made: BrokerAccounts = import_string(settings.VIPO_BROKER_ACCOUNTS)()
     return made
+
+
+def wait_account_change(*, timeout_s: float) -> bool:
+    """Wait until a broker that asks the registry should look again at who is connected; tell whether it should."""
+    return wait_wake(BROKER_CHANNEL, timeout_s)

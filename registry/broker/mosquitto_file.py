@@ -11,7 +11,8 @@ from typing import Any
 
 Acl = dict[str, object]
 Role = dict[str, Any]
-DOOR = "join:"
+ENROLMENT = "join:"
+"""Before a site's name: the user name with which devices enrol that have no key of their own (docs/protocol.md)."""
 HEARD_BY_ALL = ("vipo/v1/site/+/stop", "vipo/v1/srv/status")
 DEFAULTS = {"publishClientSend": False, "publishClientReceive": False, "subscribe": False, "unsubscribe": True}
 
@@ -28,9 +29,10 @@ def device_role(device_id: str, topics: Sequence[str] = ()) -> Role:
     return {"rolename": f"device {device_id}", "acls": acls}
 
 
-def door_role(name: str) -> Role:
-    """Return what somebody with a site's join key may do: knock, and hear nothing."""
-    site = name.removeprefix(DOOR)
+def enrolment_role(name: str) -> Role:
+    """Return what somebody with a site's enrolment key may do: enrol, and hear nothing."""
+    site = name.removeprefix(ENROLMENT)
+    # brokers that run know the role by this name
     return {"rolename": f"door {site}", "acls": [_allow("publishClientSend", f"vipo/v1/join/{site}/+")]}
 
 
@@ -64,8 +66,8 @@ def account_file(hashes: Mapping[str, str], topics: Mapping[str, Sequence[str]] 
 
 
 def role_of(name: str, topics: Sequence[str] = ()) -> Role:
-    """Return the role of a device's or a door's account by its name."""
-    return door_role(name) if name.startswith(DOOR) else device_role(name, topics)
+    """Return the role of a device's account, or of a site's for enrolment, by its name."""
+    return enrolment_role(name) if name.startswith(ENROLMENT) else device_role(name, topics)
 
 
 def _client(name: str, role: Role, hashed: str) -> dict[str, object]:

@@ -13,7 +13,7 @@ from vipo_device.protocol.messages import down_topic
 
 SITE = "painting-factory"
 DEVICES = FOLDER / "devices"
-NEWCOMER = "paintMixer03"
+PENDING_DEVICE = "paintMixer03"
 ROBOT_RADIUS_M = 0.18
 DOCK_HEADING_RAD = pi / 2
 _HEIGHT_M = {"shelf": 1.8, "cans": 1.2, "mixer": 1.2, "booth": 1.6, "oven": 1.5, "rollers": 0.8}
@@ -58,12 +58,12 @@ _DISPENSES, _ACCEPTS = {"shelf", "cans", "mixer"}, {"rollers"}
 
 
 def describe_devices() -> tuple[Description, ...]:
-    """Return the descriptions of every device of the demo, the newcomer last."""
+    """Return the descriptions of every device of the demo, the pending one last."""
     plan = read_plan()
     machines = tuple(_machine(device) for device in plan["devices"])
     robots = tuple(_robot(number, *at) for number, at in enumerate(plan["docks"], 1))
-    newcomer = {"id": NEWCOMER, "name": NEWCOMER, "kind": "mixer", "at": [16.2, 3.75], "size": [0.8, 0.8]}
-    return (*machines, *robots, _machine(newcomer))
+    pending = {"id": PENDING_DEVICE, "name": PENDING_DEVICE, "kind": "mixer", "at": [16.2, 3.75], "size": [0.8, 0.8]}
+    return (*machines, *robots, _machine(pending))
 
 
 def _machine(device: dict[str, Any]) -> Description:
@@ -140,6 +140,11 @@ def write_devices(folder: Path = DEVICES) -> None:
     folder.mkdir(exist_ok=True)
     for description in describe_devices():
         (folder / f"{description.id}.ttl").write_text(write_description(description))
+
+
+def read_demo_descriptions() -> dict[str, bytes]:
+    """Return what each device of the demo says of itself, as its file has it, by id."""
+    return {path.stem: path.read_bytes() for path in sorted(DEVICES.glob("*.ttl"))}
 
 
 if __name__ == "__main__":

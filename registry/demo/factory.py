@@ -41,6 +41,11 @@ def make_grid(plan: dict[str, Any]) -> Grid:
     return Grid(width, height, RESOLUTION_M, left, bottom, cells.tobytes())
 
 
+def get_demo_grid() -> Grid:
+    """Return the painting factory's grid."""
+    return make_grid(read_plan())
+
+
 def _within(
     x: NDArray[np.float64], y: NDArray[np.float64], box: tuple[float, float, float, float], reach: float
 ) -> NDArray[np.bool_]:

@@ -9,12 +9,15 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
-from registry import services
-from registry.demo.devices import NEWCOMER, SITE, describe_devices
+from registry.demo.devices import PENDING_DEVICE, SITE, describe_devices
 from registry.demo.factory import FOLDER, MAP_NAME, read_plan
-from registry.devices.views import PlaceView
+from registry.devices.enrolment import expect_device
 from registry.floorplan.map_server import read_map
+from registry.maps.site_maps import save_map
 from registry.models import Site, SiteMap, User
+from registry.people.sign_in import create_user
+from registry.sites.sites import create_site, save_places, set_enrolment_key, set_member
+from registry.sites.views import PlaceView
 
 SITE_NAME = "Painting Factory"
 PEOPLE = (("admin@vipo.example", "Ada Meyer", "admin"), ("author@vipo.example", "Otto Brandt", "author"))
@@ -33,11 +36,11 @@ ROOM_CENTRES = {
 def seed_demo(*, state: Path) -> list[dict[str, str]]:
     """Make what is missing of the demo and return its accounts; doing it again changes nothing."""
     if not Site.objects.filter(slug=SITE).exists():
-        services.create_site(name=SITE_NAME, slug=SITE)
+        create_site(name=SITE_NAME, slug=SITE)
     if not SiteMap.objects.filter(site__slug=SITE).exists():
         header, image = (FOLDER / f"{MAP_NAME}.yaml").read_bytes(), (FOLDER / f"{MAP_NAME}.pgm").read_bytes()
-        services.save_map(site=SITE, grid=read_map(header, image), source="demo")
-    services.save_places(site=SITE, places=demo_places())
+        save_map(site=SITE, grid=read_map(header, image), source="demo")
+    save_places(site=SITE, places=demo_places())
     _seed_devices(state)
     return _seed_people(state)
 
@@ -63,22 +66,20 @@ def _key(name: str) -> str:
 
 
 def _seed_devices(state: Path) -> None:
-    """Make a key for each device, once; the newcomer has one too, but nobody has approved it."""
+    """Make a key for each device, once; the pending one has one too, but nobody has approved it."""
     path = state / "secrets" / "devices.json"
     keys: dict[str, str] = _read(path, {})
     for device in describe_devices():
         keys.setdefault(device.id, secrets.token_urlsafe(32))
-        services.expect_device(
-            site=SITE, device_id=device.id, credential=keys[device.id], approved=device.id != NEWCOMER
-        )
+        expect_device(site=SITE, device_id=device.id, credential=keys[device.id], approved=device.id != PENDING_DEVICE)
     _write_private(path, json.dumps(keys, indent=1))
-    _seed_join_key(state / "secrets" / "join")
+    _seed_enrolment_key(state / "secrets" / "join")
 
 
-def _seed_join_key(path: Path) -> None:
+def _seed_enrolment_key(path: Path) -> None:
     if not path.exists():
         _write_private(path, secrets.token_urlsafe(32))
-    services.set_join_key(site=SITE, join_key=path.read_text().strip())
+    set_enrolment_key(site=SITE, key=path.read_text().strip())
 
 
 def _seed_people(state: Path) -> list[dict[str, str]]:
@@ -90,11 +91,11 @@ def _seed_people(state: Path) -> list[dict[str, str]]:
         password = passwords.get(email) or secrets.token_urlsafe(9)
         user = User.objects.filter(email=email).first()
         if user is None:
-            services.create_user(email=email, password=password, display_name=name)
+            create_user(email=email, password=password, display_name=name)
         elif email not in passwords:
             user.set_password(password)
             user.save(update_fields=["password"])
-        services.set_member(site=SITE, email=email, role=role)
+        set_member(site=SITE, email=email, role=role)
         accounts.append({"email": email, "password": password, "role": role})
     if passwords != {a["email"]: a["password"] for a in accounts}:
         _write_private(path, json.dumps(accounts, indent=1))

@@ -9,7 +9,7 @@ from vipo_device.protocol.description import Description, Scalar
 
 
 @dataclass(frozen=True, slots=True)
-class Doing:
+class Activity:
     """A code with its arguments, and the English words; a device's own words have the code `said`."""
 
     code: str = ""
@@ -27,37 +27,37 @@ class Seen:
     done: bool
 
 
-NOTHING = Doing()
-NOT_TRUSTED = Doing("not_trusted", "Not trusted yet")
+NOTHING = Activity()
+NOT_TRUSTED = Activity("not_trusted", "Not trusted yet")
 
 
-def doing_of(seen: Seen) -> Doing:
+def activity_of(seen: Seen) -> Activity:
     """Return what it is doing: its trouble first, then its load, then its work or what it has in store."""
     for trouble in ("error", "warning"):
         if text := seen.readings.get(trouble):
-            return Doing("said", str(text), {"text": str(text)})
+            return Activity("said", str(text), {"text": str(text)})
     if seen.carrying:
         load = sorted(seen.carrying.items())
         words = ", ".join(counted(count, name) for name, count in load)
-        return Doing("carrying", f"Carrying {words}", dict(load))
+        return Activity("carrying", f"Carrying {words}", dict(load))
     return _idle(seen) if seen.done else _busy(seen)
 
 
-def _busy(seen: Seen) -> Doing:
+def _busy(seen: Seen) -> Activity:
     progress = seen.readings.get("jobStatus")
     if isinstance(progress, int | float):
-        return Doing("working_percent", f"Working, {progress:.0f} %", {"percent": round(progress)})
-    return Doing("driving", "Driving") if seen.description.kind == "robot" else Doing("working", "Working")
+        return Activity("working_percent", f"Working, {progress:.0f} %", {"percent": round(progress)})
+    return Activity("driving", "Driving") if seen.description.kind == "robot" else Activity("working", "Working")
 
 
-def _idle(seen: Seen) -> Doing:
+def _idle(seen: Seen) -> Activity:
     stock, slots = seen.readings.get("stock"), seen.readings.get("freeSlots")
     if isinstance(stock, int | float):
         name = (seen.description.gives or ("object",))[0]
-        return Doing("stock", counted(round(stock), name), {"count": round(stock), "object": name})
+        return Activity("stock", counted(round(stock), name), {"count": round(stock), "object": name})
     if isinstance(slots, int | float):
-        return Doing("slots", f"{slots:.0f} slots free", {"count": round(slots)})
-    return Doing("ready", "Ready")
+        return Activity("slots", f"{slots:.0f} slots free", {"count": round(slots)})
+    return Activity("ready", "Ready")
 
 
 def counted(count: int, name: str) -> str:

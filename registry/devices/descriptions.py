@@ -9,24 +9,15 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import datetime, timedelta
 from typing import Any
 
 from django.conf import settings
 from django.db import connection, transaction
 
-from registry.devices.history_texts import described
-from registry.devices.history_texts import said as in_words
+from registry.devices.history import MOST_CHARACTERS, describe_change, history_text, line_of_history, write_lines
 from registry.devices.legacy_topics import claim_topics
-from registry.devices.rows import (
-    MOST_CHARACTERS,
-    BadDevice,
-    NoSuchDevice,
-    announce_all,
-    check_id,
-    line_of_history,
-    write_lines,
-)
+from registry.devices.rows import BadDevice, NoSuchDevice, announce_all, check_id
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, DeviceEvent, Site, TopicClaim
 from vipo_device.descriptions.changes import list_changes
@@ -38,6 +29,7 @@ from vipo_device.protocol.faults import Fault, facts_of, told
 from vipo_device.protocol.topics import list_asked
 
 MOST_LINES = 8
+SEEN_EVERY = timedelta(seconds=5)
 WRITE_DESCRIPTION = """
     UPDATE registry_device SET site_id = %s, done = %s, description = %s, description_hash = %s, source = %s,
     source_hash = %s, source_type = %s, first_seen_at = %s, last_seen_at = %s WHERE id = %s
@@ -45,7 +37,7 @@ WRITE_DESCRIPTION = """
 
 
 @dataclass(frozen=True, slots=True)
-class SaidDescription:
+class DescriptionMessage:
     """A description that came in."""
 
     device_id: str
@@ -57,12 +49,24 @@ class SaidDescription:
 class _News:
     """A description that was read and may be kept."""
 
-    said: SaidDescription
+    said: DescriptionMessage
     reading: Reading
 
 
 Fate = DeviceView | RegistryError
 """The device as it is now, or why its description was refused."""
+
+
+def find_unchanged(*, descriptions: Mapping[str, bytes], at: datetime) -> frozenset[str]:
+    """Return which of these devices have described themselves in these very bytes before, and note that they spoke."""
+    digests = {device: source_hash(payload) for device, payload in descriptions.items()}
+    rows = Device.objects.filter(pk__in=list(digests), description__isnull=False)
+    known = rows.values_list("pk", "source_hash", "last_seen_at")
+    same = {device: seen for device, digest, seen in known if digests[device] == digest}
+    quiet = [device for device, seen in same.items() if seen is None or at - seen >= SEEN_EVERY]
+    if quiet:
+        Device.objects.filter(pk__in=quiet).update(last_seen_at=at)
+    return frozenset(same)
 
 
 def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> DeviceView:
@@ -72,13 +76,13 @@ def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> Devic
     if known.update(last_seen_at=at):
         device = known.get()
         return view_of(device, device.site.slug)
-    (fate,) = ingest_descriptions(descriptions=[SaidDescription(device_id, payload, at)])
+    (fate,) = ingest_descriptions(descriptions=[DescriptionMessage(device_id, payload, at)])
     if isinstance(fate, RegistryError):
         raise fate
     return fate
 
 
-def ingest_descriptions(*, descriptions: Sequence[SaidDescription]) -> tuple[Fate, ...]:
+def ingest_descriptions(*, descriptions: Sequence[DescriptionMessage]) -> tuple[Fate, ...]:
     """Take in descriptions of different devices, at most one of each; return what came of each, in the same order."""
     fates: dict[str, Fate] = {}
     found: list[_News] = []
@@ -120,7 +124,7 @@ def _site_for(slug: str, sites: Mapping[str, Site]) -> Site:
 
 
 def _make_rows(found: Sequence[_News], sites: Mapping[str, Site]) -> dict[str, Fate]:
-    """Make rows for newcomers, before any is locked; return who has no site to stand at."""
+    """Make rows for devices that nobody knows, before any is locked; return who has no site to stand at."""
     ids = [news.said.device_id for news in found]
     there = set(Device.objects.filter(pk__in=ids).values_list("pk", flat=True)) if ids else set()
     rows, homeless = list[Device](), dict[str, Fate]()
@@ -186,16 +190,16 @@ def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[De
     device.source, device.source_hash = news.said.payload, source_hash(news.said.payload)
     device.source_type = CONTENT_TYPES[form]
     device.first_seen_at, device.last_seen_at = device.first_seen_at or at, at
-    if not (words := described(old, description)):
+    if not (words := describe_change(old, description)):
         return []
     news_line = line_of_history(device, at, "described", words, changes=list_changes(before, after) if before else ())
     packs = reversed(_packed(news.reading.notes))
-    mended = [in_words("mended", text=" ".join(n.text for n in pack), **facts_of(pack)) for pack in packs]
+    mended = [history_text("mended", text=" ".join(n.text for n in pack), **facts_of(pack)) for pack in packs]
     return [news_line, *(line_of_history(device, at, "mended", words) for words in mended)]
 
 
 def _may_choose_site(device: Device) -> bool:
-    """Tell whether a device may still say where it belongs; one that has a key came through the door of its site."""
+    """Tell whether a device may still say where it belongs; one that has a key enrolled at its site."""
     return device.lifecycle == Device.Lifecycle.PENDING and not device.description and not device.credential_hash
 
 

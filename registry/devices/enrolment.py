@@ -1,7 +1,8 @@
-"""How a device that nobody knows brings a key of its own: it knocks at a site's door with the site's join key.
+"""How a device that nobody knows comes in: it brings a key of its own, sent with the enrolment key of a site.
 
-Whoever has the join key can knock, and nothing else. A knock never changes a key that is known: so nobody can take an
-id over, and a device that an admin has looked at is the one that knocked first.
+Whoever has the enrolment key can ask to be enrolled, and nothing else. That never changes a key that is known: so
+nobody can take an id over, and a device that an admin has looked at is the one that came first. People may also
+reserve an id, and then hand the device its key themselves.
 """
 
 from __future__ import annotations
@@ -15,8 +16,8 @@ from django.db import transaction
 
 from registry.alerts.buffer import note_alert
 from registry.broker.accounts import Account, accounts
-from registry.devices.history_texts import said
-from registry.devices.rows import STARTS, BadDevice, check_id, forget_starts, write_event
+from registry.devices.history import history_text, write_event
+from registry.devices.rows import STARTS, BadDevice, check_id, forget_starts
 from registry.models import Device, User
 from registry.sites.sites import find_site
 from vipo_device.protocol.credentials import (
@@ -30,14 +31,14 @@ from vipo_device.protocol.credentials import (
 from vipo_device.protocol.faults import fault, told
 from vipo_device.protocol.messages import BadMessage, parse_json
 
-MOST_NEWCOMERS = 200
+MOST_PENDING = 200
 FORGOTTEN_AFTER = timedelta(days=1)
 
 
-def admit_newcomer(*, site: str, device_id: str, payload: bytes, at: datetime) -> bool:
-    """Remember the key that a newcomer brings, and let it in as pending; False when it was known with this key.
+def enrol_device(*, site: str, device_id: str, payload: bytes, at: datetime) -> bool:
+    """Remember the key that a device brings, and let it in as pending; False when it was known with this key.
 
-    A device that was taken out may knock until it is let come back; nothing is made of that. Raises BadMessage,
+    A device that was taken out may ask again until it is let come back; nothing is made of that. Raises BadMessage,
     BadDevice, NotAMember, BrokerAway.
     """
     check_id(device_id)
@@ -49,18 +50,18 @@ def admit_newcomer(*, site: str, device_id: str, payload: bytes, at: datetime) -
             return False
         is_known = device is not None and hmac.compare_digest(device.credential_hash, secret_hash(key))
         if not is_known:
-            device = device or make_row(device_id, row.pk, at)
+            device = device or make_pending_device(device_id, row.pk, at)
             _require_keyless(device, row.pk)
             device.credential_hash, device.broker_hash = secret_hash(key), broker_hash(key)
             forget_starts(device)
             device.save(update_fields=["credential_hash", "broker_hash", *STARTS])
-            write_event(device, at, "knocked", said("knocked"))
+            write_event(device, at, "knocked", history_text("knocked"))
     accounts().put(Account(device_id, key))
     return not is_known
 
 
-def make_row(device_id: str, site_id: int, at: datetime) -> Device:
-    """Return a newcomer's locked row, made where there is room for it. Raises BadDevice, BrokerAway."""
+def make_pending_device(device_id: str, site_id: int, at: datetime) -> Device:
+    """Return a pending device's locked row, made where there is room for it. Raises BadDevice, BrokerAway."""
     _make_room(site_id, at)
     device, _ = Device.objects.select_for_update(of=("self",)).get_or_create(
         pk=device_id, defaults={"site_id": site_id, "first_seen_at": at}
@@ -77,14 +78,14 @@ def _read_key(payload: bytes) -> str:
 
 
 def _make_room(site_id: int, at: datetime) -> None:
-    """Forget who knocked long ago and never described itself; refuse more than 200 newcomers at a site."""
+    """Forget who enrolled long ago and never described itself; refuse more than 200 pending devices at a site."""
     waiting = Device.objects.filter(site_id=site_id, lifecycle=Device.Lifecycle.PENDING)
     gone = waiting.filter(description__isnull=True, last_seen_at__isnull=True, first_seen_at__lt=at - FORGOTTEN_AFTER)
     for device in gone:
         accounts().remove(device.pk)
         device.delete()
-    if waiting.count() >= MOST_NEWCOMERS:
-        raise BadDevice(*told("newcomers", most=MOST_NEWCOMERS))
+    if waiting.count() >= MOST_PENDING:
+        raise BadDevice(*told("newcomers", most=MOST_PENDING))
 
 
 def _require_keyless(device: Device, site_id: int) -> None:
@@ -96,7 +97,7 @@ def _require_keyless(device: Device, site_id: int) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class Expected:
+class ReservedDevice:
     """What a device has to be set up with; `broker` is empty where VIPO_BROKER_URL does not say it."""
 
     id: str
@@ -105,14 +106,14 @@ class Expected:
     broker: str
 
 
-def expect_newcomer(*, site: str, device_id: str, by: User, at: datetime) -> Expected:
+def reserve_device(*, site: str, device_id: str, by: User, at: datetime) -> ReservedDevice:
     """Reserve an id for a device that will come, and make its key, told this once.
 
     It still waits for approval once it has described itself; whoever does not come within a day is forgotten. A
     second call for a device that has not come yet makes a new key, and the one before ends.
 
     Raises:
-        BadDevice: the id cannot be, belongs to a device that is known, or 200 newcomers wait already.
+        BadDevice: the id cannot be, belongs to a device that is known, or 200 devices wait already.
         NotAMember, BrokerAway.
     """
     check_id(device_id)
@@ -120,14 +121,14 @@ def expect_newcomer(*, site: str, device_id: str, by: User, at: datetime) -> Exp
     with transaction.atomic():
         row = find_site(site)
         device = Device.objects.select_for_update(of=("self",)).filter(pk=device_id).first()
-        device = device or make_row(device_id, row.pk, at)
+        device = device or make_pending_device(device_id, row.pk, at)
         _require_unknown(device, row.pk)
         device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
         device.first_seen_at = at
         device.save(update_fields=["credential_hash", "broker_hash", "first_seen_at"])
-        write_event(device, at, "expected", said("expected"), by)
+        write_event(device, at, "expected", history_text("expected"), by)
         accounts().put(Account(device_id, credential))
-    return Expected(device_id, site, credential, str(settings.VIPO_BROKER_URL))
+    return ReservedDevice(device_id, site, credential, str(settings.VIPO_BROKER_URL))
 
 
 def _require_unknown(device: Device, site_id: int) -> None:
@@ -136,3 +137,29 @@ def _require_unknown(device: Device, site_id: int) -> None:
     waits = device.lifecycle == Device.Lifecycle.PENDING
     if not waits or device.description is not None or device.last_seen_at is not None:
         raise BadDevice(f"{device.pk} is known at this site already. Choose another id, or give that device a new key.")
+
+
+def expect_device(*, site: str, device_id: str, credential: str, approved: bool = True) -> None:
+    """Let a device that is not there yet come in with its own key, approved beforehand or still to be looked at.
+
+    A key that people have replaced or revoked does not come back this way.
+    """
+    check_id(device_id)
+    if len(credential) < 20:
+        raise BadDevice("A device's key needs at least 20 characters; make it at random.")
+    lifecycle = Device.Lifecycle.APPROVED if approved else Device.Lifecycle.PENDING
+    with transaction.atomic():
+        device, made = Device.objects.select_for_update(of=("self",)).get_or_create(
+            pk=device_id, defaults={"site": find_site(site), "lifecycle": lifecycle}
+        )
+        if not made and device.site.slug != site:
+            raise BadDevice(f"The device {device_id} belongs to another site.")
+        if device.ends_before is None:
+            _remember_key(device, credential)
+
+
+def _remember_key(device: Device, credential: str) -> None:
+    """Write a key's two hashes; one that is known already keeps its salt."""
+    if device.credential_hash != secret_hash(credential) or not device.broker_hash:
+        device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
+        device.save(update_fields=["credential_hash", "broker_hash"])

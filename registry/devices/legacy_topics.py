@@ -13,17 +13,14 @@ from datetime import datetime
 from django.db import transaction
 
 from registry.broker.accounts import accounts
-from registry.devices.history_texts import said
-from registry.devices.rows import announce, lock_device, write_event
+from registry.devices.history import history_text, write_event
+from registry.devices.rows import announce, lock_device
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device, TopicClaim, User
 from vipo_device.protocol.description import Description, description_from_json
 from vipo_device.protocol.errors import RegistryError
 from vipo_device.protocol.faults import told
 from vipo_device.protocol.topics import list_asked
-
-CONFIRMED_TOPICS_SQL = "SELECT device_id, method, topic FROM registry_topicclaim WHERE confirmed_at IS NOT NULL"
-"""A subquery of the topics that admins have confirmed."""
 
 
 class TopicTaken(RegistryError):
@@ -62,7 +59,7 @@ def _ask(device: Device, method: str, topic: str, at: datetime) -> None:
     if claim.device_id != device.pk:
         raise TopicTaken(*told("topic_taken", method=method, topic=topic))
     if made:
-        write_event(device, at, "topic_asked", said("topic_asked", topic=topic, method=method))
+        write_event(device, at, "topic_asked", history_text("topic_asked", topic=topic, method=method))
 
 
 def _give_up(device: Device, gone: Mapping[str, str], at: datetime) -> None:
@@ -71,7 +68,7 @@ def _give_up(device: Device, gone: Mapping[str, str], at: datetime) -> None:
     if ended:
         _grant(device, {name: topic for name, topic in device.granted.items() if name not in ended})
     for method, topic in ended.items():
-        write_event(device, at, "topic_withdrawn", said("topic_withdrawn", topic=topic, method=method))
+        write_event(device, at, "topic_withdrawn", history_text("topic_withdrawn", topic=topic, method=method))
 
 
 def _grant(device: Device, granted: Mapping[str, str]) -> None:
@@ -88,7 +85,7 @@ def release_topics(device: Device, at: datetime) -> None:
     ended, device.granted = device.granted, {}
     device.save(update_fields=["granted"])
     for method, topic in ended.items():
-        write_event(device, at, "topic_withdrawn", said("topic_withdrawn", topic=topic, method=method))
+        write_event(device, at, "topic_withdrawn", history_text("topic_withdrawn", topic=topic, method=method))
 
 
 def claim_again(device: Device, at: datetime) -> None:
@@ -116,7 +113,7 @@ def confirm_topic(*, site: str, device_id: str, topic: str, by: User | None, at:
         if claim.device_id != device_id:
             raise TopicTaken(f"Another device asks for the topic {topic} or has it. Only one may be told on it.")
         TopicClaim.objects.filter(pk=topic).update(confirmed_at=at, confirmed_by=by)
-        write_event(device, at, "topic_confirmed", said("topic_confirmed", topic=topic, method=method.name), by)
+        write_event(device, at, "topic_confirmed", history_text("topic_confirmed", topic=topic, method=method.name), by)
         _grant(device, {**device.granted, method.name: topic})
         after = view_of(device, site)
         announce(before, after)
@@ -143,7 +140,7 @@ def withdraw_topic(*, site: str, device_id: str, topic: str, by: User | None, at
         if method is None:
             raise TopicNotAsked(f"The topic {topic[:80]!r} is not confirmed for {device_id}: nothing is to be done.")
         TopicClaim.objects.filter(pk=topic, device=device).update(confirmed_at=None, confirmed_by=None)
-        write_event(device, at, "topic_withdrawn", said("topic_withdrawn", topic=topic, method=method), by)
+        write_event(device, at, "topic_withdrawn", history_text("topic_withdrawn", topic=topic, method=method), by)
         _grant(device, {name: granted for name, granted in device.granted.items() if name != method})
         after = view_of(device, site)
         announce(before, after)

@@ -9,23 +9,20 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from datetime import datetime, timedelta
+from datetime import datetime
 from typing import Any
 
 from django.db import connection, transaction
 
-from registry.devices.history_texts import said
-from registry.devices.rows import write_event
+from registry.devices.history import history_text, write_event
 from registry.devices.views import DeviceView, changed_state, view_of
 from registry.live.fanout import publish_all
 from registry.models import Device
-from vipo_device.descriptions.reader import source_hash
 from vipo_device.protocol.description import DeviceState
 from vipo_device.protocol.errors import RegistryError
 from vipo_device.protocol.messages import parse_state
 
 MOST_READINGS = 128
-SEEN_EVERY = timedelta(seconds=5)
 WRITE_STATE = """
     UPDATE registry_device SET boot = %s, seq = %s, done = %s, command = %s, properties = %s, pose = %s, online = %s,
     last_seen_at = %s WHERE id = %s
@@ -33,7 +30,7 @@ WRITE_STATE = """
 
 
 @dataclass(frozen=True, slots=True)
-class SaidState:
+class StateMessage:
     """A state that came in; a retained one tells how the device was, not that it is there now."""
 
     device_id: str
@@ -46,10 +43,10 @@ Outcome = DeviceView | RegistryError | None
 """The device as it is now; why its message was refused; None when it was old, or of a device that nobody knows."""
 
 
-def ingest_states(*, states: Sequence[SaidState]) -> tuple[Outcome, ...]:
+def ingest_states(*, states: Sequence[StateMessage]) -> tuple[Outcome, ...]:
     """Take in the states of different devices, at most one of each; return what came of each, in the same order."""
     outcomes: dict[str, Outcome] = {}
-    said: dict[str, tuple[DeviceState, SaidState]] = {}
+    said: dict[str, tuple[DeviceState, StateMessage]] = {}
     for message in states:
         try:
             said[message.device_id] = (parse_state(message.payload), message)
@@ -61,7 +58,18 @@ def ingest_states(*, states: Sequence[SaidState]) -> tuple[Outcome, ...]:
     return tuple(outcomes.get(message.device_id) for message in states)
 
 
-def _take_all(said: Mapping[str, tuple[DeviceState, SaidState]]) -> dict[str, DeviceView]:
+def ingest_state(*, device_id: str, payload: bytes, at: datetime, retained: bool = False) -> DeviceView | None:
+    """Take in a device's state; None when it is old, a replay, or of a device that nobody knows.
+
+    A retained message tells how the device was, not that it is there now.
+    """
+    (outcome,) = ingest_states(states=[StateMessage(device_id, payload, at, retained)])
+    if isinstance(outcome, RegistryError):
+        raise outcome
+    return outcome
+
+
+def _take_all(said: Mapping[str, tuple[DeviceState, StateMessage]]) -> dict[str, DeviceView]:
     views: dict[str, DeviceView] = {}
     written: list[Device] = []
     news: list[tuple[str, dict[str, Any]]] = []
@@ -86,7 +94,7 @@ def _lock_rows(ids: list[str]) -> list[Device]:
     return list(rows.defer("description", "source").order_by("pk"))
 
 
-def _change(device: Device, said: DeviceState, message: SaidState) -> None:
+def _change(device: Device, said: DeviceState, message: StateMessage) -> None:
     device.boot, device.seq, device.done, device.command = said.boot, said.seq, said.done, said.command
     known = {**device.properties, **said.properties}
     device.properties = known if len(known) <= MOST_READINGS else dict(said.properties)
@@ -111,18 +119,6 @@ def _write(devices: list[Device]) -> None:
 def _tell_trouble(device: Device, before: DeviceView, after: DeviceView, at: datetime) -> None:
     """Write into the history that a device reports an error, or no longer does."""
     if after.status == "error" and before.status != "error":
-        write_event(device, at, "error", said("error", text=after.doing.text))
+        write_event(device, at, "error", history_text("error", text=after.activity.text))
     elif before.status == "error" and after.status not in ("error", "offline"):
-        write_event(device, at, "recovered", said("recovered"))
-
-
-def find_unchanged(*, descriptions: Mapping[str, bytes], at: datetime) -> frozenset[str]:
-    """Return which of these devices have described themselves in these very bytes before, and note that they spoke."""
-    digests = {device: source_hash(payload) for device, payload in descriptions.items()}
-    rows = Device.objects.filter(pk__in=list(digests), description__isnull=False)
-    known = rows.values_list("pk", "source_hash", "last_seen_at")
-    same = {device: seen for device, digest, seen in known if digests[device] == digest}
-    quiet = [device for device, seen in same.items() if seen is None or at - seen >= SEEN_EVERY]
-    if quiet:
-        Device.objects.filter(pk__in=quiet).update(last_seen_at=at)
-    return frozenset(same)
+        write_event(device, at, "recovered", history_text("recovered"))

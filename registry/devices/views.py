@@ -1,4 +1,4 @@
-"""What the registry's services hand out: frozen, and free of the database."""
+"""A device as the rest of VIPO sees it: the frozen view of its row, and the JSON that browsers get of it."""
 
 from __future__ import annotations
 
@@ -8,67 +8,18 @@ from dataclasses import asdict, dataclass, field, replace
 from datetime import datetime
 from typing import Any, Literal
 
-from registry.devices.activity import NOT_TRUSTED, NOTHING, Doing, Seen, doing_of
-from registry.floorplan.plan import Grid
+from registry.alerts.causes import LOW_BATTERY_PERCENT
+from registry.devices.activity import NOT_TRUSTED, NOTHING, Activity, Seen, activity_of
 from registry.models import Device
-from vipo_device.descriptions.changes import Change
 from vipo_device.descriptions.forms import CONTENT_TYPES
 from vipo_device.protocol.description import Description, MethodSpec, Pose, PropertySpec, Scalar, description_from_json
 from vipo_device.protocol.topics import part_methods
 
 Status = Literal["idle", "busy", "done", "waiting", "warning", "error", "offline", "pending"]
-LOW_BATTERY_PERCENT = 15.0
 _ICONS = {"turtlebot": "turtle"}
 _MOST_KNOWN = 5000
 _known: dict[str, Description] = {}
 _LOAD = re.compile(r"([A-Za-z0-9_.-]+)\s*[:=]\s*(\d{1,6})")
-
-
-@dataclass(frozen=True, slots=True)
-class PlaceView:
-    """A named place; metres and radians in the map frame. `label` is where its name is written, if not beside it."""
-
-    id: str
-    name: str
-    kind: str
-    x: float
-    y: float
-    theta: float
-    label: tuple[float, float] | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class MapView:
-    """A site's map."""
-
-    site: str
-    version: int
-    grid: Grid
-
-
-@dataclass(frozen=True, slots=True)
-class StopView:
-    """The latched stop of a site."""
-
-    active: bool
-    by: str
-    at: datetime | None
-
-
-@dataclass(frozen=True, slots=True)
-class SiteView:
-    """A site and its counts; `role` is what the asking user is there, empty when nobody asks."""
-
-    slug: str
-    name: str
-    role: str
-    machines: int
-    robots: int
-    online: int
-    pending: int
-    has_map: bool
-    stop: StopView
-    simulated: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +42,7 @@ class DeviceView:
     readings: Mapping[str, Scalar] = field(default_factory=dict)
     carrying: Mapping[str, int] = field(default_factory=dict)
     status: Status = "idle"
-    doing: Doing = NOTHING
+    activity: Activity = NOTHING
     last_seen_at: datetime | None = None
     has_key: bool = False
     dropped: int = 0
@@ -119,22 +70,6 @@ class DeviceView:
         return self.canonical.pose
 
 
-@dataclass(frozen=True, slots=True)
-class DeviceEventView:
-    """One line of a device's history; `changes` say field by field how a description differs from the last.
-
-    `code` and `args` are what a screen says it from in another language; older lines have none.
-    """
-
-    at: datetime
-    kind: str
-    text: str
-    by: str
-    changes: tuple[Change, ...] = ()
-    code: str = ""
-    args: Mapping[str, Any] = field(default_factory=dict)
-
-
 def view_of(device: Device, site: str) -> DeviceView:
     """Return the view of a device's row, which has been described."""
     said = effective_description(device)
@@ -158,7 +93,7 @@ def view_of(device: Device, site: str) -> DeviceView:
         only_done_flag=device.source_type == CONTENT_TYPES["paper"],
         asks=asks,
     )
-    return replace(view, status=status_of(view), doing=_doing(view))
+    return replace(view, status=status_of(view), activity=_activity(view))
 
 
 def effective_description(device: Device) -> Description:
@@ -204,12 +139,12 @@ def status_of(view: DeviceView) -> Status:
     return "warning" if low or view.readings.get("warning") else "idle"
 
 
-def _doing(view: DeviceView) -> Doing:
+def _activity(view: DeviceView) -> Activity:
     if view.lifecycle == "pending":
         return NOT_TRUSTED
     if not view.online:
         return NOTHING
-    return doing_of(Seen(view.canonical, view.readings, view.carrying, view.done))
+    return activity_of(Seen(view.canonical, view.readings, view.carrying, view.done))
 
 
 def device_to_json(view: DeviceView) -> dict[str, Any]:
@@ -223,7 +158,7 @@ def device_to_json(view: DeviceView) -> dict[str, Any]:
         "icon": _ICONS.get(said.device_class, said.device_class),
         "lifecycle": view.lifecycle,
         "status": view.status,
-        **_doing_to_json(view.doing),
+        **_activity_to_json(view.activity),
         "location": asdict(said.pose),
         "size": asdict(said.size),
         "radius_m": said.radius_m,
@@ -244,9 +179,9 @@ def device_to_json(view: DeviceView) -> dict[str, Any]:
     }
 
 
-def _doing_to_json(doing: Doing) -> dict[str, Any]:
-    said = {"code": doing.code, "args": dict(doing.args)} if doing.code else None
-    return {"doing": doing.text, "activity": said}
+def _activity_to_json(activity: Activity) -> dict[str, Any]:
+    said = {"code": activity.code, "args": dict(activity.args)} if activity.code else None
+    return {"doing": activity.text, "activity": said}
 
 
 def _property_to_json(spec: PropertySpec, value: Scalar) -> dict[str, Any]:
@@ -292,16 +227,9 @@ def _state_to_json(view: DeviceView) -> dict[str, Any]:
     pose = view.canonical.pose
     return {
         "status": view.status,
-        **_doing_to_json(view.doing),
+        **_activity_to_json(view.activity),
         "location": {"x": pose.x, "y": pose.y, "z": pose.z, "theta": pose.theta},
         "carrying": dict(view.carrying),
         "last_seen_at": view.last_seen_at.isoformat() if view.last_seen_at else None,
         "done": view.done,
     }
-
-
-def site_to_json(view: SiteView) -> dict[str, Any]:
-    """Return the site as the API says it."""
-    body = asdict(view)
-    body["stop"]["at"] = view.stop.at.isoformat() if view.stop.at else None
-    return body

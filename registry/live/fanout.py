@@ -20,14 +20,40 @@ from django.conf import settings
 from redis import ConnectionPool, Redis
 from redis.exceptions import RedisError
 
-from registry.live.outage import Outage
-
 log = logging.getLogger(__name__)
 Message = Mapping[str, Any]
 Listener = Callable[[str, Message], None]
 EVERY_SITE = ""
 REST_S = 0.5
 _LIVE, _WAKE = "vipo:live:", "vipo:wake:"
+
+
+class Outage:
+    """Knows whether a server answers; may be told by several threads. `count` is how often it was away so far."""
+
+    def __init__(self, server: str, meanwhile: str) -> None:
+        self._server, self._meanwhile = server, meanwhile
+        self._lock = threading.Lock()
+        self._since: float | None = None
+        self.count = 0
+
+    def begin(self, error: BaseException) -> None:
+        """Take in that the server did not answer."""
+        with self._lock:
+            if self._since is not None:
+                return
+            self._since, self.count = time.monotonic(), self.count + 1
+        why = str(error).strip().partition("\n")[0].rstrip(".")
+        log.warning("%s does not answer: %s. %s", self._server, why, self._meanwhile)
+
+    def end(self) -> None:
+        """Take in that the server answers."""
+        if self._since is None:
+            return
+        with self._lock:
+            since, self._since = self._since, None
+        if since is not None:
+            log.warning("%s answers again after %.1f s.", self._server, time.monotonic() - since)
 
 
 class Live(Protocol):

@@ -8,9 +8,8 @@ from datetime import datetime, timedelta
 
 from django.db import transaction
 
-from registry.devices.history_texts import said
-from registry.devices.joining import get_device
-from registry.devices.rows import write_event
+from registry.devices.history import history_text, write_event
+from registry.devices.queries import get_device
 from registry.floorplan.map_message import plain_grid
 from registry.floorplan.plan import UNKNOWN, Grid
 from registry.live.fanout import publish
@@ -81,7 +80,7 @@ def _note(device: Device, grid: Grid, at: datetime) -> None:
     """Write into the history that a map came, at most once an hour: a robot that explores sends one every 10 s."""
     if not DeviceEvent.objects.filter(device=device, kind="map", at__gt=at - EVENT_EVERY).exists():
         width_m, height_m = (round(cells * grid.resolution_m, 1) for cells in (grid.width, grid.height))
-        write_event(device, at, "map", said("map", width=width_m, height=height_m))
+        write_event(device, at, "map", history_text("map", width=width_m, height=height_m))
 
 
 def get_robot_map_facts(*, site: str, device_id: str) -> RobotMapFacts:

@@ -11,9 +11,9 @@ from datetime import UTC, datetime, timedelta
 from django.db import connection
 from django.db.models import Max, Q, QuerySet
 
-from registry.devices.joining import get_device, list_devices
-from registry.devices.readings import DONE, ONLINE
+from registry.devices.queries import get_device, list_devices
 from registry.devices.rows import NoSuchDevice
+from registry.devices.samples import DONE, ONLINE
 from registry.devices.views import DeviceView
 from registry.models import Sample, SampleClock
 from registry.mtconnect import documents

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import degrees, isfinite
 from typing import Literal
 
-from registry.devices.readings import DONE, ONLINE
+from registry.devices.samples import DONE, ONLINE
 from registry.devices.views import DeviceView
 from vipo_device.protocol.description import Pose, PropertySpec, Scalar
 

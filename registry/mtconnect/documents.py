@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from typing import Literal
 from xml.etree import ElementTree
 
-from registry.devices.readings import DONE, ONLINE
+from registry.devices.samples import DONE, ONLINE
 from registry.devices.views import DeviceView
 from registry.mtconnect import data_items as items
 from registry.mtconnect.data_items import DataItem

@@ -1,40 +1,19 @@
-"""Sites, their maps, places and members."""
+"""Sites, their members and places, the key for enrolment, and the stop that holds at a site."""
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Sequence
 from datetime import datetime
-from functools import lru_cache
 
-from django.db import IntegrityError, models, transaction
+from django.db import IntegrityError, transaction
 from django.utils.text import slugify
 
-from registry.devices.views import MapView, PlaceView, SiteView, StopView, effective_description
-from registry.floorplan.map_server import read_map
-from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
 from registry.live.fanout import publish
 from registry.models import Device, Membership, Place, Site, SiteMap, User
 from registry.people.access import ROLES, NotAMember
+from registry.sites.views import PlaceView, SiteView, StopView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
-from vipo_device.protocol.description import Description
 from vipo_device.protocol.errors import RegistryError
-
-MOST_VERSIONS = 50
-
-
-class NoMap(RegistryError):
-    """The site has no map yet."""
-
-    code = "no_map"
-    status = 404
-
-
-class MapChanged(RegistryError):
-    """The map that somebody looked at is not the newest any more."""
-
-    code = "map_changed"
-    status = 409
 
 
 class BadName(RegistryError):
@@ -119,80 +98,6 @@ def _new_site(name: str, slug: str, *, exact: bool) -> Site:
     raise BadName("There are too many sites of this name. Choose another one.")
 
 
-def create_site_from_map(*, name: str, yaml: bytes, image: bytes | None, admin: User) -> SiteView:
-    """Make a site from a ROS map; nothing is made when the map cannot be read. Raises BadMap, BadName."""
-    grid = read_map(yaml, image)
-    with transaction.atomic():
-        view = create_site(name=name, admin=admin)
-        save_map(site=view.slug, grid=grid, source="upload", by=admin)
-    return get_site(site=view.slug, role=view.role)
-
-
-def save_map(
-    *, site: str, grid: Grid, source: str = "", by: User | None = None, replaces: int | None = None
-) -> MapView:
-    """Make a grid the site's map, as a new version, and tell browsers; the oldest beyond 50 versions are forgotten.
-
-    `replaces` is the version (0: none) that the caller has seen. Raises MapChanged when another one holds by now.
-    """
-    with transaction.atomic():
-        row = Site.objects.select_for_update().get(slug=site)
-        latest = SiteMap.objects.filter(site=row).aggregate(models.Max("version"))["version__max"] or 0
-        if replaces is not None and replaces != latest:
-            raise MapChanged(
-                "Somebody has changed the site's map meanwhile. Look at it again, then decide.", {"why": "site"}
-            )
-        saved = SiteMap.objects.create(
-            site=row,
-            version=latest + 1,
-            width=grid.width,
-            height=grid.height,
-            resolution_m=grid.resolution_m,
-            origin_x_m=grid.origin_x_m,
-            origin_y_m=grid.origin_y_m,
-            packed_cells=zlib.compress(grid.cells, 6),
-            source=source,
-            by=by,
-        )
-        SiteMap.objects.filter(site=row, version__lte=saved.version - MOST_VERSIONS).delete()
-        transaction.on_commit(lambda: publish(site, {"type": "map", "version": saved.version}))
-    return MapView(site, saved.version, grid)
-
-
-def get_map(*, site: str) -> MapView:
-    """Return the site's newest map. Raises NoMap."""
-    row = find_site(site)
-    latest = SiteMap.objects.filter(site=row).order_by("-version").values_list("pk", "version", "created_at").first()
-    if latest is None:
-        raise NoMap("This site has no map yet. Upload a ROS map (.yaml with its image).")
-    return MapView(site, latest[1], _grid(latest[0], latest[2]))
-
-
-@lru_cache(maxsize=8)
-def _grid(map_id: int, created_at: datetime) -> Grid:
-    """Unpack a map once in each process: it never changes; the time tells apart rows that were given the same key."""
-    row = SiteMap.objects.get(pk=map_id)
-    return Grid(row.width, row.height, row.resolution_m, row.origin_x_m, row.origin_y_m, row.cells)
-
-
-@lru_cache(maxsize=8)
-def get_walls(grid: Grid) -> tuple[Box, ...]:
-    """Return the walls of a grid as boxes, worked out once."""
-    return wall_boxes(grid)
-
-
-def get_floor(*, site: str) -> FloorPlan:
-    """Return what the map says about points and ways, approved machines being obstacles. Raises NoMap."""
-    rows = Device.objects.filter(site__slug=site, lifecycle=Device.Lifecycle.APPROVED).order_by("id")
-    described = [effective_description(d) for d in rows if d.description]
-    return _floor(get_map(site=site).grid, tuple(d for d in described if d.kind == "machine"))
-
-
-@lru_cache(maxsize=8)
-def _floor(grid: Grid, machines: tuple[Description, ...]) -> FloorPlan:
-    return FloorPlan(grid, machines)
-
-
 def save_places(*, site: str, places: Sequence[PlaceView]) -> None:
     """Add the places, or change the ones that have the same id."""
     row = find_site(site)
@@ -241,12 +146,12 @@ def set_site_stop(*, site: str, active: bool, by: str, at: datetime) -> None:
     Site.objects.filter(slug=site).update(stop_active=active, stop_by=by, stop_at=at)
 
 
-def set_join_key(*, site: str, join_key: str) -> None:
-    """Set the key with which devices that have none of their own may come to the site's door."""
-    if len(join_key) < 20:
+def set_enrolment_key(*, site: str, key: str) -> None:
+    """Set the key with which devices that have none of their own may enrol at the site."""
+    if len(key) < 20:
         raise BadName("A join key needs at least 20 characters; make it at random.")
     with transaction.atomic():
         row = Site.objects.select_for_update().get(pk=find_site(site).pk)
-        if row.join_key_hash != secret_hash(join_key) or not row.join_broker_hash:
-            row.join_key_hash, row.join_broker_hash = secret_hash(join_key), broker_hash(join_key)
+        if row.join_key_hash != secret_hash(key) or not row.join_broker_hash:
+            row.join_key_hash, row.join_broker_hash = secret_hash(key), broker_hash(key)
             row.save(update_fields=["join_key_hash", "join_broker_hash"])

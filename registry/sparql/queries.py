@@ -13,7 +13,7 @@ from typing import Any
 
 from django.conf import settings
 
-from registry.devices.joining import list_devices
+from registry.devices.queries import list_devices
 from registry.devices.views import DeviceView
 from vipo_device.protocol.description import description_to_json
 from vipo_device.protocol.errors import RegistryError

@@ -11,7 +11,7 @@ from django.http import HttpRequest, HttpResponse, HttpResponseBase, StreamingHt
 from django.utils import timezone
 from django.utils.cache import get_conditional_response
 
-from registry import services
+from registry.devices.lifecycle import update_device
 from registry.devices.rows import lock_device
 from registry.devices.things import read_patch, thing_tag, thing_text
 from registry.devices.views import DeviceView, view_of
@@ -63,7 +63,7 @@ def change_thing(request: HttpRequest, user: User, site: str, device_id: str) ->
     patch = read_patch(request.body)
     with transaction.atomic():
         _check_tag(request, view_of(lock_device(site, device_id), site))
-        view = services.update_device(
+        view = update_device(
             site=site, device_id=device_id, name=patch.name, pose=patch.pose, by=user, at=timezone.now()
         )
     response = HttpResponse(status=204)

@@ -14,7 +14,7 @@ from typing import Any
 
 from asgiref.sync import sync_to_async
 
-from registry.devices.thing_events import THINGS, ThingNews, is_kept_since, newest_news, read_news
+from registry.devices.things import THINGS, ThingNews, is_kept_since, newest_news, read_news
 from registry.live.fanout import Message, listen
 from registry.people.access import list_visible
 from registry.people.sessions import Session, find_person

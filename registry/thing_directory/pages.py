@@ -12,8 +12,7 @@ from django.conf import settings
 from django.http import HttpResponse
 from ninja import Field, Schema
 
-from registry.devices.thing_events import newest_news
-from registry.devices.things import thing_tag, thing_to_json
+from registry.devices.things import newest_news, thing_tag, thing_to_json
 from registry.devices.views import DeviceView, view_of
 from registry.models import Device
 from vipo_device.descriptions.forms import TD_CONTEXT

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import os
 import secrets
-import sys
 
-import django
+from vipo_site.cli.terminal import CLEAN, complain, set_up, write
 
-CLEAN, UNUSABLE = 0, 2
 ACCOUNT = "Let somebody sign in, or a program, and give them a role at a site; a new password is printed this once."
 ROLES = ("viewer", "operator", "author", "admin", "none")
 
@@ -26,8 +23,7 @@ def add_account_arguments(sub: argparse.ArgumentParser) -> None:
 
 def set_account(options: argparse.Namespace) -> int:
     """Make or change an account; return 0, or 2 when that cannot be and nothing was changed."""
-    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
-    django.setup()
+    set_up()
     from django.db import transaction
 
     from vipo_device.protocol.errors import VipoError
@@ -36,10 +32,9 @@ def set_account(options: argparse.Namespace) -> int:
         with transaction.atomic():
             told = _decide(options)
     except VipoError as error:
-        print(error.detail, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing
-        return UNUSABLE
+        return complain(error.detail)
     for line in told:
-        print(line)  # noqa: T201 - a command line tool speaks by printing
+        write(line)
     return CLEAN
 
 

@@ -5,23 +5,19 @@ from __future__ import annotations
 import argparse
 import getpass
 import json
-import os
-import sys
 import time
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from typing import Any
 from uuid import UUID
 
-import django
-
 from vipo_device.protocol.faults import printable
+from vipo_site.cli.terminal import CLEAN, FAULTY, complain, set_up, write, write_json
 
 POLL_S = 0.2
 GRACE = timedelta(seconds=3)
 """So much later than VIPO itself a call is given up here."""
 NEVER_SENT = "It was never sent. Look whether VIPO and its gateway run."
-DONE, NOT_DONE, UNUSABLE = 0, 1, 2
 WHAT = "Tell a device to carry out one of its methods, and wait until it is done."
 
 
@@ -37,24 +33,20 @@ def add_arguments(sub: argparse.ArgumentParser) -> None:
 
 def call_device(options: argparse.Namespace) -> int:
     """Call and wait; return 0 when it is done, 1 when it is not, 2 when it could not be asked for."""
-    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
-    django.setup()
-    # Django has to be set up before models can be imported
+    set_up()
     from vipo_device.protocol.errors import VipoError
 
     try:
         call = _call(options)
     except VipoError as error:
-        _complain(error.detail)
-        return UNUSABLE
+        return complain(error.detail)
     except ValueError as error:
-        _complain(str(error))
-        return UNUSABLE
+        return complain(str(error))
     if options.json:
-        _write(json.dumps(call, ensure_ascii=False, indent=1))
+        write_json(call)
     else:
-        _write(_in_words(call))
-    return DONE if call["status"] == "done" else NOT_DONE
+        write(_in_words(call))
+    return CLEAN if call["status"] == "done" else FAULTY
 
 
 def _call(options: argparse.Namespace) -> dict[str, Any]:
@@ -79,7 +71,7 @@ def _call(options: argparse.Namespace) -> dict[str, Any]:
         return _wait(device.site, call)
     except KeyboardInterrupt:
         cancel = f"POST /api/sites/{device.site}/calls/{call['id']}/cancel"
-        _complain(f"{device.id} may go on with {options.method}. Its page can end that, and so can {cancel}.")
+        complain(f"{device.id} may go on with {options.method}. Its page can end that, and so can {cancel}.")
         raise
 
 
@@ -141,11 +133,3 @@ def _in_words(call: Mapping[str, Any]) -> str:
     sent = call["sent_at"] or call["status"] != "timed_out"
     why = f": {call['why'] if sent else NEVER_SENT}" if call["why"] else ""
     return printable(f"{call['device']}: {call['method']} is {call['status'].replace('_', ' ')}{result}{why}")
-
-
-def _write(line: str) -> None:
-    print(line)  # noqa: T201 - a command line tool speaks by printing
-
-
-def _complain(line: str) -> None:
-    print(line, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing

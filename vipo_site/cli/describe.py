@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Iterator
 from dataclasses import asdict
@@ -16,6 +15,7 @@ from vipo_device.descriptions.shacl import check_rdf, check_reading, find_valida
 from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, PropertySpec, description_to_json
 from vipo_device.protocol.faults import Fault
 from vipo_site.cli.program_file import read_bounded
+from vipo_site.cli.terminal import complain, write, write_json
 
 _NAMES = {
     "turtle": "Turtle",
@@ -44,12 +44,12 @@ def describe_file(options: argparse.Namespace) -> int:
     if faults:
         return _tell_faults(options, faults)
     if options.json:
-        _write(json.dumps(_as_json(reading, options.to), ensure_ascii=False, indent=1))
+        write_json(_as_json(reading, options.to))
     elif options.to:
         sys.stdout.write(write_description(reading.description, options.to))
-        _complain([f"{options.file}: {note.text}" for note in reading.notes])
+        _complain_of([f"{options.file}: {note.text}" for note in reading.notes])
     else:
-        _write("\n".join(_summary(options.file, reading)))
+        write("\n".join(_summary(options.file, reading)))
     return 0
 
 
@@ -63,9 +63,9 @@ def _faults_of_shapes(payload: bytes) -> tuple[Fault, ...]:
 
 def _tell_faults(options: argparse.Namespace, faults: tuple[Fault, ...]) -> int:
     if options.json:
-        _write(json.dumps({"faults": [asdict(fault) for fault in faults]}, ensure_ascii=False, indent=1))
+        write_json({"faults": [asdict(fault) for fault in faults]})
     else:
-        _complain([f"{_place(options.file, fault)}: {fault.text}" for fault in faults])
+        _complain_of([f"{_place(options.file, fault)}: {fault.text}" for fault in faults])
     return 1
 
 
@@ -116,10 +116,6 @@ def _high(value: float | None) -> str:
     return "" if value is None else f"{value:g}"
 
 
-def _write(text: str) -> None:
-    print(text)  # noqa: T201 - a command line tool speaks by printing
-
-
-def _complain(lines: list[str]) -> None:
+def _complain_of(lines: list[str]) -> None:
     for line in lines:
-        print(line, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing
+        complain(line)

@@ -1,26 +1,21 @@
-"""`vipo devices`, `vipo alerts`, `vipo approve`, `vipo join-key`: devices for whoever may read the database."""
+"""`vipo devices`, `vipo alerts`, `vipo approve`, `vipo enrolment-key`: devices for whoever may read the database."""
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
-import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import django
-
-from vipo_device.protocol.faults import printable
+from vipo_site.cli.terminal import CLEAN, complain, set_up, write, write_json, write_table
 
 if TYPE_CHECKING:
     from registry.services import DeviceView
 
-CLEAN, UNUSABLE = 0, 2
 DEVICES = "List the devices of a site, or of all sites, with their state."
 ALERTS = "List the alerts of a site, or of all sites, that are not over."
 APPROVE = "Let a pending device take part, and print its new key this once."
-JOIN_KEY = "Make a new join key for a site's newcomers, and print it this once; the old one ends."
+ENROLMENT_KEY = "Make a new key with which unknown devices enrol at a site, and print it this once; the old one ends."
 ALERT_COLUMNS = ("severity", "site", "device", "state", "times", "since", "what")
 COLUMNS = ("id", "name", "site", "kind", "life", "state", "last seen")
 
@@ -52,15 +47,15 @@ def add_approve_arguments(sub: argparse.ArgumentParser) -> None:
     sub.set_defaults(run=approve)
 
 
-def add_join_key_arguments(sub: argparse.ArgumentParser) -> None:
-    """Describe what stands behind `vipo join-key`."""
+def add_enrolment_key_arguments(sub: argparse.ArgumentParser) -> None:
+    """Describe what stands behind `vipo enrolment-key`, which was called `vipo join-key`."""
     sub.add_argument("site", help="the site's short name")
-    sub.set_defaults(run=renew_join_key)
+    sub.set_defaults(run=renew_enrolment_key)
 
 
 def list_devices(options: argparse.Namespace) -> int:
     """Print the devices; return 0, or 2 when there is no such site."""
-    _set_up()
+    set_up()
     from registry import services
     from vipo_device.protocol.errors import VipoError
 
@@ -68,9 +63,9 @@ def list_devices(options: argparse.Namespace) -> int:
         slugs = [options.site] if options.site else services.list_slugs()
         found = [device for slug in slugs for device in services.list_devices(site=slug)]
     except VipoError as error:
-        return _complain(error.detail)
+        return complain(error.detail)
     if options.json:
-        _write(json.dumps([services.device_to_json(d) | {"site": d.site} for d in found], ensure_ascii=False, indent=1))
+        write_json([services.device_to_json(d) | {"site": d.site} for d in found])
         return CLEAN
     rows = [
         (
@@ -79,14 +74,13 @@ def list_devices(options: argparse.Namespace) -> int:
         )
         for d in found
     ]
-    for line in _table([COLUMNS, *rows]):
-        _write(line)
+    write_table([COLUMNS, *rows])
     return CLEAN
 
 
 def list_alerts(options: argparse.Namespace) -> int:
     """Print the alerts, the latest first; return 0, or 2 when there is no such site."""
-    _set_up()
+    set_up()
     from registry import services
     from vipo_device.protocol.errors import VipoError
 
@@ -94,17 +88,16 @@ def list_alerts(options: argparse.Namespace) -> int:
         slugs = [options.site] if options.site else services.list_slugs()
         found = [(slug, services.alert_to_json(a)) for slug in slugs for a in services.list_alerts(site=slug)]
     except VipoError as error:
-        return _complain(error.detail)
+        return complain(error.detail)
     found.sort(key=lambda each: each[1]["last_at"], reverse=True)
     if options.json:
-        _write(json.dumps([alert | {"site": slug} for slug, alert in found], ensure_ascii=False, indent=1))
+        write_json([alert | {"site": slug} for slug, alert in found])
         return CLEAN
     rows = [
         (a["severity"], slug, a["device"], _state_of(a), str(a["count"]), a["first_at"][:19] + "Z", a["text"])
         for slug, a in found
     ]
-    for line in _table([ALERT_COLUMNS, *rows]):
-        _write(line)
+    write_table([ALERT_COLUMNS, *rows])
     return CLEAN
 
 
@@ -114,7 +107,7 @@ def _state_of(alert: Mapping[str, Any]) -> str:
 
 def approve(options: argparse.Namespace) -> int:
     """Approve a device and print its key; return 0, or 2 when that cannot be."""
-    _set_up()
+    set_up()
     from django.utils import timezone
 
     from registry import services
@@ -123,21 +116,21 @@ def approve(options: argparse.Namespace) -> int:
     try:
         device = services.find_device(device_id=options.device)
         if device is None:
-            return _complain(f"No device {options.device!r} has described itself. Try: vipo devices")
+            return complain(f"No device {options.device!r} has described itself. Try: vipo devices")
         if options.topic or options.withdraw_topic:
             return _decide_topic(device, options)
         decided = services.approve_device(site=device.site, device_id=device.id, by=None, at=timezone.now())
     except VipoError as error:
-        return _complain(error.detail)
+        return complain(error.detail)
     if options.json:
-        _write(json.dumps({"device": device.id, "credential": decided.credential, "taken": decided.taken}))
+        write(json.dumps({"device": device.id, "credential": decided.credential, "taken": decided.taken}))
         return CLEAN
-    _write(f"{device.name} ({device.id}) takes part at {device.site} from now on.")
+    write(f"{device.name} ({device.id}) takes part at {device.site} from now on.")
     if decided.credential is None:
-        _write("It keeps the key that it came with.")
+        write("It keeps the key that it came with.")
         return CLEAN
-    _write(f"Its key, shown this once: {decided.credential}")
-    _write("The device has taken it by itself." if decided.taken else "Type it into the device, as its password.")
+    write(f"Its key, shown this once: {decided.credential}")
+    write("The device has taken it by itself." if decided.taken else "Type it into the device, as its password.")
     return CLEAN
 
 
@@ -151,41 +144,20 @@ def _decide_topic(device: DeviceView, options: argparse.Namespace) -> int:
     decide = services.confirm_topic if options.topic else services.withdraw_topic
     decide(site=device.site, device_id=device.id, topic=topic, by=None, at=timezone.now())
     if options.json:
-        _write(json.dumps({"device": device.id, "topic": topic, "confirmed": bool(options.topic)}))
+        write(json.dumps({"device": device.id, "topic": topic, "confirmed": bool(options.topic)}))
     else:
-        _write(f"{device.name} ({device.id}) is {'' if options.topic else 'not '}told on {topic} from now on.")
+        write(f"{device.name} ({device.id}) is {'' if options.topic else 'not '}told on {topic} from now on.")
     return CLEAN
 
 
-def renew_join_key(options: argparse.Namespace) -> int:
-    """Make a site's door a new key and print it; return 0, or 2 when that cannot be."""
-    _set_up()
+def renew_enrolment_key(options: argparse.Namespace) -> int:
+    """Give a site a new enrolment key and print it; return 0, or 2 when that cannot be."""
+    set_up()
     from registry import services
     from vipo_device.protocol.errors import VipoError
 
     try:
-        _write(services.renew_join_key(site=options.site))
+        write(services.renew_enrolment_key(site=options.site))
     except VipoError as error:
-        return _complain(error.detail)
+        return complain(error.detail)
     return CLEAN
-
-
-def _set_up() -> None:
-    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
-    django.setup()
-
-
-def _table(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Return the rows with their columns under each other, without what a terminal would obey."""
-    rows = [[printable(cell) for cell in row] for row in rows]
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-
-
-def _write(line: str) -> None:
-    print(line)  # noqa: T201 - a command line tool speaks by printing
-
-
-def _complain(line: str) -> int:
-    print(line, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing
-    return UNUSABLE

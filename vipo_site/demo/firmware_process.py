@@ -12,7 +12,7 @@ from typing import Any
 
 from django.conf import settings
 
-from registry.demo.devices import DEVICES
+from registry.services import read_demo_descriptions
 from vipo_device.descriptions.reader import read
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -75,7 +75,7 @@ def write_configuration(state_dir: Path, config: Mapping[str, Any]) -> Path:
 
 def place_of(device: str) -> dict[str, Any]:
     """Return what a configuration says of one of the demo's devices: its name, place and size."""
-    payload = (DEVICES / f"{device}.ttl").read_bytes()
+    payload = read_demo_descriptions()[device]
     known = read(payload, device_id=device).description
     return {
         "name": known.name,

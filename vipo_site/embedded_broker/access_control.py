@@ -18,20 +18,21 @@ if TYPE_CHECKING:
 CheckPassword = Callable[[str, str], bool]
 Line = tuple[str, str, Mapping[str, Any]]
 """For a device's history: its id, an English sentence, and what a screen says that from."""
-DOOR = "join:"
+ENROLMENT = "join:"
+"""Before a site's name: the user name of who enrols there (docs/protocol.md)."""
 LOOK_EVERY_S = 2.0
-_KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
+_ENROL = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
 _STOP = re.compile(r"vipo/v1/site/[^/#]+/stop")
 
 
 class Admitted(NamedTuple):
-    """Somebody who may come in: the hash of their own key (empty with the join key), and their legacy topics."""
+    """Somebody who may come in: the hash of their own key (empty with an enrolment key), and their legacy topics."""
 
     key: str = ""
     topics: frozenset[str] = frozenset()
 
 
-class Doorkeeper(Protocol):
+class AccessControl(Protocol):
     """What the broker asks; every method may block and is called from a thread."""
 
     def admit(self, username: str, password: str) -> Admitted | None:
@@ -47,33 +48,33 @@ class Doorkeeper(Protocol):
         """Note how many messages of each device were dropped, and (device, line) for their histories."""
 
 
-class PasswordDoorkeeper:
+class PasswordAccess:
     """Lets in whoever a function accepts, for ever."""
 
     def __init__(self, check_password: CheckPassword) -> None:
         self._check_password = check_password
 
     def admit(self, username: str, password: str) -> Admitted | None:
-        """See Doorkeeper."""
+        """See AccessControl."""
         return Admitted() if self._check_password(username, password) else None
 
     def find_ended(self, _logins: Mapping[str, Login]) -> frozenset[str]:
-        """See Doorkeeper."""
+        """See AccessControl."""
         return frozenset()
 
     def wait(self) -> None:
-        """See Doorkeeper."""
+        """See AccessControl."""
         time.sleep(LOOK_EVERY_S)
 
     def record(self, _dropped: Mapping[str, int], _lines: Sequence[Line]) -> None:
-        """See Doorkeeper; without a registry there is nothing to note it in."""
+        """See AccessControl; without a registry there is nothing to note it in."""
 
 
-class RegistryDoorkeeper:
+class RegistryAccess:
     """Asks the registry's database."""
 
     def admit(self, username: str, password: str) -> Admitted | None:
-        """See Doorkeeper."""
+        """See AccessControl."""
         from registry import services
 
         close_old_connections()
@@ -84,7 +85,7 @@ class RegistryDoorkeeper:
             close_old_connections()
 
     def find_ended(self, logins: Mapping[str, Login]) -> frozenset[str]:
-        """See Doorkeeper."""
+        """See AccessControl."""
         from registry import services
 
         close_old_connections()
@@ -94,14 +95,13 @@ class RegistryDoorkeeper:
             close_old_connections()
 
     def wait(self) -> None:
-        """See Doorkeeper."""
-        from registry.broker.accounts import BROKER_CHANNEL
-        from registry.live.fanout import wait_wake
+        """See AccessControl."""
+        from registry import services
 
-        wait_wake(BROKER_CHANNEL, LOOK_EVERY_S)
+        services.wait_account_change(timeout_s=LOOK_EVERY_S)
 
     def record(self, dropped: Mapping[str, int], lines: Sequence[Line]) -> None:
-        """See Doorkeeper."""
+        """See AccessControl."""
         from registry import services
 
         close_old_connections()
@@ -114,10 +114,10 @@ class RegistryDoorkeeper:
 
 
 def may_publish(username: str, topic: str) -> bool:
-    """Say whether somebody may write to a topic: a device under its own `up/`, a newcomer at its site's door."""
-    if username.startswith(DOOR):
-        knock = _KNOCK.fullmatch(topic)
-        return knock is not None and knock[1] == username.removeprefix(DOOR)
+    """Say whether somebody may write to a topic: a device under its own `up/`, who enrols at its own site."""
+    if username.startswith(ENROLMENT):
+        enrolment = _ENROL.fullmatch(topic)
+        return enrolment is not None and enrolment[1] == username.removeprefix(ENROLMENT)
     return topic.startswith(f"vipo/v1/dev/{username}/up/") and not {"+", "#"} & set(topic)
 
 
@@ -126,7 +126,7 @@ def may_subscribe(username: str, topic_filter: str, topics: Collection[str] = ()
 
     `topics` are the legacy ones that an admin has confirmed for it.
     """
-    if username.startswith(DOOR):
+    if username.startswith(ENROLMENT):
         return False
     if topic_filter.startswith(f"vipo/v1/dev/{username}/down/") or topic_filter in topics:
         return True

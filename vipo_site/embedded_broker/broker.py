@@ -1,7 +1,7 @@
 """The embedded MQTT broker: amqtt with VIPO's own rules about who may do what.
 
 amqtt 0.12 is used through a subclass, because as it comes it (1) drops the session that a stranger names before it
-asks for a password, (2) sends wills without asking the topic rules, (3) gives every newcomer the retained messages of
+asks for a password, (2) sends wills without asking the topic rules, (3) sends whoever comes the retained messages of
 all other clients' subscriptions, (4) loses a message when somebody subscribes while it is being spread, (5) never ends
 a connection that fell silent, (6) waits for ever on a CONNECT of MQTT 5, and (7) has no bound on what is said too fast,
 not read, kept, asked for or begun; docs/adr/0014 has all of it. What is dropped is counted for the device's page, as
@@ -25,7 +25,7 @@ from amqtt.mqtt.connack import NOT_AUTHORIZED, UNACCEPTABLE_PROTOCOL_VERSION
 from django.db import DatabaseError
 
 from vipo_device.protocol.faults import printable
-from vipo_site.embedded_broker.access_control import Admitted, Doorkeeper, may_publish
+from vipo_site.embedded_broker.access_control import AccessControl, Admitted, may_publish
 from vipo_site.embedded_broker.client_queue import DEVICE_ROOM, SERVER_ROOM, Outbox
 from vipo_site.embedded_broker.connection import (
     PROTOCOL_LEVEL,
@@ -58,7 +58,7 @@ FORGET_AFTER_S = 3600
 class VipoBroker(SpreadingBroker):
     """amqtt with VIPO's rules; see the module's text for what it mends."""
 
-    def __init__(self, bind: str, server_password: str, doorkeeper: Doorkeeper) -> None:
+    def __init__(self, bind: str, server_password: str, access_control: AccessControl) -> None:
         super().__init__(
             {
                 "listeners": {"default": {"type": "tcp", "bind": bind}},
@@ -67,7 +67,7 @@ class VipoBroker(SpreadingBroker):
             }
         )
         self._server_password = server_password
-        self._doorkeeper = doorkeeper
+        self._access_control = access_control
         self._logins: dict[str, Login] = {}
         self._refused_at: dict[str, float] = {}
         self._ending = False
@@ -156,7 +156,7 @@ class VipoBroker(SpreadingBroker):
         if self._sessions.get(username, (session, None))[0].username == SERVER:
             return "the server itself uses this name"
         at = datetime.now(UTC)
-        admitted = await asyncio.to_thread(self._doorkeeper.admit, username, password)
+        admitted = await asyncio.to_thread(self._access_control.admit, username, password)
         if admitted is None:
             return "wrong password, or nobody of this name"
         session.attributes["topics"] = admitted.topics
@@ -166,7 +166,7 @@ class VipoBroker(SpreadingBroker):
     async def end_whoever_must_go(self) -> None:
         """End the connections whose device was taken out or got another key, until cancelled."""
         while True:
-            await asyncio.to_thread(self._doorkeeper.wait)
+            await asyncio.to_thread(self._access_control.wait)
             soon_after = datetime.now(UTC) - timedelta(seconds=CONNECT_TIMEOUT_S)
             there = {
                 name: handler
@@ -177,7 +177,7 @@ class VipoBroker(SpreadingBroker):
             await self._forget_absent()
             try:
                 await self._record()
-                ended = await asyncio.to_thread(self._doorkeeper.find_ended, dict(self._logins))
+                ended = await asyncio.to_thread(self._access_control.find_ended, dict(self._logins))
             except DatabaseError as error:
                 log.warning("MQTT: who must go is not known now: %s", error)
                 continue
@@ -224,7 +224,7 @@ class VipoBroker(SpreadingBroker):
         """Give what was dropped to the registry, for the devices' pages."""
         dropped, lines = self.take_dropped()
         if dropped:
-            await asyncio.to_thread(self._doorkeeper.record, dropped, lines)
+            await asyncio.to_thread(self._access_control.record, dropped, lines)
 
     async def _forget_absent(self) -> None:
         """Forget the sessions that have been away the longest when too many are kept."""

@@ -1,4 +1,4 @@
-"""The embedded MQTT broker's life: amqtt in a thread of this process, with VIPO's own rules (see broker_core)."""
+"""The embedded MQTT broker's life: amqtt in a thread of this process, with VIPO's own rules (see `broker`)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import threading
 from amqtt.errors import BrokerError
 
 from vipo_device.protocol.errors import RegistryError
-from vipo_site.embedded_broker.access_control import CheckPassword, Doorkeeper, PasswordDoorkeeper, RegistryDoorkeeper
+from vipo_site.embedded_broker.access_control import AccessControl, CheckPassword, PasswordAccess, RegistryAccess
 from vipo_site.embedded_broker.broker import VipoBroker
 
 START_TIMEOUT_S = 15.0
@@ -32,9 +32,9 @@ class BrokerFailed(RegistryError):
 class EmbeddedBroker:
     """A running broker; `port` is the one it got, `stop()` ends it."""
 
-    def __init__(self, *, host: str, port: int, server_password: str, doorkeeper: Doorkeeper) -> None:
+    def __init__(self, *, host: str, port: int, server_password: str, access_control: AccessControl) -> None:
         self.host, self.port = host, port
-        self._rules = (server_password, doorkeeper)
+        self._rules = (server_password, access_control)
         self._ready = threading.Event()
         self._failure: Exception | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -113,8 +113,8 @@ def start_broker(
         from django.conf import settings
 
         server_password = str(settings.VIPO_MQTT["password"])
-    doorkeeper = PasswordDoorkeeper(check_password) if check_password else RegistryDoorkeeper()
-    broker = EmbeddedBroker(host=host, port=port, server_password=server_password, doorkeeper=doorkeeper)
+    access_control = PasswordAccess(check_password) if check_password else RegistryAccess()
+    broker = EmbeddedBroker(host=host, port=port, server_password=server_password, access_control=access_control)
     broker.start()
     return broker
 

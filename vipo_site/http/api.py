@@ -14,7 +14,6 @@ from execution.api import router as execution_router
 from execution.maps_api import router as map_changes_router
 from registry.api.alerts import router as alerts_router
 from registry.api.devices import router as devices_router
-from registry.api.history import router as history_router
 from registry.api.maps import router as maps_router
 from registry.api.mtconnect import router as mtconnect_router
 from registry.api.onboarding import router as onboarding_router
@@ -75,7 +74,6 @@ api.add_router("", people_router)
 api.add_router("", sites_router)
 api.add_router("", devices_router)
 api.add_router("", alerts_router)
-api.add_router("", history_router)
 api.add_router("", onboarding_router)
 api.add_router("", maps_router)
 api.add_router("", sparql_router)

@@ -17,8 +17,8 @@ from connectors.mtconnect.condition import MachineCondition
 from connectors.mtconnect.description import Stand, portray
 from connectors.mtconnect.follower import Follower, Heard, Probed, Said
 from registry import services
-from registry.devices import readings as samples
-from registry.devices.readings import SampleBuffer
+from registry.devices import samples
+from registry.devices.samples import SampleBuffer
 from registry.models import Device, User
 from tests.integration.registry.conftest import MIXER, come, describe, hall, say
 from vipo_device.protocol.description import Pose, PropertySpec, Size

@@ -15,8 +15,8 @@ from execution.runs.advance import advance_run
 from execution.ticker.ticker import fire_timers
 from registry import services as registry
 from registry.demo.factory import make_grid, read_plan
-from registry.devices.views import PlaceView
 from registry.models import Device
+from registry.sites.views import PlaceView
 from simulation.services import make_world
 from simulation.world import Ack, PropertyChanged, Scene
 from tests.unit.execution import demo_floor

@@ -209,7 +209,7 @@ def test_a_robots_map_is_shown_as_the_sites_is(factory):
 
 
 def test_only_the_newest_fifty_versions_are_kept(factory, monkeypatch):
-    monkeypatch.setattr("registry.sites.sites.MOST_VERSIONS", 3)
+    monkeypatch.setattr("registry.maps.site_maps.MOST_VERSIONS", 3)
     for _ in range(4):
         registry.save_map(site=SITE, grid=PLAN)
     assert list(SiteMap.objects.order_by("version").values_list("version", flat=True)) == [3, 4, 5]

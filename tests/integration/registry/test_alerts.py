@@ -15,7 +15,7 @@ from django.test.utils import CaptureQueriesContext
 
 from registry import services
 from registry.alerts import buffer as alert_notes
-from registry.alerts import list as alert_list
+from registry.alerts import inbox
 from registry.alerts.alerts import Raised
 from registry.alerts.buffer import AGAIN_S, NoteBuffer
 from registry.live import fanout
@@ -132,7 +132,7 @@ def test_a_device_that_comes_and_leaves_and_a_foreign_key_are_told(mixer: str) -
     Device.objects.filter(pk=mixer).update(lifecycle="pending")
     assert services.check_device_password(username=mixer, password="k" * 30) is None
     with pytest.raises(BadDevice):
-        services.admit_newcomer(site="hall", device_id=mixer, payload=b'{"key": "%s"}' % (b"kdj3o0-" * 5), at=NOW)
+        services.enrol_device(site="hall", device_id=mixer, payload=b'{"key": "%s"}' % (b"kdj3o0-" * 5), at=NOW)
     Device.objects.filter(pk=mixer).update(lifecycle="approved", online=True)
     services.flush_alerts()
     assert sorted(alerts()) == [("flapping", "", 1), ("foreign_knock", "", 1), ("wrong_key", "", 1)]
@@ -255,7 +255,7 @@ def test_what_only_concerns_admins_is_theirs_alone(mixer: str, person: Callable[
 
 
 def test_old_alerts_are_forgotten_and_never_open_ones(mixer: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(alert_list, "KEPT_AT_MOST", 3)
+    monkeypatch.setattr(inbox, "KEPT_AT_MOST", 3)
     for day in range(6):
         at = NOW - timedelta(days=8 * day)
         DeviceAlert.objects.create(device_id=mixer, code="error", first_at=at, last_at=at, over_at=at)

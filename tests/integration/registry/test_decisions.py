@@ -11,7 +11,7 @@ import pytest
 from django.test import Client
 
 from registry import services
-from registry.devices.joining import Login
+from registry.devices.authentication import Login
 from registry.models import Device, User
 from registry.services import BadDevice, NotApproved, NotRetired
 from vipo_device.protocol.credentials import secret_hash
@@ -33,7 +33,7 @@ def approve() -> str:
 
 
 def test_a_newcomer_with_the_join_key_gets_a_key_of_its_own_at_approval(hall: str) -> None:
-    services.set_join_key(site="hall", join_key=JOIN)
+    services.set_enrolment_key(site="hall", key=JOIN)
     credential = approve()
     assert len(credential) == 32
     assert may_come_in(credential)
@@ -78,7 +78,7 @@ def test_a_revoked_key_lets_nobody_in_and_is_not_brought_back_by_the_next_start(
 
 
 def test_a_retired_device_stays_out_until_an_admin_lets_it_come_back(hall: str) -> None:
-    services.set_join_key(site="hall", join_key=JOIN)
+    services.set_enrolment_key(site="hall", key=JOIN)
     key = approve()
     with pytest.raises(NotRetired):
         services.readmit_device(**WHO)
@@ -124,7 +124,7 @@ def test_another_board_of_the_same_id_counts_its_starts_anew(hall: str, again: s
 
 def knock(key: str, device_id: str = "mixer1") -> bool:
     body = json.dumps({"key": key}).encode()
-    return services.admit_newcomer(site="hall", device_id=device_id, payload=body, at=NOW)
+    return services.enrol_device(site="hall", device_id=device_id, payload=body, at=NOW)
 
 
 def test_a_stranger_knocks_brings_its_key_and_waits(hall: str) -> None:
@@ -141,12 +141,12 @@ def test_a_stranger_knocks_brings_its_key_and_waits(hall: str) -> None:
 @pytest.mark.parametrize("payload", [b"", b"{", b'{"key": 5}', b'{"key": "short"}', b'{"key": "%s"}' % (b"k" * 129)])
 def test_a_knock_without_a_proper_key_is_refused(hall: str, payload: bytes) -> None:
     with pytest.raises(BadMessage):
-        services.admit_newcomer(site="hall", device_id="mixer1", payload=payload, at=NOW)
+        services.enrol_device(site="hall", device_id="mixer1", payload=payload, at=NOW)
     assert Device.objects.count() == 0
 
 
 def test_knocks_do_not_fill_the_registry(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("registry.devices.enrolment.MOST_NEWCOMERS", 2)
+    monkeypatch.setattr("registry.devices.enrolment.MOST_PENDING", 2)
     assert knock(KEY, "a")
     assert knock(KEY, "b")
     with pytest.raises(BadDevice, match="Decide about some of them first"):
@@ -157,13 +157,13 @@ def test_knocks_do_not_fill_the_registry(hall: str, monkeypatch: pytest.MonkeyPa
 
 
 def test_the_door_opens_with_its_sites_key_only(hall: str) -> None:
-    services.set_join_key(site="hall", join_key=JOIN)
+    services.set_enrolment_key(site="hall", key=JOIN)
     services.create_site(name="Other", slug="other")
     assert may_come_in(JOIN, "join:hall")
     assert not may_come_in(JOIN, "join:other")
     assert not may_come_in("", "join:other")
     assert services.find_ended(logins={"join:hall": Login(secret_hash(JOIN), NOW)}) == frozenset()
-    services.set_join_key(site="hall", join_key=OTHER)
+    services.set_enrolment_key(site="hall", key=OTHER)
     assert services.find_ended(logins={"join:hall": Login(secret_hash(JOIN), NOW)}) == {"join:hall"}
 
 

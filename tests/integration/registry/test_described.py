@@ -14,7 +14,7 @@ from django.test.utils import CaptureQueriesContext
 from registry import services
 from registry.live import fanout
 from registry.models import Device, DeviceEvent
-from registry.services import BadDevice, DeviceView, SaidDescription
+from registry.services import BadDevice, DescriptionMessage, DeviceView
 from vipo_device.descriptions.forms import BadDescription
 from vipo_device.descriptions.reader import write_description
 from vipo_device.protocol.description import Description
@@ -24,11 +24,11 @@ from .conftest import MIXER, NOW, ROBOT, come, describe
 LATER = NOW + timedelta(minutes=1)
 
 
-def said(description: Description, device_id: str = "", form: str = "turtle") -> SaidDescription:
-    return SaidDescription(device_id or description.id, write_description(description, form).encode(), LATER)
+def said(description: Description, device_id: str = "", form: str = "turtle") -> DescriptionMessage:
+    return DescriptionMessage(device_id or description.id, write_description(description, form).encode(), LATER)
 
 
-def many(count: int, name: str) -> list[SaidDescription]:
+def many(count: int, name: str) -> list[DescriptionMessage]:
     return [said(replace(MIXER, id=f"mixer{n:02}", name=f"{name} {n}", methods=())) for n in range(count)]
 
 
@@ -48,7 +48,7 @@ def test_each_description_has_its_own_fate(heard: list[Any], django_capture_on_c
         fates = services.ingest_descriptions(
             descriptions=[
                 said(newcomer),
-                SaidDescription("robot1", b"not RDF", LATER),
+                DescriptionMessage("robot1", b"not RDF", LATER),
                 said(MIXER, "foreign"),
                 said(replace(MIXER, name="Mixer New"), form="td"),
                 said(replace(MIXER, id="server")),

@@ -70,13 +70,14 @@ def test_one_with_a_key_of_its_own_keeps_it(hall: str, capsys: pytest.CaptureFix
     assert (code, json.loads(out)) == (0, {"device": "mixer1", "credential": None, "taken": False})
 
 
-def test_a_new_join_key_ends_the_old_one(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
-    services.set_join_key(site="hall", join_key="j" * 32)
-    code, out, err = told(capsys, "join-key", "hall")
+@pytest.mark.parametrize("command", ["enrolment-key", "join-key"])
+def test_a_new_enrolment_key_ends_the_old_one(command: str, hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    services.set_enrolment_key(site="hall", key="j" * 32)
+    code, out, err = told(capsys, command, "hall")
     assert (code, err) == (0, "")
     assert services.check_device_password(username="join:hall", password=out.strip())
     assert services.check_device_password(username="join:hall", password="j" * 32) is None
-    assert told(capsys, "join-key", "nowhere") == (2, "", "There is no site 'nowhere'.\n")
+    assert told(capsys, command, "nowhere") == (2, "", "There is no site 'nowhere'.\n")
 
 
 def test_a_legacy_topic_is_confirmed_by_its_name(hall: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -11,8 +11,8 @@ import pytest
 from django.test import Client
 
 from registry import services
-from registry.devices import readings as samples
-from registry.devices.readings import Bucket, SampleBuffer
+from registry.devices import samples
+from registry.devices.samples import Bucket, SampleBuffer
 from registry.models import Device, Sample, User
 from vipo_device.protocol.description import PropertySpec
 

@@ -14,7 +14,7 @@ from registry import services
 from registry.devices.views import changed_fields, changed_state
 from registry.live import fanout
 from registry.models import Device, DeviceEvent
-from registry.services import SaidState
+from registry.services import StateMessage
 from vipo_device.descriptions.reader import write_description
 from vipo_device.protocol.messages import BadMessage
 
@@ -25,8 +25,8 @@ def state(seq: int, **more: Any) -> bytes:
     return json.dumps({"boot": 1, "seq": seq, "done": True, **more}).encode()
 
 
-def said(device_id: str, payload: bytes, *, retained: bool = False) -> SaidState:
-    return SaidState(device_id, payload, NOW, retained)
+def said(device_id: str, payload: bytes, *, retained: bool = False) -> StateMessage:
+    return StateMessage(device_id, payload, NOW, retained)
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ import pytest
 
 from registry import services
 from registry.devices import descriptions
-from registry.devices.enrolment import MOST_NEWCOMERS
+from registry.devices.enrolment import MOST_PENDING
 from registry.live import fanout
 from registry.models import Device, DeviceEvent, Site, User
 from registry.services import BadDevice, NoSuchDevice, NotPending, Principal
@@ -39,7 +39,7 @@ def test_an_unknown_device_becomes_pending_and_is_shown(
 ) -> None:
     with django_capture_on_commit_callbacks(execute=True):
         view = describe()
-    assert (view.lifecycle, view.status, view.doing.text, view.online) == (
+    assert (view.lifecycle, view.status, view.activity.text, view.online) == (
         "pending",
         "pending",
         "Not trusted yet",
@@ -148,7 +148,7 @@ def test_an_approved_device_comes_works_and_goes(heard: list[Any], person: Calla
     services.approve_device(site="hall", device_id="mixer1", by=person("admin"), at=NOW)
     assert come().status == "idle"
     busy = say(seq=2, done=False, cmd="c1", props={"jobStatus": 75.0})
-    assert (busy.status, busy.doing.text, busy.command) == ("busy", "Working, 75 %", "c1")
+    assert (busy.status, busy.activity.text, busy.command) == ("busy", "Working, 75 %", "c1")
     assert services.device_to_json(busy)["properties"][0]["value"] == 75.0
     assert come(online=False).status == "offline"
     assert services.list_device_events(site="hall", device_id="mixer1")[0].text == "Left"
@@ -262,7 +262,7 @@ def test_an_expected_device_is_approved_when_it_comes(hall: str) -> None:
 
 
 def test_a_device_comes_in_with_its_own_key_only(hall: str) -> None:
-    services.set_join_key(site="hall", join_key=JOIN)
+    services.set_enrolment_key(site="hall", key=JOIN)
     services.expect_device(site="hall", device_id="mixer1", credential=KEY)
     check = services.check_device_password
     assert check(username="mixer1", password=KEY) == Principal("mixer1", False, secret_hash(KEY))
@@ -272,7 +272,7 @@ def test_a_device_comes_in_with_its_own_key_only(hall: str) -> None:
 
 
 def test_the_join_key_is_for_newcomers_until_they_are_approved(hall: str) -> None:
-    services.set_join_key(site="hall", join_key=JOIN)
+    services.set_enrolment_key(site="hall", key=JOIN)
     check = services.check_device_password
     assert check(username="new1", password=JOIN) == Principal("new1", True)
     assert check(username="server", password=JOIN) is None
@@ -284,9 +284,9 @@ def test_the_join_key_is_for_newcomers_until_they_are_approved(hall: str) -> Non
 
 
 def test_no_more_than_two_hundred_newcomers_come_in_with_a_join_key_alone(hall: str) -> None:
-    services.set_join_key(site="hall", join_key=JOIN)
+    services.set_enrolment_key(site="hall", key=JOIN)
     site = Site.objects.get(slug="hall")
-    Device.objects.bulk_create(Device(pk=f"n{number}", site=site) for number in range(MOST_NEWCOMERS - 1))
+    Device.objects.bulk_create(Device(pk=f"n{number}", site=site) for number in range(MOST_PENDING - 1))
     assert services.check_device_password(username="mixer1", password=JOIN)
     describe()
     assert services.check_device_password(username="mixer1", password=JOIN)
@@ -338,7 +338,7 @@ def test_low_batteries_and_errors_are_seen(hall: str) -> None:
     services.approve_device(site="hall", device_id="robot1", by=None, at=NOW)
     assert say("robot1", seq=2, props={"battery": 12}).status == "warning"
     failing = say("robot1", seq=3, props={"error": "Lid open"})
-    assert (failing.status, failing.doing.text) == ("error", "Lid open")
+    assert (failing.status, failing.activity.text) == ("error", "Lid open")
 
 
 def test_problems_are_noted_at_most_every_ten_seconds(hall: str) -> None:

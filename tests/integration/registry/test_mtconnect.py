@@ -13,8 +13,8 @@ from django.utils import timezone
 from lxml import etree
 
 from registry import services
-from registry.devices import readings as samples
-from registry.devices.readings import SampleBuffer
+from registry.devices import samples
+from registry.devices.samples import SampleBuffer
 from registry.models import Device, User
 from registry.mtconnect.data_items import MEASURES
 from vipo_device.protocol.description import PropertySpec

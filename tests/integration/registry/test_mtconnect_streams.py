@@ -15,8 +15,8 @@ from django.utils import timezone
 from lxml import etree
 
 from registry import services
-from registry.devices import readings
-from registry.devices.readings import SampleBuffer
+from registry.devices import samples
+from registry.devices.samples import SampleBuffer
 from registry.models import Device, Membership, User
 from registry.mtconnect import agent, streams
 from registry.mtconnect.agent import Question
@@ -31,7 +31,7 @@ ADDRESS = "/api/sites/hall/mtconnect"
 
 @pytest.fixture
 def mixer(hall: str, monkeypatch: pytest.MonkeyPatch) -> str:
-    monkeypatch.setattr(readings, "_buffer", SampleBuffer())
+    monkeypatch.setattr(samples, "_buffer", SampleBuffer())
     monkeypatch.setattr(streams, "LEAST_PAUSE_S", 0.02)
     describe()
     Device.objects.update(lifecycle="approved")

@@ -12,7 +12,7 @@ from django.test import Client, override_settings
 from rdflib import Graph
 
 from registry import services
-from registry.devices.enrolment import FORGOTTEN_AFTER, MOST_NEWCOMERS, expect_newcomer
+from registry.devices.enrolment import FORGOTTEN_AFTER, MOST_PENDING, reserve_device
 from registry.models import Device, User
 from registry.services import BadDevice
 from vipo_device.descriptions.reader import read_description, write_description
@@ -101,18 +101,18 @@ def test_ids_of_other_sites_and_ids_that_cannot_be_are_refused(hall: str) -> Non
 
 def test_who_does_not_come_is_forgotten_and_no_more_than_two_hundred_wait(hall: str, person: Any) -> None:
     who = {"site": "hall", "by": person("admin")}
-    expect_newcomer(device_id="early", at=NOW - FORGOTTEN_AFTER - timedelta(minutes=1), **who)
+    reserve_device(device_id="early", at=NOW - FORGOTTEN_AFTER - timedelta(minutes=1), **who)
     Device.objects.bulk_create(
-        Device(pk=f"w{n}", site=Device.objects.get().site, first_seen_at=NOW) for n in range(MOST_NEWCOMERS - 1)
+        Device(pk=f"w{n}", site=Device.objects.get().site, first_seen_at=NOW) for n in range(MOST_PENDING - 1)
     )
-    expect_newcomer(device_id="last", at=NOW, **who)
+    reserve_device(device_id="last", at=NOW, **who)
     assert not Device.objects.filter(pk="early").exists()
     with pytest.raises(BadDevice):
-        expect_newcomer(device_id="one-too-many", at=NOW, **who)
+        reserve_device(device_id="one-too-many", at=NOW, **who)
 
 
 def test_a_new_join_key_ends_the_old_one(hall: str) -> None:
-    services.set_join_key(site="hall", join_key="j" * 32)
+    services.set_enrolment_key(site="hall", key="j" * 32)
     told = send("admin", "join-key").json()
     assert may_come_in("join:hall", told["join_key"])
     assert not may_come_in("join:hall", "j" * 32)

@@ -61,5 +61,5 @@ def test_the_demos_devices_join_and_one_waits(tmp_path: Path) -> None:
     site = services.get_site(site=SITE)
     assert (site.machines, site.robots, site.pending, site.simulated) == (7, 3, 1, True)
     assert [d.id for d in services.list_devices(site=SITE, lifecycle="pending")] == ["paintMixer03"]
-    floor = services.get_floor(site=SITE)
+    floor = services.get_floor_plan(site=SITE)
     assert all(floor.is_free(p.x, p.y, 0.3) for p in services.list_places(site=SITE))

@@ -16,8 +16,7 @@ from django.contrib.sessions.backends.db import SessionStore
 from django.test import Client
 
 from registry import services
-from registry.devices import thing_events
-from registry.devices.things import EVENTS
+from registry.devices.things import EVENTS, newest_news
 from registry.models import Device, ThingEvent, User
 from registry.people.sessions import Session
 from registry.thing_directory import event_stream
@@ -131,12 +130,12 @@ async def test_who_comes_again_misses_nothing(things: str) -> None:
 async def test_who_was_away_for_too_long_is_told_to_read_all_again(
     things: str, monkeypatch: pytest.MonkeyPatch, last_id: str
 ) -> None:
-    monkeypatch.setattr(thing_events, "MOST_KEPT", 2)
+    monkeypatch.setattr("registry.devices.things.MOST_KEPT", 2)
     for number in range(4):
         await rename(f"n{number}")
     assert await sync_to_async(ThingEvent.objects.count)() == 2
     async with aclosing(await stream(last_id=last_id)) as events:
-        newest = str(await sync_to_async(thing_events.newest_news)())
+        newest = str(await sync_to_async(newest_news)())
         opening = (await anext(events)).decode()
         assert opening == f"id: {newest}\nretry: 2000\n\nid: {newest}\nevent: reset\ndata: {{}}\n\n"
         await rename("after")
@@ -168,7 +167,7 @@ async def test_a_stream_ends_when_it_has_sent_enough_and_goes_on_from_there(
     things: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(event_stream, "MOST_BYTES", 1)
-    first = str(await sync_to_async(thing_events.newest_news)())
+    first = str(await sync_to_async(newest_news)())
     await rename("Left")
     await rename("Right")
     async with aclosing(await stream(last_id=first, diff=True)) as events:
@@ -187,7 +186,7 @@ async def test_only_so_many_streams_are_open_at_once(things: str, monkeypatch: p
 
 
 async def test_a_browser_that_knows_the_last_event_names_it_in_the_header(things: str) -> None:
-    last = await sync_to_async(thing_events.newest_news)()
+    last = await sync_to_async(newest_news)()
     await rename("Left")
     client = Client()
     await sync_to_async(client.login)(username="viewer@vipo.example", password=PASSWORD)

@@ -59,7 +59,7 @@ def database(empty_database: Path, tmp_path: Path, django_db_blocker: DjangoDbBl
 @pytest.fixture(params=["mosquitto", "amqtt"])
 def bus(request: pytest.FixtureRequest, database: Path, tmp_path: Path, settings: LazySettings) -> Iterator[Bus]:
     services.create_site(name="Hall", slug=SITE)
-    services.set_join_key(site=SITE, join_key=JOIN)
+    services.set_enrolment_key(site=SITE, key=JOIN)
     settings.VIPO_DEFAULT_SITE = SITE
     accounts.accounts.cache_clear()
     told = {"host": "127.0.0.1", "username": "server", "password": SERVER_WORD, "tls": False}

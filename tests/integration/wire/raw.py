@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
-from vipo_site.embedded_broker.access_control import Line, PasswordDoorkeeper
+from vipo_site.embedded_broker.access_control import Line, PasswordAccess
 from vipo_site.embedded_broker.server import EmbeddedBroker
 
 
@@ -110,8 +110,8 @@ def raw(broker: EmbeddedBroker, hello: bytes, answer: bytes = b"\x00\x00") -> It
         yield made
 
 
-class Notebook(PasswordDoorkeeper):
-    """A doorkeeper that lets in whoever knows the word, and keeps what is noted."""
+class Notebook(PasswordAccess):
+    """Lets in whoever knows the word, and keeps what is noted."""
 
     def __init__(self, word: str) -> None:
         super().__init__(lambda _username, password: password == word)

@@ -15,7 +15,7 @@ import pytest
 from registry import services
 from tests.bus import Ear
 from tests.integration.wire.raw import Notebook, Raw, connect, field, packet, publish, raw, subscribe
-from vipo_site.embedded_broker.access_control import RegistryDoorkeeper
+from vipo_site.embedded_broker.access_control import RegistryAccess
 from vipo_site.embedded_broker.server import EmbeddedBroker
 
 WORD, SERVER_WORD = "word", "secret"
@@ -31,7 +31,7 @@ def notebook() -> Notebook:
 
 @pytest.fixture
 def broker(notebook: Notebook) -> Iterator[EmbeddedBroker]:
-    running = EmbeddedBroker(host="127.0.0.1", port=0, server_password=SERVER_WORD, doorkeeper=notebook)
+    running = EmbeddedBroker(host="127.0.0.1", port=0, server_password=SERVER_WORD, access_control=notebook)
     running.start()
     yield running
     running.stop()
@@ -267,7 +267,7 @@ def test_the_registry_shows_what_was_dropped() -> None:
     site = services.create_site(name="Hall", slug="painting-factory")
     text = Path("registry/demo/devices/paintMixer03.ttl").read_bytes()
     services.ingest_description(device_id="paintMixer03", payload=text, at=datetime.now(UTC))
-    RegistryDoorkeeper().record(
+    RegistryAccess().record(
         {"paintMixer03": 7, "server": 2}, [("paintMixer03", "7 were dropped", {}), ("server", "x", {})]
     )
     device = services.get_device(site=site.slug, device_id="paintMixer03")

@@ -60,7 +60,7 @@ def resident_kib() -> int:
 
 def join(bus: Bus, name: str) -> MqttClient:
     """Let a device in with its key and its description; it is approved."""
-    services.admit_newcomer(
+    services.enrol_device(
         site=SITE, device_id=name, payload=json.dumps({"key": KEYS[name]}).encode(), at=datetime.now(UTC)
     )
     client = bus.client(name, KEYS[name])

@@ -61,7 +61,7 @@ def make_agent(bus: Bus, folder: Path, name: str) -> Agent:
 
 def admit(name: str) -> None:
     at, knock = datetime.now(UTC), json.dumps({"key": KEY}).encode()
-    services.admit_newcomer(site=SITE, device_id=name, payload=knock, at=at)
+    services.enrol_device(site=SITE, device_id=name, payload=knock, at=at)
 
 
 def approve(name: str) -> None:

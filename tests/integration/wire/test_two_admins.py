@@ -14,7 +14,7 @@ from django.conf import LazySettings
 from django.db import connection
 
 from registry import services
-from registry.devices.lifecycle import KeyChanged
+from registry.devices.credentials import KeyChanged
 from registry.models import DeviceEvent
 from registry.services import NotPending
 from tests.bus import Ear

@@ -117,7 +117,7 @@ def gateways(bus: Bus, tmp_path: Path, settings: LazySettings) -> Iterator[Gatew
 def mixers(bus: Bus) -> Iterator[list[Mixer]]:
     at = datetime.now(UTC)
     for name in NAMES:
-        services.admit_newcomer(site=SITE, device_id=name, payload=json.dumps({"key": KEY}).encode(), at=at)
+        services.enrol_device(site=SITE, device_id=name, payload=json.dumps({"key": KEY}).encode(), at=at)
     with ExitStack() as stack:
         made = []
         for name in NAMES:

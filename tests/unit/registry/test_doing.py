@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from registry.devices.activity import Doing, Seen, doing_of
+from registry.devices.activity import Activity, Seen, activity_of
 from vipo_device.protocol.description import Description, Pose, Size
 
 MIXER = Description("mixer", "Mixer", "machine", "mixer", Pose(0, 0), Size(1, 1, 1), gives=("box",))
@@ -17,19 +17,24 @@ ROBOT = replace(MIXER, kind="robot", gives=())
 @pytest.mark.parametrize(
     ("device", "facts", "expected"),
     [
-        (MIXER, {"readings": {"error": "Lid open"}}, Doing("said", "Lid open", {"text": "Lid open"})),
-        (ROBOT, {"carrying": {"can": 2, "box": 1}}, Doing("carrying", "Carrying 1 box, 2 cans", {"box": 1, "can": 2})),
+        (MIXER, {"readings": {"error": "Lid open"}}, Activity("said", "Lid open", {"text": "Lid open"})),
+        (
+            ROBOT,
+            {"carrying": {"can": 2, "box": 1}},
+            Activity("carrying", "Carrying 1 box, 2 cans", {"box": 1, "can": 2}),
+        ),
         (
             MIXER,
             {"done": False, "readings": {"jobStatus": 74.6}},
-            Doing("working_percent", "Working, 75 %", {"percent": 75}),
+            Activity("working_percent", "Working, 75 %", {"percent": 75}),
         ),
-        (MIXER, {"done": False}, Doing("working", "Working")),
-        (ROBOT, {"done": False}, Doing("driving", "Driving")),
-        (MIXER, {"readings": {"stock": 3}}, Doing("stock", "3 boxes", {"count": 3, "object": "box"})),
-        (MIXER, {"readings": {"freeSlots": 2}}, Doing("slots", "2 slots free", {"count": 2})),
-        (MIXER, {}, Doing("ready", "Ready")),
+        (MIXER, {"done": False}, Activity("working", "Working")),
+        (ROBOT, {"done": False}, Activity("driving", "Driving")),
+        (MIXER, {"readings": {"stock": 3}}, Activity("stock", "3 boxes", {"count": 3, "object": "box"})),
+        (MIXER, {"readings": {"freeSlots": 2}}, Activity("slots", "2 slots free", {"count": 2})),
+        (MIXER, {}, Activity("ready", "Ready")),
     ],
 )
-def test_what_a_device_is_doing(device: Description, facts: dict[str, Any], expected: Doing) -> None:
-    assert doing_of(Seen(**{"description": device, "readings": {}, "carrying": {}, "done": True, **facts})) == expected
+def test_what_a_device_is_doing(device: Description, facts: dict[str, Any], expected: Activity) -> None:
+    seen = Seen(**{"description": device, "readings": {}, "carrying": {}, "done": True, **facts})
+    assert activity_of(seen) == expected

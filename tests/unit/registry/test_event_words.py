@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from registry.devices.history_texts import MOST_PARTS, PARTS, SENTENCES, described, said
+from registry.devices.history import MOST_PARTS, PARTS, SENTENCES, describe_change, history_text
 from vipo_device.protocol.description import Description, MethodSpec, Pose, PropertySpec, Size
 
 MIXER = Description("mixer", "Mixer", "machine", "mixer", Pose(0, 0), Size(1, 1, 1))
@@ -16,7 +16,7 @@ CATALOGUES = Path(__file__).parents[3] / "frontend" / "src" / "i18n"
 
 
 def test_a_line_has_its_words_and_what_they_are_made_of() -> None:
-    line = said("moved", x=1.0, y=-2.5)
+    line = history_text("moved", x=1.0, y=-2.5)
     assert (line.text, line.code, line.args) == ("Moved to 1.00, -2.50", "moved", {"x": 1.0, "y": -2.5})
 
 
@@ -25,19 +25,19 @@ def test_a_changed_description_is_told_part_by_part() -> None:
     after = replace(
         MIXER, name="Left", pose=Pose(1, 2), methods=(method,), properties=(PropertySpec("heat", "number"),)
     )
-    line = described(MIXER, after)
+    line = describe_change(MIXER, after)
     assert line is not None
     assert line.text == "Added method mix; added property heat; calls itself Left; says it stands at 1.00, 2.00"
     assert [part["code"] for part in line.args["parts"]] == ["added_method", "added_property", "called", "stands"]
-    assert described(after, replace(after, done=False)) is None
-    other = described(after, replace(after, description="Mixes"))
+    assert describe_change(after, replace(after, done=False)) is None
+    other = describe_change(after, replace(after, description="Mixes"))
     assert other is not None
     assert (other.text, other.args) == ("Changed its description", {"parts": [{"code": "changed"}]})
 
 
 def test_of_a_description_that_is_all_new_only_some_parts_are_kept_apart() -> None:
     many = tuple(PropertySpec(f"p{number}", "number") for number in range(64))
-    line = described(MIXER, replace(MIXER, properties=many))
+    line = describe_change(MIXER, replace(MIXER, properties=many))
     assert line is not None
     assert len(line.args["parts"]) == MOST_PARTS
 

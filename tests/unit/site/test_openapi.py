@@ -10,7 +10,7 @@ from ninja import Schema
 import editor.api
 import editor.shapes
 import execution.shapes
-import registry.api.shapes
+import registry.shapes
 import vipo_site.http.openapi
 from editor.language import compile_document, compiled_to_json
 from editor.shapes import CompiledShape, DocumentShape
@@ -63,7 +63,7 @@ def test_every_answer_has_a_shape():
 
 
 def test_no_two_shapes_have_one_name():
-    modules = (registry.api.shapes, editor.api, editor.shapes, execution.shapes, vipo_site.http.openapi)
+    modules = (registry.shapes, editor.api, editor.shapes, execution.shapes, vipo_site.http.openapi)
     shapes = {s for m in modules for s in vars(m).values() if isinstance(s, type) and issubclass(s, Schema)}
     assert [name for name, count in Counter(shape.__name__ for shape in shapes).items() if count > 1] == []
 

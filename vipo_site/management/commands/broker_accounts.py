@@ -1,4 +1,4 @@
-"""Write Mosquitto's accounts from the registry: the server's own, the sites' doors, the devices with a key."""
+"""Write Mosquitto's accounts from the registry: the server's own, the sites' for enrolment, the devices with a key."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from registry import services
-from registry.broker.mosquitto_file import account_file
 from vipo_device.protocol.credentials import broker_hash
 
 
@@ -32,6 +31,6 @@ class Command(BaseCommand):
         part = path.with_name(path.name + ".part")
         part.unlink(missing_ok=True)
         with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
-            file.write(account_file(hashes, services.list_granted_topics(), server=server))
+            file.write(services.account_file(hashes, services.list_granted_topics(), server=server))
         part.replace(path)
         self.stdout.write(f"{len(hashes)} accounts written to {path}.")

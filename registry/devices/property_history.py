@@ -6,9 +6,9 @@ import json
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from registry.devices.joining import get_device
-from registry.devices.readings import KEPT_FOR
+from registry.devices.queries import get_device
 from registry.devices.rows import BadDevice
+from registry.devices.samples import KEPT_FOR
 from registry.models import Sample
 from vipo_device.protocol.description import Scalar
 

@@ -1,4 +1,4 @@
-"""Refusals and failures that come from below the API's calls, told as the API tells its own."""
+"""What goes for every answer: the content security policy, and refusals and failures told as the API tells its own."""
 
 from __future__ import annotations
 
@@ -8,10 +8,37 @@ from django.http import HttpRequest, HttpResponse, HttpResponseNotAllowed
 
 from vipo_site.http.api import problem
 
+# Mantine sets styles from scripts; device pictures may come from any https address.
+POLICY = "; ".join(
+    [
+        "default-src 'self'",
+        "style-src 'self' 'unsafe-inline'",
+        "img-src 'self' data: blob: http: https:",
+        "font-src 'self' data:",
+        "connect-src 'self' ws: wss:",
+        "worker-src 'self' blob:",
+        "frame-ancestors 'none'",
+        "base-uri 'self'",
+        "form-action 'self'",
+    ]
+)
 UNREADABLE = (
     "The request cannot be read: it is larger than it may be, or asks for a host that VIPO_HOSTS does not name."
 )
 FAILED = "VIPO failed at this; what went wrong stands in the server's log. Look what holds now before you try again."
+
+
+class SecurityHeaders:
+    """Adds the content security policy to each answer."""
+
+    def __init__(self, get_response: Callable[[HttpRequest], HttpResponse]) -> None:
+        self.get_response = get_response
+
+    def __call__(self, request: HttpRequest) -> HttpResponse:
+        """Answer, with the policy."""
+        response = self.get_response(request)
+        response.headers.setdefault("Content-Security-Policy", POLICY)
+        return response
 
 
 class TellMethods:

@@ -1,13 +1,25 @@
-"""What is written into a device's history: an English sentence, with what a screen says it from in another language."""
+"""A device's history: which lines there are, an English sentence each, and what a screen says them from elsewhere.
+
+The newest 200 lines of each device are kept.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from datetime import datetime
 from typing import Any
 
+from django.db.models import Count
+
+from registry.models import Device, DeviceEvent, User
+from vipo_device.descriptions.changes import Change
 from vipo_device.protocol.description import Description
 
+MOST_EVENTS = 200
+EVENTS_TO_SPARE = 20
+"""How many more a history may have before it is cut, where many devices speak at once."""
+MOST_CHARACTERS = 300
 SENTENCES: Mapping[str, str] = {
     "expected": "Added, and given a key",
     "approved": "Approved",
@@ -19,7 +31,7 @@ SENTENCES: Mapping[str, str] = {
     "knocked": "Knocked with the join key and brought a key of its own",
     "online": "Came online",
     "offline": "Left",
-    "silent": "Said nothing for {seconds} s",
+    "silent": "HistoryText nothing for {seconds} s",
     "flapping": "Comes and leaves all the time; not every time is written down",
     "error": "Reports an error: {text}",
     "recovered": "Reports no error any more",
@@ -47,7 +59,7 @@ MOST_PARTS = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class HistoryText:
     """A line of history in English, with its code and arguments."""
 
     text: str
@@ -55,20 +67,20 @@ class Said:
     args: Mapping[str, Any] = field(default_factory=dict)
 
 
-def said(code: str, **args: Any) -> Said:
+def history_text(code: str, **args: Any) -> HistoryText:
     """Return the line of a code with its arguments."""
-    return Said(SENTENCES[code].format_map(args), code, args)
+    return HistoryText(SENTENCES[code].format_map(args), code, args)
 
 
-def described(before: Description | None, after: Description) -> Said | None:
+def describe_change(before: Description | None, after: Description) -> HistoryText | None:
     """Say what changed in a description; None when its meaning is the same."""
     if before is None:
-        return said("described_first", name=after.name, **{"class": after.device_class or after.kind})
+        return history_text("described_first", name=after.name, **{"class": after.device_class or after.kind})
     parts = _parts(before, after)
     if not parts and replace(before, done=after.done) != after:
         parts = [{"code": "changed"}]
     text = "; ".join(PARTS[part["code"]].format_map(part) for part in parts)
-    return Said(text[:1].upper() + text[1:], "described", {"parts": parts[:MOST_PARTS]}) if parts else None
+    return HistoryText(text[:1].upper() + text[1:], "described", {"parts": parts[:MOST_PARTS]}) if parts else None
 
 
 def _parts(before: Description, after: Description) -> list[dict[str, Any]]:
@@ -89,3 +101,50 @@ def _names(what: str, before: list[str], after: list[str]) -> list[dict[str, Any
         *({"code": f"added_{what}", "name": name} for name in added),
         *({"code": f"removed_{what}", "name": name} for name in gone),
     ]
+
+
+def line_of_history(
+    device: Device,
+    at: datetime,
+    kind: str,
+    words: HistoryText | str,
+    by: User | None = None,
+    *,
+    changes: tuple[Change, ...] = (),
+) -> DeviceEvent:
+    """Return a line of a device's history, which is not written yet; bare words have no code."""
+    line = words if isinstance(words, HistoryText) else HistoryText(words)
+    told = {"text": line.text[:MOST_CHARACTERS], "code": line.code, "args": dict(line.args)}
+    differences = [asdict(change) for change in changes]
+    return DeviceEvent(device=device, at=at, kind=kind, by=by, changes=differences, **told)
+
+
+def write_event(
+    device: Device,
+    at: datetime,
+    kind: str,
+    words: HistoryText | str,
+    by: User | None = None,
+    *,
+    changes: tuple[Change, ...] = (),
+) -> None:
+    """Add a line of history and forget the ones beyond the newest 200."""
+    line_of_history(device, at, kind, words, by, changes=changes).save(force_insert=True)
+    _forget_old(device.pk)
+
+
+def write_lines(lines: Sequence[DeviceEvent]) -> None:
+    """Add lines of history of many devices, oldest first; who has 20 more than 200 keeps the newest 200."""
+    if not lines:
+        return
+    DeviceEvent.objects.bulk_create(lines)
+    kept = DeviceEvent.objects.filter(device__in={line.device_id for line in lines}).order_by()
+    counts = kept.values_list("device").annotate(lines=Count("pk")).filter(lines__gt=MOST_EVENTS + EVENTS_TO_SPARE)
+    for device_id, _ in counts:
+        _forget_old(device_id)
+
+
+def _forget_old(device_id: str) -> None:
+    own = DeviceEvent.objects.filter(device=device_id)
+    for key in list(own.order_by("-pk").values_list("pk", flat=True)[MOST_EVENTS:][:1]):
+        own.filter(pk__lte=key).delete()

@@ -1,4 +1,4 @@
-"""Reading alerts, saying that they were seen, and forgetting the old ones."""
+"""What people do with alerts: list them and mark them as seen; the old ones are forgotten."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from datetime import datetime, timedelta
 from django.db import transaction
 
 from registry.alerts.causes import AlertCode
-from registry.alerts.views import AlertState, AlertView, readable, tell, view_of
+from registry.alerts.views import AlertState, AlertView, publish_alerts, readable, view_of
 from registry.models import DeviceAlert, Site, User
 from registry.sites.sites import find_site
 from vipo_device.protocol.errors import RegistryError
@@ -63,7 +63,7 @@ def mark_alert_seen(*, alert_id: int, by: User, at: datetime) -> AlertView:
     """Say that somebody has seen an alert; the first one stays named. Raises NoSuchAlert."""
     with transaction.atomic():
         if DeviceAlert.objects.filter(pk=alert_id, seen_at=None).update(seen_at=at, seen_by=by):
-            tell([alert_id])
+            publish_alerts([alert_id])
     return find_alert(alert_id=alert_id)
 
 
@@ -73,7 +73,7 @@ def mark_all_seen(*, site: str, by: User, at: datetime, role: str) -> tuple[Aler
         unseen = readable(role).filter(device__site=find_site(site), over_at=None, seen_at=None)
         ids = list(unseen.values_list("pk", flat=True))
         DeviceAlert.objects.filter(pk__in=ids, seen_at=None).update(seen_at=at, seen_by=by)
-        tell(ids)
+        publish_alerts(ids)
     return list_alerts(site=site, role=role)
 
 

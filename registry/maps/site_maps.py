@@ -1,0 +1,197 @@
+"""A site's own map: its versions, its walls and floor, and what each was made from.
+
+A new map is always a new version; none is written over.
+"""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass
+from datetime import datetime
+from functools import lru_cache
+
+from django.db import models, transaction
+
+from registry.devices.queries import list_devices
+from registry.devices.views import effective_description
+from registry.floorplan.comparison import MapDifference, NamedPoint, compare_maps
+from registry.floorplan.map_server import check_size, read_map
+from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
+from registry.live.fanout import publish
+from registry.maps.robot_maps import get_robot_map
+from registry.models import Device, Site, SiteMap, User
+from registry.sites.sites import create_site, find_site, get_site, list_places
+from registry.sites.views import SiteView
+from vipo_device.protocol.description import Description
+from vipo_device.protocol.errors import RegistryError
+
+MOST_VERSIONS = 50
+
+
+class NoMap(RegistryError):
+    """The site has no map yet."""
+
+    code = "no_map"
+    status = 404
+
+
+class MapChanged(RegistryError):
+    """The map that somebody looked at is not the newest any more."""
+
+    code = "map_changed"
+    status = 409
+
+
+@dataclass(frozen=True, slots=True)
+class MapView:
+    """A site's map."""
+
+    site: str
+    version: int
+    grid: Grid
+
+
+@dataclass(frozen=True, slots=True)
+class MapVersionView:
+    """One version of a site's map; `source` is `upload`, `demo`, `robot:<id>`, `version:<number>` or empty."""
+
+    version: int
+    width: int
+    height: int
+    resolution_m: float
+    source: str
+    by: str
+    at: datetime
+
+
+def list_map_versions(*, site: str) -> tuple[MapVersionView, ...]:
+    """Return the versions of a site's map that are kept, the one that holds first."""
+    rows = SiteMap.objects.filter(site=find_site(site)).select_related("by").defer("packed_cells")
+    return tuple(
+        MapVersionView(
+            row.version,
+            row.width,
+            row.height,
+            row.resolution_m,
+            row.source,
+            row.by.display_name if row.by else "",
+            row.created_at,
+        )
+        for row in rows.order_by("-version")
+    )
+
+
+def compare_robot_map(*, site: str, device_id: str) -> tuple[int, int, MapDifference]:
+    """Return the robot's version, the site's version (0: it has no map) and what changes from this one to that one.
+
+    Raises NoSuchDevice, NoRobotMap.
+    """
+    view = get_robot_map(site=site, device_id=device_id)
+    present = find_map(site=site)
+    devices = [device.canonical for device in list_devices(site=site, lifecycle="approved")]
+    places = [NamedPoint(p.id, p.name, p.x, p.y) for p in list_places(site=site)]
+    difference = compare_maps(present.grid if present else None, view.grid, devices, places)
+    return view.facts.version, present.version if present else 0, difference
+
+
+def find_map(*, site: str) -> MapView | None:
+    """Return the site's newest map, or None when it has none."""
+    try:
+        return get_map(site=site)
+    except NoMap:
+        return None
+
+
+def use_robot_map(*, site: str, device_id: str, version: int, replaces: int, by: User) -> MapView:
+    """Make a robot's map the site's; places and devices stay where they are. `version` and `replaces` were seen.
+
+    Raises NoSuchDevice, NoRobotMap, BadMap, MapChanged.
+    """
+    view = get_robot_map(site=site, device_id=device_id)
+    if view.facts.version != version:
+        raise MapChanged("The robot has sent a newer map meanwhile. Look at it again, then decide.", {"why": "robot"})
+    check_size(view.grid.width, view.grid.height)
+    return save_map(site=site, grid=view.grid, source=f"robot:{device_id}", by=by, replaces=replaces)
+
+
+def restore_map(*, site: str, version: int, replaces: int, by: User) -> MapView:
+    """Use an older version of the site's map again, as a new version. Raises NoMap, MapChanged."""
+    row = SiteMap.objects.filter(site=find_site(site), version=version).first()
+    if row is None:
+        raise NoMap(f"Version {version} of this site's map is not kept. Choose one of the list.")
+    grid = Grid(row.width, row.height, row.resolution_m, row.origin_x_m, row.origin_y_m, row.cells)
+    return save_map(site=site, grid=grid, source=f"version:{version}", by=by, replaces=replaces)
+
+
+def create_site_from_map(*, name: str, yaml: bytes, image: bytes | None, admin: User) -> SiteView:
+    """Make a site from a ROS map; nothing is made when the map cannot be read. Raises BadMap, BadName."""
+    grid = read_map(yaml, image)
+    with transaction.atomic():
+        view = create_site(name=name, admin=admin)
+        save_map(site=view.slug, grid=grid, source="upload", by=admin)
+    return get_site(site=view.slug, role=view.role)
+
+
+def save_map(
+    *, site: str, grid: Grid, source: str = "", by: User | None = None, replaces: int | None = None
+) -> MapView:
+    """Make a grid the site's map, as a new version, and tell browsers; the oldest beyond 50 versions are forgotten.
+
+    `replaces` is the version (0: none) that the caller has seen. Raises MapChanged when another one holds by now.
+    """
+    with transaction.atomic():
+        row = Site.objects.select_for_update().get(slug=site)
+        latest = SiteMap.objects.filter(site=row).aggregate(models.Max("version"))["version__max"] or 0
+        if replaces is not None and replaces != latest:
+            raise MapChanged(
+                "Somebody has changed the site's map meanwhile. Look at it again, then decide.", {"why": "site"}
+            )
+        saved = SiteMap.objects.create(
+            site=row,
+            version=latest + 1,
+            width=grid.width,
+            height=grid.height,
+            resolution_m=grid.resolution_m,
+            origin_x_m=grid.origin_x_m,
+            origin_y_m=grid.origin_y_m,
+            packed_cells=zlib.compress(grid.cells, 6),
+            source=source,
+            by=by,
+        )
+        SiteMap.objects.filter(site=row, version__lte=saved.version - MOST_VERSIONS).delete()
+        transaction.on_commit(lambda: publish(site, {"type": "map", "version": saved.version}))
+    return MapView(site, saved.version, grid)
+
+
+def get_map(*, site: str) -> MapView:
+    """Return the site's newest map. Raises NoMap."""
+    row = find_site(site)
+    latest = SiteMap.objects.filter(site=row).order_by("-version").values_list("pk", "version", "created_at").first()
+    if latest is None:
+        raise NoMap("This site has no map yet. Upload a ROS map (.yaml with its image).")
+    return MapView(site, latest[1], _grid(latest[0], latest[2]))
+
+
+@lru_cache(maxsize=8)
+def _grid(map_id: int, created_at: datetime) -> Grid:
+    """Unpack a map once in each process: it never changes; the time tells apart rows that were given the same key."""
+    row = SiteMap.objects.get(pk=map_id)
+    return Grid(row.width, row.height, row.resolution_m, row.origin_x_m, row.origin_y_m, row.cells)
+
+
+@lru_cache(maxsize=8)
+def get_walls(grid: Grid) -> tuple[Box, ...]:
+    """Return the walls of a grid as boxes, worked out once."""
+    return wall_boxes(grid)
+
+
+def get_floor_plan(*, site: str) -> FloorPlan:
+    """Return what the map says about points and ways, approved machines being obstacles. Raises NoMap."""
+    rows = Device.objects.filter(site__slug=site, lifecycle=Device.Lifecycle.APPROVED).order_by("id")
+    described = [effective_description(d) for d in rows if d.description]
+    return _floor(get_map(site=site).grid, tuple(d for d in described if d.kind == "machine"))
+
+
+@lru_cache(maxsize=8)
+def _floor(grid: Grid, machines: tuple[Description, ...]) -> FloorPlan:
+    return FloorPlan(grid, machines)

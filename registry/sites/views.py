@@ -1,0 +1,52 @@
+"""What the registry says of sites and their places: frozen, and free of the database."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceView:
+    """A named place; metres and radians in the map frame. `label` is where its name is written, if not beside it."""
+
+    id: str
+    name: str
+    kind: str
+    x: float
+    y: float
+    theta: float
+    label: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class StopView:
+    """The latched stop of a site."""
+
+    active: bool
+    by: str
+    at: datetime | None
+
+
+@dataclass(frozen=True, slots=True)
+class SiteView:
+    """A site and its counts; `role` is what the asking user is there, empty when nobody asks."""
+
+    slug: str
+    name: str
+    role: str
+    machines: int
+    robots: int
+    online: int
+    pending: int
+    has_map: bool
+    stop: StopView
+    simulated: bool
+
+
+def site_to_json(view: SiteView) -> dict[str, Any]:
+    """Return the site as the API says it."""
+    body = asdict(view)
+    body["stop"]["at"] = view.stop.at.isoformat() if view.stop.at else None
+    return body

@@ -1,0 +1,44 @@
+"""What the commands of `vipo` share: exit codes, printing, and Django's set-up for those that read the database."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Sequence
+
+import django
+
+from vipo_device.protocol.faults import printable
+
+CLEAN, FAULTY, UNUSABLE, INTERRUPTED = 0, 1, 2, 130
+
+
+def set_up() -> None:
+    """Load the apps' models; before this nothing of them can be imported."""
+    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
+    django.setup()
+
+
+def write(line: str) -> None:
+    """Print a line of the answer."""
+    print(line)  # noqa: T201 - a command line tool speaks by printing
+
+
+def write_json(body: object) -> None:
+    """Print the answer for machines."""
+    write(json.dumps(body, ensure_ascii=False, indent=1))
+
+
+def write_table(rows: Sequence[Sequence[str]]) -> None:
+    """Print rows with their columns under each other, without what a terminal would obey."""
+    cleaned = [[printable(cell) for cell in row] for row in rows]
+    widths = [max(len(row[column]) for row in cleaned) for column in range(len(cleaned[0]))]
+    for row in cleaned:
+        write("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip())
+
+
+def complain(line: str) -> int:
+    """Print a line about what is wrong, apart from the answer; return the exit code for what cannot be done."""
+    print(line, file=sys.stderr)  # noqa: T201 - a command line tool speaks by printing
+    return UNUSABLE
