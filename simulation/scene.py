@@ -9,8 +9,8 @@ from registry.floorplan.plan import Grid, wall_boxes
 from simulation.actors import Beginning, Emit, Machine, Motion, Robot, Surroundings
 from simulation.proximity import Body, machine_bodies, wall_bodies
 from simulation.world import Scene
-from vipo_device.kit.answers import Answer
 from vipo_device.protocol.description import Description, Pose
+from vipo_device.protocol.messages import AckMessage
 
 WALL_HEIGHT_M = 1.0
 
@@ -75,7 +75,7 @@ def _beginning(scene: Scene, device: str, holds: Mapping[str, Mapping[str, int]]
         readings=scene.readings.get(device, {}),
         holds=holds.get(device),
         faults=tuple(f for f in scene.faults if f.device == device),
-        remembered={a.command: Answer(a.status, a.why, a.result) for a in scene.remembered.get(device, ())},
+        remembered=tuple(AckMessage(a.command, a.status, a.why, a.result) for a in scene.remembered.get(device, ())),
         seed=scene.seed,
     )
 

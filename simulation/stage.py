@@ -110,13 +110,13 @@ class Stage:
         """Return the final answers that each device would give again, oldest first."""
         now = self._asked_s
         return {
-            name: [Ack(now, name, command, a.status, a.why, a.result) for command, a in actor.ledger.over().items()]
+            name: [Ack(now, name, a.command, a.status, a.why, a.result) for a in actor.ledger.over()]
             for name, actor in self._actors.items()
         }
 
     def under_way(self) -> dict[str, tuple[str, ...]]:
         """Return the commands that each device has begun or queued."""
-        return {name: actor.ledger.under_way() for name, actor in self._actors.items()}
+        return {name: tuple(ack.command for ack in actor.ledger.under_way()) for name, actor in self._actors.items()}
 
     def close(self) -> None:
         """Give back what the driver holds."""

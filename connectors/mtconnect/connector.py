@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections import defaultdict
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import datetime
@@ -18,8 +17,15 @@ from connectors.mtconnect.condition import MachineCondition
 from connectors.mtconnect.description import Portrait, Stand, portray
 from connectors.mtconnect.documents import BadDocument, Machine, Observation
 from connectors.mtconnect.follower import Follower, Gone, Heard, Probed, Said
-from vipo_device.kit.connection import CameIn, Commanded, ConnectionMaker, DeviceLine, LineEvent
-from vipo_device.protocol.messages import AckMessage, Told
+from vipo_device.kit.connection import (
+    CommandReceived,
+    ConnectionEvent,
+    ConnectionMaker,
+    DeviceConnection,
+    IntroductionDue,
+    leave,
+)
+from vipo_device.protocol.messages import AckMessage, DeviceCommand
 
 log = logging.getLogger(__name__)
 TICK_S = 0.25
@@ -48,12 +54,14 @@ class FollowerEnded(RuntimeError):
 class Member:
     """One machine: its device's connection, and what is known of it."""
 
-    def __init__(self, portrait: Portrait, setting: Setting, boot: int, hear: Callable[[LineEvent], None]) -> None:
+    def __init__(
+        self, portrait: Portrait, setting: Setting, boot: int, hear: Callable[[ConnectionEvent], None]
+    ) -> None:
         self.id = portrait.description.id
         self._portrait, self._condition = portrait, MachineCondition(portrait)
-        self._line = DeviceLine(self.id, setting.site, boot, hear)
+        self.connection = DeviceConnection(self.id, setting.site, boot, hear)
         self._is_known = self._online = False
-        self._line.connect(setting.connect)
+        self.connection.connect(setting.connect)
 
     def describe(self, portrait: Portrait) -> None:
         """Take in what the machine tells from now on; how it is follows."""
@@ -77,27 +85,23 @@ class Member:
 
     def introduce(self) -> None:
         """Say to the server who the machine is."""
-        self._line.introduce(self._portrait.turtle, online=self._online)
+        self.connection.introduce(self._portrait.turtle, online=self._online)
 
-    def answer(self, told: Told) -> None:
-        """Refuse what the machine is told."""
-        self._line.answer(AckMessage(told.command, "REJECTED", ONLY_READ))
+    def refuse(self, command: DeviceCommand) -> None:
+        """Refuse a command: the machine is only read."""
+        self.connection.answer(AckMessage(command.id, "REJECTED", ONLY_READ))
 
     def speak(self, now_s: float) -> None:
         """Say how the machine is, if that is due."""
         self._be_present()
         if self._online:
-            self._line.report(self._condition.look, now_s)
-
-    def leave(self) -> None:
-        """Say goodbye to VIPO."""
-        self._line.close()
+            self.connection.report(self._condition.look, now_s)
 
     def _be_present(self) -> None:
         online = self._is_known and self._condition.is_available
         if online != self._online:
             self._online = online
-            self._line.say_presence(online=online)
+            self.connection.say_presence(online=online)
 
 
 class Plant:
@@ -105,7 +109,7 @@ class Plant:
 
     def __init__(self, agent: Agent, setting: Setting) -> None:
         self._agent, self._setting = agent, setting
-        self._inbox: Queue[Heard | LineEvent] = Queue(MOST_WAITING)
+        self._inbox: Queue[Heard | ConnectionEvent] = Queue(MOST_WAITING)
         self._members: dict[str, Member] = {}
         self._by_device: dict[str, Member] = {}
         self._boot = int(setting.clock().timestamp())
@@ -118,8 +122,7 @@ class Plant:
         try:
             self._serve(stopping, thread)
         finally:
-            with ThreadPoolExecutor(max_workers=max(1, len(self._members))) as pool:
-                list(pool.map(Member.leave, self._members.values()))
+            leave(member.connection for member in self._members.values())
 
     def _serve(self, stopping: Event, follower: Thread) -> None:
         ticked_s = 0.0
@@ -133,7 +136,7 @@ class Plant:
                 for member in self._members.values():
                     member.speak(now)
 
-    def _take(self, event: Heard | LineEvent) -> None:
+    def _take(self, event: Heard | ConnectionEvent) -> None:
         match event:
             case Probed(machines=machines):
                 self._meet(machines)
@@ -142,10 +145,10 @@ class Plant:
             case Gone():
                 for member in self._members.values():
                     member.lose()
-            case CameIn(device=device):
+            case IntroductionDue(device=device):
                 self._by_device[device].introduce()
-            case Commanded(device=device, told=told):
-                self._by_device[device].answer(told)
+            case CommandReceived(device=device, command=command):
+                self._by_device[device].refuse(command)
 
     def _meet(self, machines: tuple[Machine, ...]) -> None:
         """Make devices of machines that are new, describe the others anew; who is not named any more goes offline."""
@@ -171,7 +174,7 @@ class Plant:
         if len(self._members) >= MOST_DEVICES:
             log.warning("%s is one machine too many: a connector serves %d.", portrait.description.id, MOST_DEVICES)
             return
-        member = Member(portrait, self._setting, self._boot, self._hear_line)
+        member = Member(portrait, self._setting, self._boot, self._hear_connection)
         self._members[uuid] = self._by_device[member.id] = member
 
     def _stand(self, place: int) -> Stand:
@@ -188,6 +191,6 @@ class Plant:
             if said.is_whole or uuid in by_machine:
                 member.take(by_machine[uuid], now, is_whole=said.is_whole)
 
-    def _hear_line(self, event: LineEvent) -> None:
+    def _hear_connection(self, event: ConnectionEvent) -> None:
         with suppress(Full):
             self._inbox.put(event, timeout=PATIENCE_S)

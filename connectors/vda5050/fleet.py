@@ -6,15 +6,15 @@ import logging
 import re
 import time
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from threading import Event, Lock
 
-from connectors.vda5050.member import Member, Setting, memory_path
+from connectors.vda5050.member import Member, Setting
 from connectors.vda5050.messages import VehicleName, read_connection, read_state
-from vipo_device.kit.connection import CameIn, Commanded, LineEvent, Stopped
+from connectors.vda5050.vehicle_memory import memory_path
+from vipo_device.kit.connection import CommandReceived, ConnectionEvent, IntroductionDue, StopChanged, leave
 from vipo_device.protocol.messages import BadMessage
 from vipo_device.protocol.mqtt_client import MqttClient
 
@@ -72,7 +72,7 @@ class Fleet:
         self.refused: Counter[str] = Counter()
         self._client, self._interface = client, interface
         self._setting = setting
-        self._inbox: SimpleQueue[Said | LineEvent] = SimpleQueue()
+        self._inbox: SimpleQueue[Said | ConnectionEvent] = SimpleQueue()
         self._members: dict[str, Member] = {}
         self._by_name: dict[VehicleName, Member] = {}
         self._waiting = Waiting()
@@ -88,8 +88,7 @@ class Fleet:
             self._serve(stopping)
         finally:
             self._client.stop()
-            with ThreadPoolExecutor(max_workers=max(1, len(self._members))) as pool:
-                list(pool.map(Member.leave, self._members.values()))
+            leave(member.connection for member in self._members.values() if member.connection)
 
     def _serve(self, stopping: Event) -> None:
         ticked_s = 0.0
@@ -102,17 +101,17 @@ class Fleet:
                 for member in self._members.values():
                     member.tick(now, is_reached=is_reached)
 
-    def _take(self, event: Said | LineEvent, now_s: float) -> None:
+    def _take(self, event: Said | ConnectionEvent, now_s: float) -> None:
         if isinstance(event, Said):
             self._hear_vehicle(event, now_s)
             return
         member = self._members[event.device]
         match event:
-            case Commanded(told=told):
-                member.command(told, now_s)
-            case Stopped(active=active):
+            case CommandReceived(command=command):
+                member.command(command, now_s)
+            case StopChanged(active=active):
                 member.hold(now_s, active=active)
-            case CameIn():
+            case IntroductionDue():
                 member.introduce()
 
     def _hear_vehicle(self, said: Said, now_s: float) -> None:
@@ -139,7 +138,7 @@ class Fleet:
         """
         if said.subtopic == "connection":
             read_connection(said.payload, said.name)
-        elif said.subtopic == "state" and memory_path(self._setting, said.name).exists():
+        elif said.subtopic == "state" and memory_path(self._setting.folder, said.name).exists():
             read_state(said.payload, said.name)
         else:
             return None

@@ -10,7 +10,6 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from connectors.commands import OPEN
 from connectors.vda5050.connection_state import Presence
 from connectors.vda5050.control import Send, VehicleControl
 from connectors.vda5050.coordinates import Frame
@@ -24,12 +23,12 @@ from connectors.vda5050.messages import (
     read_state,
     read_visualization,
 )
-from connectors.vda5050.order_file import Memory, read_memory, write_memory
 from connectors.vda5050.orders import action, instant_actions
 from connectors.vda5050.tasks import Vehicle
+from connectors.vda5050.vehicle_memory import VehicleMemory, memory_path, read_memory, write_memory
 from vipo_device.descriptions.reader import write_description
-from vipo_device.kit.connection import ConnectionMaker, DeviceLine, LineEvent
-from vipo_device.protocol.messages import AckMessage, Told
+from vipo_device.kit.connection import ConnectionEvent, ConnectionMaker, DeviceConnection
+from vipo_device.protocol.messages import AckMessage, DeviceCommand
 
 log = logging.getLogger(__name__)
 Publish = Callable[[VehicleName, str, bytes], None]
@@ -49,24 +48,19 @@ class Setting:
     clock: Callable[[], datetime]
 
 
-def memory_path(setting: Setting, name: VehicleName) -> Path:
-    """Return where is kept what was open at a vehicle; the file is there once it has been a device."""
-    return setting.folder / f"{device_id(name)}.json"
-
-
 class Member:
     """A vehicle that was heard of. It becomes a device when its connection, factsheet and state are known."""
 
     def __init__(
-        self, name: VehicleName, setting: Setting, publish: Publish, inbox: Callable[[LineEvent], None]
+        self, name: VehicleName, setting: Setting, publish: Publish, inbox: Callable[[ConnectionEvent], None]
     ) -> None:
         self.name, self.id = name, device_id(name)
         self._publish = publish
         self.control: VehicleControl | None = None
         self._setting, self._inbox = setting, inbox
-        self._path = memory_path(setting, name)
-        self._memory: Memory = read_memory(self._path, int(setting.clock().timestamp()))
-        self._line: DeviceLine | None = None
+        self._path = memory_path(setting.folder, name)
+        self._memory: VehicleMemory = read_memory(self._path, int(setting.clock().timestamp()))
+        self.connection: DeviceConnection | None = None
         self._sheet: Factsheet | None = None
         self._sheet_said = b""
         self._description = b""
@@ -102,10 +96,10 @@ class Member:
             self.control.hear_state(self._state, now_s)
         self.speak(now_s)
 
-    def command(self, told: Told, now_s: float) -> None:
+    def command(self, command: DeviceCommand, now_s: float) -> None:
         """Take in a command of the server."""
         if self.control is not None:
-            self.control.command(told, now_s)
+            self.control.command(command, now_s)
             self.speak(now_s)
 
     def hold(self, now_s: float, *, active: bool) -> None:
@@ -116,8 +110,8 @@ class Member:
 
     def introduce(self) -> None:
         """Say to the server who the vehicle is."""
-        if self._line is not None and self.control is not None:
-            self._line.introduce(self._description, online=self.control.online)
+        if self.connection is not None and self.control is not None:
+            self.connection.introduce(self._description, online=self.control.online)
 
     def tick(self, now_s: float, *, is_reached: bool = True) -> None:
         """Let time pass: ask the vehicle for what is missing, send again what it did not answer.
@@ -134,29 +128,24 @@ class Member:
             self.control.settle(now_s)
         self.speak(now_s)
 
-    def leave(self) -> None:
-        """Say goodbye to VIPO; the vehicle keeps what it was ordered."""
-        if self._line is not None:
-            self._line.close()
-
     def speak(self, now_s: float) -> None:
         """Keep what is to be known after a crash, then send: orders, what has begun, the state, what is over."""
-        control, line = self.control, self._line
-        if control is None or line is None:
+        control, connection = self.control, self.connection
+        if control is None or connection is None:
             return
         out, control.out = control.out, []
         numbered = [(item, self._count(item.topic) if isinstance(item, Send) else 0) for item in out]
         self._save(control.to_json())
-        over = [item for item in out if isinstance(item, AckMessage) and item.status not in OPEN]
+        over = [item for item in out if isinstance(item, AckMessage) and item.is_final]
         for item, number in numbered:
             if isinstance(item, Send):
                 self._send(item.topic, item.body, number)
             elif item not in over:
-                line.answer(item)
+                connection.answer(item)
         if control.online or over:
-            line.report(control.look, now_s, at_once=bool(over))
+            connection.report(control.look, now_s, at_once=bool(over))
         for ack in over:
-            line.answer(ack)
+            connection.answer(ack)
 
     def _hear_connection(self, payload: bytes, now_s: float) -> None:
         """Take in that the vehicle came or went; a will is older than what it ends, so its number says nothing.
@@ -200,8 +189,8 @@ class Member:
         self.control = VehicleControl(vehicle, self._setting.new_id)
         self.control.located = self._located
         self._recall(self.control)
-        self._line = DeviceLine(self.id, self._setting.site, self._memory.boot, self._inbox)
-        self._line.connect(self._setting.connect)
+        self.connection = DeviceConnection(self.id, self._setting.site, self._memory.boot, self._inbox)
+        self.connection.connect(self._setting.connect)
 
     def _recall(self, control: VehicleControl) -> None:
         """Take up what was open when the connector ended, and count this start."""
@@ -215,9 +204,9 @@ class Member:
     def _be_present(self, now_s: float) -> None:
         """Follow whether the vehicle is there."""
         online = self._presence.is_online(now_s)
-        if self.control is not None and self._line is not None and online != self.control.online:
+        if self.control is not None and self.connection is not None and online != self.control.online:
             self.control.online = online
-            self._line.say_presence(online=online)
+            self.connection.say_presence(online=online)
 
     def _ask(self, now_s: float) -> None:
         """Ask for a state or factsheet that does not come by itself."""
@@ -228,12 +217,12 @@ class Member:
         """Tell in the log, once, why a vehicle that is connected is not on the map."""
         if self.control is not None or not self._presence.is_long_here(now_s):
             return
-        told = {
+        known = {
             "has not told its factsheet": self._sheet is not None,
             "has not told its state": self._state is not None,
             "does not know where it is": self._located is not None,
         }
-        missing = next((what for what, is_there in told.items() if not is_there), "")
+        missing = next((what for what, is_there in known.items() if not is_there), "")
         if missing and missing != self._missed:
             self._missed = missing
             log.warning("%s is connected, but not on the map yet: it %s.", self.id, missing)

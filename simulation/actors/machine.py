@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from math import exp
 
 from simulation.actors.actor import Actor, Beginning, Emit
-from vipo_device.kit.answers import Answer
 from vipo_device.kit.arguments import counted_object, duration_s
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
+from vipo_device.protocol.messages import AckMessage
 
 AMBIENT_C = 22.0
 SLOTS = 8
@@ -131,8 +131,8 @@ class Machine(Actor):
             return why
         spec = self.description.method(method)
         assert spec is not None
-        self._say(t_s, command, Answer("ACCEPTED"))
-        self._say(t_s, command, Answer("RUNNING"))
+        self._say(t_s, AckMessage(command, "ACCEPTED"))
+        self._say(t_s, AckMessage(command, "RUNNING"))
         self._job = Job(command, method, duration_s(spec, arguments))
         self.read(t_s, "jobStatus", 0)
         self._read_pressure(t_s)
@@ -149,7 +149,7 @@ class Machine(Actor):
         if job is not None and command in {"", job.command}:
             self._job = None
             self._read_pressure(t_s)
-            self._say(t_s, job.command, Answer("CANCELED", f"{job.method} was cancelled."))
+            self._say(t_s, AckMessage(job.command, "CANCELED", f"{job.method} was cancelled."))
 
     def _work(self, t_s: float, dt_s: float, job: Job) -> None:
         job.spent_s += dt_s

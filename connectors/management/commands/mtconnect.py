@@ -15,10 +15,10 @@ from django.core.management.base import BaseCommand, CommandError
 from connectors.mtconnect.agent import Agent, read_address
 from connectors.mtconnect.connector import Plant, Setting
 from connectors.mtconnect.description import Stand
-from connectors.settings import device_connections
+from connectors.settings import connections
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.description import Pose, Size
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import is_device_id
 
 STOP_LIMIT_S = 8
@@ -50,7 +50,7 @@ class Command(BaseCommand):
         stopping = stop_on_signals(STOP_LIMIT_S)
         try:
             make_plant(options).run(stopping)
-        except RegistryError as error:
+        except VipoError as error:
             raise CommandError(error.detail) from error
 
 
@@ -65,7 +65,7 @@ def make_plant(options: dict[str, Any]) -> Plant:
         site=site,
         stand=read_stand(options["place"], options["size"]),
         interval_s=interval_s,
-        connect=device_connections(site, Path(settings.VIPO_STATE_DIR) / "secrets", "mtconnect"),
+        connect=connections(site, Path(settings.VIPO_STATE_DIR) / "secrets", "mtconnect"),
         clock=lambda: datetime.now(UTC),
     )
     return Plant(make_agent(options), setting)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
@@ -11,7 +10,6 @@ from typing import Any
 import pytest
 from django.core.management.base import CommandError
 
-from connectors.keys import Doorstep, KeyRing
 from connectors.management.commands.vda5050 import make_fleet, read_origin, vehicle_client
 from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS, Fleet, Said
@@ -93,38 +91,8 @@ def test_the_command_says_what_cannot_be() -> None:
         make_fleet({"site": "a/b", "interface": "uagv"})
 
 
-def test_a_key_is_made_once_and_one_that_people_wrote_goes_first(tmp_path: Path) -> None:
-    by_hand, own = tmp_path / "devices.json", tmp_path / "secrets" / "own.json"
-    ring = KeyRing(by_hand, own)
-    made = ring.key("Acme-1")
-    assert (len(made), ring.key("Acme-1")) == (32, made)
-    assert own.stat().st_mode & 0o777 == 0o600
-    by_hand.write_text(json.dumps({"Acme-1": "by hand"}))
-    assert ring.key("Acme-1") == "by hand"
-    own.write_text("not JSON")
-    assert ring.key("Acme-2") != made
-
-
 def test_the_log_says_once_that_a_broker_is_not_reached(caplog: pytest.LogCaptureFixture) -> None:
     client = vehicle_client("mqtt://127.0.0.1:9", "", "vipo-hall")
     for _ in range(MISSES_TOLD + 2):
         client._missed(client._paho, None)
     assert caplog.messages == ["vipo-hall does not reach the MQTT broker at 127.0.0.1:9; it goes on trying."]
-
-
-def test_a_device_that_is_not_let_in_tries_the_key_that_was_written_meanwhile(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
-    by_hand = tmp_path / "devices.json"
-    ring = KeyRing(by_hand, tmp_path / "own.json")
-    client = vehicle_client("mqtt://127.0.0.1:9", "", "Acme-1")
-    Doorstep("hall", ring, None).watch("Acme-1", ring.key("Acme-1"), client)
-    for _ in range(2):
-        client._refused(client._paho, "Not authorized")
-    by_hand.write_text(json.dumps({"Acme-1": "the new key"}))
-    client._refused(client._paho, "Not authorized")
-    assert client._password == "the new key"
-    assert caplog.messages == [
-        "The MQTT broker refused Acme-1: Not authorized.",
-        "Acme-1 has no key that is known: write one into secrets/devices.json, or name a join key.",
-    ]

@@ -16,7 +16,7 @@ from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.member import Member, Setting
 from tests.integration.connectors.factsheet import FACTSHEET
 from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
-from vipo_device.kit.connection import Will
+from vipo_device.kit.connection import Will, leave
 from vipo_device.protocol.mqtt_client import MqttClient
 
 
@@ -37,7 +37,7 @@ def member(tmp_path: Path, asked: list[tuple[str, Any]]) -> Iterator[Member]:
     setting = Setting("hall", Frame(), "floor", tmp_path, away, lambda: "id", lambda: at)
     member = Member(NAME, setting, lambda _, topic, body: asked.append((topic, json.loads(body))), lambda _: None)
     yield member
-    member.leave()
+    leave([member.connection] if member.connection else [])
 
 
 def say(member: Member, subtopic: str, now_s: float, **body: Any) -> None:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import pytest
 from django.core.management.base import CommandError
 
-from connectors.keys import KeyRing
 from connectors.management.commands.mtconnect import make_agent, read_stand
 from connectors.mtconnect.agent import BadAddress, read_address
 from connectors.mtconnect.condition import MachineCondition
@@ -218,10 +215,3 @@ def test_the_command_line_is_read(tmp_path: Path) -> None:
         make_agent({"agent": "cell", "ca": "", "headers": ""})
     with pytest.raises(CommandError, match="No such file"):
         make_agent({"agent": "http://cell/", "ca": "", "headers": str(tmp_path / "none")})
-
-
-def test_connectors_that_share_a_file_of_keys_keep_each_others(tmp_path: Path) -> None:
-    rings = [KeyRing(tmp_path / "devices.json", tmp_path / "own" / "mtconnect-hall.json") for _ in range(4)]
-    with ThreadPoolExecutor(8) as pool:
-        keys = dict(pool.map(lambda n: (f"m{n % 8}", rings[n % 4].key(f"m{n % 8}")), range(64)))
-    assert json.loads((tmp_path / "own" / "mtconnect-hall.json").read_text()) == keys

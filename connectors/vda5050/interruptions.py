@@ -1,16 +1,17 @@
-"""Whether a vehicle shall stand still, and the instant actions that make it so."""
+"""How a vehicle's order is interrupted: paused and resumed, or cancelled, by instant actions; when each holds."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from connectors.vda5050.messages import VehicleState
-from connectors.vda5050.orders import Body, action
+from connectors.vda5050.orders import OURS, Body, action
 
-AGAIN_S = 2.0
-LIMIT_S = 20.0
+PAUSE_AGAIN_S = 2.0
+PAUSE_LIMIT_S = 20.0
+CANCEL_AGAIN_S = 5.0
 REMEMBERED = 16
 
 
@@ -61,7 +62,7 @@ class Pausing:
             self.ours = False
         if wanted == paused or (paused and not self.ours):
             return None
-        if self.sent_s is not None and now_s - self.sent_s < AGAIN_S and self.action_pauses == wanted:
+        if self.sent_s is not None and now_s - self.sent_s < PAUSE_AGAIN_S and self.action_pauses == wanted:
             return None
         self.ours, self.action_pauses, self.action_id, self.sent_s = True, wanted, new_id(), now_s
         return action(self.action_id, "startPause" if wanted else "stopPause", {})
@@ -73,9 +74,9 @@ class Pausing:
         for asked in list(self.asked):
             if paused == asked.wants_pause or (wanted and not asked.wants_pause):
                 found.append((asked.command, ""))
-            elif now_s - asked.since_s > LIMIT_S:
+            elif now_s - asked.since_s > PAUSE_LIMIT_S:
                 verb = "pause" if asked.wants_pause else "go on"
-                found.append((asked.command, f"The vehicle did not {verb} within {LIMIT_S:.0f} s."))
+                found.append((asked.command, f"The vehicle did not {verb} within {PAUSE_LIMIT_S:.0f} s."))
             else:
                 continue
             self.asked.remove(asked)
@@ -89,3 +90,43 @@ class Pausing:
 def pausing_from_json(body: Mapping[str, Any]) -> Pausing:
     """Return what was kept; pauses that were not answered are asked again by the server."""
     return Pausing(list(body["pauses"]), bool(body["ours"]), told=bool(body["told"]))
+
+
+@dataclass(slots=True)
+class Cancellation:
+    """The commands that end with an order, and the cancel commands to be answered."""
+
+    action_id: str
+    targets: list[str] = field(default_factory=list)
+    controls: list[str] = field(default_factory=list)
+    sent_s: float | None = None
+
+    def include(self, commands: Iterable[str], control: str) -> None:
+        """Let these commands end, too, and answer one more cancel command, if it is named."""
+        self.targets += [command for command in commands if command not in self.targets]
+        self.controls += [control] if control else []
+
+    def is_over(self, state: VehicleState) -> bool:
+        """Tell whether the vehicle has cancelled, or does nothing of ours any more; one that refuses drives on."""
+        said = state.action(self.action_id)
+        has_ours = state.order.startswith(OURS) and state.works_on(state.order)
+        return not has_ours or (said is not None and said.status == "FINISHED")
+
+    def due(self, state: VehicleState, now_s: float, new_id: Callable[[], str]) -> Body | None:
+        """Return the instant action when it is time to send it, or to send it again; anew where it was refused."""
+        if self.sent_s is not None and now_s - self.sent_s <= CANCEL_AGAIN_S:
+            return None
+        said = state.action(self.action_id)
+        if said is not None and said.status == "FAILED":
+            self.action_id = new_id()
+        self.sent_s = now_s
+        return action(self.action_id, "cancelOrder", {})
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what outlives a restart: it is sent again after it."""
+        return {**asdict(self), "sent_s": None}
+
+
+def is_orphan(state: VehicleState, known_order: str) -> bool:
+    """Tell whether the vehicle carries out an order of ours that is not the one that is known."""
+    return state.order.startswith(OURS) and state.order != known_order and state.works_on(state.order)
