@@ -75,7 +75,7 @@ class Twin:
         self._saved_under_way: Mapping[str, object] = {}
 
     def run(self, stopping: threading.Event) -> None:
-        """Live until `stopping` is set; then say goodbye and remember."""
+        """Live until `stopping` is set; then say that all go offline, and remember."""
         self._save()
         for device in self._devices.values():
             device.connect(self._make_connection)

@@ -125,7 +125,7 @@ def _action(fields: Fields) -> Action:
         fields.text("actionType", needed=True),
         frozenset(fields.words("actionScopes")),
         tuple(parameters),
-        fields.told("actionDescription"),
+        fields.lenient_text("actionDescription"),
     )
 
 

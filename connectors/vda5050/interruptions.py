@@ -16,7 +16,7 @@ REMEMBERED = 16
 
 
 @dataclass(slots=True)
-class Asked:
+class PauseRequest:
     """A pause or resume that is still to be answered."""
 
     command: str
@@ -32,8 +32,8 @@ class Pausing:
     ours: bool = False
     action_id: str = ""
     action_pauses: bool = False
-    told: bool = False
-    asked: list[Asked] = field(default_factory=list)
+    said_paused: bool = False
+    asked: list[PauseRequest] = field(default_factory=list)
     sent_s: float | None = None
 
     def ask(self, command: str, target: str, now_s: float, *, pause: bool) -> None:
@@ -42,7 +42,7 @@ class Pausing:
             self.pauses = [*self.pauses, target][-REMEMBERED:]
         else:
             self.pauses = [kept for kept in self.pauses if target not in {"", kept}]
-        self.asked.append(Asked(command, pause, now_s))
+        self.asked.append(PauseRequest(command, pause, now_s))
 
     def wants(self, open_commands: list[str], *, held: bool) -> bool:
         """Tell whether the vehicle shall stand; a pause ends with its command."""
@@ -52,8 +52,8 @@ class Pausing:
         """Tell whether the vehicle stands paused: by its state, or where that does not tell by its last answer."""
         said = state.action(self.action_id)
         if said is not None and said.status == "FINISHED":
-            self.told = self.action_pauses
-        return state.paused if state.paused is not None else self.told
+            self.said_paused = self.action_pauses
+        return state.paused if state.paused is not None else self.said_paused
 
     def steer(self, state: VehicleState, now_s: float, new_id: Callable[[], str], *, wanted: bool) -> Body | None:
         """Return the instant action that is due, if one is."""
@@ -84,12 +84,12 @@ class Pausing:
 
     def to_json(self) -> dict[str, Any]:
         """Return what pausing_from_json reads."""
-        return {"pauses": self.pauses, "ours": self.ours, "told": self.told}
+        return {"pauses": self.pauses, "ours": self.ours, "told": self.said_paused}
 
 
 def pausing_from_json(body: Mapping[str, Any]) -> Pausing:
     """Return what was kept; pauses that were not answered are asked again by the server."""
-    return Pausing(list(body["pauses"]), bool(body["ours"]), told=bool(body["told"]))
+    return Pausing(list(body["pauses"]), bool(body["ours"]), said_paused=bool(body["told"]))
 
 
 @dataclass(slots=True)

@@ -215,5 +215,5 @@ def next_order(
 def _acting(vehicle: Vehicle, located: Located, task: Task, name: str) -> Order:
     parameters = action_parameters(vehicle, task)
     task.actions = tuple(f"{name}-{count}" for count in range(len(parameters)))
-    told = [action(i, task.method, p) for i, p in zip(task.actions, parameters, strict=True)]
-    return begin_actions(name, located.map_id, (located.pose.x, located.pose.y), told)
+    actions = [action(i, task.method, p) for i, p in zip(task.actions, parameters, strict=True)]
+    return begin_actions(name, located.map_id, (located.pose.x, located.pose.y), actions)

@@ -1,4 +1,4 @@
-"""What every pretend device has in common: answers, readings, pause and cancel, and faults on purpose."""
+"""What every simulated device has in common: answers, readings, pause and cancel, and faults on purpose."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def starting_value(spec: PropertySpec) -> Scalar:
 
 
 @dataclass(frozen=True, slots=True)
-class Beginning:
+class InitialState:
     """How a device is when the world begins; `holds` is a machine's stock or a robot's load, None as usual."""
 
     readings: Mapping[str, Scalar] = field(default_factory=dict)
@@ -36,17 +36,17 @@ class Beginning:
 
 
 class Actor(ABC):
-    """A pretend device. Frozen while paused (by a command), held (by the site's stop) or stopped (by a fault)."""
+    """A simulated device. Frozen while paused (by a command), held (by the site's stop) or stopped (by a fault)."""
 
-    def __init__(self, description: Description, emit: Emit, beginning: Beginning) -> None:
+    def __init__(self, description: Description, emit: Emit, initial: InitialState) -> None:
         self.description = description
-        known = beginning.readings
+        known = initial.readings
         self.readings = {p.name: known.get(p.name, starting_value(p)) for p in description.properties}
-        self.ledger = AnswerLedger(beginning.remembered)
+        self.ledger = AnswerLedger(initial.remembered)
         self.held = False
         self._pauses: list[str] = []
         self._emit = emit
-        self._waiting_faults = sorted(beginning.faults, key=lambda f: f.at_s)
+        self._waiting_faults = sorted(initial.faults, key=lambda f: f.at_s)
         self._faults: set[str] = set()
 
     @property

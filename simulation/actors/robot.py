@@ -1,4 +1,4 @@
-"""A pretend robot: it drives along what was released to it, picks up, puts down, and runs its battery flat."""
+"""A simulated robot: it drives along what was released to it, picks up, puts down, and runs its battery flat."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot
 
-from simulation.actors.actor import Actor, Beginning, Emit
+from simulation.actors.actor import Actor, Emit, InitialState
 from simulation.actors.follower import Follower, Motion
 from simulation.actors.machine import Machine
 from simulation.proximity import body_of
@@ -52,12 +52,12 @@ class Surroundings:
 class Robot(Actor):
     """Commands queue up; moves that follow one another are driven without stopping between them."""
 
-    def __init__(self, description: Description, emit: Emit, beginning: Beginning, surroundings: Surroundings) -> None:
-        super().__init__(description, emit, beginning)
-        self.carrying = {k: v for k, v in (beginning.holds or {}).items() if v > 0}
+    def __init__(self, description: Description, emit: Emit, initial: InitialState, surroundings: Surroundings) -> None:
+        super().__init__(description, emit, initial)
+        self.carrying = {k: v for k, v in (initial.holds or {}).items() if v > 0}
         self.radius_m = description.radius_m or max(description.size.x, description.size.y) / 2 or DEFAULT_RADIUS_M
         self.touches = ""
-        known = beginning.readings.get("battery")
+        known = initial.readings.get("battery")
         self.battery = float(known) if isinstance(known, int | float) else 100.0
         self._machines, self._bounds = surroundings.machines, surroundings.bounds
         self._tasks: deque[Task] = deque()

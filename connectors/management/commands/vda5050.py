@@ -18,7 +18,7 @@ from django.core.management.base import BaseCommand, CommandError
 from connectors.settings import connections
 from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.fleet import Fleet
-from connectors.vda5050.member import Setting
+from connectors.vda5050.vehicle_device import Setting
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import is_device_id

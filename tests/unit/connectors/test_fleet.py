@@ -12,9 +12,9 @@ from django.core.management.base import CommandError
 
 from connectors.management.commands.vda5050 import make_fleet, read_origin, vehicle_client
 from connectors.vda5050.coordinates import Frame
-from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS, Fleet, Said
-from connectors.vda5050.member import Setting
+from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS, Fleet, VehicleMessage
 from connectors.vda5050.messages import VehicleName
+from connectors.vda5050.vehicle_device import Setting
 from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
 from vipo_device.protocol.mqtt_client import MISSES_TOLD, MqttClient
 
@@ -29,34 +29,34 @@ def fleet(tmp_path: Path) -> Fleet:
     return Fleet(client, "uagv", setting)
 
 
-def connection(name: VehicleName) -> Said:
+def connection(name: VehicleName) -> VehicleMessage:
     header = {**HEADER, "manufacturer": name.manufacturer, "serialNumber": name.serial_number}
-    return Said(name, "connection", payload(header, connectionState="ONLINE"))
+    return VehicleMessage(name, "connection", payload(header, connectionState="ONLINE"))
 
 
 def test_strangers_are_heard_only_when_they_say_that_they_are_connected(fleet: Fleet) -> None:
-    fleet._take(Said(NAME, "state", b"{}"), 0.0)
-    fleet._take(Said(NAME, "connection", b"{}"), 0.0)
-    assert (dict(fleet.refused), fleet._members) == ({STRANGERS: 1}, {})
+    fleet._take(VehicleMessage(NAME, "state", b"{}"), 0.0)
+    fleet._take(VehicleMessage(NAME, "connection", b"{}"), 0.0)
+    assert (dict(fleet.refused), fleet._devices) == ({STRANGERS: 1}, {})
     fleet._take(connection(NAME), 0.0)
-    fleet._take(Said(NAME, "state", b"{}"), 0.0)
-    assert (dict(fleet.refused), list(fleet._members)) == ({STRANGERS: 1, "Acme-1": 1}, ["Acme-1"])
+    fleet._take(VehicleMessage(NAME, "state", b"{}"), 0.0)
+    assert (dict(fleet.refused), list(fleet._devices)) == ({STRANGERS: 1, "Acme-1": 1}, ["Acme-1"])
 
 
 def test_who_has_been_a_device_is_known_by_its_state(fleet: Fleet, tmp_path: Path) -> None:
     (tmp_path / "Acme-1.json").write_text("{}")
-    fleet._take(Said(NAME, "visualization", payload(STATE)), 0.0)
-    fleet._take(Said(NAME, "state", b"{}"), 0.0)
-    fleet._take(Said(VehicleName("Acme", "2"), "state", payload(STATE, serialNumber="2")), 0.0)
-    assert (dict(fleet.refused), fleet._members) == ({STRANGERS: 1}, {})
-    fleet._take(Said(NAME, "state", payload(STATE)), 0.0)
-    assert list(fleet._members) == ["Acme-1"]
+    fleet._take(VehicleMessage(NAME, "visualization", payload(STATE)), 0.0)
+    fleet._take(VehicleMessage(NAME, "state", b"{}"), 0.0)
+    fleet._take(VehicleMessage(VehicleName("Acme", "2"), "state", payload(STATE, serialNumber="2")), 0.0)
+    assert (dict(fleet.refused), fleet._devices) == ({STRANGERS: 1}, {})
+    fleet._take(VehicleMessage(NAME, "state", payload(STATE)), 0.0)
+    assert list(fleet._devices) == ["Acme-1"]
 
 
 def test_a_connector_serves_two_hundred_vehicles(fleet: Fleet) -> None:
     for number in range(MOST_VEHICLES + 5):
         fleet._take(connection(VehicleName("Acme", f"{number}")), 0.0)
-    assert len(fleet._members) == MOST_VEHICLES
+    assert len(fleet._devices) == MOST_VEHICLES
     assert dict(fleet.refused) == {STRANGERS: 5}
 
 

@@ -1,4 +1,4 @@
-"""One vehicle of the fleet: what it says on its own broker on one side, its VIPO device on the other."""
+"""One vehicle as a device of VIPO: what it says on its own broker on one side, its device's connection on the other."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from connectors.vda5050.connection_state import Presence
+from connectors.vda5050.connection_state import ConnectionState
 from connectors.vda5050.control import Send, VehicleControl
 from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.factsheet import Factsheet, describe, device_id, read_factsheet
@@ -48,7 +48,7 @@ class Setting:
     clock: Callable[[], datetime]
 
 
-class Member:
+class VehicleDevice:
     """A vehicle that was heard of. It becomes a device when its connection, factsheet and state are known."""
 
     def __init__(
@@ -66,7 +66,7 @@ class Member:
         self._description = b""
         self._version = "2.0.0"
         self._told_facts = (b"", "")
-        self._presence = Presence()
+        self._connection_state = ConnectionState()
         self._newest: dict[str, Header] = {}
         self._state: VehicleState | None = None
         self._located: Located | None = None
@@ -84,7 +84,7 @@ class Member:
                 state = read_state(payload, self.name)
                 if self._is_news("state", state.header):
                     self._state = state
-                    self._presence.hear_state(now_s)
+                    self._connection_state.hear_state(now_s)
                     self._locate(state.located)
             case "visualization":
                 header, located = read_visualization(payload, self.name)
@@ -92,7 +92,7 @@ class Member:
                     self._locate(located)
         self._become_device()
         if subtopic == "state" and self.control is not None and self._state is not None:
-            self._be_present(now_s)
+            self._follow_presence(now_s)
             self.control.hear_state(self._state, now_s)
         self.speak(now_s)
 
@@ -121,10 +121,10 @@ class Member:
         if is_reached:
             self._ask(now_s)
         else:
-            self._presence.lose_sight(now_s)
+            self._connection_state.lose_sight(now_s)
         self._say_what_is_missing(now_s)
         if self.control is not None:
-            self._be_present(now_s)
+            self._follow_presence(now_s)
             self.control.settle(now_s)
         self.speak(now_s)
 
@@ -154,10 +154,10 @@ class Member:
         """
         header, said = read_connection(payload, self.name)
         self._version = header.version
-        self._presence.hear_connection(said, now_s)
-        if self._presence.is_connected:
+        self._connection_state.hear_connection(said, now_s)
+        if self._connection_state.is_connected:
             self._newest.clear()
-        self._be_present(now_s)
+        self._follow_presence(now_s)
 
     def _is_news(self, subtopic: str, header: Header) -> bool:
         if header.is_stale(self._newest.get(subtopic)):
@@ -173,7 +173,7 @@ class Member:
     def _become_device(self) -> None:
         """Make the device, or describe it anew when the factsheet has changed."""
         facts = (self._sheet_said, self._version)
-        if not self._presence.is_connected or facts == self._told_facts:
+        if not self._connection_state.is_connected or facts == self._told_facts:
             return
         if self._sheet is None or self._state is None or self._located is None:
             return
@@ -201,21 +201,21 @@ class Member:
                 log.warning("%s: what was open could not be read (%s).", self.id, error)
         write_memory(self._path, self._memory)
 
-    def _be_present(self, now_s: float) -> None:
+    def _follow_presence(self, now_s: float) -> None:
         """Follow whether the vehicle is there."""
-        online = self._presence.is_online(now_s)
+        online = self._connection_state.is_online(now_s)
         if self.control is not None and self.connection is not None and online != self.control.online:
             self.control.online = online
             self.connection.say_presence(online=online)
 
     def _ask(self, now_s: float) -> None:
         """Ask for a state or factsheet that does not come by itself."""
-        for what in self._presence.take_questions(now_s, has_sheet=self._sheet is not None):
+        for what in self._connection_state.take_questions(now_s, has_sheet=self._sheet is not None):
             self._send("instantActions", action(self._setting.new_id(), what, {}), self._count("instantActions"))
 
     def _say_what_is_missing(self, now_s: float) -> None:
         """Tell in the log, once, why a vehicle that is connected is not on the map."""
-        if self.control is not None or not self._presence.is_long_here(now_s):
+        if self.control is not None or not self._connection_state.is_long_here(now_s):
             return
         known = {
             "has not told its factsheet": self._sheet is not None,
