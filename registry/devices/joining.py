@@ -27,7 +27,7 @@ from registry.sites.sites import find_site
 from vipo_device.descriptions.changes import Change
 from vipo_device.protocol.credentials import secret_hash
 from vipo_device.protocol.description import Pose
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import is_device_id, parse_presence
 
 STALE_AFTER = timedelta(seconds=45)
@@ -114,7 +114,7 @@ def ingest_state(*, device_id: str, payload: bytes, at: datetime, retained: bool
     A retained message tells how the device was, not that it is there now.
     """
     (outcome,) = ingest_states(states=[SaidState(device_id, payload, at, retained)])
-    if isinstance(outcome, RegistryError):
+    if isinstance(outcome, VipoError):
         raise outcome
     return outcome
 

@@ -21,11 +21,11 @@ from registry.devices.legacy_topics import claim_again, release_topics
 from registry.devices.rows import STARTS, BadDevice, announce, check_id, forget_starts, lock_device, write_event
 from registry.devices.thing_events import record_thing
 from registry.devices.views import DeviceView, view_of
+from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Device, User
 from registry.sites.sites import find_site, set_join_key
 from vipo_device.protocol.credentials import broker_hash, make_credential, secret_hash
-from vipo_device.protocol.errors import RegistryError
 
 Lifecycle = Device.Lifecycle
 TELLING_LIMIT = timedelta(seconds=CONNECT_LIMIT_S + ANSWER_LIMIT_S + 5)

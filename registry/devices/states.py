@@ -21,7 +21,7 @@ from registry.live.fanout import publish_all
 from registry.models import Device
 from vipo_device.descriptions.reader import source_hash
 from vipo_device.protocol.description import DeviceState
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import parse_state
 
 MOST_READINGS = 128
@@ -42,7 +42,7 @@ class SaidState:
     retained: bool = False
 
 
-Outcome = DeviceView | RegistryError | None
+Outcome = DeviceView | VipoError | None
 """The device as it is now; why its message was refused; None when it was old, or of a device that nobody knows."""
 
 
@@ -53,7 +53,7 @@ def ingest_states(*, states: Sequence[SaidState]) -> tuple[Outcome, ...]:
     for message in states:
         try:
             said[message.device_id] = (parse_state(message.payload), message)
-        except RegistryError as error:
+        except VipoError as error:
             outcomes[message.device_id] = error
     if said:
         with transaction.atomic():

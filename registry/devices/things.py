@@ -10,9 +10,9 @@ from math import isfinite
 from typing import Any, Literal
 
 from registry.devices.views import DeviceView
+from registry.errors import RegistryError
 from vipo_device.descriptions.thing_description import DEVICE_URN, thing_of
 from vipo_device.protocol.description import Description, Pose
-from vipo_device.protocol.errors import RegistryError
 
 EventName = Literal["thing_created", "thing_updated", "thing_deleted"]
 EVENTS: tuple[EventName, ...] = ("thing_created", "thing_updated", "thing_deleted")

@@ -11,6 +11,7 @@ from django.db import IntegrityError, models, transaction
 from django.utils.text import slugify
 
 from registry.devices.views import MapView, PlaceView, SiteView, StopView, effective_description
+from registry.errors import RegistryError
 from registry.floorplan.map_server import read_map
 from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
 from registry.live.fanout import publish
@@ -18,7 +19,6 @@ from registry.models import Device, Membership, Place, Site, SiteMap, User
 from registry.people.access import ROLES, NotAMember
 from vipo_device.protocol.credentials import broker_hash, secret_hash
 from vipo_device.protocol.description import Description
-from vipo_device.protocol.errors import RegistryError
 
 MOST_VERSIONS = 50
 

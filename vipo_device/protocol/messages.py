@@ -11,7 +11,7 @@ from math import isfinite
 from typing import Any, Literal, cast, get_args
 
 from vipo_device.protocol.description import DeviceState, Pose, Scalar
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import JSON_SYNTAX, Fault, bare, facts_of, fault
 
 AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
@@ -32,7 +32,7 @@ _COLON = re.compile(r"\s*:")
 _UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
 
 
-class BadMessage(RegistryError):
+class BadMessage(VipoError):
     """A message that does not fit the protocol; the sentence says where."""
 
     code = "bad_message"
@@ -328,7 +328,7 @@ def read_command(method: str, payload: bytes) -> DeviceCommand | None:
     """Read `{"id", "v", "ttl_s"}`; None when it is no command."""
     try:
         body = parse_json(payload)
-    except RegistryError:
+    except BadMessage:
         return None
     command, arguments = (body.get("id"), body.get("v", {})) if isinstance(body, dict) else (None, None)
     if not isinstance(command, str) or not 0 < len(command) <= 64 or not is_device_id(method):
