@@ -11,7 +11,7 @@ from connectors.mtconnect.documents import BadDocument, Item, Machine
 from vipo_device.descriptions.plausibility import find_faults
 from vipo_device.descriptions.reader import write_description
 from vipo_device.protocol.description import MOST_PROPERTIES, Description, Pose, PropertySpec, Size
-from vipo_device.protocol.messages import MAX_BYTES
+from vipo_device.protocol.messages import MAX_BYTES, fit_device_id
 
 EXECUTION, ERROR, WARNING = "execution", "error", "warning"
 OF_ALL = (
@@ -22,7 +22,6 @@ OF_ALL = (
 SAID_OTHERWISE = frozenset({"AVAILABILITY", "EXECUTION", "EMERGENCY_STOP", "ASSET_CHANGED", "ASSET_REMOVED"})
 NUMBERS = frozenset({"LINE", "LINE_NUMBER", "PART_COUNT", "TOOL_NUMBER"})
 """Events that are numbers, though they have no unit."""
-_UNFIT = re.compile(r"[^A-Za-z0-9_.-]")
 _UNFIT_NAME = re.compile(r"[^A-Za-z0-9_]+")
 
 
@@ -108,10 +107,7 @@ class DescribedMachine:
 
 def device_id(uuid: str) -> str:
     """Return the id of a machine's device; a hash keeps those apart that would look the same without it."""
-    fit = _UNFIT.sub("-", uuid)
-    if fit == uuid and len(fit) <= 64:
-        return fit
-    return f"{fit[:57]}-{hashlib.sha256(uuid.encode()).hexdigest()[:6]}"
+    return fit_device_id(uuid, uuid)
 
 
 def describe_machine(machine: Machine, site: str, stand: Stand) -> DescribedMachine:

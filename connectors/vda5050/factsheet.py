@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -21,7 +20,7 @@ from vipo_device.protocol.description import (
     Size,
     ValueType,
 )
-from vipo_device.protocol.messages import MAX_TEXT, BadMessage, down_topic
+from vipo_device.protocol.messages import MAX_TEXT, BadMessage, down_topic, fit_device_id
 
 HANDLING = ("pick", "drop")
 KEPT_FROM_PEOPLE = frozenset({"initPosition", "move", "pause", "resume", "cancel", *HANDLING})
@@ -132,10 +131,7 @@ def _action(fields: Fields) -> Action:
 def device_id(name: VehicleName) -> str:
     """Return the id of a vehicle's device; a hash keeps those apart that would look the same without it."""
     plain = f"{name.manufacturer}-{name.serial_number}"
-    fit = _UNFIT.sub("-", plain)
-    if fit == plain and "-" not in name.manufacturer and len(fit) <= 64:
-        return fit
-    return f"{fit[:57]}-{hashlib.sha256('/'.join(name).encode()).hexdigest()[:6]}"
+    return fit_device_id(plain, "/".join(name), is_unambiguous="-" not in name.manufacturer)
 
 
 def describe(name: VehicleName, sheet: Factsheet, home: Pose, site: str) -> Description:

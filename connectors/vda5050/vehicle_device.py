@@ -65,7 +65,7 @@ class VehicleDevice:
         self._sheet_said = b""
         self._description = b""
         self._version = "2.0.0"
-        self._told_facts = (b"", "")
+        self._described_facts = (b"", "")
         self._connection_state = ConnectionState()
         self._newest: dict[str, Header] = {}
         self._state: VehicleState | None = None
@@ -173,11 +173,11 @@ class VehicleDevice:
     def _become_device(self) -> None:
         """Make the device, or describe it anew when the factsheet has changed."""
         facts = (self._sheet_said, self._version)
-        if not self._connection_state.is_connected or facts == self._told_facts:
+        if not self._connection_state.is_connected or facts == self._described_facts:
             return
         if self._sheet is None or self._state is None or self._located is None:
             return
-        self._told_facts = facts
+        self._described_facts = facts
         home = self._memory.home or self._setting.frame.to_site(self._located.pose)
         description = describe(self.name, self._sheet, home, self._setting.site)
         vehicle = Vehicle(description, self._sheet, self._setting.frame, self._version, self._setting.station_type)

@@ -69,7 +69,7 @@ class Actor(ABC):
 
     @property
     def frozen(self) -> bool:
-        """True while the device stands still whatever it was told."""
+        """True while the device stands still whatever its commands are."""
         return self.paused or self.held or "stop" in self._faults
 
     def command(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> None:

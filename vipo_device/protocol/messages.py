@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 from collections import Counter
@@ -25,6 +26,7 @@ MAX_WHOLE = 2**53
 MAX_METRES = 1e6
 MESSAGE = "The message"
 _ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
+_UNFIT = re.compile(r"[^A-Za-z0-9_.-]")
 _JOIN = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([A-Za-z0-9_.-]{1,64})")
 _NO_TEXT = re.compile("[\0\ud800-\udfff]")
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]|[^\s,:"\[\]{}]+', re.DOTALL)
@@ -74,6 +76,14 @@ def is_final(status: AckStatus) -> bool:
 def is_device_id(text: str) -> bool:
     """Tell whether a device may be called so."""
     return _ID.fullmatch(text) is not None
+
+
+def fit_device_id(plain: str, source: str, *, is_unambiguous: bool = True) -> str:
+    """Return a device's id for a name of another world; a hash of `source` tells those apart that would look alike."""
+    fit = _UNFIT.sub("-", plain)
+    if fit == plain and is_unambiguous and len(fit) <= 64:
+        return fit
+    return f"{fit[:57]}-{hashlib.sha256(source.encode()).hexdigest()[:6]}"
 
 
 def up_topic(device_id: str, kind: str) -> str:
