@@ -65,7 +65,7 @@ class ScriptedAgent:
                 self._say(item, text)
 
     def _say(self, item: str, text: str, **more: str) -> None:
-        self._said.append(words.lenient_text(item, text, len(self._said) + 1, **more))
+        self._said.append(words.told(item, text, len(self._said) + 1, **more))
 
     def answer(self, call: str, begin: int, count: int) -> tuple[int, bytes]:
         with self._lock:
