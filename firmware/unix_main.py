@@ -5,10 +5,10 @@ import sys
 
 sys.path.insert(0, (__file__.rsplit("/", 1)[0] if "/" in __file__ else ".") + "/lib")
 
-from vipo.configuration import BadConfiguration, read_configuration  # noqa: E402 - the path comes first
-from vipo.drivers import NoSuchDriver  # noqa: E402
-from vipo.panel import ConsolePanel  # noqa: E402
-from vipo.portable import load  # noqa: E402
+from vipo.configuration import BadConfiguration, read_configuration
+from vipo.drivers import NoSuchDriver
+from vipo.panel import ConsolePanel
+from vipo.portable import load
 
 
 def main():

@@ -1,4 +1,4 @@
-"""Robots as points that turn and drive exactly as told: fast, and without slip, bumps or weight."""
+"""Robots as points that turn and drive exactly as they are steered: fast, and without slip, bumps or weight."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Watches how near robots come to walls, machines and each other, and tells once for each meeting."""
+"""Watches how near robots come to walls, machines and each other, and reports once for each meeting."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ Away = tuple[float, float]
 
 @dataclass(slots=True)
 class Meeting:
-    """A robot near something: the closest so far, and what was told of it."""
+    """A robot near something: the closest so far, and what was reported of it."""
 
     closest: Near
     since_s: float
-    told: bool = False
-    told_touch: bool = False
+    reported: bool = False
+    reported_touch: bool = False
 
 
 class NearnessWatch:
@@ -51,7 +51,7 @@ class NearnessWatch:
         return self._touched.get(robot, "")
 
     def look(self, t_s: float, moving: Iterable[str]) -> list[Contact]:
-        """Look at the robots that move, and return what is to be told."""
+        """Look at the robots that move, and return what is to be reported."""
         contacts: list[Contact] = []
         for robot in moving:
             motion = self._motions[robot]
@@ -88,16 +88,16 @@ class NearnessWatch:
         parting = now.gap_m > meeting.closest.gap_m + PARTING_M
         if now.gap_m < meeting.closest.gap_m:
             meeting.closest = now
-        if now.gap_m <= TOUCH_M and not meeting.told_touch:
-            meeting.told = meeting.told_touch = True
+        if now.gap_m <= TOUCH_M and not meeting.reported_touch:
+            meeting.reported = meeting.reported_touch = True
             yield self._contact(t_s, robot, now)
-        elif not meeting.told and (parting or t_s - meeting.since_s > LINGERS_S):
-            meeting.told = True
+        elif not meeting.reported and (parting or t_s - meeting.since_s > LINGERS_S):
+            meeting.reported = True
             yield self._contact(t_s, robot, meeting.closest)
 
     def _part(self, t_s: float, robot: str, other: str) -> Iterator[Contact]:
         meeting = self._meetings.pop((robot, other))
-        if not meeting.told:
+        if not meeting.reported:
             yield self._contact(t_s, robot, meeting.closest)
 
     def _contact(self, t_s: float, robot: str, near: Near) -> Contact:

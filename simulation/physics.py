@@ -6,20 +6,38 @@ set every sixth step. While nobody moves, no step is made.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from math import atan2, cos, sin
 from pathlib import Path
 from typing import Any
 
-from simulation.native_output import without_complaints
-
-with without_complaints():  # the library greets everybody who loads it
-    import pybullet
-
 from simulation.actors import Motion
 from simulation.proximity import Body
 from simulation.scene import WALL_HEIGHT_M, Layout, RobotStart
+
+STANDARD_ERROR = 2
+
+
+@contextmanager
+def _without_native_output() -> Iterator[None]:
+    """Throw away what C code writes to standard error within the block."""
+    sys.stderr.flush()
+    kept, nowhere = os.dup(STANDARD_ERROR), os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, STANDARD_ERROR)
+        yield
+    finally:
+        os.dup2(kept, STANDARD_ERROR)
+        os.close(kept)
+        os.close(nowhere)
+
+
+with _without_native_output():  # the library greets everybody who loads it
+    import pybullet
 
 MODEL = Path(__file__).resolve().parent / "models" / "turtlebot.urdf"
 STEPS_PER_S = 240

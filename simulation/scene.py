@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from registry.floorplan.plan import Grid, wall_boxes
-from simulation.actors import Beginning, Emit, Machine, Motion, Robot, Surroundings
+from simulation.actors import Emit, InitialState, Machine, Motion, Robot, Surroundings
 from simulation.proximity import Body, machine_bodies, wall_bodies
 from simulation.world import Scene
-from vipo_device.kit.answers import Answer
 from vipo_device.protocol.description import Description, Pose
+from vipo_device.protocol.messages import AckMessage
 
 WALL_HEIGHT_M = 1.0
 
@@ -34,48 +34,48 @@ class Layout:
 
 
 @dataclass(frozen=True, slots=True)
-class Cast:
+class Actors:
     """The actors of a scene."""
 
     machines: dict[str, Machine]
     robots: dict[str, Robot]
 
 
-def lay_out(scene: Scene, cast: Cast) -> Layout:
+def make_layout(scene: Scene, actors: Actors) -> Layout:
     """Return the bodies of a scene."""
     robots = tuple(
         RobotStart(robot.description.id, scene.poses.get(robot.description.id, robot.description.pose), robot.radius_m)
-        for robot in cast.robots.values()
+        for robot in actors.robots.values()
     )
     solid = [d for d in scene.devices if d.id not in scene.bodiless]
     return Layout(tuple(wall_bodies(wall_boxes(scene.grid))), tuple(machine_bodies(solid)), robots)
 
 
-def cast_actors(scene: Scene, emit: Emit) -> Cast:
+def make_actors(scene: Scene, emit: Emit) -> Actors:
     """Make the actors of a scene, in the order of its devices."""
     machines = {d.id: _machine(scene, d, emit) for d in scene.devices if d.kind == "machine"}
     robots = {d.id: _robot(scene, d, emit, machines) for d in scene.devices if d.kind == "robot"}
-    return Cast(machines, robots)
+    return Actors(machines, robots)
 
 
 def _machine(scene: Scene, description: Description, emit: Emit) -> Machine:
-    return Machine(description, emit, _beginning(scene, description.id, scene.stocks))
+    return Machine(description, emit, _initial_state(scene, description.id, scene.stocks))
 
 
 def _robot(scene: Scene, description: Description, emit: Emit, machines: dict[str, Machine]) -> Robot:
-    beginning = _beginning(scene, description.id, scene.carrying)
-    robot = Robot(description, emit, beginning, Surroundings(machines, _bounds(scene.grid)))
+    initial = _initial_state(scene, description.id, scene.carrying)
+    robot = Robot(description, emit, initial, Surroundings(machines, _bounds(scene.grid)))
     pose = scene.poses.get(description.id, description.pose)
     robot.stands_at(Motion(pose.x, pose.y, pose.theta))
     return robot
 
 
-def _beginning(scene: Scene, device: str, holds: Mapping[str, Mapping[str, int]]) -> Beginning:
-    return Beginning(
+def _initial_state(scene: Scene, device: str, holds: Mapping[str, Mapping[str, int]]) -> InitialState:
+    return InitialState(
         readings=scene.readings.get(device, {}),
         holds=holds.get(device),
         faults=tuple(f for f in scene.faults if f.device == device),
-        remembered={a.command: Answer(a.status, a.why, a.result) for a in scene.remembered.get(device, ())},
+        remembered=tuple(AckMessage(a.command, a.status, a.why, a.result) for a in scene.remembered.get(device, ())),
         seed=scene.seed,
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from simulation.kinematic import KinematicDriver
-from simulation.stage import Stage
+from simulation.simulated_world import SimulatedWorld
 from simulation.world import Scene, World
 
 DriverName = Literal["physics", "kinematic"]
@@ -14,9 +14,9 @@ DriverName = Literal["physics", "kinematic"]
 def make_world(scene: Scene, driver: DriverName = "physics") -> World:
     """Return a world in virtual time; `physics` loads PyBullet, which wants a process and one thread for itself."""
     if driver == "kinematic":
-        return Stage(scene, KinematicDriver)
+        return SimulatedWorld(scene, KinematicDriver)
     if driver == "physics":
         from simulation.physics import PhysicsDriver
 
-        return Stage(scene, PhysicsDriver)
+        return SimulatedWorld(scene, PhysicsDriver)
     raise ValueError(f"There is no driver {driver!r}; there are 'physics' and 'kinematic'.")

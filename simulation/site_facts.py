@@ -8,10 +8,10 @@ from registry import services as registry
 from registry.floorplan.plan import Grid
 from vipo_device.descriptions.reader import read_description, write_description
 from vipo_device.protocol.description import Description, Pose
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 
 
-class NothingToSimulate(RegistryError):
+class NothingToSimulate(VipoError):
     """A site without virtual devices."""
 
     code = "nothing_to_simulate"
@@ -19,8 +19,8 @@ class NothingToSimulate(RegistryError):
 
 
 @dataclass(frozen=True, slots=True)
-class VirtualDevice:
-    """A pretend device, and the bytes in which it describes itself."""
+class DescribedDevice:
+    """A simulated device, and the bytes in which it describes itself."""
 
     description: Description
     source: bytes
@@ -32,20 +32,20 @@ class SiteFacts:
 
     slug: str
     grid: Grid
-    devices: tuple[VirtualDevice, ...]
+    devices: tuple[DescribedDevice, ...]
 
 
 def demo_facts() -> SiteFacts:
     """Return the painting factory as its files describe it."""
     sources = registry.read_demo_descriptions().values()
-    devices = tuple(VirtualDevice(read_description(source), source) for source in sources)
+    devices = tuple(DescribedDevice(read_description(source), source) for source in sources)
     return SiteFacts(registry.DEMO_SITE, registry.get_demo_grid(), devices)
 
 
 def read_site_facts(slug: str) -> SiteFacts:
     """Return a site from the database; the demo's devices come from its files, machines stand where people put them.
 
-    Raises RegistryError when there is no such site, NoMap when it has no map, NothingToSimulate when no approved
+    Raises VipoError when there is no such site, NoMap when it has no map, NothingToSimulate when no approved
     device of it is a simulated one.
     """
     known = registry.list_devices(site=slug)
@@ -54,12 +54,12 @@ def read_site_facts(slug: str) -> SiteFacts:
         devices = demo_facts().devices
     else:
         simulated = [d.canonical for d in known if d.canonical.simulated and d.lifecycle == "approved"]
-        devices = tuple(VirtualDevice(d, write_description(d).encode()) for d in simulated)
+        devices = tuple(DescribedDevice(d, write_description(d).encode()) for d in simulated)
     if not devices:
         raise NothingToSimulate(f"The site {slug} has no simulated devices; there is nothing for a twin to do.")
     placed = {d.id: d.pose for d in known if d.kind == "machine"}
     return SiteFacts(slug, grid, tuple(_placed(device, placed.get(device.description.id)) for device in devices))
 
 
-def _placed(device: VirtualDevice, pose: Pose | None) -> VirtualDevice:
+def _placed(device: DescribedDevice, pose: Pose | None) -> DescribedDevice:
     return device if pose is None else replace(device, description=replace(device.description, pose=pose))

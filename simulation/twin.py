@@ -1,4 +1,4 @@
-"""The twin: a live pretend world whose devices speak MQTT as real ones do.
+"""The twin: a live simulated world whose devices speak MQTT as real ones do.
 
 The main thread owns the world (physics wants one thread); network threads only put messages into a queue.
 """
@@ -9,7 +9,6 @@ import logging
 import threading
 import time
 from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from queue import Empty, SimpleQueue
@@ -18,10 +17,17 @@ from registry.floorplan.plan import with_devices
 from simulation.laser import Mapper
 from simulation.services import DriverName, make_world
 from simulation.site_facts import NothingToSimulate, SiteFacts
-from simulation.twin_memory import TwinMemory, read_memory, take_down, write_memory
-from simulation.virtual_device import Face, Look
+from simulation.twin_memory import TwinMemory, read_memory, snapshot, write_memory
+from simulation.virtual_device import Appearance, VirtualDevice
 from simulation.world import Ack, Scene, World
-from vipo_device.kit.connection import CameIn, Commanded, ConnectionMaker, LineEvent, Stopped
+from vipo_device.kit.connection import (
+    CommandReceived,
+    ConnectionEvent,
+    ConnectionMaker,
+    IntroductionDue,
+    StopChanged,
+    leave,
+)
 from vipo_device.protocol.description import Pose
 
 log = logging.getLogger(__name__)
@@ -37,31 +43,31 @@ DELIVERY_S = 60.0
 
 @dataclass(frozen=True, slots=True)
 class TwinPlan:
-    """Which site, which of its devices speak (`voices`), which are newcomers, how fast, and where memory is kept."""
+    """Which site, which of its devices speak, which of them are pending yet, how fast, and where memory is kept."""
 
     facts: SiteFacts
-    voices: frozenset[str]
+    speaking: frozenset[str]
     memory_path: Path
-    newcomers: frozenset[str] = frozenset()
+    pending: frozenset[str] = frozenset()
     speed: float = 1.0
     driver: DriverName = "physics"
     refresh: Callable[[], SiteFacts] | None = None
 
 
 class Twin:
-    """A site's pretend world and the faces of its devices."""
+    """A site's simulated world and the virtual devices in it."""
 
     def __init__(self, plan: TwinPlan, make_connection: ConnectionMaker) -> None:
         self._plan, self._facts, self._make_connection = plan, plan.facts, make_connection
-        self._inbox: SimpleQueue[LineEvent] = SimpleQueue()
+        self._inbox: SimpleQueue[ConnectionEvent] = SimpleQueue()
         memory = read_memory(plan.memory_path)
-        self._boots = {**memory.boots, **{name: memory.next_boot(name) for name in plan.voices}}
+        self._boots = {**memory.boots, **{name: memory.next_boot(name) for name in plan.speaking}}
         self._world: World = self._make_world(memory)
         self._held = False
-        self._faces = {
-            d.description.id: Face(d, plan.facts.slug, self._boots[d.description.id], self._inbox.put)
+        self._devices = {
+            d.description.id: VirtualDevice(d, plan.facts.slug, self._boots[d.description.id], self._inbox.put)
             for d in plan.facts.devices
-            if d.description.id in plan.voices
+            if d.description.id in plan.speaking
         }
         self._mappers: dict[str, Mapper] = {}
         self._mappers = self._make_mappers()
@@ -69,15 +75,15 @@ class Twin:
         self._saved_under_way: Mapping[str, object] = {}
 
     def run(self, stopping: threading.Event) -> None:
-        """Live until `stopping` is set; then say goodbye and remember."""
+        """Live until `stopping` is set; then say that all go offline, and remember."""
         self._save()
-        for face in self._faces.values():
-            face.connect(self._make_connection)
+        for device in self._devices.values():
+            device.connect(self._make_connection)
         try:
             self._live(stopping)
         finally:
             self._save()
-            self._leave()
+            leave(device.connection for device in self._devices.values())
             self._world.close()
 
     def _live(self, stopping: threading.Event) -> None:
@@ -104,15 +110,15 @@ class Twin:
         except Empty:
             return
 
-    def _hear(self, message: LineEvent) -> None:
+    def _hear(self, message: ConnectionEvent) -> None:
         match message:
-            case Commanded(device=device, told=told):
-                self._world.command(device, told.method, told.arguments, told.command)
-            case CameIn(device=device):
-                self._faces[device].introduce()
+            case CommandReceived(device=device, command=command):
+                self._world.command(device, command.method, command.arguments, command.id)
+            case IntroductionDue(device=device):
+                self._devices[device].introduce()
                 if device in self._mappers:
                     self._mappers[device].repeat()
-            case Stopped(active=active) if active != self._held:
+            case StopChanged(active=active) if active != self._held:
                 self._held = active
                 self._world.hold(active=active)
                 log.warning("The site's stop is %s.", "on: everything stands still" if active else "reset")
@@ -134,55 +140,54 @@ class Twin:
         if now_s - self._warned_s >= WARN_EVERY_S and any(self._world.busy().values()):
             self._warned_s = now_s
             log.warning(
-                "The pretend world cannot keep up: it is %.1f s behind, and leaves them out. Lower the speed (%g).",
+                "The simulated world cannot keep up: it is %.1f s behind, and leaves them out. Lower the speed (%g).",
                 self._lag_s / self._plan.speed,
                 self._plan.speed,
             )
 
     def _speak(self, acks: list[Ack], now_s: float) -> None:
         """Say states, then answers: who hears that a command is done must already know what came of it."""
-        is_over = any(ack.status not in {"ACCEPTED", "RUNNING"} for ack in acks)
+        begun = [ack for ack in acks if not ack.is_final]
+        is_over = len(begun) < len(acks)
         if is_over:
             self._save()  # before anybody hears of it: what was answered is never done again after a crash
-        begun = [ack for ack in acks if ack.status in {"ACCEPTED", "RUNNING"}]
         for ack in begun:
             self._answer(ack)
-        looks = self._looks()
-        for name, look in looks.items():
-            self._faces[name].report(look, now_s, at_once=is_over)
+        for name, seen in self._appearances().items():
+            self._devices[name].report(seen, now_s, at_once=is_over)
         for ack in acks:
             if ack not in begun:
                 self._answer(ack)
 
     def _answer(self, ack: Ack) -> None:
-        face = self._faces.get(ack.device)
-        if face is not None:
-            face.answer(ack)
+        device = self._devices.get(ack.device)
+        if device is not None:
+            device.answer(ack)
 
     def _send_maps(self, now_s: float) -> None:
         """Let each robot look round and send the map of what it has seen."""
         robots = self._world.robots()
         for name, mapper in self._mappers.items():
-            if self._faces[name].is_introduced:
-                self._faces[name].send_map(mapper.next_messages(robots[name].pose, now_s))
+            if self._devices[name].is_introduced:
+                self._devices[name].send_map(mapper.next_messages(robots[name].pose, now_s))
 
     def _make_mappers(self) -> dict[str, Mapper]:
         """Return a map-maker for each robot; to its laser, machines are obstacles like walls."""
         described = [device.description for device in self._facts.devices]
         floor = with_devices(self._facts.grid, described)
-        robots = [d.id for d in described if d.kind == "robot" and d.id in self._faces]
+        robots = [d.id for d in described if d.kind == "robot" and d.id in self._devices]
         sent = {name: mapper.number for name, mapper in self._mappers.items()}
         return {name: Mapper(floor, self._boots[name], sent.get(name, 0)) for name in robots}
 
-    def _looks(self) -> dict[str, Look]:
+    def _appearances(self) -> dict[str, Appearance]:
         robots, readings, busy = self._world.robots(), self._world.readings(), self._world.busy()
-        looks = {}
+        seen = {}
         for device in self._facts.devices:
             name, pose = device.description.id, device.description.pose
-            if name in self._faces:
+            if name in self._devices:
                 at = _rounded(robots[name].pose) if name in robots else pose
-                looks[name] = Look(not busy[name], at, readings[name])
-        return looks
+                seen[name] = Appearance(not busy[name], at, readings[name])
+        return seen
 
     def _refresh(self) -> None:
         """Take over a new map or machines that people moved, as soon as nobody is busy."""
@@ -194,35 +199,28 @@ class Twin:
             return
         if facts == self._facts:
             return
-        memory = take_down(self._world, self._boots)
+        memory = snapshot(self._world, self._boots)
         self._world.close()
         self._facts = facts
         self._world = self._make_world(memory)
         self._world.hold(active=self._held)
         self._mappers = self._make_mappers()
-        log.info("The map or the place of a machine has changed; the pretend world was built anew.")
+        log.info("The map or the place of a machine has changed; the simulated world was built anew.")
 
     def _make_world(self, memory: TwinMemory) -> World:
         return make_world(memory.put_into(make_scene(self._plan, self._facts)), self._plan.driver)
 
     def _save(self) -> None:
-        memory = take_down(self._world, self._boots)
+        memory = snapshot(self._world, self._boots)
         self._saved_under_way = self._world.under_way()
         write_memory(self._plan.memory_path, memory)
-
-    def _leave(self) -> None:
-        """Say goodbye on all connections, and end them side by side."""
-        for face in self._faces.values():
-            face.say_goodbye()
-        with ThreadPoolExecutor(max_workers=max(1, len(self._faces))) as pool:
-            list(pool.map(Face.disconnect, self._faces.values()))
 
 
 def make_scene(plan: TwinPlan, facts: SiteFacts) -> Scene:
     """Return the scene of a twin: its own devices, and the bodies of machines that others speak for."""
     devices = [d.description for d in facts.devices]
-    here = [d for d in devices if d.kind == "machine" or d.id in plan.voices]
-    return Scene(facts.grid, here, delivery_s=DELIVERY_S, bodiless=plan.newcomers)
+    here = [d for d in devices if d.kind == "machine" or d.id in plan.speaking]
+    return Scene(facts.grid, here, delivery_s=DELIVERY_S, bodiless=plan.pending)
 
 
 def _rounded(pose: Pose) -> Pose:

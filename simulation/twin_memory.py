@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import logging
-import os
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from simulation.world import Ack, Scene, World
+from vipo_device.kit.atomic_file import write_file
 from vipo_device.protocol.description import Pose, Scalar
 
 log = logging.getLogger(__name__)
@@ -50,7 +50,7 @@ class TwinMemory:
         )
 
 
-def take_down(world: World, boots: Mapping[str, int]) -> TwinMemory:
+def snapshot(world: World, boots: Mapping[str, int]) -> TwinMemory:
     """Return what is to be remembered of a world as it is now."""
     robots = world.robots()
     return TwinMemory(
@@ -64,13 +64,10 @@ def take_down(world: World, boots: Mapping[str, int]) -> TwinMemory:
 
 
 def write_memory(path: Path, memory: TwinMemory) -> None:
-    """Write the file in one piece: who reads it finds the old or the new one."""
+    """Keep what is to be remembered. Raises OSError."""
     body = {"format": FORMAT, **asdict(memory)}
     del body["first_boot"]
-    path.parent.mkdir(parents=True, exist_ok=True)
-    draft = path.with_suffix(".new")
-    draft.write_text(json.dumps(body, separators=(",", ":")))
-    os.replace(draft, path)  # noqa: PTH105 - the atomic rename is what matters here
+    write_file(path, json.dumps(body, separators=(",", ":")))
 
 
 def read_memory(path: Path) -> TwinMemory:

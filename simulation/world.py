@@ -1,4 +1,4 @@
-"""The interface of a pretend world: commands in, time forward, events out. Physics and kinematics both offer it."""
+"""What a simulated world offers: commands in, time forward, events out. Physics and kinematics both offer it."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from typing import Literal, Protocol
 
 from registry.floorplan.plan import Grid
 from vipo_device.protocol.description import Description, Pose, Scalar
-
-AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
+from vipo_device.protocol.messages import AckStatus, is_final
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +30,11 @@ class Ack:
     status: AckStatus
     why: str = ""
     result: Mapping[str, Scalar] = field(default_factory=dict)
+
+    @property
+    def is_final(self) -> bool:
+        """True when the command is over."""
+        return is_final(self.status)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +96,7 @@ class RobotSnapshot:
 
 
 class World(Protocol):
-    """A pretend world in virtual time; not thread-safe, one per process when it is physics."""
+    """A simulated world in virtual time; not thread-safe, one per process when it is physics."""
 
     @property
     def time_s(self) -> float:

@@ -48,24 +48,24 @@ def read_address(url: str, *, password: str = "", authority: str = "", headers: 
         raise BadAddress(f"{url[:80]!r} is no address: {error}.") from error
     if parts.scheme not in {"http", "https"} or not parts.hostname or parts.query or parts.fragment:
         raise BadAddress(f"{url[:80]!r} is not an agent's address; say http://host:5000/ or https://host/path/.")
-    told = _read_headers(headers)
+    sent = _read_headers(headers)
     if parts.username:
         word = f"{unquote(parts.username)}:{password or unquote(parts.password or '')}".encode()
-        told["Authorization"] = f"Basic {base64.b64encode(word).decode()}"
+        sent["Authorization"] = f"Basic {base64.b64encode(word).decode()}"
     is_safe = parts.scheme == "https"
     tls = ssl.create_default_context(cafile=authority or None) if is_safe else None
     path = quote(unquote(parts.path)).rstrip("/") + "/"
-    return Address(parts.hostname, port or (443 if is_safe else 80), path, tls, told)
+    return Address(parts.hostname, port or (443 if is_safe else 80), path, tls, sent)
 
 
 def _read_headers(text: str) -> dict[str, str]:
     found = {}
     for number, line in enumerate(text.splitlines(), 1):
-        told = _HEADER.fullmatch(line.strip())
-        if line.strip() and told is None:
+        header = _HEADER.fullmatch(line.strip())
+        if line.strip() and header is None:
             raise BadAddress(f"Line {number} of the headers is not `Name: value`.")
-        if told is not None:
-            found[told[1]] = told[2]
+        if header is not None:
+            found[header[1]] = header[2]
     return found
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections import defaultdict
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import datetime
@@ -15,11 +14,18 @@ from time import monotonic
 
 from connectors.mtconnect.agent import Agent
 from connectors.mtconnect.condition import MachineCondition
-from connectors.mtconnect.description import Portrait, Stand, portray
+from connectors.mtconnect.description import DescribedMachine, Stand, describe_machine
 from connectors.mtconnect.documents import BadDocument, Machine, Observation
-from connectors.mtconnect.follower import Follower, Gone, Heard, Probed, Said
-from vipo_device.kit.connection import CameIn, Commanded, ConnectionMaker, DeviceLine, LineEvent
-from vipo_device.protocol.messages import AckMessage, Told
+from connectors.mtconnect.follower import AgentEvent, AgentLost, Follower, MachinesListed, Observed
+from vipo_device.kit.connection import (
+    CommandReceived,
+    ConnectionEvent,
+    ConnectionMaker,
+    DeviceConnection,
+    IntroductionDue,
+    leave,
+)
+from vipo_device.protocol.messages import AckMessage, DeviceCommand
 
 log = logging.getLogger(__name__)
 TICK_S = 0.25
@@ -45,20 +51,22 @@ class FollowerEnded(RuntimeError):
     """The thread that asks the agent has ended by a fault: better no connector than one that tells old values."""
 
 
-class Member:
+class MachineDevice:
     """One machine: its device's connection, and what is known of it."""
 
-    def __init__(self, portrait: Portrait, setting: Setting, boot: int, hear: Callable[[LineEvent], None]) -> None:
-        self.id = portrait.description.id
-        self._portrait, self._condition = portrait, MachineCondition(portrait)
-        self._line = DeviceLine(self.id, setting.site, boot, hear)
+    def __init__(
+        self, described: DescribedMachine, setting: Setting, boot: int, hear: Callable[[ConnectionEvent], None]
+    ) -> None:
+        self.id = described.description.id
+        self._described, self._condition = described, MachineCondition(described)
+        self.connection = DeviceConnection(self.id, setting.site, boot, hear)
         self._is_known = self._online = False
-        self._line.connect(setting.connect)
+        self.connection.connect(setting.connect)
 
-    def describe(self, portrait: Portrait) -> None:
+    def describe(self, described: DescribedMachine) -> None:
         """Take in what the machine tells from now on; how it is follows."""
-        if portrait != self._portrait:
-            self._portrait, self._condition = portrait, MachineCondition(portrait)
+        if described != self._described:
+            self._described, self._condition = described, MachineCondition(described)
             self.introduce()
 
     def take(self, said: list[Observation], now_s: float, *, is_whole: bool) -> None:
@@ -77,37 +85,33 @@ class Member:
 
     def introduce(self) -> None:
         """Say to the server who the machine is."""
-        self._line.introduce(self._portrait.turtle, online=self._online)
+        self.connection.introduce(self._described.turtle, online=self._online)
 
-    def answer(self, told: Told) -> None:
-        """Refuse what the machine is told."""
-        self._line.answer(AckMessage(told.command, "REJECTED", ONLY_READ))
+    def refuse(self, command: DeviceCommand) -> None:
+        """Refuse a command: the machine is only read."""
+        self.connection.answer(AckMessage(command.id, "REJECTED", ONLY_READ))
 
     def speak(self, now_s: float) -> None:
         """Say how the machine is, if that is due."""
         self._be_present()
         if self._online:
-            self._line.report(self._condition.look, now_s)
-
-    def leave(self) -> None:
-        """Say goodbye to VIPO."""
-        self._line.close()
+            self.connection.report(self._condition.look, now_s)
 
     def _be_present(self) -> None:
         online = self._is_known and self._condition.is_available
         if online != self._online:
             self._online = online
-            self._line.say_presence(online=online)
+            self.connection.say_presence(online=online)
 
 
-class Plant:
+class Connector:
     """Threads that listen only put into the inbox; everything else happens on the thread of `run`."""
 
     def __init__(self, agent: Agent, setting: Setting) -> None:
         self._agent, self._setting = agent, setting
-        self._inbox: Queue[Heard | LineEvent] = Queue(MOST_WAITING)
-        self._members: dict[str, Member] = {}
-        self._by_device: dict[str, Member] = {}
+        self._inbox: Queue[AgentEvent | ConnectionEvent] = Queue(MOST_WAITING)
+        self._devices: dict[str, MachineDevice] = {}
+        self._by_id: dict[str, MachineDevice] = {}
         self._boot = int(setting.clock().timestamp())
 
     def run(self, stopping: Event) -> None:
@@ -118,8 +122,7 @@ class Plant:
         try:
             self._serve(stopping, thread)
         finally:
-            with ThreadPoolExecutor(max_workers=max(1, len(self._members))) as pool:
-                list(pool.map(Member.leave, self._members.values()))
+            leave(device.connection for device in self._devices.values())
 
     def _serve(self, stopping: Event, follower: Thread) -> None:
         ticked_s = 0.0
@@ -130,64 +133,64 @@ class Plant:
                 self._take(self._inbox.get(timeout=TICK_S))
             if (now := monotonic()) - ticked_s >= TICK_S:
                 ticked_s = now
-                for member in self._members.values():
-                    member.speak(now)
+                for device in self._devices.values():
+                    device.speak(now)
 
-    def _take(self, event: Heard | LineEvent) -> None:
+    def _take(self, event: AgentEvent | ConnectionEvent) -> None:
         match event:
-            case Probed(machines=machines):
-                self._meet(machines)
-            case Said():
-                self._tell(event)
-            case Gone():
-                for member in self._members.values():
-                    member.lose()
-            case CameIn(device=device):
-                self._by_device[device].introduce()
-            case Commanded(device=device, told=told):
-                self._by_device[device].answer(told)
+            case MachinesListed(machines=machines):
+                self._take_machines(machines)
+            case Observed():
+                self._distribute(event)
+            case AgentLost():
+                for device in self._devices.values():
+                    device.lose()
+            case IntroductionDue(device=name):
+                self._by_id[name].introduce()
+            case CommandReceived(device=name, command=command):
+                self._by_id[name].refuse(command)
 
-    def _meet(self, machines: tuple[Machine, ...]) -> None:
+    def _take_machines(self, machines: tuple[Machine, ...]) -> None:
         """Make devices of machines that are new, describe the others anew; who is not named any more goes offline."""
         named = {machine.uuid: machine for machine in machines}
-        for uuid, member in self._members.items():
+        for uuid, device in self._devices.items():
             if uuid not in named:
-                member.lose()
+                device.lose()
         for place, (uuid, machine) in enumerate(named.items()):
             try:
-                portrait = portray(machine, self._setting.site, self._stand(place))
+                described = describe_machine(machine, self._setting.site, self._stand(place))
             except BadDocument as error:
                 log.warning("%s", error)
                 continue
-            self._welcome(uuid, portrait)
+            self._add_or_update(uuid, described)
 
-    def _welcome(self, uuid: str, portrait: Portrait) -> None:
-        if portrait.left_out:
-            device, most = portrait.description.id, len(portrait.readings)
-            log.warning("%s tells more than a device can: %d shown, %d not.", device, most, portrait.left_out)
-        if uuid in self._members:
-            self._members[uuid].describe(portrait)
+    def _add_or_update(self, uuid: str, described: DescribedMachine) -> None:
+        if described.left_out:
+            name, most = described.description.id, len(described.readings)
+            log.warning("%s tells more than a device can: %d shown, %d not.", name, most, described.left_out)
+        if uuid in self._devices:
+            self._devices[uuid].describe(described)
             return
-        if len(self._members) >= MOST_DEVICES:
-            log.warning("%s is one machine too many: a connector serves %d.", portrait.description.id, MOST_DEVICES)
+        if len(self._devices) >= MOST_DEVICES:
+            log.warning("%s is one machine too many: a connector serves %d.", described.description.id, MOST_DEVICES)
             return
-        member = Member(portrait, self._setting, self._boot, self._hear_line)
-        self._members[uuid] = self._by_device[member.id] = member
+        device = MachineDevice(described, self._setting, self._boot, self._hear_connection)
+        self._devices[uuid] = self._by_id[device.id] = device
 
     def _stand(self, place: int) -> Stand:
         stand = self._setting.stand
         pose = replace(stand.pose, x=stand.pose.x + place * (stand.size.x + GAP_M))
         return Stand(pose, stand.size)
 
-    def _tell(self, said: Said) -> None:
+    def _distribute(self, said: Observed) -> None:
         by_machine: defaultdict[str, list[Observation]] = defaultdict(list)
         for observation in said.observations:
             by_machine[observation.machine].append(observation)
         now = monotonic()
-        for uuid, member in self._members.items():
+        for uuid, device in self._devices.items():
             if said.is_whole or uuid in by_machine:
-                member.take(by_machine[uuid], now, is_whole=said.is_whole)
+                device.take(by_machine[uuid], now, is_whole=said.is_whole)
 
-    def _hear_line(self, event: LineEvent) -> None:
+    def _hear_connection(self, event: ConnectionEvent) -> None:
         with suppress(Full):
             self._inbox.put(event, timeout=PATIENCE_S)

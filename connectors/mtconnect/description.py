@@ -1,18 +1,17 @@
-"""A machine of an agent as a VIPO device: which of its items become which properties; pure."""
+"""A machine of an agent as a VIPO device: which of its items become which properties, in which units; pure."""
 
 from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from connectors.mtconnect.documents import BadDocument, Item, Machine
-from connectors.mtconnect.measures import AXES, MEASURES, Measure, measure_of
 from vipo_device.descriptions.plausibility import find_faults
 from vipo_device.descriptions.reader import write_description
 from vipo_device.protocol.description import MOST_PROPERTIES, Description, Pose, PropertySpec, Size
-from vipo_device.protocol.messages import MAX_BYTES
+from vipo_device.protocol.messages import MAX_BYTES, fit_device_id
 
 EXECUTION, ERROR, WARNING = "execution", "error", "warning"
 OF_ALL = (
@@ -20,11 +19,58 @@ OF_ALL = (
     PropertySpec(ERROR, "text", title="Faults"),
     PropertySpec(WARNING, "text", title="Warnings"),
 )
-TOLD_OTHERWISE = frozenset({"AVAILABILITY", "EXECUTION", "EMERGENCY_STOP", "ASSET_CHANGED", "ASSET_REMOVED"})
+SAID_OTHERWISE = frozenset({"AVAILABILITY", "EXECUTION", "EMERGENCY_STOP", "ASSET_CHANGED", "ASSET_REMOVED"})
 NUMBERS = frozenset({"LINE", "LINE_NUMBER", "PART_COUNT", "TOOL_NUMBER"})
 """Events that are numbers, though they have no unit."""
-_UNFIT = re.compile(r"[^A-Za-z0-9_.-]")
 _UNFIT_NAME = re.compile(r"[^A-Za-z0-9_]+")
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """A unit of QUDT (empty: none), and the factor to it; `axes` is 3 for a number in each direction."""
+
+    unit: str
+    factor: float = 1.0
+    axes: int = 1
+
+
+MEASURES: Mapping[str, Measure] = {
+    "AMPERE": Measure("A"),
+    "CELSIUS": Measure("DEG_C"),
+    "COUNT": Measure(""),
+    "CUBIC_METER": Measure("M3"),
+    "CUBIC_MILLIMETER": Measure("MilliL", 0.001),
+    "DECIBEL": Measure("DEC_B"),
+    "DEGREE": Measure("DEG"),
+    "DEGREE_3D": Measure("DEG", axes=3),
+    "DEGREE/SECOND": Measure("DEG-PER-SEC"),
+    "GRAM": Measure("GM"),
+    "HERTZ": Measure("HZ"),
+    "HOUR": Measure("HR"),
+    "JOULE": Measure("J"),
+    "KILOGRAM": Measure("KiloGM"),
+    "LITER": Measure("L"),
+    "METER": Measure("M"),
+    "MILLIGRAM": Measure("MilliGM"),
+    "MILLILITER": Measure("MilliL"),
+    "MILLIMETER": Measure("M", 0.001),
+    "MILLIMETER_3D": Measure("M", 0.001, 3),
+    "MILLIMETER/SECOND": Measure("M-PER-SEC", 0.001),
+    "MILLIMETER/SECOND^2": Measure("M-PER-SEC2", 0.001),
+    "MINUTE": Measure("MIN"),
+    "NEWTON": Measure("N"),
+    "NEWTON_METER": Measure("N-M"),
+    "OHM": Measure("OHM"),
+    "PASCAL": Measure("PA"),
+    "PERCENT": Measure("PERCENT"),
+    "REVOLUTION/MINUTE": Measure("REV-PER-MIN"),
+    "REVOLUTION/SECOND": Measure("REV-PER-MIN", 60.0),
+    "SECOND": Measure("SEC"),
+    "VOLT": Measure("V"),
+    "WATT": Measure("W"),
+    "WATT_SECOND": Measure("J"),
+}
+AXES = ("x", "y", "z")
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +92,8 @@ class Reading:
 
 
 @dataclass(frozen=True, slots=True)
-class Portrait:
-    """How a machine describes itself, and what of its items that is made of; `left_out` counts those without room."""
+class DescribedMachine:
+    """A machine as it describes itself, and what of its items that is made of; `left_out` counts those without room."""
 
     description: Description
     turtle: bytes
@@ -61,13 +107,10 @@ class Portrait:
 
 def device_id(uuid: str) -> str:
     """Return the id of a machine's device; a hash keeps those apart that would look the same without it."""
-    fit = _UNFIT.sub("-", uuid)
-    if fit == uuid and len(fit) <= 64:
-        return fit
-    return f"{fit[:57]}-{hashlib.sha256(uuid.encode()).hexdigest()[:6]}"
+    return fit_device_id(uuid, uuid)
 
 
-def portray(machine: Machine, site: str, stand: Stand) -> Portrait:
+def describe_machine(machine: Machine, site: str, stand: Stand) -> DescribedMachine:
     """Return how a machine shows itself: numbers first, as many as a description holds. Raises BadDocument."""
     found = list(_readings(machine.items))
     shown = found[: MOST_PROPERTIES - len(OF_ALL)]
@@ -79,7 +122,7 @@ def portray(machine: Machine, site: str, stand: Stand) -> Portrait:
         shown = shown[: len(shown) * 9 // 10]
     if faults := find_faults(description):
         raise BadDocument(f"{machine.name[:60]} cannot be described: {faults[0].text}")
-    return Portrait(
+    return DescribedMachine(
         description,
         turtle,
         tuple(reading for reading, _ in shown),
@@ -117,7 +160,7 @@ def _describe(machine: Machine, site: str, stand: Stand, shown: Iterable[tuple[R
 
 def _readings(items: Iterable[Item]) -> Iterator[tuple[Reading, PropertySpec]]:
     """Give the properties of a machine's items: samples, then events; lists, tables and waveforms are left out."""
-    plain = [i for i in items if i.representation in {"VALUE", "DISCRETE"} and i.type not in TOLD_OTHERWISE]
+    plain = [i for i in items if i.representation in {"VALUE", "DISCRETE"} and i.type not in SAID_OTHERWISE]
     taken = {spec.name for spec in OF_ALL}
     for category in ("SAMPLE", "EVENT"):
         for item in plain:
@@ -164,3 +207,8 @@ def _title(item: Item) -> str:
     words = (item.part[:30], kind, item.subtype.rpartition(":")[2].replace("_", " ").lower())
     text = " ".join(filter(None, words))
     return (text[:1].upper() + text[1:])[:80]
+
+
+def measure_of(units: str) -> Measure:
+    """Return what to make of a unit; one that is not known goes over as a number without a unit."""
+    return MEASURES.get(units) or Measure("", axes=3 if units.endswith("_3D") else 1)

@@ -111,9 +111,9 @@ def read_document(data: bytes) -> Document:
         case "MTConnectStreams":
             return Streams(_header(header), tuple(_observations(root)))
         case "MTConnectError":
-            told = [error for error in root.iter() if error.get("errorCode")]
-            sentence = "; ".join(_clean("".join(error.itertext())) for error in told)
-            return Refusal(_header(header), tuple(error.get("errorCode") for error in told), sentence[:MOST_TEXT])
+            errors = [error for error in root.iter() if error.get("errorCode")]
+            sentence = "; ".join(_clean("".join(error.itertext())) for error in errors)
+            return Refusal(_header(header), tuple(error.get("errorCode") for error in errors), sentence[:MOST_TEXT])
     raise BadDocument(f"The document {found[2][:40]} is not known.")
 
 
@@ -164,10 +164,10 @@ def _machines(root: Any) -> Iterator[Machine]:
 
 
 def _about(device: Any) -> str:
-    told = device.find("{*}Description")
-    if told is None:
+    about = device.find("{*}Description")
+    if about is None:
         return ""
-    words = [told.get("manufacturer"), told.get("model"), "".join(told.itertext())]
+    words = [about.get("manufacturer"), about.get("model"), "".join(about.itertext())]
     return " ".join(filter(None, (_clean(word or "") for word in words)))[:MOST_TEXT]
 
 
@@ -175,20 +175,20 @@ def _item(element: Any, device: Any) -> Item:
     listed = element.getparent()
     owner = listed.getparent() if listed is not device else device
     part = "" if owner is device else _clean(owner.get("name") or etree.QName(owner).localname)
-    told = {key: _clean(element.get(key) or "") for key in ("id", "category", "type", "name", "units")}
+    texts = {key: _clean(element.get(key) or "") for key in ("id", "category", "type", "name", "units")}
     kind = element.get("representation") or "VALUE"
-    return Item(**told, subtype=_clean(element.get("subType") or ""), part=part, representation=kind)
+    return Item(**texts, subtype=_clean(element.get("subType") or ""), part=part, representation=kind)
 
 
 def _observations(root: Any) -> Iterator[Observation]:
     for device in root.findall("{*}Streams/{*}DeviceStream"):
         machine = _clean(device.get("uuid") or device.get("name") or "")
         for part in device.iterfind("{*}ComponentStream/*"):
-            for told in part:
-                code = told.get("conditionId") or told.get("nativeCode") or ""
-                text = "" if len(told) else _clean(told.text or "")
+            for said in part:
+                code = said.get("conditionId") or said.get("nativeCode") or ""
+                text = "" if len(said) else _clean(said.text or "")
                 yield Observation(
-                    machine, told.get("dataItemId") or "", etree.QName(told).localname, text, _clean(code)
+                    machine, said.get("dataItemId") or "", etree.QName(said).localname, text, _clean(code)
                 )
 
 

@@ -22,14 +22,14 @@ MOST_HURRIES = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Probed:
+class MachinesListed:
     """The agent's machines are these."""
 
     machines: tuple[Machine, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class Observed:
     """The agent said this; `is_whole` when it replaces all that was known."""
 
     observations: tuple[Observation, ...]
@@ -37,11 +37,11 @@ class Said:
 
 
 @dataclass(frozen=True, slots=True)
-class Gone:
+class AgentLost:
     """The agent has not answered several times in a row."""
 
 
-Heard = Probed | Said | Gone
+AgentEvent = MachinesListed | Observed | AgentLost
 
 
 class Restarted(Exception):
@@ -51,7 +51,7 @@ class Restarted(Exception):
 class Follower:
     """Asks an agent again and again, and gives what it hears to `hear`."""
 
-    def __init__(self, agent: Agent, interval_s: float, hear: Callable[[Heard], None]) -> None:
+    def __init__(self, agent: Agent, interval_s: float, hear: Callable[[AgentEvent], None]) -> None:
         self._agent, self._interval_s, self._hear = agent, interval_s, hear
         self._instance: int | None = None
         self._machines: tuple[Machine, ...] = ()
@@ -86,7 +86,7 @@ class Follower:
             log.warning("The agent cannot be read (%s). It is asked again, up to %d s apart.", why, MOST_PAUSE_S)
         if self._failures == GONE_AFTER:
             self._instance = None
-            self._hear(Gone())
+            self._hear(AgentLost())
         return pause_s
 
     def _step(self) -> bool:
@@ -104,7 +104,7 @@ class Follower:
         self._probed_s, self._machines = monotonic(), document.machines
         if is_new or instance != self._instance:
             self._instance = None
-            self._hear(Probed(document.machines))
+            self._hear(MachinesListed(document.machines))
             self._current(instance)
         return True
 
@@ -115,7 +115,7 @@ class Follower:
             raise BadDocument(_why(document, "current"))
         self._instance, self._next = instance, max(document.header.next, 1)
         self._count = min(COUNT, document.header.size or COUNT)  # more than it keeps may not be asked for
-        self._hear(Said(document.observations, is_whole=True))
+        self._hear(Observed(document.observations, is_whole=True))
 
     def _sample(self, instance: int) -> bool:
         document = self._ask("sample", instance, **{"from": self._next, "count": self._count})
@@ -128,7 +128,7 @@ class Follower:
             return self._fill_gap(instance)
         has_more = self._next < header.next <= header.last
         self._next = header.next
-        self._hear(Said(document.observations, is_whole=False))
+        self._hear(Observed(document.observations, is_whole=False))
         return has_more
 
     def _fill_gap(self, instance: int) -> bool:

@@ -14,7 +14,7 @@ STATES_OF_LIFE = 2
 """So many states after its last will show that a vehicle is there: the will was that of an earlier connection."""
 
 
-class Presence:
+class ConnectionState:
     """Times are seconds of one clock. What the vehicle tells by itself is waited for a moment before it is asked."""
 
     def __init__(self) -> None:

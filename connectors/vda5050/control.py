@@ -10,19 +10,26 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from connectors.vda5050.cancellation import Cancel, is_orphan
 from connectors.vda5050.coordinates import Point
+from connectors.vda5050.factsheet import read_properties
+from connectors.vda5050.interruptions import Cancellation, Pausing, is_orphan, pausing_from_json
 from connectors.vda5050.messages import ENDED, Located, VehicleError, VehicleState
 from connectors.vda5050.open_commands import OpenTasks
-from connectors.vda5050.order_sequence import growing, next_order
 from connectors.vda5050.orders import Body, Order, order_from_json, order_to_json
-from connectors.vda5050.pauses import Pausing, pausing_from_json
-from connectors.vda5050.properties import shown
-from connectors.vda5050.tasks import Task, Vehicle, drives_in_front, read_task, why_astray, why_not, works_for_others
+from connectors.vda5050.tasks import (
+    Task,
+    Vehicle,
+    drives_in_front,
+    growing,
+    next_order,
+    read_task,
+    why_not,
+    works_for_others,
+)
+from vipo_device.kit.arguments import why_astray
 from vipo_device.protocol.description import DeviceState, Pose
-from vipo_device.protocol.messages import AckMessage, Told
+from vipo_device.protocol.messages import CONTROLS, AckMessage, DeviceCommand
 
-CONTROLS = ("pause", "resume", "cancel")
 PATIENCE_S = 3.0
 TRIES = 4
 NOT_TAKEN = "The vehicle did not take the order."
@@ -49,7 +56,7 @@ class VehicleControl:
         self.held = False
         self._tasks = OpenTasks(lambda ack: self.out.append(ack))
         self._order: Order | None = None
-        self._cancel: Cancel | None = None
+        self._cancel: Cancellation | None = None
         self._pausing = Pausing()
         self._sent_s: float | None = None
         self._tries = 0
@@ -68,18 +75,18 @@ class VehicleControl:
             self._cancel_tasks(self._tasks.commands, "", "The site was stopped; it cannot pause.")
         self.settle(now_s)
 
-    def command(self, told: Told, now_s: float) -> None:
+    def command(self, command: DeviceCommand, now_s: float) -> None:
         """Take in a command; one that is known is answered again, or will be."""
-        known = self._tasks.find(told.command)
+        known = self._tasks.find(command.id)
         if known is not None:
             self.out.append(known)
             return
-        if self._is_open(told.command):
+        if self._is_open(command.id):
             return
-        if told.method in CONTROLS:
-            self._control(told, now_s)
-        elif why := self._take_on(told):
-            self._tasks.say(told.command, "REJECTED", why)
+        if command.method in CONTROLS:
+            self._control(command, now_s)
+        elif why := self._take_on(command):
+            self._tasks.say(command.id, "REJECTED", why)
         self.settle(now_s)
 
     def look(self, boot: int, seq: int) -> DeviceState:
@@ -88,7 +95,7 @@ class VehicleControl:
         head = self._tasks.head
         command = head.command if head else ""
         is_free = head is None and not (self.state and works_for_others(self.state))
-        return DeviceState(boot, seq, is_free, pose, command, shown(self.state, self.vehicle.sheet))
+        return DeviceState(boot, seq, is_free, pose, command, read_properties(self.state, self.vehicle.sheet))
 
     def settle(self, now_s: float) -> None:
         """Judge everything that is open by the newest state, and do what is due."""
@@ -117,7 +124,7 @@ class VehicleControl:
         """Take up what to_json wrote; an order that was perhaps not sent is sent again, which the vehicle ignores."""
         self._tasks.recall(body)
         self._order = order_from_json(body["order"]) if body["order"] else None
-        self._cancel = Cancel(**body["cancel"]) if body["cancel"] else None
+        self._cancel = Cancellation(**body["cancel"]) if body["cancel"] else None
         self._pausing = pausing_from_json(body["pausing"])
         self.held = bool(body.get("held"))
 
@@ -125,11 +132,11 @@ class VehicleControl:
         controls = [asked.command for asked in self._pausing.asked] + (self._cancel.controls if self._cancel else [])
         return command in controls or command in self._tasks.commands
 
-    def _take_on(self, told: Told) -> str:
+    def _take_on(self, command: DeviceCommand) -> str:
         """Queue a command; return why not, or an empty text."""
         if why := self._refusal():
             return why
-        task = read_task(self.vehicle, told, self._way_begins())
+        task = read_task(self.vehicle, command, self._way_begins())
         if isinstance(task, str):
             return task
         tail = self._tasks.tail
@@ -156,17 +163,17 @@ class VehicleControl:
         site = self.vehicle.frame.to_site(pose)
         return site.x, site.y
 
-    def _control(self, told: Told, now_s: float) -> None:
-        named = told.arguments.get("command")
+    def _control(self, command: DeviceCommand, now_s: float) -> None:
+        named = command.arguments.get("command")
         target = named if isinstance(named, str) else ""
-        if told.method == "cancel":
-            self._cancel_named(told.command, target)
+        if command.method == "cancel":
+            self._cancel_named(command.id, target)
         elif not self.vehicle.can_pause:
-            self._tasks.say(told.command, "REJECTED", f"{self.vehicle.description.name} cannot pause.")
+            self._tasks.say(command.id, "REJECTED", f"{self.vehicle.description.name} cannot pause.")
         elif self._tasks.is_over(target):
-            self._tasks.say(told.command, "DONE")  # it ended while this was on its way: there is nothing to hold
+            self._tasks.say(command.id, "DONE")  # it ended while this was on its way: there is nothing to hold
         else:
-            self._pausing.ask(told.command, target, now_s, pause=told.method == "pause")
+            self._pausing.ask(command.id, target, now_s, pause=command.method == "pause")
 
     def _cancel_named(self, control: str, target: str) -> None:
         tasks = list(self._tasks)
@@ -188,7 +195,7 @@ class VehicleControl:
             self._tasks.end(task, "CANCELED", why or f"{task.method} was cancelled.")
         known = [task.command for task in self._tasks.handed_over if task.command in commands]
         if known:
-            self._cancel = self._cancel or Cancel(self._new_id())
+            self._cancel = self._cancel or Cancellation(self._new_id())
             self._cancel.include(known, control)
         elif control:
             self._tasks.say(control, "DONE")
@@ -249,7 +256,7 @@ class VehicleControl:
         for task in self._tasks:
             self._tasks.end(task, "FAILED", state.fatal.sentence)
         if self._order is not None:
-            self._cancel = self._cancel or Cancel(self._new_id())
+            self._cancel = self._cancel or Cancellation(self._new_id())
 
     def _finish(self, state: VehicleState) -> None:
         order = self._order
@@ -267,19 +274,19 @@ class VehicleControl:
 
     def _finish_actions(self, state: VehicleState) -> None:
         for task in self._tasks.handed_over:
-            told = [state.action(action_id) for action_id in task.actions]
-            failed = next((a for a in told if a and a.status == "FAILED"), None)
-            if all(a and a.status == "FINISHED" for a in told):
+            states = [state.action(action_id) for action_id in task.actions]
+            failed = next((a for a in states if a and a.status == "FAILED"), None)
+            if all(a and a.status == "FINISHED" for a in states):
                 self._tasks.end(task, "DONE")
             elif failed and not self._is_cancelled(task):
                 self._tasks.end(task, "FAILED", state.reason(failed.id) or failed.result or f"{task.method} failed.")
-                if not all(a and a.status in ENDED for a in told):
-                    self._cancel = self._cancel or Cancel(self._new_id())
+                if not all(a and a.status in ENDED for a in states):
+                    self._cancel = self._cancel or Cancellation(self._new_id())
 
     def _follow_cancel(self, state: VehicleState, now_s: float) -> None:
         """Have the order cancelled: ours when it is wanted, and one of ours that nobody knows of any more."""
         if self._cancel is None and is_orphan(state, self._order.id if self._order else ""):
-            self._cancel = Cancel(self._new_id(), sent_s=self._cancelled_s)
+            self._cancel = Cancellation(self._new_id(), sent_s=self._cancelled_s)
         cancel = self._cancel
         if cancel is None or (self._order is not None and not self._order.is_taken):
             return
@@ -288,7 +295,7 @@ class VehicleControl:
         elif due := cancel.due(state, now_s, self._new_id):
             self.out.append(Send("instantActions", due))
 
-    def _cancelled(self, cancel: Cancel, state: VehicleState) -> None:
+    def _cancelled(self, cancel: Cancellation, state: VehicleState) -> None:
         """Answer what ended with the order; what was not meant goes on from here, in an order of its own."""
         self._cancel, self._cancelled_s = None, cancel.sent_s
         for task in self._tasks.handed_over:
@@ -332,7 +339,7 @@ class VehicleControl:
         """Return why a move is not handed over: while it waited, people may have driven the vehicle elsewhere."""
         assert self.located is not None
         here = Pose(*order.end_point) if order else self.located.pose
-        return why_astray(self.vehicle, task.begin, self._in_site(here))
+        return why_astray(self.vehicle.description.name, task.begin, self._in_site(here))
 
     def _send_order(self, order: Order, now_s: float) -> None:
         self._sent_s = now_s

@@ -1,18 +1,26 @@
-"""A vehicle's factsheet as a VIPO description."""
+"""A vehicle's factsheet as a VIPO description, and its state as the properties that the description names; pure."""
 
 from __future__ import annotations
 
-import hashlib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot
 
 from connectors.vda5050.fields import Fields, read_fields
-from connectors.vda5050.messages import VehicleName, read_header
+from connectors.vda5050.messages import VehicleName, VehicleState, read_header
 from vipo_device.descriptions.plausibility import find_faults
-from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size, ValueType
-from vipo_device.protocol.messages import BadMessage, down_topic
+from vipo_device.protocol.description import (
+    Description,
+    MethodSpec,
+    ParameterSpec,
+    Pose,
+    PropertySpec,
+    Scalar,
+    Size,
+    ValueType,
+)
+from vipo_device.protocol.messages import MAX_TEXT, BadMessage, down_topic, fit_device_id
 
 HANDLING = ("pick", "drop")
 KEPT_FROM_PEOPLE = frozenset({"initPosition", "move", "pause", "resume", "cancel", *HANDLING})
@@ -116,17 +124,14 @@ def _action(fields: Fields) -> Action:
         fields.text("actionType", needed=True),
         frozenset(fields.words("actionScopes")),
         tuple(parameters),
-        fields.told("actionDescription"),
+        fields.lenient_text("actionDescription"),
     )
 
 
 def device_id(name: VehicleName) -> str:
     """Return the id of a vehicle's device; a hash keeps those apart that would look the same without it."""
     plain = f"{name.manufacturer}-{name.serial_number}"
-    fit = _UNFIT.sub("-", plain)
-    if fit == plain and "-" not in name.manufacturer and len(fit) <= 64:
-        return fit
-    return f"{fit[:57]}-{hashlib.sha256('/'.join(name).encode()).hexdigest()[:6]}"
+    return fit_device_id(plain, "/".join(name), is_unambiguous="-" not in name.manufacturer)
 
 
 def describe(name: VehicleName, sheet: Factsheet, home: Pose, site: str) -> Description:
@@ -188,3 +193,36 @@ def _method(device: str, action: Action) -> MethodSpec:
         if p.type in VALUE_TYPES and _NAME.fullmatch(p.key)
     )
     return MethodSpec(action.type, down_topic(device, action.type), "", action.text[:100] or action.type, parameters)
+
+
+def read_properties(state: VehicleState | None, sheet: Factsheet) -> dict[str, Scalar]:
+    """Return the values of the properties that the description names; what the vehicle does not tell is left out."""
+    if state is None:
+        return {}
+    found: dict[str, Scalar] = {
+        "driving": state.driving,
+        "charging": state.charging,
+        "mode": state.mode[:MAX_TEXT],
+        "error": _error_text(state),
+        "warning": _warning_text(state),
+    }
+    if state.battery_percent is not None:
+        found["battery"] = round(state.battery_percent)
+    if state.loads is not None and capacity(sheet):
+        found["load"] = _counted(state.loads)
+    return found
+
+
+def _error_text(state: VehicleState) -> str:
+    stop = [] if state.e_stop == "NONE" else [f"Emergency stop ({state.e_stop})"]
+    return "; ".join([*stop, *(e.sentence for e in state.errors if e.level == "FATAL")])[:MAX_TEXT]
+
+
+def _warning_text(state: VehicleState) -> str:
+    field = ["Something is in its protective field"] if state.field_violated else []
+    return "; ".join([*field, *(e.sentence for e in state.errors if e.level == "WARNING")])[:MAX_TEXT]
+
+
+def _counted(loads: tuple[str, ...]) -> str:
+    """Return loads as VIPO writes them: EPAL:2,box:1."""
+    return ",".join(f"{name}:{loads.count(name)}" for name in sorted(set(loads)))[:MAX_TEXT]

@@ -33,7 +33,7 @@ class Fields:
             self.refuse(name, f"text of 1 to {MAX_TEXT} characters" if needed else f"text of at most {MAX_TEXT}")
         return value
 
-    def told(self, name: str) -> str:
+    def lenient_text(self, name: str) -> str:
         """Return a text for people, cut where it is too long; it may be left out."""
         value = self.body.get(name)
         return value[:MAX_TEXT] if isinstance(value, str) else ""

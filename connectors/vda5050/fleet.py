@@ -1,4 +1,4 @@
-"""The connector: it listens to all vehicles of one interface, and has one member for each that it hears of."""
+"""The connector: it listens to all vehicles of one interface, and has one device for each that it hears of."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import logging
 import re
 import time
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from threading import Event, Lock
 
-from connectors.vda5050.member import Member, Setting, memory_path
 from connectors.vda5050.messages import VehicleName, read_connection, read_state
-from vipo_device.kit.connection import CameIn, Commanded, LineEvent, Stopped
+from connectors.vda5050.vehicle_device import Setting, VehicleDevice
+from connectors.vda5050.vehicle_memory import memory_path
+from vipo_device.kit.connection import CommandReceived, ConnectionEvent, IntroductionDue, StopChanged, leave
 from vipo_device.protocol.messages import BadMessage
 from vipo_device.protocol.mqtt_client import MqttClient
 
@@ -31,7 +31,7 @@ _LEVEL = re.compile(r"[^/+#$\x00-\x1f]{1,64}")
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class VehicleMessage:
     """A vehicle said something."""
 
     name: VehicleName
@@ -39,7 +39,7 @@ class Said:
     payload: bytes
 
 
-class Waiting:
+class InboxQuota:
     """How many messages of each vehicle wait, so that one that says too much is not heard at the others' expense."""
 
     def __init__(self) -> None:
@@ -72,14 +72,14 @@ class Fleet:
         self.refused: Counter[str] = Counter()
         self._client, self._interface = client, interface
         self._setting = setting
-        self._inbox: SimpleQueue[Said | LineEvent] = SimpleQueue()
-        self._members: dict[str, Member] = {}
-        self._by_name: dict[VehicleName, Member] = {}
-        self._waiting = Waiting()
+        self._inbox: SimpleQueue[VehicleMessage | ConnectionEvent] = SimpleQueue()
+        self._devices: dict[str, VehicleDevice] = {}
+        self._by_name: dict[VehicleName, VehicleDevice] = {}
+        self._quota = InboxQuota()
         self._complained_s: dict[str, float] = {}
 
     def run(self, stopping: Event) -> None:
-        """Serve until `stopping` is set; then say goodbye to VIPO, not to the vehicles: they finish their orders."""
+        """Serve until `stopping` is set; then tell VIPO that they go offline; the vehicles finish their orders."""
         for subtopic in SUBTOPICS:
             qos = 1 if subtopic == "connection" else 0
             self._client.subscribe(f"{self._interface}/{MAJOR}/+/+/{subtopic}", qos, self._hear)
@@ -88,8 +88,7 @@ class Fleet:
             self._serve(stopping)
         finally:
             self._client.stop()
-            with ThreadPoolExecutor(max_workers=max(1, len(self._members))) as pool:
-                list(pool.map(Member.leave, self._members.values()))
+            leave(device.connection for device in self._devices.values() if device.connection)
 
     def _serve(self, stopping: Event) -> None:
         ticked_s = 0.0
@@ -99,62 +98,62 @@ class Fleet:
             if (now := time.monotonic()) - ticked_s >= TICK_S:
                 ticked_s = now
                 is_reached = self._client.connected
-                for member in self._members.values():
-                    member.tick(now, is_reached=is_reached)
+                for device in self._devices.values():
+                    device.tick(now, is_reached=is_reached)
 
-    def _take(self, event: Said | LineEvent, now_s: float) -> None:
-        if isinstance(event, Said):
+    def _take(self, event: VehicleMessage | ConnectionEvent, now_s: float) -> None:
+        if isinstance(event, VehicleMessage):
             self._hear_vehicle(event, now_s)
             return
-        member = self._members[event.device]
+        device = self._devices[event.device]
         match event:
-            case Commanded(told=told):
-                member.command(told, now_s)
-            case Stopped(active=active):
-                member.hold(now_s, active=active)
-            case CameIn():
-                member.introduce()
+            case CommandReceived(command=command):
+                device.command(command, now_s)
+            case StopChanged(active=active):
+                device.hold(now_s, active=active)
+            case IntroductionDue():
+                device.introduce()
 
-    def _hear_vehicle(self, said: Said, now_s: float) -> None:
-        """Let a member hear; what cannot be read is counted, told once a minute, and harms nobody else."""
-        self._waiting.leave(said.name)
-        member = self._by_name.get(said.name)
+    def _hear_vehicle(self, said: VehicleMessage, now_s: float) -> None:
+        """Let a device hear; what cannot be read is counted, told once a minute, and harms nobody else."""
+        self._quota.leave(said.name)
+        device = self._by_name.get(said.name)
         try:
-            if member is None:
-                member = self._admit(said)
-            if member is not None:
-                member.hear(said.subtopic, said.payload, now_s)
+            if device is None:
+                device = self._admit(said)
+            if device is not None:
+                device.hear(said.subtopic, said.payload, now_s)
         except BadMessage as error:
-            who = member.id if member else STRANGERS
+            who = device.id if device else STRANGERS
             self.refused[who] += 1
             if now_s - self._complained_s.get(who, -COMPLAIN_EVERY_S) >= COMPLAIN_EVERY_S:
                 self._complained_s[who] = now_s
                 log.warning("%s: %s (%d refused so far)", who, error.detail, self.refused[who])
 
-    def _admit(self, said: Said) -> Member | None:
-        """Make a member of a vehicle that says that it is connected; nothing else of a stranger is listened to.
+    def _admit(self, said: VehicleMessage) -> VehicleDevice | None:
+        """Make a device of a vehicle that says that it is connected; nothing else of a stranger is listened to.
 
         Who has been a device before is known also by its state: a broker that was started anew may have forgotten the
         rest. Raises BadMessage.
         """
         if said.subtopic == "connection":
             read_connection(said.payload, said.name)
-        elif said.subtopic == "state" and memory_path(self._setting, said.name).exists():
+        elif said.subtopic == "state" and memory_path(self._setting.folder, said.name).exists():
             read_state(said.payload, said.name)
         else:
             return None
-        if len(self._members) >= MOST_VEHICLES:
+        if len(self._devices) >= MOST_VEHICLES:
             raise BadMessage(f"{'/'.join(said.name)} is one vehicle too many: a connector serves {MOST_VEHICLES}.")
-        member = Member(said.name, self._setting, self._publish, self._inbox.put)
-        self._members[member.id] = self._by_name[said.name] = member
-        return member
+        device = VehicleDevice(said.name, self._setting, self._publish, self._inbox.put)
+        self._devices[device.id] = self._by_name[said.name] = device
+        return device
 
     def _hear(self, topic: str, payload: bytes, _retained: bool) -> None:
         _, _, manufacturer, serial, subtopic = topic.rsplit("/", 4)
         name = VehicleName(manufacturer, serial)
         fits = payload and all(_LEVEL.fullmatch(level) for level in name)
-        if fits and self._inbox.qsize() < MOST_WAITING and self._waiting.enter(name):
-            self._inbox.put(Said(name, subtopic, payload))
+        if fits and self._inbox.qsize() < MOST_WAITING and self._quota.enter(name):
+            self._inbox.put(VehicleMessage(name, subtopic, payload))
 
     def _publish(self, name: VehicleName, subtopic: str, payload: bytes) -> None:
         self._client.publish(f"{self._interface}/{MAJOR}/{'/'.join(name)}/{subtopic}", payload, qos=0)

@@ -183,7 +183,7 @@ def read_state(payload: bytes, name: VehicleName) -> VehicleState:
         mode=fields.text("operatingMode", needed=True),
         e_stop=(safety.text("eStop") if safety else "") or "NONE",
         field_violated=safety is not None and safety.truth("fieldViolation") is True,
-        loads=tuple(load.told("loadType") or "load" for load in fields.each("loads"))
+        loads=tuple(load.lenient_text("loadType") or "load" for load in fields.each("loads"))
         if "loads" in fields.body
         else None,
         errors=tuple(_error(e) for e in fields.each("errors", needed=True)),
@@ -221,7 +221,7 @@ def _action(fields: Fields) -> ActionState:
     return ActionState(
         fields.text("actionId", needed=True),
         fields.text("actionStatus", needed=True),
-        fields.told("resultDescription"),
+        fields.lenient_text("resultDescription"),
     )
 
 
@@ -229,17 +229,17 @@ def _error(fields: Fields) -> VehicleError:
     level = fields.text("errorLevel", needed=True)
     if level not in {"WARNING", "FATAL"}:
         fields.refuse("errorLevel", "WARNING or FATAL")
-    references = tuple((r.told("referenceKey"), _reference(r)) for r in fields.each("errorReferences"))
+    references = tuple((r.lenient_text("referenceKey"), _reference(r)) for r in fields.each("errorReferences"))
     return VehicleError(
         fields.text("errorType", needed=True),
         cast("Level", level),
-        fields.told("errorDescription"),
+        fields.lenient_text("errorDescription"),
         references,
-        fields.told("errorHint"),
+        fields.lenient_text("errorHint"),
     )
 
 
 def _reference(fields: Fields) -> str:
     """Return what an error refers to; the standard wants texts, and some vehicles write an update's number as such."""
     value = fields.body.get("referenceValue")
-    return str(value) if isinstance(value, int) else fields.told("referenceValue")
+    return str(value) if isinstance(value, int) else fields.lenient_text("referenceValue")

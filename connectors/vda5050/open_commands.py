@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict
 from typing import Any
 
-from connectors.commands import OPEN, Answers
 from connectors.vda5050.tasks import Task, task_from_json, task_to_json
+from vipo_device.kit.answers import AnswerLedger
 from vipo_device.protocol.messages import AckMessage, AckStatus
 
 BEFORE = "The way before it failed."
@@ -19,7 +19,7 @@ class OpenTasks:
     def __init__(self, tell: Callable[[AckMessage], None]) -> None:
         self._tell = tell
         self._tasks: list[Task] = []
-        self._answers = Answers()
+        self._answers = AnswerLedger()
 
     def __iter__(self) -> Iterator[Task]:
         return iter(tuple(self._tasks))
@@ -76,8 +76,7 @@ class OpenTasks:
 
     def is_over(self, command: str) -> bool:
         """Tell whether a command has had its final answer."""
-        said = self.find(command)
-        return said is not None and said.status not in OPEN
+        return self._answers.is_over(command)
 
     def say(self, command: str, status: AckStatus, why: str = "") -> None:
         """Answer a command, whether it is one of these or not."""
@@ -97,4 +96,4 @@ class OpenTasks:
         """Take up what to_json wrote."""
         self._tasks = [task_from_json(task) for task in body["tasks"]]
         over, under_way = (tuple(AckMessage(**ack) for ack in body[name]) for name in ("over", "under_way"))
-        self._answers = Answers(over, under_way)
+        self._answers = AnswerLedger(over, under_way)

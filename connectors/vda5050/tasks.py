@@ -1,23 +1,21 @@
-"""Commands of the server, turned into what a vehicle can be ordered to do."""
+"""Commands of the server, turned into what a vehicle can be ordered to do, and into which order; pure."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from math import hypot
 from typing import Any
 
-from connectors.commands import is_number
 from connectors.vda5050.coordinates import Frame, Point
 from connectors.vda5050.factsheet import HANDLING, Factsheet, capacity, offered_actions
-from connectors.vda5050.messages import DRIVING_MODES, VehicleState
-from connectors.vda5050.orders import OURS, Waypoint
+from connectors.vda5050.messages import DRIVING_MODES, Located, VehicleState
+from connectors.vda5050.orders import OURS, Order, Waypoint, action, begin_actions, begin_drive, extend_drive
+from vipo_device.kit.arguments import read_move, why_astray
+from vipo_device.protocol.arguments import is_number
 from vipo_device.protocol.description import Description
-from vipo_device.protocol.messages import Told
+from vipo_device.protocol.messages import DeviceCommand
 
 MOST_POINTS = 200
-ASTRAY_M = 0.6
-"""How far from its end the next piece of way may begin."""
 
 
 @dataclass(slots=True)
@@ -64,15 +62,15 @@ class Vehicle:
         return self.sheet.can("startPause", "INSTANT") and self.sheet.can("stopPause", "INSTANT")
 
 
-def read_task(vehicle: Vehicle, told: Told, way_begins: Point | None) -> Task | str:
+def read_task(vehicle: Vehicle, command: DeviceCommand, way_begins: Point | None) -> Task | str:
     """Return the task of a command, or why it cannot be; `way_begins` is where a piece has to begin (site frame)."""
-    if vehicle.description.method(told.method) is None:
+    if vehicle.description.method(command.method) is None:
         known = ", ".join(method.name for method in vehicle.description.methods)
-        return f"{vehicle.description.name} cannot {told.method}; it can: {known}."
-    if told.method == "move":
-        return _read_move(vehicle, told, way_begins)
-    why = _misfit(vehicle, told) if told.method in HANDLING else _misfit_of_action(vehicle, told)
-    return why or Task(told.command, told.method, dict(told.arguments))
+        return f"{vehicle.description.name} cannot {command.method}; it can: {known}."
+    if command.method == "move":
+        return _read_move(vehicle, command, way_begins)
+    why = _misfit(vehicle, command) if command.method in HANDLING else _misfit_of_action(vehicle, command)
+    return why or Task(command.id, command.method, dict(command.arguments))
 
 
 def action_parameters(vehicle: Vehicle, task: Task) -> list[dict[str, object]]:
@@ -86,25 +84,20 @@ def action_parameters(vehicle: Vehicle, task: Task) -> list[dict[str, object]]:
     return [{key: value for key, value in known.items() if key in listed}] * int(task.arguments.get("value") or 1)
 
 
-def _read_move(vehicle: Vehicle, told: Told, way_begins: Point | None) -> Task | str:
-    path, theta, speed = (told.arguments.get(name) for name in ("path", "theta", "speed"))
-    if not isinstance(path, list) or not 1 <= len(path) <= MOST_POINTS or not all(_is_point(p) for p in path):
+def _read_move(vehicle: Vehicle, command: DeviceCommand, way_begins: Point | None) -> Task | str:
+    if not _is_path(command.arguments.get("path")):
         return f"move needs a path: a list of 1 to {MOST_POINTS} points [x, y] in metres."
-    if theta is not None and not is_number(theta):
-        return "theta must be a number in radians."
-    if speed is not None and not (is_number(speed) and float(str(speed)) > 0):
-        return "speed must be a number above 0, in metres a second."
-    begin = told.arguments.get("from")
-    if begin is not None and not _is_point(begin):
-        return "from must be a point [x, y] in metres."
-    if why := why_astray(vehicle, _point(begin), way_begins):
+    move = read_move(command.arguments)
+    if isinstance(move, str):
+        return move
+    if why := why_astray(vehicle.description.name, move.begin, way_begins):
         return why
-    limit = float(str(speed)) if speed is not None else None
-    points = [vehicle.frame.to_vehicle((p[0], p[1])) for p in path]
-    heading = vehicle.frame.heading_to_vehicle(float(str(theta))) if theta is not None else None
-    way = [Waypoint(p, speed_m_s=limit) for p in points[:-1]] + [Waypoint(points[-1], heading, limit)]
-    ahead = tuple(_ahead(vehicle, told.arguments.get("ahead")))
-    return Task(told.command, "move", {}, tuple(way), ahead, begin=_point(told.arguments.get("from")))
+    points = [vehicle.frame.to_vehicle(point) for point in move.path]
+    heading = vehicle.frame.heading_to_vehicle(move.theta) if move.theta is not None else None
+    way = [Waypoint(p, speed_m_s=move.speed_m_s) for p in points[:-1]]
+    way.append(Waypoint(points[-1], heading, move.speed_m_s))
+    ahead = tuple(_ahead(vehicle, command.arguments.get("ahead")))
+    return Task(command.id, "move", {}, tuple(way), ahead, begin=move.begin)
 
 
 def _ahead(vehicle: Vehicle, value: object) -> list[Point]:
@@ -114,14 +107,8 @@ def _ahead(vehicle: Vehicle, value: object) -> list[Point]:
     return [vehicle.frame.to_vehicle((p[0], p[1])) for p in value[:MOST_POINTS]]
 
 
-def why_astray(vehicle: Vehicle, begin: Point | None, here: Point | None) -> str:
-    """Return why a way that begins elsewhere is not driven: to get there straight on may lead through walls."""
-    if begin is None:
-        return ""
-    if here is None:
-        return f"{vehicle.description.name} does not know where it is."
-    away_m = hypot(begin[0] - here[0], begin[1] - here[1])
-    return f"The way begins {away_m:.1f} m from where {vehicle.description.name} will be." if away_m > ASTRAY_M else ""
+def _is_path(value: object) -> bool:
+    return isinstance(value, list) and 1 <= len(value) <= MOST_POINTS and all(_is_point(p) for p in value)
 
 
 def _is_point(value: object) -> bool:
@@ -132,8 +119,8 @@ def _point(value: object) -> Point | None:
     return (float(value[0]), float(value[1])) if isinstance(value, list) and _is_point(value) else None
 
 
-def _misfit(vehicle: Vehicle, told: Told) -> str:
-    load, count = told.arguments.get("object"), told.arguments.get("value")
+def _misfit(vehicle: Vehicle, command: DeviceCommand) -> str:
+    load, count = command.arguments.get("object"), command.arguments.get("value")
     if not isinstance(load, str) or not load:
         return "An object must be named."
     if vehicle.sheet.load_types and load not in vehicle.sheet.load_types:
@@ -141,23 +128,23 @@ def _misfit(vehicle: Vehicle, told: Told) -> str:
     most = capacity(vehicle.sheet) or 1
     if count is not None and not (is_number(count) and count in range(1, most + 1)):
         return f"The quantity must be a whole number from 1 to {most}."
-    return "" if isinstance(told.arguments.get("device", ""), str) else "device must be a device's id."
+    return "" if isinstance(command.arguments.get("device", ""), str) else "device must be a device's id."
 
 
-def _misfit_of_action(vehicle: Vehicle, told: Told) -> str:
-    action = next(a for a in offered_actions(vehicle.sheet) if a.type == told.method)
+def _misfit_of_action(vehicle: Vehicle, command: DeviceCommand) -> str:
+    action = next(a for a in offered_actions(vehicle.sheet) if a.type == command.method)
     kinds = {"BOOL": bool, "STRING": str}
     for parameter in action.parameters:
-        value = told.arguments.get(parameter.key)
+        value = command.arguments.get(parameter.key)
         if value is None:
             if not parameter.optional:
-                return f"{told.method} needs a value for {parameter.key}."
+                return f"{command.method} needs a value for {parameter.key}."
             continue
         fits = isinstance(value, kinds[parameter.type]) if parameter.type in kinds else is_number(value)
         if parameter.type == "INTEGER" and fits:
             fits = value == int(str(value).split(".")[0])
         if not fits:
-            return f"{told.method}: {parameter.key} must be of the type {parameter.type}."
+            return f"{command.method}: {parameter.key} must be of the type {parameter.type}."
     return ""
 
 
@@ -199,3 +186,34 @@ def why_not(name: str, state: VehicleState, *, is_located: bool) -> str:
 def works_for_others(state: VehicleState) -> bool:
     """Tell whether the vehicle drives by an order that is not VIPO's."""
     return state.has_way_left and not state.order.startswith(OURS)
+
+
+def growing(order: Order | None, state: VehicleState, *, is_under_way: bool) -> Order | None:
+    """Return the order if it is one that grows: of a vehicle that drives, or waits at the end of its base."""
+    return order if order and order.kind == "drive" and (is_under_way or state.has_horizon) else None
+
+
+def next_order(
+    vehicle: Vehicle, located: Located, waiting: Sequence[Task], grown: Order | None, new_id: Callable[[], str]
+) -> Order:
+    """Return the order for what is first in turn: moves in one that grows, anything else in one of its own.
+
+    A horizon is taken away first, since only then does a vehicle take an order of another kind.
+    """
+    drives = drives_in_front(waiting)
+    if not drives:
+        return extend_drive(grown, (), ()) if grown else _acting(vehicle, located, waiting[0], OURS + new_id())
+    end = grown.end_sequence if grown else 0
+    for task in drives:
+        task.last = end = end + 2 * len(task.way)
+    way, ahead = [waypoint for task in drives for waypoint in task.way], drives[-1].ahead
+    if grown:
+        return extend_drive(grown, way, ahead)
+    return begin_drive(OURS + new_id(), located.map_id, (located.pose.x, located.pose.y), way, ahead)
+
+
+def _acting(vehicle: Vehicle, located: Located, task: Task, name: str) -> Order:
+    parameters = action_parameters(vehicle, task)
+    task.actions = tuple(f"{name}-{count}" for count in range(len(parameters)))
+    actions = [action(i, task.method, p) for i, p in zip(task.actions, parameters, strict=True)]
+    return begin_actions(name, located.map_id, (located.pose.x, located.pose.y), actions)

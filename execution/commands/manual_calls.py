@@ -15,7 +15,6 @@ from django.db import transaction
 from django.db.models import F
 
 from execution import mailbox
-from execution.call_arguments import find_misfits
 from execution.commands.claim import CONTROLS
 from execution.errors import BadArguments, NotFound, NotPossibleNow
 from execution.floor.advance import site_id
@@ -24,6 +23,7 @@ from execution.models import Command, FloorState, Run
 from execution.runs.reasons import cause_of
 from execution.traffic import floor
 from registry import services as registry
+from vipo_device.protocol.arguments import find_misfits
 
 EXPIRY_S = 30.0
 """A call that no device has answered after so long is given up: a person waits, and a late start would surprise."""

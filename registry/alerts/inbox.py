@@ -9,9 +9,9 @@ from django.db import transaction
 
 from registry.alerts.causes import AlertCode
 from registry.alerts.views import AlertState, AlertView, publish_alerts, readable, view_of
+from registry.errors import RegistryError
 from registry.models import DeviceAlert, Site, User
 from registry.sites.sites import find_site
-from vipo_device.protocol.errors import RegistryError
 
 KEPT_FOR = timedelta(days=30)
 KEPT_AT_MOST = 1000

@@ -11,12 +11,12 @@ from registry import services
 from registry.devices.rows import NoSuchDevice
 from registry.devices.things import EVENTS, EventName, device_id_of
 from registry.devices.views import DeviceView
+from registry.errors import RegistryError
 from registry.people.access import find_access, list_visible
 from registry.shapes import signed_in
 from registry.thing_directory.answers import MERGE_PATCH, answer_thing, change_thing, open_stream
 from registry.thing_directory.own_thing import directory_thing
 from registry.thing_directory.pages import Page, answer_page, list_page
-from vipo_device.protocol.errors import RegistryError
 
 router = Router(tags=["directory"])
 READ = ["GET", "HEAD"]

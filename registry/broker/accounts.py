@@ -19,8 +19,8 @@ from django.db import transaction
 from django.utils.module_loading import import_string
 
 from registry.broker.mosquitto_file import role_of
+from registry.errors import RegistryError
 from registry.live.fanout import wait_wake, wake
-from vipo_device.protocol.errors import RegistryError
 from vipo_device.protocol.mqtt_client import MqttClient
 
 CONTROL = "$CONTROL/dynamic-security/v1"

@@ -23,10 +23,10 @@ from registry.devices.authentication import list_broker_hashes
 from registry.devices.history import history_text, write_event
 from registry.devices.rows import STARTS, announce, forget_starts, lock_device
 from registry.devices.views import DeviceView, view_of
+from registry.errors import RegistryError
 from registry.models import Device, User
 from registry.sites.sites import set_enrolment_key
 from vipo_device.protocol.credentials import broker_hash, make_credential, secret_hash
-from vipo_device.protocol.errors import RegistryError
 from vipo_device.protocol.messages import BadMessage, down_topic, parse_ack, up_topic
 from vipo_device.protocol.mqtt_client import MqttClient, MqttError
 

@@ -24,9 +24,9 @@ from vipo_device.descriptions.changes import list_changes
 from vipo_device.descriptions.forms import CONTENT_TYPES
 from vipo_device.descriptions.reader import Reading, hash_of_json, read, source_hash
 from vipo_device.protocol.description import description_from_json, description_to_json
-from vipo_device.protocol.errors import RegistryError
-from vipo_device.protocol.faults import Fault, facts_of, told
-from vipo_device.protocol.topics import list_asked
+from vipo_device.protocol.errors import VipoError
+from vipo_device.protocol.faults import Fault, facts_of, refusal_facts
+from vipo_device.protocol.topics import list_legacy_methods
 
 MOST_LINES = 8
 SEEN_EVERY = timedelta(seconds=5)
@@ -53,7 +53,7 @@ class _News:
     reading: Reading
 
 
-Fate = DeviceView | RegistryError
+Fate = DeviceView | VipoError
 """The device as it is now, or why its description was refused."""
 
 
@@ -77,7 +77,7 @@ def ingest_description(*, device_id: str, payload: bytes, at: datetime) -> Devic
         device = known.get()
         return view_of(device, device.site.slug)
     (fate,) = ingest_descriptions(descriptions=[DescriptionMessage(device_id, payload, at)])
-    if isinstance(fate, RegistryError):
+    if isinstance(fate, VipoError):
         raise fate
     return fate
 
@@ -90,7 +90,7 @@ def ingest_descriptions(*, descriptions: Sequence[DescriptionMessage]) -> tuple[
         try:
             check_id(each.device_id)
             found.append(_News(each, read(each.payload, device_id=each.device_id)))
-        except RegistryError as error:
+        except VipoError as error:
             fates[each.device_id] = error
     sites = _find_sites(found)
     homeless = _make_rows(found, sites)
@@ -102,7 +102,7 @@ def ingest_descriptions(*, descriptions: Sequence[DescriptionMessage]) -> tuple[
 
 def _part(found: Sequence[_News]) -> tuple[list[_News], list[_News]]:
     """Set aside those who ask for topics that are not theirs yet, which others may have."""
-    asking = {news.said.device_id: {m.topic for m in list_asked(news.reading.description)} for news in found}
+    asking = {news.said.device_id: {m.topic for m in list_legacy_methods(news.reading.description)} for news in found}
     who = [device for device, topics in asking.items() if topics]
     claims = TopicClaim.objects.filter(device__in=who).values_list("device", "topic") if who else ()
     for device, topic in claims:
@@ -119,7 +119,7 @@ def _find_sites(found: Sequence[_News]) -> dict[str, Site]:
 def _site_for(slug: str, sites: Mapping[str, Site]) -> Site:
     site = sites.get(slug) or sites.get(settings.VIPO_DEFAULT_SITE)
     if site is None:
-        raise BadDevice(*told("no_site", site=slug[:64]))
+        raise BadDevice(*refusal_facts("no_site", site=slug[:64]))
     return site
 
 
@@ -148,7 +148,7 @@ def _take(some: list[_News], sites: Mapping[str, Site]) -> dict[str, Fate]:
     try:
         with transaction.atomic():
             return _take_locked({news.said.device_id: news for news in some}, sites)
-    except RegistryError as error:
+    except VipoError as error:
         if len(some) == 1:
             return {some[0].said.device_id: error}
     return {device: fate for news in some for device, fate in _take([news], sites).items()}

@@ -28,7 +28,7 @@ from vipo_device.protocol.credentials import (
     make_credential,
     secret_hash,
 )
-from vipo_device.protocol.faults import fault, told
+from vipo_device.protocol.faults import fault, refusal_facts
 from vipo_device.protocol.messages import BadMessage, parse_json
 
 MOST_PENDING = 200
@@ -85,15 +85,15 @@ def _make_room(site_id: int, at: datetime) -> None:
         accounts().remove(device.pk)
         device.delete()
     if waiting.count() >= MOST_PENDING:
-        raise BadDevice(*told("newcomers", most=MOST_PENDING))
+        raise BadDevice(*refusal_facts("newcomers", most=MOST_PENDING))
 
 
 def _require_keyless(device: Device, site_id: int) -> None:
     if not device.credential_hash and device.lifecycle == Device.Lifecycle.APPROVED and device.site_id == site_id:
-        raise BadDevice(*told("knock_revoked", device=device.pk))
+        raise BadDevice(*refusal_facts("knock_revoked", device=device.pk))
     if device.lifecycle != Device.Lifecycle.PENDING or device.credential_hash or device.site_id != site_id:
         note_alert(device_id=device.pk, code="foreign_knock")
-        raise BadDevice(*told("knock_foreign", device=device.pk))
+        raise BadDevice(*refusal_facts("knock_foreign", device=device.pk))
 
 
 @dataclass(frozen=True, slots=True)

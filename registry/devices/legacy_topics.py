@@ -16,11 +16,11 @@ from registry.broker.accounts import accounts
 from registry.devices.history import history_text, write_event
 from registry.devices.rows import announce, lock_device
 from registry.devices.views import DeviceView, view_of
+from registry.errors import RegistryError
 from registry.models import Device, TopicClaim, User
 from vipo_device.protocol.description import Description, description_from_json
-from vipo_device.protocol.errors import RegistryError
-from vipo_device.protocol.faults import told
-from vipo_device.protocol.topics import list_asked
+from vipo_device.protocol.faults import refusal_facts
+from vipo_device.protocol.topics import list_legacy_methods
 
 
 class TopicTaken(RegistryError):
@@ -42,8 +42,8 @@ def claim_topics(device: Device, before: Description | None, after: Description,
 
     What it no longer names, or names for another method, is gone with its confirmation. Raises TopicTaken, BrokerAway.
     """
-    asked = {method.name: method.topic for method in list_asked(after)}
-    if device.lifecycle == Device.Lifecycle.RETIRED or not (asked or (before and list_asked(before))):
+    asked = {method.name: method.topic for method in list_legacy_methods(after)}
+    if device.lifecycle == Device.Lifecycle.RETIRED or not (asked or (before and list_legacy_methods(before))):
         return
     held = dict(TopicClaim.objects.filter(device=device).values_list("method", "topic"))
     _give_up(device, {name: topic for name, topic in held.items() if asked.get(name) != topic}, at)
@@ -57,7 +57,7 @@ def _ask(device: Device, method: str, topic: str, at: datetime) -> None:
         topic=topic, defaults={"device": device, "method": method, "asked_at": at}
     )
     if claim.device_id != device.pk:
-        raise TopicTaken(*told("topic_taken", method=method, topic=topic))
+        raise TopicTaken(*refusal_facts("topic_taken", method=method, topic=topic))
     if made:
         write_event(device, at, "topic_asked", history_text("topic_asked", topic=topic, method=method))
 
@@ -90,7 +90,7 @@ def release_topics(device: Device, at: datetime) -> None:
 
 def claim_again(device: Device, at: datetime) -> None:
     """Let a device that may come back ask for what its description names, save what others have taken meanwhile."""
-    for method in list_asked(description_from_json(device.description or {})):
+    for method in list_legacy_methods(description_from_json(device.description or {})):
         TopicClaim.objects.get_or_create(
             topic=method.topic, defaults={"device": device, "method": method.name, "asked_at": at}
         )

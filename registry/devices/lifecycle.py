@@ -18,11 +18,11 @@ from registry.devices.legacy_topics import claim_again, release_topics
 from registry.devices.rows import STARTS, BadDevice, announce, forget_starts, lock_device
 from registry.devices.things import record_thing
 from registry.devices.views import DeviceView, view_of
+from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Device, User
 from vipo_device.protocol.credentials import make_credential
 from vipo_device.protocol.description import Pose
-from vipo_device.protocol.errors import RegistryError
 
 Lifecycle = Device.Lifecycle
 

@@ -8,10 +8,10 @@ from django.db import transaction
 
 from registry.devices.things import record_things
 from registry.devices.views import DeviceView, changed_fields
+from registry.errors import RegistryError
 from registry.live.fanout import publish_all
 from registry.models import Device, RobotMapDraft
-from vipo_device.protocol.errors import RegistryError
-from vipo_device.protocol.faults import told
+from vipo_device.protocol.faults import refusal_facts
 from vipo_device.protocol.messages import is_device_id
 
 STARTS = ("boot", "seq", "presence_boot")
@@ -36,7 +36,7 @@ class BadDevice(RegistryError):
 def check_id(device_id: str) -> None:
     """Raise BadDevice for an id that no device can have."""
     if not is_device_id(device_id) or device_id in RESERVED_IDS:
-        raise BadDevice(*told("device_id"))
+        raise BadDevice(*refusal_facts("device_id"))
 
 
 def lock_device(site: str, device_id: str) -> Device:

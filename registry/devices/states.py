@@ -19,7 +19,7 @@ from registry.devices.views import DeviceView, changed_state, view_of
 from registry.live.fanout import publish_all
 from registry.models import Device
 from vipo_device.protocol.description import DeviceState
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import parse_state
 
 MOST_READINGS = 128
@@ -39,7 +39,7 @@ class StateMessage:
     retained: bool = False
 
 
-Outcome = DeviceView | RegistryError | None
+Outcome = DeviceView | VipoError | None
 """The device as it is now; why its message was refused; None when it was old, or of a device that nobody knows."""
 
 
@@ -50,7 +50,7 @@ def ingest_states(*, states: Sequence[StateMessage]) -> tuple[Outcome, ...]:
     for message in states:
         try:
             said[message.device_id] = (parse_state(message.payload), message)
-        except RegistryError as error:
+        except VipoError as error:
             outcomes[message.device_id] = error
     if said:
         with transaction.atomic():
@@ -64,7 +64,7 @@ def ingest_state(*, device_id: str, payload: bytes, at: datetime, retained: bool
     A retained message tells how the device was, not that it is there now.
     """
     (outcome,) = ingest_states(states=[StateMessage(device_id, payload, at, retained)])
-    if isinstance(outcome, RegistryError):
+    if isinstance(outcome, VipoError):
         raise outcome
     return outcome
 

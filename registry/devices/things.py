@@ -17,11 +17,11 @@ from django.db import connection, transaction
 from django.db.models import Max
 
 from registry.devices.views import DeviceView
+from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Site, ThingEvent
 from vipo_device.descriptions.thing_description import DEVICE_URN, thing_of
 from vipo_device.protocol.description import Description, Pose
-from vipo_device.protocol.errors import RegistryError
 
 EventName = Literal["thing_created", "thing_updated", "thing_deleted"]
 EVENTS: tuple[EventName, ...] = ("thing_created", "thing_updated", "thing_deleted")

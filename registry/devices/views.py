@@ -13,7 +13,7 @@ from registry.devices.activity import NOT_TRUSTED, NOTHING, Activity, Seen, acti
 from registry.models import Device
 from vipo_device.descriptions.forms import CONTENT_TYPES
 from vipo_device.protocol.description import Description, MethodSpec, Pose, PropertySpec, Scalar, description_from_json
-from vipo_device.protocol.topics import part_methods
+from vipo_device.protocol.topics import split_methods
 
 Status = Literal["idle", "busy", "done", "waiting", "warning", "error", "offline", "pending"]
 _ICONS = {"turtlebot": "turtle"}
@@ -73,7 +73,7 @@ class DeviceView:
 def view_of(device: Device, site: str) -> DeviceView:
     """Return the view of a device's row, which has been described."""
     said = effective_description(device)
-    callable_methods, asks = part_methods(said, device.granted)
+    callable_methods, asks = split_methods(said, device.granted)
     canonical = replace(said, methods=callable_methods) if asks else said
     readings: dict[str, Scalar] = dict(device.properties)
     view = DeviceView(

@@ -19,8 +19,8 @@ import yaml
 from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
+from registry.errors import RegistryError
 from registry.floorplan.plan import FREE, OCCUPIED, UNKNOWN, Grid, cells_array
-from vipo_device.protocol.errors import RegistryError
 
 MAX_SIDE = 4096
 MAX_IMAGE_BYTES = 16 * 1024 * 1024

@@ -10,11 +10,11 @@ from django.db import transaction
 
 from registry.devices.history import history_text, write_event
 from registry.devices.queries import get_device
+from registry.errors import RegistryError
 from registry.floorplan.map_message import plain_grid
 from registry.floorplan.plan import UNKNOWN, Grid
 from registry.live.fanout import publish
 from registry.models import Device, DeviceEvent, RobotMap
-from vipo_device.protocol.errors import RegistryError
 
 EVENT_EVERY = timedelta(hours=1)
 

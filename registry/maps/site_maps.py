@@ -14,6 +14,7 @@ from django.db import models, transaction
 
 from registry.devices.queries import list_devices
 from registry.devices.views import effective_description
+from registry.errors import RegistryError
 from registry.floorplan.comparison import MapDifference, NamedPoint, compare_maps
 from registry.floorplan.map_server import check_size, read_map
 from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
@@ -23,7 +24,6 @@ from registry.models import Device, Site, SiteMap, User
 from registry.sites.sites import create_site, find_site, get_site, list_places
 from registry.sites.views import SiteView
 from vipo_device.protocol.description import Description
-from vipo_device.protocol.errors import RegistryError
 
 MOST_VERSIONS = 50
 

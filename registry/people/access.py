@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from registry.errors import RegistryError
 from registry.models import Membership, Site
-from vipo_device.protocol.errors import RegistryError
 
 if TYPE_CHECKING:
     from django.contrib.auth.base_user import AbstractBaseUser

@@ -10,8 +10,8 @@ from django.core.exceptions import ValidationError
 from django.core.validators import validate_email
 from django.db import IntegrityError, transaction
 
+from registry.errors import RegistryError
 from registry.models import SignInFailure, User
-from vipo_device.protocol.errors import RegistryError
 
 WINDOW = timedelta(minutes=15)
 MOST_NAME = 100

@@ -15,8 +15,8 @@ from django.conf import settings
 
 from registry.devices.queries import list_devices
 from registry.devices.views import DeviceView
+from registry.errors import RegistryError
 from vipo_device.protocol.description import description_to_json
-from vipo_device.protocol.errors import RegistryError
 
 CPU_S = 5
 WALL_S = 30.0

@@ -15,11 +15,11 @@ from registry.devices.lifecycle import update_device
 from registry.devices.rows import lock_device
 from registry.devices.things import read_patch, thing_tag, thing_text
 from registry.devices.views import DeviceView, view_of
+from registry.errors import RegistryError
 from registry.models import User
 from registry.people.access import require
 from registry.people.sessions import session_of
 from registry.thing_directory.event_stream import Listener, check_room, stream_events
-from vipo_device.protocol.errors import RegistryError
 
 MERGE_PATCH = "application/merge-patch+json"
 

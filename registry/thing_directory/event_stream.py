@@ -15,11 +15,11 @@ from typing import Any
 from asgiref.sync import sync_to_async
 
 from registry.devices.things import THINGS, ThingNews, is_kept_since, newest_news, read_news
+from registry.errors import RegistryError
 from registry.live.fanout import Message, listen
 from registry.people.access import list_visible
 from registry.people.sessions import Session, find_person
 from vipo_device.descriptions.thing_description import DEVICE_URN
-from vipo_device.protocol.errors import RegistryError
 
 MOST_AT_ONCE = 50
 MOST_BYTES = 1_000_000

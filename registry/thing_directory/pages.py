@@ -14,9 +14,9 @@ from ninja import Field, Schema
 
 from registry.devices.things import newest_news, thing_tag, thing_to_json
 from registry.devices.views import DeviceView, view_of
+from registry.errors import RegistryError
 from registry.models import Device
 from vipo_device.descriptions.forms import TD_CONTEXT
-from vipo_device.protocol.errors import RegistryError
 
 DISCOVERY_CONTEXT = "https://www.w3.org/2022/wot/discovery"
 SORTED_BY = ("id", "title")

@@ -1,4 +1,4 @@
-"""What every pretend device has in common: answers, readings, pause and cancel, and faults on purpose."""
+"""What every simulated device has in common: answers, readings, pause and cancel, and faults on purpose."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
-from vipo_device.kit.answers import REMEMBERED, Answer, Ledger
-from vipo_device.kit.arguments import refusal_of_arguments
+from vipo_device.kit.answers import REMEMBERED, AnswerLedger
+from vipo_device.protocol.arguments import refusal_of_arguments
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
+from vipo_device.protocol.messages import CONTROLS, AckMessage
 
 Emit = Callable[[WorldEvent], None]
-CONTROLS = frozenset({"pause", "resume", "cancel"})
 
 
 def starting_value(spec: PropertySpec) -> Scalar:
@@ -25,28 +25,28 @@ def starting_value(spec: PropertySpec) -> Scalar:
 
 
 @dataclass(frozen=True, slots=True)
-class Beginning:
+class InitialState:
     """How a device is when the world begins; `holds` is a machine's stock or a robot's load, None as usual."""
 
     readings: Mapping[str, Scalar] = field(default_factory=dict)
     holds: Mapping[str, int] | None = None
     faults: tuple[Fault, ...] = ()
-    remembered: Mapping[str, Answer] = field(default_factory=dict)
+    remembered: tuple[AckMessage, ...] = ()
     seed: int = 0
 
 
 class Actor(ABC):
-    """A pretend device. Frozen while paused (by a command), held (by the site's stop) or stopped (by a fault)."""
+    """A simulated device. Frozen while paused (by a command), held (by the site's stop) or stopped (by a fault)."""
 
-    def __init__(self, description: Description, emit: Emit, beginning: Beginning) -> None:
+    def __init__(self, description: Description, emit: Emit, initial: InitialState) -> None:
         self.description = description
-        known = beginning.readings
+        known = initial.readings
         self.readings = {p.name: known.get(p.name, starting_value(p)) for p in description.properties}
-        self.ledger = Ledger(beginning.remembered)
+        self.ledger = AnswerLedger(initial.remembered)
         self.held = False
         self._pauses: list[str] = []
         self._emit = emit
-        self._waiting_faults = sorted(beginning.faults, key=lambda f: f.at_s)
+        self._waiting_faults = sorted(initial.faults, key=lambda f: f.at_s)
         self._faults: set[str] = set()
 
     @property
@@ -69,7 +69,7 @@ class Actor(ABC):
 
     @property
     def frozen(self) -> bool:
-        """True while the device stands still whatever it was told."""
+        """True while the device stands still whatever its commands are."""
         return self.paused or self.held or "stop" in self._faults
 
     def command(self, t_s: float, method: str, arguments: Mapping[str, object], command: str) -> None:
@@ -77,12 +77,12 @@ class Actor(ABC):
         self.notice_faults(t_s)
         if "offline" in self._faults:
             return
-        if known := self.ledger.answer(command):
-            self._emit(Ack(t_s, self.description.id, command, known.status, known.why, known.result))
+        if known := self.ledger.find(command):
+            self._emit_ack(t_s, known)
         elif method in CONTROLS:
             self._control(t_s, method, arguments, command)
         elif why := self._refusal(t_s, method, arguments, command):
-            self._say(t_s, command, Answer("REJECTED", why))
+            self._say(t_s, AckMessage(command, "REJECTED", why))
 
     def notice_faults(self, t_s: float) -> None:
         """Let the faults begin whose time has come."""
@@ -114,32 +114,34 @@ class Actor(ABC):
             self._pauses = [*self._pauses, target][-REMEMBERED:]
         else:
             self._pauses = [command for command in self._pauses if target not in {"", command}]
-        self._say(t_s, command, Answer("DONE"))
+        self._say(t_s, AckMessage(command, "DONE"))
 
     def _cancel_named(self, t_s: float, target: object) -> None:
         if target is None or target == "":
             self._cancel(t_s, "")
         elif isinstance(target, str) and self.ledger.is_under_way(target):
             self._cancel(t_s, target)
-        elif isinstance(target, str) and self.ledger.answer(target) is None:
+        elif isinstance(target, str) and self.ledger.find(target) is None:
             # The command that was cancelled may still be on its way here: it must not be carried out when it comes.
-            self.ledger.note(target, Answer("CANCELED", "It was cancelled before it arrived."))
+            self.ledger.note(AckMessage(target, "CANCELED", "It was cancelled before it arrived."))
 
-    def _say(self, t_s: float, command: str, answer: Answer) -> None:
-        self.ledger.note(command, answer)
-        is_final = answer.status not in {"ACCEPTED", "RUNNING"}
+    def _say(self, t_s: float, ack: AckMessage) -> None:
+        self.ledger.note(ack)
         if "offline" in self._faults:
             return
-        if is_final and "lose_ack" in self._faults:
+        if ack.is_final and "lose_ack" in self._faults:
             self._faults.discard("lose_ack")
             return
-        self._emit(Ack(t_s, self.description.id, command, answer.status, answer.why, answer.result))
+        self._emit_ack(t_s, ack)
+
+    def _emit_ack(self, t_s: float, ack: AckMessage) -> None:
+        self._emit(Ack(t_s, self.description.id, ack.command, ack.status, ack.why, ack.result))
 
     def _say_done(self, t_s: float, command: str, result: Mapping[str, Scalar] | None = None) -> bool:
         """Say that a command succeeded, unless a fault makes it fail; True if it succeeded."""
         if "fail_next" in self._faults:
             self._faults.discard("fail_next")
-            self._say(t_s, command, Answer("FAILED", f"{self.description.name} broke down (a fault on purpose)."))
+            self._say(t_s, AckMessage(command, "FAILED", f"{self.description.name} broke down (a fault on purpose)."))
             return False
-        self._say(t_s, command, Answer("DONE", result=result or {}))
+        self._say(t_s, AckMessage(command, "DONE", result=result or {}))
         return True

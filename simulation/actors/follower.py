@@ -85,7 +85,7 @@ class Leg:
         return distance if distance > NEAR_M else 0.0
 
     def bearing(self, motion: Motion, left_m: float) -> float:
-        """Return the direction to a point a little ahead on the way, so that bends are cut by a hair, not overshot.
+        """Return the direction to a point a little ahead on the path, so that bends are cut by a hair, not overshot.
 
         Beyond a place to stand the aim goes on straight, so that the heading stays calm while the robot arrives.
         """
@@ -95,12 +95,12 @@ class Leg:
 
 
 class Follower:
-    """The way that a robot was told to drive, and how it does so."""
+    """The path that a robot was given, and how it follows it."""
 
     def __init__(self, speed_m_s: float) -> None:
         self.speed_m_s = speed_m_s
         self._braking_m = speed_m_s**2 / (2 * ACCELERATION_M_S2) + 0.1
-        self._way: deque[Waypoint] = deque()
+        self._path: deque[Waypoint] = deque()
         self._from: tuple[float, float] | None = None
         self._leg: Leg | None = None
         self._turning = True
@@ -111,7 +111,7 @@ class Follower:
     @property
     def idle(self) -> bool:
         """True when there is nowhere to go and the robot stands."""
-        return not self._way and self._speed == 0.0 and self._turn == 0.0
+        return not self._path and self._speed == 0.0 and self._turn == 0.0
 
     @property
     def stuck(self) -> bool:
@@ -125,25 +125,25 @@ class Follower:
         theta: float | None,
         limit_m_s: float | None = None,
     ) -> None:
-        """Append a piece of the way; points that repeat the one before are joined with it."""
+        """Append a piece of the path; points that repeat the one before are joined with it."""
         for x, y in points:
-            if not (self._way and self._way[-1].is_at(x, y)):
-                self._way.append(Waypoint(x, y, limit_m_s=limit_m_s))
-        end = self._way[-1]
+            if not (self._path and self._path[-1].is_at(x, y)):
+                self._path.append(Waypoint(x, y, limit_m_s=limit_m_s))
+        end = self._path[-1]
         turned = end.theta if theta is None else theta
-        self._way[-1] = replace(end, commands=(*end.commands, command), theta=turned)
+        self._path[-1] = replace(end, commands=(*end.commands, command), theta=turned)
         self._look_anew()
 
     def clear(self) -> None:
-        """Forget the way; the robot brakes."""
-        self._way.clear()
+        """Forget the path; the robot brakes."""
+        self._path.clear()
         self._from, self._turning = None, True
         self._look_anew()
 
     def drop_after(self, command: str) -> None:
         """Forget all that comes after the end of a piece."""
-        while self._way and command not in self._way[-1].commands:
-            self._way.pop()
+        while self._path and command not in self._path[-1].commands:
+            self._path.pop()
         self._look_anew()
 
     def brake(self, dt_s: float) -> tuple[float, float]:
@@ -154,28 +154,28 @@ class Follower:
     def steer(self, motion: Motion, dt_s: float) -> tuple[float, float, list[str]]:
         """Return speed (m/s) and turn (rad/s) for the next `dt_s`, and the pieces whose end has been reached."""
         reached: list[str] = []
-        while self._way:
+        while self._path:
             leg = self._leg or self._start_leg(motion)
             left_m = leg.left_m(motion)
             if not self._is_there(leg, left_m, motion):
                 return (*self._drive(leg, left_m, motion, dt_s), reached)
             self._turning = self._turning or leg.stops
             self._from = (leg.x, leg.y)
-            reached.extend(self._way.popleft().commands)
+            reached.extend(self._path.popleft().commands)
             self._look_anew()
         self._from = None
         return (*self._limited(0.0, 0.0, dt_s), reached)
 
     def _start_leg(self, motion: Motion) -> Leg:
         if self._from is None:
-            # A way that begins where the robot is already begins with its second point.
-            while len(self._way) > 1 and not self._way[0].commands and self._way[0].is_near(motion):
-                self._way.popleft()
+            # A path that begins where the robot is already begins with its second point.
+            while len(self._path) > 1 and not self._path[0].commands and self._path[0].is_near(motion):
+                self._path.popleft()
             self._from = (motion.x, motion.y)
-        end = self._way[0]
+        end = self._path[0]
         length, x, y = _direction(self._from, (end.x, end.y))
         stops = self._stops_at(0)
-        _, next_x, next_y = (0.0, x, y) if stops else _direction((end.x, end.y), (self._way[1].x, self._way[1].y))
+        _, next_x, next_y = (0.0, x, y) if stops else _direction((end.x, end.y), (self._path[1].x, self._path[1].y))
         beyond_m = 0.0 if stops else self._beyond_m()
         self._leg = Leg(end.x, end.y, x, y, length, end.theta, stops, beyond_m, next_x, next_y)
         return self._leg
@@ -191,11 +191,11 @@ class Follower:
 
     def _stops_at(self, index: int) -> bool:
         """Tell whether the robot has to stand at a waypoint: at the end, for a heading, and at sharp corners."""
-        here = self._way[index]
-        if index + 1 >= len(self._way) or here.theta is not None:
+        here = self._path[index]
+        if index + 1 >= len(self._path) or here.theta is not None:
             return True
-        before = self._from if index == 0 else (self._way[index - 1].x, self._way[index - 1].y)
-        after = self._way[index + 1]
+        before = self._from if index == 0 else (self._path[index - 1].x, self._path[index - 1].y)
+        after = self._path[index + 1]
         assert before is not None
         in_x, in_y, out_x, out_y = here.x - before[0], here.y - before[1], after.x - here.x, after.y - here.y
         if hypot(in_x, in_y) < 1e-6:
@@ -203,14 +203,14 @@ class Follower:
         return abs(wrapped(atan2(out_y, out_x) - atan2(in_y, in_x))) > CORNER_RAD
 
     def _beyond_m(self) -> float:
-        """Return the way from the present line's end to the next place to stand, no farther than braking takes."""
-        way_m = 0.0
-        for i in range(len(self._way) - 1):
-            if self._stops_at(i) or way_m > self._braking_m:
+        """Return how far the next place to stand is from the present line's end, no farther than braking takes."""
+        path_m = 0.0
+        for i in range(len(self._path) - 1):
+            if self._stops_at(i) or path_m > self._braking_m:
                 break
-            here, after = self._way[i], self._way[i + 1]
-            way_m += hypot(after.x - here.x, after.y - here.y)
-        return way_m
+            here, after = self._path[i], self._path[i + 1]
+            path_m += hypot(after.x - here.x, after.y - here.y)
+        return path_m
 
     def _drive(self, leg: Leg, left_m: float, motion: Motion, dt_s: float) -> tuple[float, float]:
         """Return speed and turn, and watch whether the robot comes nearer."""
@@ -226,7 +226,7 @@ class Follower:
             self._turning = abs(error) > ALIGNED_RAD
             return self._limited(0.0, _turn_towards(error), dt_s)
         brake_m = max(0.0, left_m + leg.beyond_m - ARRIVED_M / 2)
-        limit_m_s = self._way[0].limit_m_s
+        limit_m_s = self._path[0].limit_m_s
         fastest = self.speed_m_s if limit_m_s is None else min(self.speed_m_s, limit_m_s)
         speed = min(fastest, sqrt(1.6 * ACCELERATION_M_S2 * brake_m))
         return self._limited(max(0.02, speed * max(0.0, cos(2 * error))), 3.0 * error, dt_s)
@@ -241,7 +241,7 @@ class Follower:
         return self._speed, self._turn
 
     def _look_anew(self) -> None:
-        """The way has changed, and with it the present line and what counts as progress."""
+        """The path has changed, and with it the present line and what counts as progress."""
         self._leg = None
         self._best_m, self._stalled_s = float("inf"), 0.0
 

@@ -1,4 +1,4 @@
-"""A pretend machine: it takes its time, holds objects, warms up and cools down."""
+"""A simulated machine: it takes its time, holds objects, warms up and cools down."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import exp
 
-from simulation.actors.actor import Actor, Beginning, Emit
-from vipo_device.kit.answers import Answer
+from simulation.actors.actor import Actor, Emit, InitialState
 from vipo_device.kit.arguments import counted_object, duration_s
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
+from vipo_device.protocol.messages import AckMessage
 
 AMBIENT_C = 22.0
 SLOTS = 8
@@ -45,13 +45,13 @@ class Job:
 class Machine(Actor):
     """One job at a time; objects that robots bring can be fetched again; a sink or source has its own rules."""
 
-    def __init__(self, description: Description, emit: Emit, beginning: Beginning) -> None:
-        super().__init__(description, emit, beginning)
-        self.stock = _stock_at(beginning, description, self.slots) if beginning.holds is None else dict(beginning.holds)
+    def __init__(self, description: Description, emit: Emit, initial: InitialState) -> None:
+        super().__init__(description, emit, initial)
+        self.stock = _stock_at(initial, description, self.slots) if initial.holds is None else dict(initial.holds)
         self._job: Job | None = None
-        self._pieces = beginning.seed
+        self._pieces = initial.seed
         self._warmth = WARMTH.get(description.device_class, MILD)
-        known = beginning.readings.get("temperature")
+        known = initial.readings.get("temperature")
         self._celsius = float(known) if isinstance(known, int | float) else AMBIENT_C
         self._start_readings()
 
@@ -131,8 +131,8 @@ class Machine(Actor):
             return why
         spec = self.description.method(method)
         assert spec is not None
-        self._say(t_s, command, Answer("ACCEPTED"))
-        self._say(t_s, command, Answer("RUNNING"))
+        self._say(t_s, AckMessage(command, "ACCEPTED"))
+        self._say(t_s, AckMessage(command, "RUNNING"))
         self._job = Job(command, method, duration_s(spec, arguments))
         self.read(t_s, "jobStatus", 0)
         self._read_pressure(t_s)
@@ -149,7 +149,7 @@ class Machine(Actor):
         if job is not None and command in {"", job.command}:
             self._job = None
             self._read_pressure(t_s)
-            self._say(t_s, job.command, Answer("CANCELED", f"{job.method} was cancelled."))
+            self._say(t_s, AckMessage(job.command, "CANCELED", f"{job.method} was cancelled."))
 
     def _work(self, t_s: float, dt_s: float, job: Job) -> None:
         job.spent_s += dt_s
@@ -216,9 +216,9 @@ def first_stock(description: Description) -> dict[str, int]:
     return dict.fromkeys(description.gives, FIRST_STOCK.get(description.device_class, most))
 
 
-def _stock_at(beginning: Beginning, description: Description, slots: int) -> dict[str, int]:
+def _stock_at(initial: InitialState, description: Description, slots: int) -> dict[str, int]:
     """Return what a machine holds at the beginning, from what it shows if it shows it."""
-    stock, free = beginning.readings.get("stock"), beginning.readings.get("freeSlots")
+    stock, free = initial.readings.get("stock"), initial.readings.get("freeSlots")
     if isinstance(stock, int | float) and len(description.gives) == 1:
         return {description.gives[0]: int(stock)}
     if isinstance(free, int | float) and len(description.takes) == 1:

@@ -1,4 +1,4 @@
-"""A pretend robot: it drives along what was released to it, picks up, puts down, and runs its battery flat."""
+"""A simulated robot: it drives along what was released to it, picks up, puts down, and runs its battery flat."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot
 
-from simulation.actors.actor import Actor, Beginning, Emit
+from simulation.actors.actor import Actor, Emit, InitialState
 from simulation.actors.follower import Follower, Motion
 from simulation.actors.machine import Machine
 from simulation.proximity import body_of
-from vipo_device.kit.answers import Answer
-from vipo_device.kit.arguments import counted_object, duration_s, is_number, read_path
+from vipo_device.kit.arguments import counted_object, duration_s, read_move, why_astray
 from vipo_device.protocol.description import Description, Scalar
+from vipo_device.protocol.messages import AckMessage
 
 DEFAULT_SPEED_M_S = 0.5
 DEFAULT_RADIUS_M = 0.18
@@ -23,8 +23,6 @@ DRIVING_PERCENT_S = 100.0 / (4 * 3600)
 STANDING_PERCENT_S = 100.0 / (24 * 3600)
 CHARGING_PERCENT_S = 100.0 / 1800
 DOCKED_M = 0.3
-ASTRAY_M = 0.6
-"""How far from its end the next piece of way may begin."""
 Bounds = tuple[float, float, float, float]
 
 
@@ -54,12 +52,12 @@ class Surroundings:
 class Robot(Actor):
     """Commands queue up; moves that follow one another are driven without stopping between them."""
 
-    def __init__(self, description: Description, emit: Emit, beginning: Beginning, surroundings: Surroundings) -> None:
-        super().__init__(description, emit, beginning)
-        self.carrying = {k: v for k, v in (beginning.holds or {}).items() if v > 0}
+    def __init__(self, description: Description, emit: Emit, initial: InitialState, surroundings: Surroundings) -> None:
+        super().__init__(description, emit, initial)
+        self.carrying = {k: v for k, v in (initial.holds or {}).items() if v > 0}
         self.radius_m = description.radius_m or max(description.size.x, description.size.y) / 2 or DEFAULT_RADIUS_M
         self.touches = ""
-        known = beginning.readings.get("battery")
+        known = initial.readings.get("battery")
         self.battery = float(known) if isinstance(known, int | float) else 100.0
         self._machines, self._bounds = surroundings.machines, surroundings.bounds
         self._tasks: deque[Task] = deque()
@@ -112,7 +110,7 @@ class Robot(Actor):
     def _begin(self, t_s: float, task: Task) -> None:
         if not task.begun:
             task.begun = True
-            self._say(t_s, task.command, Answer("RUNNING"))
+            self._say(t_s, AckMessage(task.command, "RUNNING"))
 
     def _drive(self, motion: Motion, t_s: float, dt_s: float) -> tuple[float, float]:
         self._hand_over_moves()
@@ -145,7 +143,8 @@ class Robot(Actor):
         task = self._tasks.popleft()
         what = f"{self.description.name} cannot go on"
         self._say(
-            t_s, task.command, Answer("FAILED", f"{what}: it touches {self.touches}." if self.touches else f"{what}.")
+            t_s,
+            AckMessage(task.command, "FAILED", f"{what}: it touches {self.touches}." if self.touches else f"{what}."),
         )
         self._end_moves(t_s, "The way before it failed.")
 
@@ -155,13 +154,13 @@ class Robot(Actor):
         ended = [t for t in self._tasks if t.points]
         self._tasks = deque(t for t in self._tasks if not t.points)
         for task in ended:
-            self._say(t_s, task.command, Answer("CANCELED", why))
+            self._say(t_s, AckMessage(task.command, "CANCELED", why))
 
     def _handle(self, t_s: float, dt_s: float, task: Task) -> None:
         """Spend time on a pick, a drop or another method; at its end objects change hands."""
         if task.left_s > 0 and (why := self._refusal_of_handling(task.method, task.arguments)):
             self._tasks.popleft()
-            self._say(t_s, task.command, Answer("FAILED", why))
+            self._say(t_s, AckMessage(task.command, "FAILED", why))
             return
         task.left_s -= dt_s
         if task.left_s > 1e-9:
@@ -228,7 +227,7 @@ class Robot(Actor):
         if not self._tasks and (why := self._refusal_of_handling(method, arguments)):
             return why
         self._tasks.append(task)
-        self._say(t_s, command, Answer("ACCEPTED"))
+        self._say(t_s, AckMessage(command, "ACCEPTED"))
         return ""
 
     def _task(self, method: str, arguments: Mapping[str, object], command: str) -> Task | str:
@@ -242,35 +241,16 @@ class Robot(Actor):
         return Task(command, method, dict(arguments), left_s=duration_s(spec, arguments))
 
     def _move(self, arguments: Mapping[str, object], command: str) -> Task | str:
-        points = read_path(arguments)
-        if isinstance(points, str):
-            return points
-        theta = arguments.get("theta")
-        if theta is not None and not is_number(theta):
-            return "theta must be a number in radians."
-        if why := self._refusal_of_beginning(arguments):
+        move = read_move(arguments)
+        if isinstance(move, str):
+            return move
+        ends = [task.points[-1] for task in self._tasks if task.points]
+        if why := why_astray(self.description.name, move.begin, ends[-1] if ends else (self._at.x, self._at.y)):
             return why
         x1, y1, x2, y2 = self._bounds
-        if not all(x1 <= x <= x2 and y1 <= y <= y2 for x, y in points):
+        if not all(x1 <= x <= x2 and y1 <= y <= y2 for x, y in move.path):
             return "The path leaves the map."
-        speed = arguments.get("speed")
-        if speed is not None and not (is_number(speed) and float(str(speed)) > 0):
-            return "speed must be a number above 0, in metres a second."
-        heading, limit = (float(n) if isinstance(n, int | float) else None for n in (theta, speed))
-        return Task(command, "move", {}, tuple(points), heading, limit)
-
-    def _refusal_of_beginning(self, arguments: Mapping[str, object]) -> str:
-        """Return why a way that begins elsewhere is not driven: to get there straight on may lead through walls."""
-        begin = arguments.get("from")
-        if begin is None:
-            return ""
-        points = read_path({"path": [begin]})
-        if isinstance(points, str):
-            return "from must be a point [x, y] in metres."
-        ends = [task.points[-1] for task in self._tasks if task.points]
-        here = ends[-1] if ends else (self._at.x, self._at.y)
-        away_m = hypot(points[0][0] - here[0], points[0][1] - here[1])
-        return f"The way begins {away_m:.1f} m from where {self.description.name} will be." if away_m > ASTRAY_M else ""
+        return Task(command, "move", {}, move.path, move.theta, move.speed_m_s)
 
     def _cancel(self, t_s: float, command: str) -> None:
         """End a command; a move takes the moves after it along."""
@@ -279,7 +259,7 @@ class Robot(Actor):
             self._cancel_moves_from(t_s, command)
         for task in [t for t in ended if t in self._tasks]:
             self._tasks.remove(task)
-            self._say(t_s, task.command, Answer("CANCELED", f"{task.method} was cancelled."))
+            self._say(t_s, AckMessage(task.command, "CANCELED", f"{task.method} was cancelled."))
 
     def _cancel_moves_from(self, t_s: float, command: str) -> None:
         order = [t.command for t in self._tasks]
@@ -291,7 +271,7 @@ class Robot(Actor):
         self._follower.drop_after(before[-1]) if before else self._follower.clear()
         for task in ended:
             why = "move was cancelled." if task.command == command else "The way before it was cancelled."
-            self._say(t_s, task.command, Answer("CANCELED", why))
+            self._say(t_s, AckMessage(task.command, "CANCELED", why))
 
     def _load_shown(self) -> Scalar:
         """Return the load as text (`box:1,can:2`), or as a number where the robot describes it so."""

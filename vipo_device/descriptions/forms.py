@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any, Literal, NoReturn, get_args
 
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import Fault, bare, facts_of, fault
 from vipo_device.protocol.messages import MAX_BYTES, MAX_DEPTH, BadMessage, parse_json
 
@@ -52,7 +52,7 @@ _BRACKET = re.compile(
 _SURROGATE = re.compile(r"\\u[dD][89a-fA-F]|\\U0000[dD][89a-fA-F]")
 
 
-class BadDescription(RegistryError):
+class BadDescription(VipoError):
     """A description that cannot be read or believed; `faults` say why, each in a sentence with its place."""
 
     code = "bad_description"

@@ -19,7 +19,7 @@ from vipo_device.protocol.description import (
     ValueType,
 )
 from vipo_device.protocol.faults import Fault, fault
-from vipo_device.protocol.topics import find_topic_fault, find_twice, list_asked
+from vipo_device.protocol.topics import find_duplicate, find_topic_fault, list_legacy_methods
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
 _IMAGE = re.compile(r"https?://[^\s<>\"{}|\\^`]+")
@@ -85,7 +85,7 @@ def _faults_of_properties(d: Description) -> Iterator[Fault]:
         yield fault("many_methods", most=MOST_METHODS)
     yield from _faults_of_names([p.name for p in d.properties], "property")
     yield from _faults_of_names([m.name for m in d.methods], "method")
-    if twice := find_twice([m.topic for m in list_asked(d)]):
+    if twice := find_duplicate([m.topic for m in list_legacy_methods(d)]):
         yield fault("topic_twice", topic=twice)
     for spec in d.properties:
         yield from _faults_of_value(spec, spec.name[:64])

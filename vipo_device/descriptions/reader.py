@@ -1,11 +1,12 @@
-"""The one door for descriptions: any form in, the canonical description out, and the other way round."""
+"""Where every description is read and written: any form in, the canonical description out, and the other way round."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Any
 
 from vipo_device.descriptions.device_triples import describe, list_own_terms
@@ -28,9 +29,17 @@ from vipo_device.descriptions.rdf_writer import write_rdf
 from vipo_device.descriptions.td_schema import check_thing
 from vipo_device.descriptions.thing_description import describe_thing, list_own_keys, write_thing
 from vipo_device.descriptions.triples import Triples
-from vipo_device.descriptions.vocabulary import find_unknown
 from vipo_device.protocol.description import Description, description_to_json
-from vipo_device.protocol.faults import Fault
+from vipo_device.protocol.faults import Fault, note
+
+PREFIX = "vipo:"
+TERMS = frozenset(
+    {
+        *("location", "size", "deviceClass", "site", "done", "simulated", "gives", "takes", "capacity", "radius"),
+        *("speed", "topic", "messageType", "parameters", "type", "options", "required", "pointer"),
+    }
+)
+"""VIPO's own terms in RDF and Thing Descriptions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,3 +125,16 @@ def write_description(description: Description, form: str = "turtle", *, broker:
         case "paper":
             return write_message(description)
     return refuse("no_form", form=form[:20], forms=", ".join(FORMS))
+
+
+def find_unknown(terms: Iterable[str]) -> tuple[Fault, ...]:
+    """Return which of these, such as `vipo:radus`, mean nothing here, in the order of the alphabet; others may."""
+    names = {term.removeprefix(PREFIX) for term in terms if term.startswith(PREFIX)} - TERMS
+    return tuple(_left_out(name) for name in sorted(names))
+
+
+def _left_out(name: str) -> Fault:
+    like = get_close_matches(name, TERMS, 1)
+    if like:
+        return note("left_term", key=f"{PREFIX}{name}"[:80], like=f"{PREFIX}{like[0]}")
+    return note("left_key", key=f"{PREFIX}{name}"[:80])

@@ -14,7 +14,7 @@ from vipo_device.descriptions.forms import BadDescription, is_json, plain_text, 
 from vipo_device.descriptions.rdf_reader import read_json_ld, read_turtle
 from vipo_device.descriptions.rdf_writer import graph_of, graph_of_triples
 from vipo_device.descriptions.reader import Reading
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import Fault, bare
 
 SHAPES = Path(__file__).parent / "shapes" / "device.ttl"
@@ -26,7 +26,7 @@ SELECT DISTINCT ?message ?value WHERE {
 """
 
 
-class ShaclMissing(RegistryError):
+class ShaclMissing(VipoError):
     """The package that holds RDF against shapes is not installed here."""
 
     code = "shacl_missing"

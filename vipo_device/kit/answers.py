@@ -1,54 +1,47 @@
-"""What a device remembers of its commands, so that a repeated one is answered again and not carried out again."""
+"""A device's answers to its commands: a command that comes again is answered again, and not carried out again."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable
 
-from simulation.world import AckStatus
-from vipo_device.protocol.description import Scalar
+from vipo_device.protocol.messages import AckMessage
 
 REMEMBERED = 16
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """The last word about a command."""
+class AnswerLedger:
+    """The last answer to each open command, and to the last 16 that are over."""
 
-    status: AckStatus
-    why: str = ""
-    result: Mapping[str, Scalar] = field(default_factory=dict)
+    def __init__(self, over: Iterable[AckMessage] = (), under_way: Iterable[AckMessage] = ()) -> None:
+        self._over = {ack.command: ack for ack in over}
+        self._under_way = {ack.command: ack for ack in under_way}
 
-
-class Ledger:
-    """Commands that are under way, and the last 16 that are over."""
-
-    def __init__(self, remembered: Mapping[str, Answer] | None = None) -> None:
-        self._over: dict[str, Answer] = dict(remembered or {})
-        self._under_way: dict[str, Answer] = {}
-
-    def answer(self, command: str) -> Answer | None:
-        """Return the last word about a command, or None when it is new."""
+    def find(self, command: str) -> AckMessage | None:
+        """Return the last answer to a command, None when it is new."""
         return self._under_way.get(command) or self._over.get(command)
 
     def is_under_way(self, command: str) -> bool:
         """Tell whether the command has begun and has no final answer yet."""
         return command in self._under_way
 
-    def note(self, command: str, answer: Answer) -> None:
-        """Keep what was said; a final answer closes the command and pushes the oldest one out."""
-        if answer.status in {"ACCEPTED", "RUNNING"}:
-            self._under_way[command] = answer
+    def is_over(self, command: str) -> bool:
+        """Tell whether the command has its final answer, as far as that is remembered."""
+        return command in self._over and command not in self._under_way
+
+    def note(self, ack: AckMessage) -> None:
+        """Keep an answer; a final one closes its command and pushes the oldest final one out."""
+        if not ack.is_final:
+            self._under_way[ack.command] = ack
             return
-        self._under_way.pop(command, None)
-        self._over[command] = answer
+        self._under_way.pop(ack.command, None)
+        self._over[ack.command] = ack
         while len(self._over) > REMEMBERED:
             del self._over[next(iter(self._over))]
 
-    def under_way(self) -> tuple[str, ...]:
-        """Return the commands that have no final answer yet."""
-        return tuple(self._under_way)
+    def over(self) -> tuple[AckMessage, ...]:
+        """Return the final answers that are remembered, the oldest first."""
+        return tuple(self._over.values())
 
-    def over(self) -> dict[str, Answer]:
-        """Return the remembered final answers, oldest first."""
-        return dict(self._over)
+    def under_way(self) -> tuple[AckMessage, ...]:
+        """Return the last answers to the commands that are not over."""
+        return tuple(self._under_way.values())

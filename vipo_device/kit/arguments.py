@@ -1,78 +1,53 @@
-"""Do a command's arguments fit what the device says it can do?"""
+"""Reading the arguments of the commands that many devices have: a move, objects to handle, and how long work takes."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import isfinite
+from dataclasses import dataclass
+from math import hypot
 
-from vipo_device.protocol.description import MethodSpec, ParameterSpec
+from vipo_device.protocol.arguments import is_number
+from vipo_device.protocol.description import MethodSpec
 
 SECONDS = {"MIN": 60.0, "SEC": 1.0, "S": 1.0, "HR": 3600.0, "MilliSEC": 0.001, "": 60.0}
 DEFAULT_DURATION_S = 2.0
+ASTRAY_M = 0.6
+"""How far from the end of its path a robot's next move may begin."""
 CountedObject = tuple[str, int]
+Point = tuple[float, float]
 
 
-def is_number(value: object) -> bool:
-    """Tell whether the value is a finite number and not a truth value."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+@dataclass(frozen=True, slots=True)
+class Move:
+    """A path in metres, how to face at its end (rad), how fast to drive at most (m/s), and where it has to begin.
+
+    None leaves it to the robot.
+    """
+
+    path: tuple[Point, ...]
+    theta: float | None
+    speed_m_s: float | None
+    begin: Point | None
 
 
-def refusal_of_arguments(method: MethodSpec, arguments: Mapping[str, object]) -> str:
-    """Return why the arguments do not fit, or an empty text; arguments that the method does not name are ignored."""
-    for parameter in method.parameters:
-        value = arguments.get(parameter.name)
-        if value is None:
-            if parameter.required:
-                return f"{method.name} needs a value for {parameter.name}."
-            continue
-        if why := _misfit(parameter, value):
-            return f"{method.name}: {parameter.name} {why}."
-    return ""
+def read_move(arguments: Mapping[str, object]) -> Move | str:
+    """Read a move's arguments; a text says why they cannot be read."""
+    path = read_path(arguments)
+    if isinstance(path, str):
+        return path
+    theta, speed, begin = (arguments.get(name) for name in ("theta", "speed", "from"))
+    if theta is not None and not is_number(theta):
+        return "theta must be a number in radians."
+    if speed is not None and not (is_number(speed) and speed > 0):
+        return "speed must be a number above 0, in metres a second."
+    first = [] if begin is None else read_path({"path": [begin]})
+    if isinstance(first, str):
+        return "from must be a point [x, y] in metres."
+    heading, limit = (float(n) if is_number(n) else None for n in (theta, speed))
+    return Move(tuple(path), heading, limit, next(iter(first), None))
 
 
-def _misfit(parameter: ParameterSpec, value: object) -> str:
-    if parameter.type == "number":
-        return _number_misfit(parameter, value)
-    if parameter.type == "boolean":
-        return "" if isinstance(value, bool) else "must be true or false"
-    if parameter.type in {"text", "object", "device"} and not isinstance(value, str):
-        return "must be a text"
-    if parameter.options and value not in parameter.options:
-        return f"must be one of {', '.join(parameter.options)}"
-    return ""
-
-
-def _number_misfit(parameter: ParameterSpec, value: object) -> str:
-    if not isinstance(value, int | float) or not is_number(value):
-        return "must be a number"
-    if parameter.minimum is not None and value < parameter.minimum:
-        return f"must be at least {parameter.minimum:g}, not {value:g}"
-    if parameter.maximum is not None and value > parameter.maximum:
-        return f"must be at most {parameter.maximum:g}, not {value:g}"
-    return ""
-
-
-def duration_s(method: MethodSpec, arguments: Mapping[str, object]) -> float:
-    """Return how long the method takes: its argument `time` (minutes unless it says otherwise), else 2 s."""
-    for parameter in method.parameters:
-        value = arguments.get(parameter.name)
-        lasts = parameter.name == "time" or (bool(parameter.unit) and parameter.unit in SECONDS)
-        if lasts and isinstance(value, int | float) and is_number(value):
-            return max(0.0, float(value)) * SECONDS.get(parameter.unit, 60.0)
-    return DEFAULT_DURATION_S
-
-
-def counted_object(arguments: Mapping[str, object]) -> CountedObject | str:
-    """Read `object` and `value` (1 if absent); a text says why they cannot be read."""
-    name, count = arguments.get("object"), arguments.get("value", 1)
-    if not isinstance(name, str) or not name:
-        return "An object must be named."
-    if not isinstance(count, int | float) or not is_number(count) or count != int(count) or count < 1:
-        return "The quantity must be a whole number of at least 1."
-    return name, int(count)
-
-
-def read_path(arguments: Mapping[str, object]) -> list[tuple[float, float]] | str:
+def read_path(arguments: Mapping[str, object]) -> list[Point] | str:
     """Read `path` of a move in metres; a text says why it cannot be read."""
     path = arguments.get("path")
     if not isinstance(path, list | tuple) or not path:
@@ -83,3 +58,33 @@ def read_path(arguments: Mapping[str, object]) -> list[tuple[float, float]] | st
             return "Each point of a path must be [x, y] in metres."
         points.append((float(point[0]), float(point[1])))
     return points
+
+
+def why_astray(name: str, begin: Point | None, here: Point | None) -> str:
+    """Return why a path that begins elsewhere is not driven: to get there straight on may lead through walls."""
+    if begin is None:
+        return ""
+    if here is None:
+        return f"{name} does not know where it is."
+    away_m = hypot(begin[0] - here[0], begin[1] - here[1])
+    return f"The way begins {away_m:.1f} m from where {name} will be." if away_m > ASTRAY_M else ""
+
+
+def duration_s(method: MethodSpec, arguments: Mapping[str, object]) -> float:
+    """Return how long the method takes: its argument `time` (minutes unless it says otherwise), else 2 s."""
+    for parameter in method.parameters:
+        value = arguments.get(parameter.name)
+        lasts = parameter.name == "time" or (bool(parameter.unit) and parameter.unit in SECONDS)
+        if lasts and is_number(value):
+            return max(0.0, float(value)) * SECONDS.get(parameter.unit, 60.0)
+    return DEFAULT_DURATION_S
+
+
+def counted_object(arguments: Mapping[str, object]) -> CountedObject | str:
+    """Read `object` and `value` (1 if absent); a text says why they cannot be read."""
+    name, count = arguments.get("object"), arguments.get("value", 1)
+    if not isinstance(name, str) or not name:
+        return "An object must be named."
+    if not is_number(count) or count != int(count) or count < 1:
+        return "The quantity must be a whole number of at least 1."
+    return name, int(count)

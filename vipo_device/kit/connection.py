@@ -1,16 +1,18 @@
-"""A device's connection to VIPO: one MQTT client that speaks the protocol for a pretend or a foreign device."""
+"""A device's connection to VIPO: one MQTT client that speaks the protocol for a simulated or a foreign device."""
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from typing import Any
 
 from vipo_device.protocol.description import DeviceState
 from vipo_device.protocol.messages import (
     AckMessage,
+    DeviceCommand,
     Presence,
-    Told,
     ack_payload,
     down_topic,
     presence_payload,
@@ -19,7 +21,7 @@ from vipo_device.protocol.messages import (
     state_payload,
     up_topic,
 )
-from vipo_device.protocol.mqtt_client import MqttClient, Will
+from vipo_device.protocol.mqtt_client import MqttClient, Will, tls_context
 
 log = logging.getLogger(__name__)
 SERVER_STATUS = "vipo/v1/srv/status"
@@ -30,42 +32,55 @@ ConnectionMaker = Callable[[str, Will], MqttClient]
 
 
 @dataclass(frozen=True, slots=True)
-class Commanded:
-    """A device was told something."""
+class CommandReceived:
+    """The server gave a device a command."""
 
     device: str
-    told: Told
+    command: DeviceCommand
 
 
 @dataclass(frozen=True, slots=True)
-class CameIn:
-    """A device's connection stands, or the server was born anew: it has to introduce itself."""
+class IntroductionDue:
+    """A device has to say who it is: its connection stands, or the server was started anew."""
 
     device: str
 
 
 @dataclass(frozen=True, slots=True)
-class Stopped:
+class StopChanged:
     """A site's stop was pressed or reset."""
 
     device: str
     active: bool
 
 
-LineEvent = Commanded | CameIn | Stopped
+ConnectionEvent = CommandReceived | IntroductionDue | StopChanged
 
 
-class DeviceLine:
+def broker_client(broker: Mapping[str, Any], name: str, key: str, will: Will | None = None) -> MqttClient:
+    """Return a connection to VIPO's broker; `broker` has host, port, tls and ca, as the setting VIPO_MQTT."""
+    return MqttClient(
+        host=broker["host"],
+        port=broker["port"],
+        username=name,
+        password=key,
+        client_id=name,
+        tls=tls_context(broker["ca"]) if broker["tls"] else None,
+        will=will,
+    )
+
+
+class DeviceConnection:
     """What a device says to VIPO. What it hears it passes on at once, on the network's thread."""
 
-    def __init__(self, device: str, site: str, boot: int, hear: Callable[[LineEvent], None]) -> None:
+    def __init__(self, device: str, site: str, boot: int, hear: Callable[[ConnectionEvent], None]) -> None:
         self.id = device
         self._site, self._boot, self._hear = site, boot, hear
         self._client: MqttClient | None = None
         self._server = b""
         self._seq = 0
-        self._last: DeviceState | None = None
-        self._said_s = 0.0
+        self._reported: DeviceState | None = None
+        self._reported_s = 0.0
 
     def connect(self, make: ConnectionMaker) -> None:
         """Begin to connect; the will says offline with this start's number."""
@@ -74,13 +89,8 @@ class DeviceLine:
         self._client.subscribe(down_topic(self.id, "#"), 1, self._hear_command)
         self._client.subscribe(f"vipo/v1/site/{self._site}/stop", 1, self._hear_stop)
         self._client.subscribe(SERVER_STATUS, 1, self._hear_server)
-        self._client.on_connected(lambda: self._hear(CameIn(self.id)))
+        self._client.on_connected(lambda: self._hear(IntroductionDue(self.id)))
         self._client.start()
-
-    def close(self) -> None:
-        """Say that the device goes offline, and end the connection."""
-        self.say_presence(online=False)
-        self.disconnect()
 
     def disconnect(self) -> None:
         """End the connection; what was said is sent before."""
@@ -95,12 +105,12 @@ class DeviceLine:
     def say_presence(self, *, online: bool) -> None:
         """Say whether the device is there; the state is said anew after it."""
         self._say("presence", self._presence(online=online), retain=True)
-        self._last = None
+        self._reported = None
 
     @property
     def is_introduced(self) -> bool:
         """True while the device is connected and has said how it is."""
-        return self._client is not None and self._client.connected and self._last is not None
+        return self._client is not None and self._client.connected and self._reported is not None
 
     def say_map(self, part: bytes) -> None:
         """Send a part of a robot's map."""
@@ -116,11 +126,11 @@ class DeviceLine:
         if self._client is None or not self._client.connected or not self._is_due(state, now_s, at_once=at_once):
             return
         self._seq += 1
-        self._last, self._said_s = state, now_s
+        self._reported, self._reported_s = state, now_s
         self._say("state", state_payload(state), retain=True)
 
     def _is_due(self, state: DeviceState, now_s: float, *, at_once: bool) -> bool:
-        last, silent_s = self._last, now_s - self._said_s
+        last, silent_s = self._reported, now_s - self._reported_s
         if last is None or silent_s >= SILENT_S:
             return True
         if replace(state, seq=last.seq) == last:
@@ -137,17 +147,26 @@ class DeviceLine:
             self._client.publish(up_topic(self.id, kind), payload, qos=1, retain=retain)
 
     def _hear_command(self, topic: str, payload: bytes, retained: bool) -> None:
-        told = read_command(topic.removeprefix(down_topic(self.id, "")), payload)
-        if retained or told is None:
+        command = read_command(topic.removeprefix(down_topic(self.id, "")), payload)
+        if retained or command is None:
             log.warning("%s: a message on %s is not a command; it was ignored.", self.id, topic)
             return
-        self._hear(Commanded(self.id, told))
+        self._hear(CommandReceived(self.id, command))
 
     def _hear_stop(self, _topic: str, payload: bytes, _retained: bool) -> None:
-        self._hear(Stopped(self.id, read_stop(payload)))
+        self._hear(StopChanged(self.id, read_stop(payload)))
 
     def _hear_server(self, _topic: str, payload: bytes, retained: bool) -> None:
-        """A server that was born anew may not know this device; the one that was there when it came in does."""
+        """A server that was started anew may not know this device; the one that was there when it came in does."""
         if not retained or (self._server and payload != self._server):
-            self._hear(CameIn(self.id))
+            self._hear(IntroductionDue(self.id))
         self._server = payload
+
+
+def leave(connections: Iterable[DeviceConnection]) -> None:
+    """Say of all these devices that they go offline, then end their connections side by side."""
+    leaving = list(connections)
+    for connection in leaving:
+        connection.say_presence(online=False)
+    with ThreadPoolExecutor(max_workers=max(1, len(leaving))) as pool:
+        list(pool.map(DeviceConnection.disconnect, leaving))

@@ -1,76 +1,123 @@
-"""Virtual devices take a new key that the server gives them, as real ones do: kept first, used from then on."""
+"""The keys of devices, in files that only their owner may read, and which of them a device comes in with next."""
 
 from __future__ import annotations
 
 import json
 import logging
-import os
-import threading
 from pathlib import Path
-from typing import Protocol
 
-from vipo_device.protocol.credentials import is_strong
-from vipo_device.protocol.messages import AckMessage, ack_payload, down_topic, read_command, up_topic
-from vipo_device.protocol.mqtt_client import MqttClient
+from vipo_device.kit.atomic_file import locked, write_file
+from vipo_device.protocol.credentials import make_credential
 
 log = logging.getLogger(__name__)
 
 
-class Keeper(Protocol):
-    """What keeps the new keys of devices."""
-
-    def keep(self, device: str, key: str) -> None:
-        """Keep a device's new key. Raises OSError, ValueError."""
-
-
 class KeyFile:
-    """The devices' keys by id, in a file that only its owner may read."""
+    """Keys by device, as one JSON object; people may write into it, too, and processes may share it."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._guard = threading.Lock()
-
-    def keep(self, device: str, key: str) -> None:
-        """Replace a device's key; the file is written whole or not at all. Raises OSError."""
-        with self._guard:
-            keys = self._read()
-            part = self._path.with_name(self._path.name + ".new")
-            part.unlink(missing_ok=True)
-            with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
-                json.dump({**keys, device: key}, file, indent=1)
-            part.replace(self._path)
 
     def find(self, device: str) -> str:
         """Return a device's key, empty where there is none. Raises OSError, ValueError."""
-        with self._guard:
-            return str(self._read().get(device, ""))
+        return self._read().get(device, "")
+
+    def keep(self, device: str, key: str) -> None:
+        """Replace a device's key. Raises OSError, ValueError."""
+        with locked(self._path):
+            self._write({**self._read(), device: key})
+
+    def find_readable(self, device: str) -> str:
+        """Return a device's key; a file that cannot be read has none, and the log says so."""
+        return self._read_readable().get(device, "")
+
+    def find_or_make(self, device: str) -> str:
+        """Return a device's key; one that has none gets one. A file that cannot be read begins anew. Raises OSError."""
+        with locked(self._path):
+            keys = self._read_readable()
+            if device not in keys:
+                keys[device] = make_credential()
+                self._write(keys)
+            return keys[device]
 
     def _read(self) -> dict[str, str]:
-        keys: object = json.loads(self._path.read_text()) if self._path.exists() else {}
+        try:
+            keys: object = json.loads(self._path.read_text())
+        except FileNotFoundError:
+            return {}
         if not isinstance(keys, dict):
             raise ValueError(f"{self._path.name} is no JSON object of keys by device.")  # noqa: TRY004 - a bad text
-        return keys
+        return {str(device): str(key) for device, key in keys.items()}
 
-
-def take_new_keys(device: str, client: MqttClient, keeper: Keeper) -> None:
-    """Let a device's connection hear `down/credential`, keep what comes, and answer."""
-
-    def hear(_topic: str, payload: bytes, retained: bool) -> None:
-        told = None if retained else read_command("credential", payload)
-        key = told.arguments.get("credential") if told else None
-        if told is None or not isinstance(key, str) or not is_strong(key):
-            log.warning("%s: a message on down/credential brings no key; it was ignored.", device)
-            return
+    def _read_readable(self) -> dict[str, str]:
         try:
-            keeper.keep(device, key)
+            return self._read()
         except (OSError, ValueError) as error:
-            _answer(client, device, AckMessage(told.command, "FAILED", f"The key cannot be kept: {error}"[:256]))
-            return
-        client.change_password(key)
-        _answer(client, device, AckMessage(told.command, "DONE"))
+            log.warning("%s cannot be read (%s); its keys are not used.", self._path, error)
+            return {}
 
-    client.subscribe(down_topic(device, "credential"), 1, hear)
+    def _write(self, keys: dict[str, str]) -> None:
+        write_file(self._path, json.dumps(keys, indent=1), private=True)
 
 
-def _answer(client: MqttClient, device: str, ack: AckMessage) -> None:
-    client.publish(up_topic(device, "ack"), ack_payload(ack))
+class KeyRing:
+    """The keys of a site's devices: those that people wrote, which go first, and those that were made here."""
+
+    def __init__(self, given: Path, own: Path) -> None:
+        self._given, self._own = KeyFile(given), KeyFile(own)
+
+    def first_key(self, device: str) -> str:
+        """Return the key to begin with, empty where none is known. Raises OSError."""
+        return self._given.find_readable(device) or self._own.find_or_make(device)
+
+    def keys(self, device: str) -> list[str]:
+        """Return the keys that may be right now, the likeliest first. Raises OSError, ValueError."""
+        return [self.first_key(device)]
+
+    def key_to_enrol(self, device: str) -> str:
+        """Return the key with which a device asks to be let in. Raises OSError, ValueError."""
+        return self.first_key(device)
+
+    def accept(self, device: str, key: str) -> None:
+        """Learn with which key a device was let in. Raises OSError, ValueError."""
+
+
+class RotatingKeyRing(KeyRing):
+    """Keys that the server may replace: the one with which a device came in last, and a spare one.
+
+    The spare one is the one before, or one that was made to enrol with. Neither is given up for one that the broker has
+    not let the device in with.
+    """
+
+    def __init__(self, current: Path, spares: Path) -> None:
+        super().__init__(current, spares)
+        self._made: dict[str, str] = {}
+
+    def first_key(self, device: str) -> str:
+        """Return the key with which the device came in last, empty where it never did. Raises OSError, ValueError."""
+        return self._given.find(device)
+
+    def keys(self, device: str) -> list[str]:
+        """Return the key with which the device came in last, and the spare one. Raises OSError, ValueError."""
+        return [key for key in (self._given.find(device), self._own.find(device)) if key]
+
+    def key_to_enrol(self, device: str) -> str:
+        """Return a fresh key, the same one until the device is let in. Raises OSError, ValueError."""
+        if device not in self._made:
+            made = make_credential()
+            self._own.keep(device, made)
+            self._made[device] = made
+        return self._made[device]
+
+    def accept(self, device: str, key: str) -> None:
+        """Keep the key with which a device was let in; the other one is spare. Raises OSError, ValueError."""
+        self._made.pop(device, None)
+        if key != self._given.find(device):
+            self.replace(device, key)
+
+    def replace(self, device: str, key: str) -> None:
+        """Keep a device's new key, and the one before as the spare one. Raises OSError, ValueError."""
+        before = self._given.find(device)
+        self._given.keep(device, key)
+        if before:
+            self._own.keep(device, before)

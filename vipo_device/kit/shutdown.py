@@ -1,4 +1,4 @@
-"""How a process that speaks for devices is asked to end: SIGTERM or Ctrl-C, and a limit for its goodbye."""
+"""How a process that speaks for devices is asked to end: SIGTERM or Ctrl-C, and a limit for saying that it leaves."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from types import FrameType
 def stop_on_signals(limit_s: int) -> threading.Event:
     """Return an event that SIGTERM and Ctrl-C set; `limit_s` seconds later the kernel ends the process.
 
-    A goodbye that hangs is not worth waiting for: what counts was kept before it was said, and the last wills say the
+    A farewell that hangs is not worth waiting for: what counts was kept before it was said, and the last wills say the
     same. Call it on the main thread.
     """
     stopping = threading.Event()

@@ -1,10 +1,4 @@
-"""The root of every refusal that a person may read.
-
-VipoError
- ├── RegistryError (registry): sites, maps, devices, members
- ├── EditorError (editor): programs, documents, the library
- └── ExecutionError (execution): runs, rehearsals, stops
-"""
+"""The root of every refusal that a person may read; each app has a root of its own below it."""
 
 from __future__ import annotations
 
@@ -24,9 +18,3 @@ class VipoError(Exception):
     def __init__(self, detail: str, facts: Mapping[str, Any] | None = None) -> None:
         super().__init__(detail)
         self.detail, self.facts = detail, facts or {}
-
-
-class RegistryError(VipoError):
-    """A refusal of the registry."""
-
-    code = "registry"

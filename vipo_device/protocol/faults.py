@@ -57,8 +57,8 @@ class Fault:
 
 def fault(code: str, line: int = 0, column: int = 0, path: str = "", /, **args: str | float) -> Fault:
     """Return the fault of a code with its arguments, which are made fit to be shown: strangers have sent them."""
-    told = {name: _shown(value) for name, value in args.items()}
-    return Fault(SENTENCES[code].format_map(told), line, column, _shown(path), code, told)
+    shown = {name: _shown(value) for name, value in args.items()}
+    return Fault(SENTENCES[code].format_map(shown), line, column, _shown(path), code, shown)
 
 
 def note(code: str, line: int = 0, **args: str | float) -> Fault:
@@ -78,7 +78,7 @@ def facts_of(faults: Iterable[Fault]) -> dict[str, Any]:
     return {"faults": [asdict(each) for each in faults]}
 
 
-def told(code: str, **args: str | float) -> tuple[str, dict[str, Any]]:
+def refusal_facts(code: str, **args: str | float) -> tuple[str, dict[str, Any]]:
     """Return the sentence of a code and what a screen says it from: the arguments of a refusal that is no fault's."""
     found = fault(code, **args)
     return found.sentence, facts_of([found])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 from collections import Counter
@@ -11,10 +12,12 @@ from math import isfinite
 from typing import Any, Literal, cast, get_args
 
 from vipo_device.protocol.description import DeviceState, Pose, Scalar
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import JSON_SYNTAX, Fault, bare, facts_of, fault
 
 AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
+CONTROLS = frozenset({"pause", "resume", "cancel"})
+"""Methods that every device has, about another command; their argument `command` is its id."""
 MAX_BYTES = 16 * 1024
 MAX_DEPTH = 16
 MAX_PROPERTIES = 64
@@ -23,14 +26,15 @@ MAX_WHOLE = 2**53
 MAX_METRES = 1e6
 MESSAGE = "The message"
 _ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
-_KNOCK = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([A-Za-z0-9_.-]{1,64})")
+_UNFIT = re.compile(r"[^A-Za-z0-9_.-]")
+_JOIN = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([A-Za-z0-9_.-]{1,64})")
 _NO_TEXT = re.compile("[\0\ud800-\udfff]")
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]|[^\s,:"\[\]{}]+', re.DOTALL)
 _COLON = re.compile(r"\s*:")
 _UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
 
 
-class BadMessage(RegistryError):
+class BadMessage(VipoError):
     """A message that does not fit the protocol; the sentence says where."""
 
     code = "bad_message"
@@ -58,10 +62,28 @@ class AckMessage:
     why: str = ""
     result: Mapping[str, Scalar] = field(default_factory=dict)
 
+    @property
+    def is_final(self) -> bool:
+        """True when the command is over."""
+        return is_final(self.status)
+
+
+def is_final(status: AckStatus) -> bool:
+    """Tell whether nothing comes after this answer."""
+    return status not in {"ACCEPTED", "RUNNING"}
+
 
 def is_device_id(text: str) -> bool:
     """Tell whether a device may be called so."""
     return _ID.fullmatch(text) is not None
+
+
+def fit_device_id(plain: str, source: str, *, is_unambiguous: bool = True) -> str:
+    """Return a device's id for a name of another world; a hash of `source` tells those apart that would look alike."""
+    fit = _UNFIT.sub("-", plain)
+    if fit == plain and is_unambiguous and len(fit) <= 64:
+        return fit
+    return f"{fit[:57]}-{hashlib.sha256(source.encode()).hexdigest()[:6]}"
 
 
 def up_topic(device_id: str, kind: str) -> str:
@@ -81,8 +103,8 @@ def read_up_topic(topic: str) -> tuple[str, str] | None:
 
 
 def read_join_topic(topic: str) -> tuple[str, str] | None:
-    """Return (site, device id) of a knock's topic, or None for any other."""
-    found = _KNOCK.fullmatch(topic)
+    """Return (site, device id) of an enrolment's topic, or None for any other."""
+    found = _JOIN.fullmatch(topic)
     return (found.group(1), found.group(2)) if found else None
 
 
@@ -304,24 +326,24 @@ def _dump(body: Mapping[str, Any]) -> bytes:
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
-    """A command: its id, the method, and the arguments by name."""
+class DeviceCommand:
+    """A command as its device hears it: its id, the method, and the arguments by name."""
 
-    command: str
+    id: str
     method: str
     arguments: Mapping[str, object]
 
 
-def read_command(method: str, payload: bytes) -> Told | None:
+def read_command(method: str, payload: bytes) -> DeviceCommand | None:
     """Read `{"id", "v", "ttl_s"}`; None when it is no command."""
     try:
         body = parse_json(payload)
-    except RegistryError:
+    except BadMessage:
         return None
     command, arguments = (body.get("id"), body.get("v", {})) if isinstance(body, dict) else (None, None)
     if not isinstance(command, str) or not 0 < len(command) <= 64 or not is_device_id(method):
         return None
-    return Told(command, method, arguments) if isinstance(arguments, dict) else None
+    return DeviceCommand(command, method, arguments) if isinstance(arguments, dict) else None
 
 
 def read_stop(payload: bytes) -> bool:

@@ -21,7 +21,7 @@ from paho.mqtt.properties import Properties
 from paho.mqtt.reasoncodes import ReasonCode
 from paho.mqtt.subscribeoptions import SubscribeOptions
 
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 
 log = logging.getLogger(__name__)
 
@@ -36,7 +36,7 @@ MISSES_TOLD = 3
 """After so many attempts in a row that reach no broker the log says so, once."""
 
 
-class MqttError(RegistryError):
+class MqttError(VipoError):
     """The MQTT client cannot do what it was asked."""
 
     code = "mqtt"

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from vipo_device.protocol.description import Description, MethodSpec
 
 MOST_CHARACTERS = 200
-OWN_MEANING = frozenset({"pause", "resume", "cancel", "credential"})
+FIXED_METHODS = frozenset({"pause", "resume", "cancel", "credential"})
 """Methods that every device is told on its own `down/` by the protocol itself."""
 RESERVED = "vipo"
 """Everything below this first level belongs to VIPO."""
@@ -40,7 +40,7 @@ def find_topic_fault(device_id: str, method: str, topic: str) -> Fault | None:
     levels = topic.split("/")
     if levels[0].lower() == RESERVED or topic.startswith(("$", "/")):
         return fault("topic_foreign", **named)
-    if method in OWN_MEANING:
+    if method in FIXED_METHODS:
         return fault("topic_fixed", **named)
     if len(topic) > MOST_CHARACTERS:
         return fault("topic_long", most=MOST_CHARACTERS, **named)
@@ -49,23 +49,23 @@ def find_topic_fault(device_id: str, method: str, topic: str) -> Fault | None:
     return None
 
 
-def list_asked(description: Description) -> tuple[MethodSpec, ...]:
+def list_legacy_methods(description: Description) -> tuple[MethodSpec, ...]:
     """Return the methods that name a topic outside the device's own `down/`."""
     own = own_prefix(description.id)
     return tuple(method for method in description.methods if not method.topic.startswith(own))
 
 
-def part_methods(
+def split_methods(
     description: Description, granted: Mapping[str, str]
 ) -> tuple[tuple[MethodSpec, ...], tuple[MethodSpec, ...]]:
     """Return the methods that may be called, and those whose topic an admin has still to confirm."""
-    asked = {m.name for m in list_asked(description) if granted.get(m.name) != m.topic}
+    asked = {m.name for m in list_legacy_methods(description) if granted.get(m.name) != m.topic}
     if not asked:
         return description.methods, ()
     may = tuple(m for m in description.methods if m.name not in asked)
     return may, tuple(m for m in description.methods if m.name in asked)
 
 
-def find_twice(topics: Collection[str]) -> str:
+def find_duplicate(topics: Collection[str]) -> str:
     """Return a topic that comes twice, or an empty text."""
     return next((topic for topic, count in Counter(topics).items() if count > 1), "")

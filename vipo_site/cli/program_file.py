@@ -21,7 +21,7 @@ from editor.language import (
 )
 from registry.floorplan.map_server import read_map
 from registry.floorplan.plan import FloorPlan
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 
 FILE_VERSION = 1
 MOST_BYTES = 20_000_000
@@ -156,7 +156,7 @@ def _floor(site: Mapping[str, Any], surroundings: Surroundings) -> FloorFacts | 
         grid = read_map(header.encode(), image.read_bytes())
     except OSError as error:
         raise UnreadableFile(f"The map's image {image} cannot be read: {error.strerror or error}.") from error
-    except RegistryError as error:
+    except VipoError as error:
         raise UnreadableFile(f"The map {path} cannot be used: {error}") from error
     machines = [f.description for f in surroundings.devices.values() if f.description.kind == "machine"]
     return FloorPlan(grid, [m for m in machines if surroundings.devices[m.id].lifecycle == "approved"])

@@ -8,21 +8,21 @@ import threading
 
 from amqtt.errors import BrokerError
 
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_site.embedded_broker.access_control import AccessControl, CheckPassword, PasswordAccess, RegistryAccess
 from vipo_site.embedded_broker.broker import VipoBroker
 
 START_TIMEOUT_S = 15.0
 
 
-class PortInUse(RegistryError):
+class PortInUse(VipoError):
     """Another program listens on the MQTT port."""
 
     code = "port_in_use"
     status = 503
 
 
-class BrokerFailed(RegistryError):
+class BrokerFailed(VipoError):
     """The embedded broker could not begin, for a reason that the message names."""
 
     code = "broker_failed"

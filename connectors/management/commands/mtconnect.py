@@ -13,12 +13,12 @@ from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
 from connectors.mtconnect.agent import Agent, read_address
-from connectors.mtconnect.connector import Plant, Setting
+from connectors.mtconnect.connector import Connector, Setting
 from connectors.mtconnect.description import Stand
-from connectors.settings import device_connections
+from connectors.settings import connections
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.description import Pose, Size
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import is_device_id
 
 STOP_LIMIT_S = 8
@@ -49,12 +49,12 @@ class Command(BaseCommand):
         """Run the connector."""
         stopping = stop_on_signals(STOP_LIMIT_S)
         try:
-            make_plant(options).run(stopping)
-        except RegistryError as error:
+            make_connector(options).run(stopping)
+        except VipoError as error:
             raise CommandError(error.detail) from error
 
 
-def make_plant(options: dict[str, Any]) -> Plant:
+def make_connector(options: dict[str, Any]) -> Connector:
     """Return the connector that the command line asks for."""
     site, interval_s = options["site"], options["interval"]
     if not is_device_id(site):
@@ -65,10 +65,10 @@ def make_plant(options: dict[str, Any]) -> Plant:
         site=site,
         stand=read_stand(options["place"], options["size"]),
         interval_s=interval_s,
-        connect=device_connections(site, Path(settings.VIPO_STATE_DIR) / "secrets", "mtconnect"),
+        connect=connections(site, Path(settings.VIPO_STATE_DIR) / "secrets", "mtconnect"),
         clock=lambda: datetime.now(UTC),
     )
-    return Plant(make_agent(options), setting)
+    return Connector(make_agent(options), setting)
 
 
 def make_agent(options: dict[str, Any]) -> Agent:

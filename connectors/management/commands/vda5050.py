@@ -15,12 +15,12 @@ from urllib.parse import unquote, urlsplit
 from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
-from connectors.settings import device_connections
+from connectors.settings import connections
 from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.fleet import Fleet
-from connectors.vda5050.member import Setting
+from connectors.vda5050.vehicle_device import Setting
 from vipo_device.kit.shutdown import stop_on_signals
-from vipo_device.protocol.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.messages import is_device_id
 from vipo_device.protocol.mqtt_client import MqttClient, tls_context
 
@@ -51,7 +51,7 @@ class Command(BaseCommand):
         stopping = stop_on_signals(STOP_LIMIT_S)
         try:
             make_fleet(options).run(stopping)
-        except RegistryError as error:
+        except VipoError as error:
             raise CommandError(error.detail) from error
 
 
@@ -66,7 +66,7 @@ def make_fleet(options: dict[str, Any]) -> Fleet:
         frame=read_origin(options["origin"]),
         station_type=options["station_type"],
         folder=folder / "vda5050" / site,
-        connect=device_connections(site, folder / "secrets", "vda5050"),
+        connect=connections(site, folder / "secrets", "vda5050"),
         new_id=lambda: uuid.uuid4().hex,
         clock=lambda: datetime.now(UTC),
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from dataclasses import dataclass, field
 from math import atan2, hypot
-from typing import Any, NamedTuple, Tuple, Union
+from typing import Any, Iterable, NamedTuple, Tuple, Union
 
 from vipo_agent.messages import MAX_WHY, Told, is_number, read_path
 
@@ -72,6 +72,28 @@ class Task:
     until_s: float | None = None
 
 
+class Answers:
+    """The last answer to each open command, and to the last 16 that are over."""
+
+    def __init__(self, over: Iterable[Ack] = ()) -> None:
+        self._acks: OrderedDict[str, Ack] = OrderedDict((ack.command, ack) for ack in over)
+
+    def find(self, command: str) -> Ack | None:
+        """Return the last answer to a command, None when it is new."""
+        return self._acks.get(command)
+
+    def note(self, ack: Ack) -> None:
+        """Keep an answer; a final one pushes the oldest final one out."""
+        self._acks.pop(ack.command, None)
+        self._acks[ack.command] = ack
+        for oldest in self.over()[:-REMEMBERED]:
+            del self._acks[oldest.command]
+
+    def over(self) -> list[Ack]:
+        """Return the final answers that are remembered, the oldest first."""
+        return [ack for ack in self._acks.values() if ack.status not in OPEN]
+
+
 class Core:
     """`out` fills with answers and orders to the navigation; whoever carries them out empties it."""
 
@@ -81,7 +103,6 @@ class Core:
         self.battery: float | None = None
         self._facts = facts
         self._tasks: list[Task] = []
-        self._answers: OrderedDict[str, Ack] = OrderedDict()
         self._pauses: list[str] = []
         self._held = False
         self._goal: Go | None = None
@@ -89,12 +110,11 @@ class Core:
         self._failures = 0
         kept = kept or {}
         self.load: dict[str, int] = {str(k): int(v) for k, v in kept.get("load", {}).items()}
-        for command, status, why in kept.get("answers", []):
-            self._answers[command] = Ack(command, status, why)
+        self._answers = Answers(Ack(*answer) for answer in kept.get("answers", []))
 
     def keep(self) -> dict[str, Any]:
         """Return what has to outlive a restart: the load, and the answers that are to be repeated."""
-        return {"load": self.load, "answers": [list(a) for a in self._answers.values() if a.status not in OPEN]}
+        return {"load": self.load, "answers": [list(ack) for ack in self._answers.over()]}
 
     def look(self) -> dict[str, Any]:
         """Return the state for `up/state`, without boot and seq."""
@@ -110,7 +130,7 @@ class Core:
 
     def command(self, told: Told, now_s: float) -> None:
         """Take in a command; one that is known is answered again."""
-        known = self._answers.get(told.command)
+        known = self._answers.find(told.command)
         if known is not None:
             self.out.append(known)
         elif told.method in CONTROLS:
@@ -160,7 +180,7 @@ class Core:
             return
         while self._tasks:
             head = self._tasks[0]
-            if self._answers[head.command].status == "ACCEPTED":
+            if self._answers.find(head.command) == Ack(head.command, "ACCEPTED"):
                 self._say(head.command, "RUNNING")
             if head.points:
                 if not self._drive():
@@ -303,7 +323,7 @@ class Core:
         """End a command, or all; a move takes the moves behind it along."""
         ids = [task.command for task in self._tasks]
         if target and target not in ids:
-            if target not in self._answers:
+            if self._answers.find(target) is None:
                 # It may still be on its way here, and must not be carried out when it comes.
                 self._say(target, "CANCELED", "It was cancelled before it arrived.")
             return
@@ -323,9 +343,5 @@ class Core:
 
     def _say(self, command: str, status: str, why: str = "") -> None:
         ack = Ack(command, status, why[:MAX_WHY])
-        self._answers.pop(command, None)
-        self._answers[command] = ack
-        over = [a.command for a in self._answers.values() if a.status not in OPEN]
-        for oldest in over[:-REMEMBERED]:
-            del self._answers[oldest]
+        self._answers.note(ack)
         self.out.append(ack)

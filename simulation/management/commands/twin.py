@@ -14,11 +14,10 @@ from django.core.management.base import BaseCommand, CommandError
 from simulation.site_facts import SiteFacts, read_site_facts
 from simulation.twin import Twin, TwinPlan
 from vipo_device.kit.connection import ConnectionMaker
-from vipo_device.kit.enrolment import Door, Entrance
-from vipo_device.kit.keyring import KeyFile, take_new_keys
+from vipo_device.kit.enrolment import device_connections
+from vipo_device.kit.keyring import RotatingKeyRing
 from vipo_device.kit.shutdown import stop_on_signals
-from vipo_device.protocol.errors import RegistryError
-from vipo_device.protocol.mqtt_client import MqttClient, Will, tls_context
+from vipo_device.protocol.errors import VipoError
 
 log = logging.getLogger(__name__)
 STOP_LIMIT_S = 20
@@ -46,7 +45,7 @@ class Command(BaseCommand):
         stopping = stop_on_signals(STOP_LIMIT_S)
         try:
             make_twin(options).run(stopping)
-        except RegistryError as error:
+        except VipoError as error:
             raise CommandError(error.detail) from error
 
 
@@ -55,21 +54,21 @@ def make_twin(options: dict[str, Any]) -> Twin:
     site: str = options["site"]
     facts = read_site_facts(site)
     folder = Path(settings.VIPO_STATE_DIR)
-    passwords, join_key = read_credentials(folder / "secrets")
+    passwords, enrolment_key = read_credentials(folder / "secrets")
     wanted = choose_devices(facts, options["only"], options["left_out"])
-    voices = frozenset(name for name in wanted if name in passwords or join_key)
-    for name in sorted(wanted - voices):
+    speaking = frozenset(name for name in wanted if name in passwords or enrolment_key)
+    for name in sorted(wanted - speaking):
         log.warning("%s has no password in secrets/devices.json and there is no join key; it stays away.", name)
     plan = TwinPlan(
         facts=facts,
-        voices=voices,
+        speaking=speaking,
         memory_path=folder / "twin" / f"{site}.json",
-        newcomers=frozenset(d.description.id for d in facts.devices) - passwords.keys(),
+        pending=frozenset(d.description.id for d in facts.devices) - passwords.keys(),
         speed=options["speed"],
         driver=options["driver"],
         refresh=lambda: read_site_facts(site),
     )
-    return Twin(plan, connections(site, passwords, join_key, folder / "secrets"))
+    return Twin(plan, connections(site, enrolment_key, folder / "secrets"))
 
 
 def choose_devices(facts: SiteFacts, only: str, left_out: str) -> frozenset[str]:
@@ -82,7 +81,7 @@ def choose_devices(facts: SiteFacts, only: str, left_out: str) -> frozenset[str]
 
 
 def read_credentials(folder: Path) -> tuple[dict[str, str], str]:
-    """Return the devices' passwords by id, and the key with which newcomers join (empty if there is none)."""
+    """Return the devices' passwords by id, and the key by which others enrol (empty if there is none)."""
     try:
         passwords: dict[str, str] = json.loads((folder / "devices.json").read_text())
     except FileNotFoundError:
@@ -95,31 +94,7 @@ def read_credentials(folder: Path) -> tuple[dict[str, str], str]:
     return passwords, join.read_text().strip() if join.exists() else ""
 
 
-def connections(site: str, passwords: dict[str, str], join_key: str, secrets: Path) -> ConnectionMaker:
-    """Return what makes a device's connection to the broker of the settings; new keys are taken and kept in `secrets`.
-
-    Who is refused with every key that it has knocks at the site's door, if there is a join key.
-    """
-    keys, spares = KeyFile(secrets / "devices.json"), KeyFile(secrets / "devices-spare.json")
-    door = Door(site, lambda: connection(f"join:{site}", join_key)) if join_key else None
-
-    def connect(device: str, will: Will) -> MqttClient:
-        client = connection(device, passwords.get(device, join_key), will)
-        take_new_keys(device, client, Entrance(device, client, keys, spares, door))
-        return client
-
-    return connect
-
-
-def connection(name: str, password: str, will: Will | None = None) -> MqttClient:
-    """Return a connection to the broker of the settings."""
-    broker: dict[str, Any] = settings.VIPO_MQTT
-    return MqttClient(
-        host=broker["host"],
-        port=broker["port"],
-        username=name,
-        password=password,
-        client_id=name,
-        tls=tls_context(broker["ca"]) if broker["tls"] else None,
-        will=will,
-    )
+def connections(site: str, enrolment_key: str, secrets: Path) -> ConnectionMaker:
+    """Return what connects a device to the broker of the settings; the keys that it is given are kept in `secrets`."""
+    ring = RotatingKeyRing(secrets / "devices.json", secrets / "devices-spare.json")
+    return device_connections(site, settings.VIPO_MQTT, ring, enrolment_key)

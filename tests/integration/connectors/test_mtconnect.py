@@ -13,10 +13,10 @@ import pytest
 
 from connectors.mtconnect import agent as asking
 from connectors.mtconnect.agent import Agent, AgentAway, read_address
-from connectors.mtconnect.connector import FollowerEnded, Plant, Setting
+from connectors.mtconnect.connector import Connector, FollowerEnded, Setting
 from connectors.mtconnect.description import Stand
 from connectors.mtconnect.documents import BadDocument, Document
-from connectors.mtconnect.follower import Follower, Heard, Probed, Said
+from connectors.mtconnect.follower import AgentEvent, Follower, MachinesListed, Observed
 from tests.bus import Ear
 from tests.integration.connectors.agents import Handler, MachineConnector, Misbehaviour, ScriptedAgent
 from tests.integration.connectors.vehicles import Server
@@ -130,19 +130,19 @@ def test_what_is_missed_at_the_beginning_is_asked_again(agent: ScriptedAgent) ->
     """A probe without the picture that belongs to it is of no use: the next one counts."""
     agent.say("exec", "READY")
     agent.misbehave = lambda handler: handler.send(b"<a/>") if "current" in handler.path else handler.reply()
-    heard: Queue[Heard] = Queue()
+    heard: Queue[AgentEvent] = Queue()
     stopping = Event()
     thread = Thread(
         target=Follower(Agent(read_address(f"http://127.0.0.1:{agent.port}")), 0.05, heard.put).run, args=[stopping]
     )
     thread.start()
     try:
-        assert isinstance(heard.get(timeout=60), Probed)
+        assert isinstance(heard.get(timeout=60), MachinesListed)
         agent.misbehave = None
-        while not isinstance(said := heard.get(timeout=60), Said):
+        while not isinstance(said := heard.get(timeout=60), Observed):
             pass
         assert ([o.text for o in said.observations], said.is_whole) == (["READY"], True)
-        assert heard.get(timeout=60) == Said((), is_whole=False)
+        assert heard.get(timeout=60) == Observed((), is_whole=False)
     finally:
         stopping.set()
         thread.join(30)
@@ -158,7 +158,7 @@ def test_a_connector_that_does_not_follow_any_more_ends(monkeypatch: pytest.Monk
     stand = Stand(Pose(0, 0), Size(1, 1, 1))
     setting = Setting("hall", stand, 0.1, lambda *_: pytest.fail("no machine is known"), lambda: datetime.now(UTC))
     with pytest.raises(FollowerEnded):
-        Plant(BrokenAgent(read_address("http://127.0.0.1:1")), setting).run(Event())
+        Connector(BrokenAgent(read_address("http://127.0.0.1:1")), setting).run(Event())
 
 
 def drips(handler: Handler) -> None:

@@ -14,8 +14,8 @@ from django.utils import timezone
 
 from connectors.mtconnect.agent import Agent, AgentAway, read_address
 from connectors.mtconnect.condition import MachineCondition
-from connectors.mtconnect.description import Stand, portray
-from connectors.mtconnect.follower import Follower, Heard, Probed, Said
+from connectors.mtconnect.description import Stand, describe_machine
+from connectors.mtconnect.follower import AgentEvent, Follower, MachinesListed, Observed
 from registry import services
 from registry.devices import samples
 from registry.devices.samples import SampleBuffer
@@ -28,7 +28,7 @@ PROPERTIES = (PropertySpec("width", "number", "M"), PropertySpec("lid", "text"),
 
 
 @pytest.fixture
-def told(hall: str, live_server: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[Queue[Heard]]:
+def told(hall: str, live_server: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[Queue[AgentEvent]]:
     """Follow the site's agent as its viewer; gives what is heard."""
     monkeypatch.setattr(samples, "_buffer", SampleBuffer())
     describe(replace(MIXER, properties=PROPERTIES))
@@ -38,7 +38,7 @@ def told(hall: str, live_server: Any, monkeypatch: pytest.MonkeyPatch) -> Iterat
     client = Client()
     client.force_login(User.objects.get(email="viewer@vipo.example"))
     cookie = f"Cookie: sessionid={client.cookies['sessionid'].value}"
-    queue: Queue[Heard] = Queue()
+    queue: Queue[AgentEvent] = Queue()
     stopping = Event()
     address = read_address(f"{live_server.url}/api/sites/hall/mtconnect", headers=cookie)
     thread = Thread(target=Follower(Agent(address), 0.1, queue.put).run, args=(stopping,))
@@ -56,17 +56,17 @@ def tell(seq: int, *, done: bool = True, **readings: Any) -> None:
 
 
 @pytest.mark.django_db(transaction=True)
-def test_a_device_of_one_site_can_be_a_machine_of_another(told: Queue[Heard]) -> None:
+def test_a_device_of_one_site_can_be_a_machine_of_another(told: Queue[AgentEvent]) -> None:
     probed = told.get(timeout=60)
-    assert isinstance(probed, Probed)
+    assert isinstance(probed, MachinesListed)
     (machine,) = probed.machines
-    portrait = portray(machine, "other", Stand(Pose(0, 0), Size(1, 1, 1)))
+    described = describe_machine(machine, "other", Stand(Pose(0, 0), Size(1, 1, 1)))
     assert (machine.uuid, machine.name) == ("urn:vipo:device:mixer1", "mixer1")
-    assert [(p.name, p.type, p.unit) for p in portrait.description.properties[3:]] == [
+    assert [(p.name, p.type, p.unit) for p in described.description.properties[3:]] == [
         ("width", "number", "M"),
         ("lid", "text", ""),
     ]
-    condition = MachineCondition(portrait)
+    condition = MachineCondition(described)
 
     def wait(**wanted: Any) -> None:
         while True:
@@ -75,7 +75,7 @@ def test_a_device_of_one_site_can_be_a_machine_of_another(told: Queue[Heard]) ->
             if all(now[name] == value for name, value in wanted.items()):
                 return
             heard = told.get(timeout=60)
-            assert isinstance(heard, Said)
+            assert isinstance(heard, Observed)
             condition.take(heard.observations)
 
     wait(width=1.5, lid="shut", error="", execution="READY")

@@ -63,7 +63,7 @@ def running_twin(bus: Mosquitto, memory: Path, **changes: object) -> Iterator[No
             will=will,
         )
 
-    plan = TwinPlan(facts=FACTS, voices=VOICES, memory_path=memory, speed=20, driver="kinematic")
+    plan = TwinPlan(facts=FACTS, speaking=VOICES, memory_path=memory, speed=20, driver="kinematic")
     twin, stopping = Twin(replace(plan, **changes), connect), threading.Event()  # type: ignore[arg-type]
     thread = threading.Thread(target=twin.run, args=(stopping,))
     thread.start()

@@ -36,7 +36,7 @@ def keys(bus: Bus, gateway: Gateway, tmp_path: Path, monkeypatch: pytest.MonkeyP
     plan = TwinPlan(
         replace(demo_facts(), slug=SITE), frozenset({OVEN}), tmp_path / "memory.json", driver="kinematic", speed=20
     )
-    twin, stopping = Twin(plan, connections(SITE, {OVEN: KEY}, JOIN, tmp_path)), threading.Event()
+    twin, stopping = Twin(plan, connections(SITE, JOIN, tmp_path)), threading.Event()
     thread = threading.Thread(target=twin.run, args=(stopping,))
     thread.start()
     try:

@@ -13,7 +13,8 @@ import pytest
 from execution.gateway.gateway import Gateway
 from registry import services
 from tests.integration.wire.bus import JOIN, SITE, Bus, wait
-from vipo_device.kit.keyring import KeyFile, take_new_keys
+from vipo_device.kit.enrolment import take_new_keys
+from vipo_device.kit.keyring import KeyFile
 
 pytestmark = pytest.mark.servers
 KEY = "first-key-of-the-mixer-0001"
@@ -40,7 +41,8 @@ def test_a_stranger_joins_by_its_description_and_the_join_key_alone(bus: Bus, ga
     assert lifecycle("new01") == ""
 
     device = bus.client("new01", KEY)
-    take_new_keys("new01", device, KeyFile(tmp_path / "keys.json"))
+    keys = KeyFile(tmp_path / "keys.json")
+    take_new_keys("new01", device, lambda key: keys.keep("new01", key))
     device.subscribe("vipo/v1/dev/new01/down/#", 1, lambda *_: None)  # amqtt then says it each command twice
     connections: list[None] = []
     device.on_connected(lambda: connections.append(None))

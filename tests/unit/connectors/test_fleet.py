@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
@@ -11,12 +10,11 @@ from typing import Any
 import pytest
 from django.core.management.base import CommandError
 
-from connectors.keys import Doorstep, KeyRing
 from connectors.management.commands.vda5050 import make_fleet, read_origin, vehicle_client
 from connectors.vda5050.coordinates import Frame
-from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS, Fleet, Said
-from connectors.vda5050.member import Setting
+from connectors.vda5050.fleet import MOST_VEHICLES, MOST_WAITING_EACH, STRANGERS, Fleet, VehicleMessage
 from connectors.vda5050.messages import VehicleName
+from connectors.vda5050.vehicle_device import Setting
 from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
 from vipo_device.protocol.mqtt_client import MISSES_TOLD, MqttClient
 
@@ -31,34 +29,34 @@ def fleet(tmp_path: Path) -> Fleet:
     return Fleet(client, "uagv", setting)
 
 
-def connection(name: VehicleName) -> Said:
+def connection(name: VehicleName) -> VehicleMessage:
     header = {**HEADER, "manufacturer": name.manufacturer, "serialNumber": name.serial_number}
-    return Said(name, "connection", payload(header, connectionState="ONLINE"))
+    return VehicleMessage(name, "connection", payload(header, connectionState="ONLINE"))
 
 
 def test_strangers_are_heard_only_when_they_say_that_they_are_connected(fleet: Fleet) -> None:
-    fleet._take(Said(NAME, "state", b"{}"), 0.0)
-    fleet._take(Said(NAME, "connection", b"{}"), 0.0)
-    assert (dict(fleet.refused), fleet._members) == ({STRANGERS: 1}, {})
+    fleet._take(VehicleMessage(NAME, "state", b"{}"), 0.0)
+    fleet._take(VehicleMessage(NAME, "connection", b"{}"), 0.0)
+    assert (dict(fleet.refused), fleet._devices) == ({STRANGERS: 1}, {})
     fleet._take(connection(NAME), 0.0)
-    fleet._take(Said(NAME, "state", b"{}"), 0.0)
-    assert (dict(fleet.refused), list(fleet._members)) == ({STRANGERS: 1, "Acme-1": 1}, ["Acme-1"])
+    fleet._take(VehicleMessage(NAME, "state", b"{}"), 0.0)
+    assert (dict(fleet.refused), list(fleet._devices)) == ({STRANGERS: 1, "Acme-1": 1}, ["Acme-1"])
 
 
 def test_who_has_been_a_device_is_known_by_its_state(fleet: Fleet, tmp_path: Path) -> None:
     (tmp_path / "Acme-1.json").write_text("{}")
-    fleet._take(Said(NAME, "visualization", payload(STATE)), 0.0)
-    fleet._take(Said(NAME, "state", b"{}"), 0.0)
-    fleet._take(Said(VehicleName("Acme", "2"), "state", payload(STATE, serialNumber="2")), 0.0)
-    assert (dict(fleet.refused), fleet._members) == ({STRANGERS: 1}, {})
-    fleet._take(Said(NAME, "state", payload(STATE)), 0.0)
-    assert list(fleet._members) == ["Acme-1"]
+    fleet._take(VehicleMessage(NAME, "visualization", payload(STATE)), 0.0)
+    fleet._take(VehicleMessage(NAME, "state", b"{}"), 0.0)
+    fleet._take(VehicleMessage(VehicleName("Acme", "2"), "state", payload(STATE, serialNumber="2")), 0.0)
+    assert (dict(fleet.refused), fleet._devices) == ({STRANGERS: 1}, {})
+    fleet._take(VehicleMessage(NAME, "state", payload(STATE)), 0.0)
+    assert list(fleet._devices) == ["Acme-1"]
 
 
 def test_a_connector_serves_two_hundred_vehicles(fleet: Fleet) -> None:
     for number in range(MOST_VEHICLES + 5):
         fleet._take(connection(VehicleName("Acme", f"{number}")), 0.0)
-    assert len(fleet._members) == MOST_VEHICLES
+    assert len(fleet._devices) == MOST_VEHICLES
     assert dict(fleet.refused) == {STRANGERS: 5}
 
 
@@ -93,38 +91,8 @@ def test_the_command_says_what_cannot_be() -> None:
         make_fleet({"site": "a/b", "interface": "uagv"})
 
 
-def test_a_key_is_made_once_and_one_that_people_wrote_goes_first(tmp_path: Path) -> None:
-    by_hand, own = tmp_path / "devices.json", tmp_path / "secrets" / "own.json"
-    ring = KeyRing(by_hand, own)
-    made = ring.key("Acme-1")
-    assert (len(made), ring.key("Acme-1")) == (32, made)
-    assert own.stat().st_mode & 0o777 == 0o600
-    by_hand.write_text(json.dumps({"Acme-1": "by hand"}))
-    assert ring.key("Acme-1") == "by hand"
-    own.write_text("not JSON")
-    assert ring.key("Acme-2") != made
-
-
 def test_the_log_says_once_that_a_broker_is_not_reached(caplog: pytest.LogCaptureFixture) -> None:
     client = vehicle_client("mqtt://127.0.0.1:9", "", "vipo-hall")
     for _ in range(MISSES_TOLD + 2):
         client._missed(client._paho, None)
     assert caplog.messages == ["vipo-hall does not reach the MQTT broker at 127.0.0.1:9; it goes on trying."]
-
-
-def test_a_device_that_is_not_let_in_tries_the_key_that_was_written_meanwhile(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
-    by_hand = tmp_path / "devices.json"
-    ring = KeyRing(by_hand, tmp_path / "own.json")
-    client = vehicle_client("mqtt://127.0.0.1:9", "", "Acme-1")
-    Doorstep("hall", ring, None).watch("Acme-1", ring.key("Acme-1"), client)
-    for _ in range(2):
-        client._refused(client._paho, "Not authorized")
-    by_hand.write_text(json.dumps({"Acme-1": "the new key"}))
-    client._refused(client._paho, "Not authorized")
-    assert client._password == "the new key"
-    assert caplog.messages == [
-        "The MQTT broker refused Acme-1: Not authorized.",
-        "Acme-1 has no key that is known: write one into secrets/devices.json, or name a join key.",
-    ]

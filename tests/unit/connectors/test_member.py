@@ -13,10 +13,10 @@ import pytest
 from connectors.vda5050.connection_state import PATIENCE_S
 from connectors.vda5050.control import Send
 from connectors.vda5050.coordinates import Frame
-from connectors.vda5050.member import Member, Setting
+from connectors.vda5050.vehicle_device import Setting, VehicleDevice
 from tests.integration.connectors.factsheet import FACTSHEET
 from tests.unit.connectors.vehicle import HEADER, NAME, STATE, payload
-from vipo_device.kit.connection import Will
+from vipo_device.kit.connection import Will, leave
 from vipo_device.protocol.mqtt_client import MqttClient
 
 
@@ -32,26 +32,28 @@ def asked() -> list[tuple[str, Any]]:
 
 
 @pytest.fixture
-def member(tmp_path: Path, asked: list[tuple[str, Any]]) -> Iterator[Member]:
+def member(tmp_path: Path, asked: list[tuple[str, Any]]) -> Iterator[VehicleDevice]:
     at = datetime(2026, 1, 1, tzinfo=UTC)
     setting = Setting("hall", Frame(), "floor", tmp_path, away, lambda: "id", lambda: at)
-    member = Member(NAME, setting, lambda _, topic, body: asked.append((topic, json.loads(body))), lambda _: None)
+    member = VehicleDevice(
+        NAME, setting, lambda _, topic, body: asked.append((topic, json.loads(body))), lambda _: None
+    )
     yield member
-    member.leave()
+    leave([member.connection] if member.connection else [])
 
 
-def say(member: Member, subtopic: str, now_s: float, **body: Any) -> None:
+def say(member: VehicleDevice, subtopic: str, now_s: float, **body: Any) -> None:
     member.hear(subtopic, payload(HEADER, **body), now_s)
 
 
-def come(member: Member, now_s: float) -> None:
+def come(member: VehicleDevice, now_s: float) -> None:
     say(member, "connection", now_s, connectionState="ONLINE")
     say(member, "factsheet", now_s, **FACTSHEET)
     say(member, "state", now_s, **STATE)
     assert member.control is not None
 
 
-def test_a_vehicle_that_says_again_and_again_that_it_is_connected_stays_online(member: Member) -> None:
+def test_a_vehicle_that_says_again_and_again_that_it_is_connected_stays_online(member: VehicleDevice) -> None:
     come(member, 100.0)
     say(member, "connection", 101.0, connectionState="ONLINE")
     assert member.control is not None
@@ -60,7 +62,7 @@ def test_a_vehicle_that_says_again_and_again_that_it_is_connected_stays_online(m
     assert not member.control.online
 
 
-def test_a_vehicle_that_starts_anew_with_a_clock_that_is_not_set_is_heard(member: Member) -> None:
+def test_a_vehicle_that_starts_anew_with_a_clock_that_is_not_set_is_heard(member: VehicleDevice) -> None:
     come(member, 100.0)
     early = {"headerId": 0, "timestamp": "1970-01-01T00:00:05.00Z"}
     say(member, "state", 101.0, **{**STATE, **early, "operatingMode": "MANUAL"})
@@ -73,7 +75,7 @@ def test_a_vehicle_that_starts_anew_with_a_clock_that_is_not_set_is_heard(member
     assert (member.control.state.mode, member.control.online) == ("MANUAL", True)
 
 
-def test_the_log_says_why_a_vehicle_is_not_on_the_map(member: Member, caplog: pytest.LogCaptureFixture) -> None:
+def test_the_log_says_why_a_vehicle_is_not_on_the_map(member: VehicleDevice, caplog: pytest.LogCaptureFixture) -> None:
     say(member, "connection", 100.0, connectionState="ONLINE")
     member.tick(100.1)
     assert caplog.messages == []
@@ -88,7 +90,7 @@ def test_the_log_says_why_a_vehicle_is_not_on_the_map(member: Member, caplog: py
     ]
 
 
-def test_a_last_will_that_comes_late_does_not_keep_a_vehicle_away(member: Member) -> None:
+def test_a_last_will_that_comes_late_does_not_keep_a_vehicle_away(member: VehicleDevice) -> None:
     come(member, 100.0)
     say(member, "connection", 101.0, connectionState="CONNECTIONBROKEN")
     assert member.control is not None
@@ -103,7 +105,7 @@ def test_a_last_will_that_comes_late_does_not_keep_a_vehicle_away(member: Member
         assert not member.control.online, "it said goodbye"
 
 
-def test_nothing_is_known_of_vehicles_while_their_broker_is_not_reached(member: Member) -> None:
+def test_nothing_is_known_of_vehicles_while_their_broker_is_not_reached(member: VehicleDevice) -> None:
     come(member, 100.0)
     assert member.control is not None
     member.tick(101.0, is_reached=False)
@@ -114,7 +116,7 @@ def test_nothing_is_known_of_vehicles_while_their_broker_is_not_reached(member: 
     assert member.control.online
 
 
-def test_a_vehicle_whose_connection_is_forgotten_is_asked_who_it_is(member: Member, asked: list[Any]) -> None:
+def test_a_vehicle_whose_connection_is_forgotten_is_asked_who_it_is(member: VehicleDevice, asked: list[Any]) -> None:
     for number in (1, 2):
         say(member, "state", 100.0 + number, **{**STATE, "headerId": number})
     member.tick(104.0)
@@ -127,7 +129,7 @@ def test_a_vehicle_whose_connection_is_forgotten_is_asked_who_it_is(member: Memb
     assert member.control.online
 
 
-def test_no_two_messages_that_go_out_together_have_the_same_number(member: Member, asked: list[Any]) -> None:
+def test_no_two_messages_that_go_out_together_have_the_same_number(member: VehicleDevice, asked: list[Any]) -> None:
     come(member, 100.0)
     assert member.control is not None
     member.control.out = [Send("instantActions", {"actionType": kind}) for kind in ("cancelOrder", "startPause")]

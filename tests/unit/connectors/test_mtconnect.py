@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import pytest
 from django.core.management.base import CommandError
 
-from connectors.keys import KeyRing
 from connectors.management.commands.mtconnect import make_agent, read_stand
 from connectors.mtconnect.agent import BadAddress, read_address
 from connectors.mtconnect.condition import MachineCondition
-from connectors.mtconnect.description import Stand, device_id, portray
+from connectors.mtconnect.description import Stand, describe_machine, device_id
 from connectors.mtconnect.documents import MOST_BYTES, BadDocument, Devices, Machine, Refusal, Streams, read_document
 from tests.unit.connectors import mtconnect_words as words
 from vipo_device.descriptions.reader import read_description
@@ -34,7 +31,7 @@ def machine_of(*devices: str, version: str = "1.2") -> Machine:
 
 @pytest.fixture
 def lathe() -> MachineCondition:
-    return MachineCondition(portray(machine_of(), "hall", STAND))
+    return MachineCondition(describe_machine(machine_of(), "hall", STAND))
 
 
 def hear(condition: MachineCondition, *told: str, version: str = "1.2") -> dict[str, Any]:
@@ -48,8 +45,8 @@ def hear(condition: MachineCondition, *told: str, version: str = "1.2") -> dict[
 
 @pytest.mark.parametrize("version", ["1.2", "1.7", "2.0"])
 def test_a_machine_describes_itself_by_its_probe(version: str) -> None:
-    portrait = portray(machine_of(version=version), "hall", STAND)
-    found = read_description(portrait.turtle, device_id="M8010-1")
+    described = describe_machine(machine_of(version=version), "hall", STAND)
+    found = read_description(described.turtle, device_id="M8010-1")
     assert (found.name, found.kind, found.site, found.methods) == ("Lathe", "machine", "hall", ())
     assert (found.pose, found.size) == (STAND.pose, STAND.size)
     assert found.description == "Mazak Turning centre. Read over MTConnect"
@@ -120,18 +117,18 @@ def test_the_largest_machine_fits_into_a_description_and_a_state() -> None:
     items = "".join(
         f'<DataItem category="EVENT" id="i{n}" name="{"ä" * 200}{n}" type="{"MESSAGE" * 9}"/>' for n in range(3000)
     )
-    portrait = portray(
+    described = describe_machine(
         machine_of(f'<Device uuid="{"é" * 300}" name="{"n" * 300}"><DataItems>{items}</DataItems></Device>'),
         "hall",
         STAND,
     )
-    assert len(portrait.turtle) <= MAX_BYTES
-    assert 20 < len(portrait.readings) <= 61
-    assert len(portrait.readings) + portrait.left_out == 2000
-    condition = MachineCondition(portrait)
+    assert len(described.turtle) <= MAX_BYTES
+    assert 20 < len(described.readings) <= 61
+    assert len(described.readings) + described.left_out == 2000
+    condition = MachineCondition(described)
     found = read_document(
         words.streams(
-            *(words.told(r.item, "\u2603" * 300, n) for n, r in enumerate(portrait.readings)), head=words.header()
+            *(words.told(r.item, "\u2603" * 300, n) for n, r in enumerate(described.readings)), head=words.header()
         )
     )
     assert isinstance(found, Streams)
@@ -218,10 +215,3 @@ def test_the_command_line_is_read(tmp_path: Path) -> None:
         make_agent({"agent": "cell", "ca": "", "headers": ""})
     with pytest.raises(CommandError, match="No such file"):
         make_agent({"agent": "http://cell/", "ca": "", "headers": str(tmp_path / "none")})
-
-
-def test_connectors_that_share_a_file_of_keys_keep_each_others(tmp_path: Path) -> None:
-    rings = [KeyRing(tmp_path / "devices.json", tmp_path / "own" / "mtconnect-hall.json") for _ in range(4)]
-    with ThreadPoolExecutor(8) as pool:
-        keys = dict(pool.map(lambda n: (f"m{n % 8}", rings[n % 4].key(f"m{n % 8}")), range(64)))
-    assert json.loads((tmp_path / "own" / "mtconnect-hall.json").read_text()) == keys

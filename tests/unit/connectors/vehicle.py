@@ -14,7 +14,7 @@ from connectors.vda5050.messages import VehicleName, VehicleState, read_state
 from connectors.vda5050.tasks import Vehicle
 from tests.integration.connectors.factsheet import FACTSHEET
 from vipo_device.protocol.description import Pose
-from vipo_device.protocol.messages import AckMessage, Told
+from vipo_device.protocol.messages import AckMessage, DeviceCommand
 
 NAME = VehicleName("Acme", "1")
 HEADER = {
@@ -75,7 +75,7 @@ class Bench:
         self.hear()
 
     def tell(self, method: str, command: str, /, **arguments: Any) -> None:
-        self.control.command(Told(command, method, arguments), self.now_s)
+        self.control.command(DeviceCommand(command, method, arguments), self.now_s)
 
     def hear(self, **changes: Any) -> None:
         self.control.hear_state(state(**changes), self.now_s)

@@ -8,7 +8,7 @@ sys.path.insert(0, str(ROOT / "firmware" / "robot_agent"))
 
 from vipo_agent.agent import Agent, CannotStart, Navigation
 from vipo_agent.config import BadConfig, Config, make_config
-from vipo_agent.core import Core, Facts, Go, Halt
+from vipo_agent.core import Ack, Answers, Core, Facts, Go, Halt
 from vipo_agent.description import describe
 from vipo_agent.link import Link
 from vipo_agent.messages import Grid, Told, write_grid
@@ -16,7 +16,9 @@ from vipo_agent.messages import Grid, Told, write_grid
 RobotGrid = Grid
 
 __all__ = [
+    "Ack",
     "Agent",
+    "Answers",
     "BadConfig",
     "CannotStart",
     "Config",

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from simulation.actors import Beginning, Machine
+from simulation.actors import InitialState, Machine
 from simulation.actors.machine import first_stock
 from simulation.world import Ack, Fault, PropertyChanged, WorldEvent
 from tests.unit.simulation.stage_set import BENCH, OVEN, ROLLERS, SHELF
@@ -20,7 +20,7 @@ class Watched:
 
     def __init__(self, description: Description, **beginning: Any) -> None:
         self.events: list[WorldEvent] = []
-        self.machine = Machine(description, self.events.append, Beginning(**beginning))
+        self.machine = Machine(description, self.events.append, InitialState(**beginning))
         self.t_s = 0.0
 
     def tell(self, method: str, command: str = "c1", /, **arguments: object) -> None:

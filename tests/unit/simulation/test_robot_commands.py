@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from simulation.kinematic import KinematicDriver
-from simulation.stage import Stage
+from simulation.simulated_world import SimulatedWorld
 from simulation.world import Ack
 from tests.unit.simulation.stage_set import scene
 
@@ -42,7 +42,7 @@ COMMANDS = st.tuples(
 @settings(max_examples=60, deadline=None)
 @given(st.lists(COMMANDS, max_size=14))
 def test_every_command_gets_exactly_one_final_answer(commands: list[tuple[str, str, dict[str, Any], float]]) -> None:
-    world = Stage(scene(), KinematicDriver)
+    world = SimulatedWorld(scene(), KinematicDriver)
     events = []
     for i, (device, method, arguments, seconds) in enumerate(commands):
         world.command(device, method, arguments, f"c{i}")
@@ -68,7 +68,7 @@ def test_every_command_gets_exactly_one_final_answer(commands: list[tuple[str, s
 @settings(max_examples=60, deadline=None)
 @given(st.lists(st.tuples(st.sampled_from(["pick", "drop"]), st.integers(1, 3)), max_size=8))
 def test_objects_are_neither_made_nor_lost(handling: list[tuple[str, int]]) -> None:
-    world = Stage(scene(), KinematicDriver)
+    world = SimulatedWorld(scene(), KinematicDriver)
     world.command("robot", "move", {"path": [[3.0, 6.15]]}, "go")
     world.advance(20)
     for i, (method, count) in enumerate(handling):
@@ -80,7 +80,7 @@ def test_objects_are_neither_made_nor_lost(handling: list[tuple[str, int]]) -> N
 
 
 def test_a_way_that_begins_elsewhere_is_refused_and_not_driven() -> None:
-    world = Stage(scene(), KinematicDriver)
+    world = SimulatedWorld(scene(), KinematicDriver)
     here = world.robots()["robot"].pose
     world.command("robot", "move", {"path": [[3.0, 6.0]], "from": [here.x + 2.0, here.y]}, "astray")
     (refusal,) = [e for e in world.advance(1.0) if isinstance(e, Ack)]

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import logging
-import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from connectors.vda5050.factsheet import device_id
+from connectors.vda5050.messages import VehicleName
+from vipo_device.kit.atomic_file import write_file
 from vipo_device.protocol.description import Pose
 
 log = logging.getLogger(__name__)
@@ -17,7 +19,7 @@ FORMAT = 1
 
 
 @dataclass(slots=True)
-class Memory:
+class VehicleMemory:
     """`boot` counts the starts, `home` is where the vehicle was first seen, `headers` counts messages by topic."""
 
     boot: int = 0
@@ -26,28 +28,30 @@ class Memory:
     control: Mapping[str, Any] = field(default_factory=dict)
 
 
-def write_memory(path: Path, memory: Memory) -> None:
-    """Write the file in one piece: who reads it finds the old or the new one."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    draft = path.with_suffix(".new")
-    draft.write_text(json.dumps({"format": FORMAT, **asdict(memory)}, separators=(",", ":")))
-    os.replace(draft, path)  # noqa: PTH105 - the atomic rename is what matters here
+def memory_path(folder: Path, name: VehicleName) -> Path:
+    """Return where is kept what was open at a vehicle; the file is there once it has been a device."""
+    return folder / f"{device_id(name)}.json"
 
 
-def read_memory(path: Path, now: int) -> Memory:
+def write_memory(path: Path, memory: VehicleMemory) -> None:
+    """Keep a vehicle's memory. Raises OSError."""
+    write_file(path, json.dumps({"format": FORMAT, **asdict(memory)}, separators=(",", ":")))
+
+
+def read_memory(path: Path, now: int) -> VehicleMemory:
     """Return what was kept, with the next boot; `now`, in seconds, is where boots begin, so that none goes back."""
     try:
         memory = _memory(json.loads(path.read_text()))
     except FileNotFoundError:
-        memory = Memory()
+        memory = VehicleMemory()
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         log.warning("%s cannot be read (%s); what the vehicle was doing is judged by what it says.", path, error)
-        memory = Memory()
+        memory = VehicleMemory()
     memory.boot = max(memory.boot + 1, now)
     return memory
 
 
-def _memory(body: dict[str, Any]) -> Memory:
+def _memory(body: dict[str, Any]) -> VehicleMemory:
     if body.pop("format") != FORMAT:
         raise ValueError(f"it is not of format {FORMAT}")
-    return Memory(**{**body, "home": Pose(**body["home"]) if body["home"] else None})
+    return VehicleMemory(**{**body, "home": Pose(**body["home"]) if body["home"] else None})

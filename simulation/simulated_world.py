@@ -1,4 +1,4 @@
-"""The pretend world itself: actors decide, a driver moves the robots, time goes in equal ticks."""
+"""The simulated world itself: actors decide, a driver moves the robots, time goes in equal ticks."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Protocol
 
 from simulation.actors import Motion
 from simulation.near_misses import NearnessWatch
-from simulation.scene import Layout, cast_actors, lay_out
+from simulation.scene import Layout, make_actors, make_layout
 from simulation.world import Ack, RobotSnapshot, Scene, WorldEvent
 from vipo_device.protocol.description import Pose, Scalar
 
@@ -41,17 +41,17 @@ class DriverFactory(Protocol):
         """Return the driver."""
 
 
-class Stage:
+class SimulatedWorld:
     """A world in virtual time (see `World`)."""
 
     def __init__(self, scene: Scene, make_driver: DriverFactory) -> None:
         self._events: list[WorldEvent] = []
-        self._cast = cast_actors(scene, self._events.append)
-        layout = lay_out(scene, self._cast)
+        self._by_kind = make_actors(scene, self._events.append)
+        layout = make_layout(scene, self._by_kind)
         self._driver = make_driver(layout)
         self._motions = self._driver.motions()
         self._nearness = NearnessWatch(layout, self._motions)
-        self._actors = {**self._cast.machines, **self._cast.robots}
+        self._actors = {**self._by_kind.machines, **self._by_kind.robots}
         self._delivery_s = scene.delivery_s
         self._due_s: dict[str, float] = {}
         self._asked_s = 0.0
@@ -90,7 +90,7 @@ class Stage:
             name: RobotSnapshot(
                 Pose(motion.x, motion.y, 0.0, motion.theta), motion.speed, dict(robot.carrying), robot.battery
             )
-            for name, robot in self._cast.robots.items()
+            for name, robot in self._by_kind.robots.items()
             for motion in (self._motions[name],)
         }
 
@@ -104,19 +104,19 @@ class Stage:
 
     def stocks(self) -> dict[str, dict[str, int]]:
         """Return what each machine holds."""
-        return {name: dict(machine.stock) for name, machine in self._cast.machines.items()}
+        return {name: dict(machine.stock) for name, machine in self._by_kind.machines.items()}
 
     def remembered(self) -> dict[str, list[Ack]]:
         """Return the final answers that each device would give again, oldest first."""
         now = self._asked_s
         return {
-            name: [Ack(now, name, command, a.status, a.why, a.result) for command, a in actor.ledger.over().items()]
+            name: [Ack(now, name, a.command, a.status, a.why, a.result) for a in actor.ledger.over()]
             for name, actor in self._actors.items()
         }
 
     def under_way(self) -> dict[str, tuple[str, ...]]:
         """Return the commands that each device has begun or queued."""
-        return {name: actor.ledger.under_way() for name, actor in self._actors.items()}
+        return {name: tuple(ack.command for ack in actor.ledger.under_way()) for name, actor in self._actors.items()}
 
     def close(self) -> None:
         """Give back what the driver holds."""
@@ -124,32 +124,32 @@ class Stage:
 
     def _tick(self, t_s: float) -> None:
         dt_s = self._driver.tick_s
-        for machine in self._cast.machines.values():
+        for machine in self._by_kind.machines.values():
             if not machine.resting:
                 machine.advance(t_s, dt_s)
         targets = {
             name: robot.control(self._motions[name], t_s, dt_s)
-            for name, robot in self._cast.robots.items()
+            for name, robot in self._by_kind.robots.items()
             if not robot.resting
         }
         self._driver.drive(targets, self._nearness.touching)
         self._events.extend(self._nearness.look(t_s, targets))
         for name in targets:
-            self._cast.robots[name].touches = self._nearness.touched_by(name)
+            self._by_kind.robots[name].touches = self._nearness.touched_by(name)
         if t_s >= (self._slow_ticks + 1) * SLOW_TICK_S:
             self._slow_ticks += 1
             self._tick_slowly(t_s, targets)
 
     def _tick_slowly(self, t_s: float, targets: Mapping[str, Drive]) -> None:
         """Do once a second what need not be done more often."""
-        for name, robot in self._cast.robots.items():
+        for name, robot in self._by_kind.robots.items():
             robot.notice_faults(t_s)
             robot.use_battery(t_s, SLOW_TICK_S, driving=name in targets)
         if self._delivery_s is not None:
             self._deliver(t_s, self._delivery_s)
 
     def _deliver(self, t_s: float, after_s: float) -> None:
-        for name, machine in self._cast.machines.items():
+        for name, machine in self._by_kind.machines.items():
             goods = machine.wanted_stock()
             if goods is None:
                 self._due_s.pop(name, None)

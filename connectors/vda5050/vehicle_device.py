@@ -1,4 +1,4 @@
-"""One vehicle of the fleet: what it says on its own broker on one side, its VIPO device on the other."""
+"""One vehicle as a device of VIPO: what it says on its own broker on one side, its device's connection on the other."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from connectors.commands import OPEN
-from connectors.vda5050.connection_state import Presence
+from connectors.vda5050.connection_state import ConnectionState
 from connectors.vda5050.control import Send, VehicleControl
 from connectors.vda5050.coordinates import Frame
 from connectors.vda5050.factsheet import Factsheet, describe, device_id, read_factsheet
@@ -24,12 +23,12 @@ from connectors.vda5050.messages import (
     read_state,
     read_visualization,
 )
-from connectors.vda5050.order_file import Memory, read_memory, write_memory
 from connectors.vda5050.orders import action, instant_actions
 from connectors.vda5050.tasks import Vehicle
+from connectors.vda5050.vehicle_memory import VehicleMemory, memory_path, read_memory, write_memory
 from vipo_device.descriptions.reader import write_description
-from vipo_device.kit.connection import ConnectionMaker, DeviceLine, LineEvent
-from vipo_device.protocol.messages import AckMessage, Told
+from vipo_device.kit.connection import ConnectionEvent, ConnectionMaker, DeviceConnection
+from vipo_device.protocol.messages import AckMessage, DeviceCommand
 
 log = logging.getLogger(__name__)
 Publish = Callable[[VehicleName, str, bytes], None]
@@ -49,30 +48,25 @@ class Setting:
     clock: Callable[[], datetime]
 
 
-def memory_path(setting: Setting, name: VehicleName) -> Path:
-    """Return where is kept what was open at a vehicle; the file is there once it has been a device."""
-    return setting.folder / f"{device_id(name)}.json"
-
-
-class Member:
+class VehicleDevice:
     """A vehicle that was heard of. It becomes a device when its connection, factsheet and state are known."""
 
     def __init__(
-        self, name: VehicleName, setting: Setting, publish: Publish, inbox: Callable[[LineEvent], None]
+        self, name: VehicleName, setting: Setting, publish: Publish, inbox: Callable[[ConnectionEvent], None]
     ) -> None:
         self.name, self.id = name, device_id(name)
         self._publish = publish
         self.control: VehicleControl | None = None
         self._setting, self._inbox = setting, inbox
-        self._path = memory_path(setting, name)
-        self._memory: Memory = read_memory(self._path, int(setting.clock().timestamp()))
-        self._line: DeviceLine | None = None
+        self._path = memory_path(setting.folder, name)
+        self._memory: VehicleMemory = read_memory(self._path, int(setting.clock().timestamp()))
+        self.connection: DeviceConnection | None = None
         self._sheet: Factsheet | None = None
         self._sheet_said = b""
         self._description = b""
         self._version = "2.0.0"
-        self._told_facts = (b"", "")
-        self._presence = Presence()
+        self._described_facts = (b"", "")
+        self._connection_state = ConnectionState()
         self._newest: dict[str, Header] = {}
         self._state: VehicleState | None = None
         self._located: Located | None = None
@@ -90,7 +84,7 @@ class Member:
                 state = read_state(payload, self.name)
                 if self._is_news("state", state.header):
                     self._state = state
-                    self._presence.hear_state(now_s)
+                    self._connection_state.hear_state(now_s)
                     self._locate(state.located)
             case "visualization":
                 header, located = read_visualization(payload, self.name)
@@ -98,14 +92,14 @@ class Member:
                     self._locate(located)
         self._become_device()
         if subtopic == "state" and self.control is not None and self._state is not None:
-            self._be_present(now_s)
+            self._follow_presence(now_s)
             self.control.hear_state(self._state, now_s)
         self.speak(now_s)
 
-    def command(self, told: Told, now_s: float) -> None:
+    def command(self, command: DeviceCommand, now_s: float) -> None:
         """Take in a command of the server."""
         if self.control is not None:
-            self.control.command(told, now_s)
+            self.control.command(command, now_s)
             self.speak(now_s)
 
     def hold(self, now_s: float, *, active: bool) -> None:
@@ -116,8 +110,8 @@ class Member:
 
     def introduce(self) -> None:
         """Say to the server who the vehicle is."""
-        if self._line is not None and self.control is not None:
-            self._line.introduce(self._description, online=self.control.online)
+        if self.connection is not None and self.control is not None:
+            self.connection.introduce(self._description, online=self.control.online)
 
     def tick(self, now_s: float, *, is_reached: bool = True) -> None:
         """Let time pass: ask the vehicle for what is missing, send again what it did not answer.
@@ -127,36 +121,31 @@ class Member:
         if is_reached:
             self._ask(now_s)
         else:
-            self._presence.lose_sight(now_s)
+            self._connection_state.lose_sight(now_s)
         self._say_what_is_missing(now_s)
         if self.control is not None:
-            self._be_present(now_s)
+            self._follow_presence(now_s)
             self.control.settle(now_s)
         self.speak(now_s)
 
-    def leave(self) -> None:
-        """Say goodbye to VIPO; the vehicle keeps what it was ordered."""
-        if self._line is not None:
-            self._line.close()
-
     def speak(self, now_s: float) -> None:
         """Keep what is to be known after a crash, then send: orders, what has begun, the state, what is over."""
-        control, line = self.control, self._line
-        if control is None or line is None:
+        control, connection = self.control, self.connection
+        if control is None or connection is None:
             return
         out, control.out = control.out, []
         numbered = [(item, self._count(item.topic) if isinstance(item, Send) else 0) for item in out]
         self._save(control.to_json())
-        over = [item for item in out if isinstance(item, AckMessage) and item.status not in OPEN]
+        over = [item for item in out if isinstance(item, AckMessage) and item.is_final]
         for item, number in numbered:
             if isinstance(item, Send):
                 self._send(item.topic, item.body, number)
             elif item not in over:
-                line.answer(item)
+                connection.answer(item)
         if control.online or over:
-            line.report(control.look, now_s, at_once=bool(over))
+            connection.report(control.look, now_s, at_once=bool(over))
         for ack in over:
-            line.answer(ack)
+            connection.answer(ack)
 
     def _hear_connection(self, payload: bytes, now_s: float) -> None:
         """Take in that the vehicle came or went; a will is older than what it ends, so its number says nothing.
@@ -165,10 +154,10 @@ class Member:
         """
         header, said = read_connection(payload, self.name)
         self._version = header.version
-        self._presence.hear_connection(said, now_s)
-        if self._presence.is_connected:
+        self._connection_state.hear_connection(said, now_s)
+        if self._connection_state.is_connected:
             self._newest.clear()
-        self._be_present(now_s)
+        self._follow_presence(now_s)
 
     def _is_news(self, subtopic: str, header: Header) -> bool:
         if header.is_stale(self._newest.get(subtopic)):
@@ -184,11 +173,11 @@ class Member:
     def _become_device(self) -> None:
         """Make the device, or describe it anew when the factsheet has changed."""
         facts = (self._sheet_said, self._version)
-        if not self._presence.is_connected or facts == self._told_facts:
+        if not self._connection_state.is_connected or facts == self._described_facts:
             return
         if self._sheet is None or self._state is None or self._located is None:
             return
-        self._told_facts = facts
+        self._described_facts = facts
         home = self._memory.home or self._setting.frame.to_site(self._located.pose)
         description = describe(self.name, self._sheet, home, self._setting.site)
         vehicle = Vehicle(description, self._sheet, self._setting.frame, self._version, self._setting.station_type)
@@ -200,8 +189,8 @@ class Member:
         self.control = VehicleControl(vehicle, self._setting.new_id)
         self.control.located = self._located
         self._recall(self.control)
-        self._line = DeviceLine(self.id, self._setting.site, self._memory.boot, self._inbox)
-        self._line.connect(self._setting.connect)
+        self.connection = DeviceConnection(self.id, self._setting.site, self._memory.boot, self._inbox)
+        self.connection.connect(self._setting.connect)
 
     def _recall(self, control: VehicleControl) -> None:
         """Take up what was open when the connector ended, and count this start."""
@@ -212,28 +201,28 @@ class Member:
                 log.warning("%s: what was open could not be read (%s).", self.id, error)
         write_memory(self._path, self._memory)
 
-    def _be_present(self, now_s: float) -> None:
+    def _follow_presence(self, now_s: float) -> None:
         """Follow whether the vehicle is there."""
-        online = self._presence.is_online(now_s)
-        if self.control is not None and self._line is not None and online != self.control.online:
+        online = self._connection_state.is_online(now_s)
+        if self.control is not None and self.connection is not None and online != self.control.online:
             self.control.online = online
-            self._line.say_presence(online=online)
+            self.connection.say_presence(online=online)
 
     def _ask(self, now_s: float) -> None:
         """Ask for a state or factsheet that does not come by itself."""
-        for what in self._presence.take_questions(now_s, has_sheet=self._sheet is not None):
+        for what in self._connection_state.take_questions(now_s, has_sheet=self._sheet is not None):
             self._send("instantActions", action(self._setting.new_id(), what, {}), self._count("instantActions"))
 
     def _say_what_is_missing(self, now_s: float) -> None:
         """Tell in the log, once, why a vehicle that is connected is not on the map."""
-        if self.control is not None or not self._presence.is_long_here(now_s):
+        if self.control is not None or not self._connection_state.is_long_here(now_s):
             return
-        told = {
+        known = {
             "has not told its factsheet": self._sheet is not None,
             "has not told its state": self._state is not None,
             "does not know where it is": self._located is not None,
         }
-        missing = next((what for what, is_there in told.items() if not is_there), "")
+        missing = next((what for what, is_there in known.items() if not is_there), "")
         if missing and missing != self._missed:
             self._missed = missing
             log.warning("%s is connected, but not on the map yet: it %s.", self.id, missing)
