@@ -110,7 +110,7 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
 
     One whose sending is not confirmed by `mark_commands_sent`, or that no device answers, is given out again. What
     is meant for a device that does not take part is kept back. While a site is stopped only pause, resume and
-    cancel go out. A piece of way waits until the robot has accepted the piece before it: with a gateway that died
+    cancel go out. A piece of path waits until the robot has accepted the piece before it: with a gateway that died
     in between, it would otherwise cut the corner through a wall. Nothing new goes out while a command that is
     `WINDOW` older is open: asked again, the device might have forgotten it.
     All that is one statement: a command waits for this, and each question more is a millisecond.

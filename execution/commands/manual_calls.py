@@ -91,7 +91,7 @@ def _holding_run(row: FloorState, device_id: str) -> str:
     state = floor.from_json(row.state)
     robot = state.robots.get(state.stations.get(device_id, device_id))
     held = [robot.run if robot else "", state.calls.get(device_id, ""), *map(str, open_runs)]
-    acting = [job.run for job in state.jobs if job.command and job.order.target.id == device_id]
+    acting = [task.run for task in state.tasks if task.command and task.order.target.id == device_id]
     return next((run for run in (*held, *acting) if _is_run(run)), "")
 
 

@@ -14,7 +14,7 @@ from django.db import transaction
 from editor.language.site.surroundings import PlaceFacts
 from execution import mailbox
 from execution.errors import StepConflict
-from execution.machine.floor_task import mission_from_json
+from execution.machine.floor_task import order_from_json
 from execution.models import Command, FloorState, InboxEvent
 from execution.traffic import floor
 from execution.traffic import messages as m
@@ -92,7 +92,7 @@ def _news(before: State, devices: tuple[registry.DeviceView, ...]) -> list[m.Eve
         elif not device.online and device.id not in before.offline:
             news.append(m.DeviceOffline(device.id))
         pose = device.pose
-        if device.kind == "robot" and (robot is None or not robot.way or (robot.x, robot.y) != (pose.x, pose.y)):
+        if device.kind == "robot" and (robot is None or not robot.path or (robot.x, robot.y) != (pose.x, pose.y)):
             news.append(m.RobotMoved(device.id, pose.x, pose.y, pose.theta))
     return news
 
@@ -104,12 +104,12 @@ def _event(row: InboxEvent) -> m.Event:
         return _call_event(data)
     match data["type"]:
         case "mission_asked":
-            order = mission_from_json(data["order"])
+            order = order_from_json(data["order"])
             can = tuple(data["can"])
             zones = tuple(map(m.zone_from_json, data.get("zones", ())))
-            return m.MissionAsked(data["run"], data["mission"], order, data["wants"], can, data["run_name"], zones)
+            return m.TaskAsked(data["run"], data["mission"], order, data["wants"], can, data["run_name"], zones)
         case "mission_cancelled":
-            return m.MissionCancelled(data["run"], data["mission"])
+            return m.TaskCancelled(data["run"], data["mission"])
         case "answered":
             return m.CommandAnswered(data["command"], data["status"], data["why"], data["result"])
         case "run_paused":
@@ -155,9 +155,9 @@ def _write(slug: str, row: FloorState, before: State, after: State, actions: tup
 
 
 def _is_active(state: State) -> bool:
-    moving = any(len(robot.way) > 1 for robot in state.robots.values())
+    moving = any(len(robot.path) > 1 for robot in state.robots.values())
     resting = any(state.now - robot.idle_since < AFTERWARDS_S for robot in state.robots.values())
-    return bool(state.jobs or state.sent or moving or resting)
+    return bool(state.tasks or state.sent or moving or resting)
 
 
 def _command_rows(row: FloorState, commands: list[m.SendCommand], now: datetime) -> list[Command]:
@@ -185,10 +185,10 @@ def _tell_run(row: FloorState, number: int, action: m.Action) -> None:
     key = f"{row.namespace}:{row.epoch}:{number}"
     run, payload = "", {}
     match action:
-        case m.MissionOver():
+        case m.TaskOver():
             run = action.run
-            key = f"over:{run}:{action.mission}"
-            payload = {"type": "mission_over", "mission": action.mission, "kind": action.kind, "why": action.why,
+            key = f"over:{run}:{action.task}"
+            payload = {"type": "mission_over", "mission": action.task, "kind": action.kind, "why": action.why,
                        "result": dict(action.result)}  # fmt: skip
         case m.RoleBound():
             run = action.run
@@ -200,7 +200,7 @@ def _tell_run(row: FloorState, number: int, action: m.Action) -> None:
             run = action.run
             payload = {"type": "command", "device": action.device, "method": action.method, "step": action.step,
                        "arguments": dict(action.arguments)}  # fmt: skip
-        case m.WayPlanned() if action.run:
+        case m.PathPlanned() if action.run:
             run = action.run
             payload = {"type": "way", "robot": action.robot, "path": [list(point) for point in action.path]}
     if run:
@@ -213,7 +213,7 @@ def _reason(reason: m.Reason | None) -> dict[str, Any] | None:
 
 def _publish_traffic(slug: str, layout: Layout, state: State) -> None:
     """Show browsers the ways and reserved cells, at most five times a second and only when they have changed."""
-    robots = {robot.id: _shown(layout, state, robot.id) for robot in state.robots.values() if robot.way}
+    robots = {robot.id: _shown(layout, state, robot.id) for robot in state.robots.values() if robot.path}
     last_at, last = _published.get(slug, (0.0, ""))
     now = time.monotonic()
     seen = repr(robots)
@@ -224,13 +224,13 @@ def _publish_traffic(slug: str, layout: Layout, state: State) -> None:
 
 def _shown(layout: Layout, state: State, name: str) -> Mapping[str, Any]:
     robot = state.robots[name]
-    ahead = robot.way[robot.passed :]
-    waits = [_reason(job.wait) for job in state.jobs if job.robot == name and job.wait]
+    ahead = robot.path[robot.passed :]
+    waits = [_reason(task.wait) for task in state.tasks if task.robot == name and task.wait]
     reason = waits[0] if waits else None
     moving = len(ahead) > 1
     return {
         "route": [list(layout.point(node)) for node in ahead] if moving else [],
-        "reserved": [list(layout.point(node)) for node in robot.way[robot.passed : robot.released + 1]]
+        "reserved": [list(layout.point(node)) for node in robot.path[robot.passed : robot.released + 1]]
         if moving
         else [],
         "wait": reason["text"] if reason else None,

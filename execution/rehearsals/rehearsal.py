@@ -199,10 +199,10 @@ class _Rehearsal:
                 self.world.command(action.device, action.method, action.arguments, action.id)
             elif isinstance(action, m.RoleBound):
                 self.run_events.append(r.Facts({(ROLE, action.role): action.robot}))
-            elif isinstance(action, m.MissionOver) and action.kind:
-                self.run_events.append(r.MissionFailed(action.mission, action.kind, action.why))
-            elif isinstance(action, m.MissionOver):
-                self.run_events.append(r.MissionDone(action.mission, action.result))
+            elif isinstance(action, m.TaskOver) and action.kind:
+                self.run_events.append(r.TaskFailed(action.task, action.kind, action.why))
+            elif isinstance(action, m.TaskOver):
+                self.run_events.append(r.TaskDone(action.task, action.result))
 
     def _do_run(self, actions: tuple[r.Action, ...]) -> None:
         now = self.world.time_s
@@ -210,11 +210,11 @@ class _Rehearsal:
         for action in actions:
             self.recorder.note_run(now, action)
             match action:
-                case r.Ask(mission=mission, order=order):
+                case r.Ask(task=task, order=order):
                     role = self.plan.roles.get(order.role, RoleBinding(order.role))
-                    asked = m.MissionAsked(
+                    asked = m.TaskAsked(
                         RUN,
-                        mission,
+                        task,
                         order,
                         role.device or "",
                         role.can,
@@ -222,8 +222,8 @@ class _Rehearsal:
                         m.floor_zones(RUN, self.plan.zones),
                     )
                     self.floor_events.append(asked)
-                case r.Cancel(mission=mission):
-                    self.floor_events.append(m.MissionCancelled(RUN, mission))
+                case r.Cancel(task=task):
+                    self.floor_events.append(m.TaskCancelled(RUN, task))
                 case r.SetTimer(timer=timer, seconds=seconds):
                     heapq.heappush(self.timers, (now + seconds, timer))
                 case r.CancelTimer(timer=timer):

@@ -18,7 +18,7 @@ from execution import mailbox
 from execution.errors import StepConflict
 from execution.machine import machine
 from execution.machine import messages as r
-from execution.machine.floor_task import mission_to_json
+from execution.machine.floor_task import order_to_json
 from execution.machine.needs import Needs, needs_of
 from execution.machine.places import ROLE
 from execution.machine.state import RunState
@@ -125,9 +125,9 @@ def _event(step: _Step, data: Mapping[str, Any]) -> r.Event | None:
     """Read an event from the inbox; what is only to be noted is noted here."""
     match data["type"]:
         case "mission_over" if data["kind"]:
-            return r.MissionFailed(data["mission"], data["kind"], data["why"])
+            return r.TaskFailed(data["mission"], data["kind"], data["why"])
         case "mission_over":
-            return r.MissionDone(data["mission"], data["result"])
+            return r.TaskDone(data["mission"], data["result"])
         case "timer":
             return r.TimerFired(data["timer"])
         case "pause":
@@ -152,18 +152,18 @@ def _do(step: _Step, actions: tuple[r.Action, ...]) -> None:
     run, journal = step.run, step.journal
     for action in actions:
         match action:
-            case r.Ask(mission=mission, order=order):
+            case r.Ask(task=task, order=order):
                 role = step.plan.roles.get(order.role, RoleBinding(order.role))
                 payload: dict[str, Any] = {"type": "mission_asked", "run": str(run.id), "run_name": f"run {run.number}"}
-                asked = {"mission": mission, "order": mission_to_json(order)}
+                asked = {"mission": task, "order": order_to_json(order)}
                 _post_site(
                     run,
-                    f"ask:{mission}",
+                    f"ask:{task}",
                     {**payload, **asked, "wants": role.device or "", "can": role.can, "zones": _zones(step)},
                 )
-            case r.Cancel(mission=mission):
-                payload = {"type": "mission_cancelled", "run": str(run.id), "mission": mission}
-                _post_site(run, f"drop:{mission}", payload)
+            case r.Cancel(task=task):
+                payload = {"type": "mission_cancelled", "run": str(run.id), "mission": task}
+                _post_site(run, f"drop:{task}", payload)
             case r.SetTimer(timer=timer, seconds=seconds):
                 due_at = journal.now + timedelta(seconds=seconds / settings.VIPO_SPEED)
                 Timer.objects.create(run=run, timer=timer, due_at=due_at)

@@ -40,7 +40,7 @@ def _find_at_work() -> frozenset[str]:
 def _find_gone_wrong(known: Sequence[registry.AlertView], now: datetime) -> Iterator[registry.Raised]:
     """Yield the commands that went wrong within the last minute and are no alert yet, those of a kind as one.
 
-    A piece of way that a robot refuses is none: it is given another one.
+    A piece of path that a robot refuses is none: it is given another one.
     """
     rows = Command.objects.filter(status__in=list(GONE_WRONG), ended_at__gt=now - LOOK_BACK).order_by("ended_at")
     rows = rows.exclude(method__in=CONTROLS).exclude(piece=True, status=Command.Status.REJECTED)
