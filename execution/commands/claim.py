@@ -15,6 +15,7 @@ import psycopg
 from django.db import connection
 
 from execution.models import Command
+from execution.traffic.messages import CONTROLS
 from registry import services as registry
 from vipo_device.protocol import messages
 
@@ -22,7 +23,6 @@ FIRST_RETRY_S = 2.0
 LAST_RETRY_S = 15.0
 NEVER_AGAIN_S = 7 * 86_400.0
 """A device that knows only its done flag would carry out a command anew each time that it hears it."""
-CONTROLS = ("pause", "resume", "cancel")
 UNANSWERED = (Command.Status.PENDING, Command.Status.SENT)
 WINDOW = 12
 """A device remembers its last 16 commands: nobody runs so far ahead of an open one that it would do that one again."""

@@ -18,7 +18,8 @@ from typing import Any
 
 from django.db import DatabaseError, InterfaceError, connection
 
-from execution import services as execution
+from execution.commands.claim import claim_commands, mark_commands_sent
+from execution.floor.stops import list_stops
 from execution.gateway.ingest import KNOCK, Taker
 from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
 from execution.ticker.alerts import note_complaint
@@ -164,12 +165,12 @@ class Gateway:
             self._greet()
         if fanout.wait_wake(STOPS_CHANNEL, 0):
             self._publish_stops()
-        commands = execution.claim_commands(limit=CLAIM_LIMIT)
+        commands = claim_commands(limit=CLAIM_LIMIT)
         self._outage.end()
         for command in commands:
             self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
         if commands:
-            execution.mark_commands_sent(ids=[command.id for command in commands])
+            mark_commands_sent(ids=[command.id for command in commands])
         if time.monotonic() - self._stops_at >= STOPS_EVERY_S:
             self._publish_stops()
         return len(commands) == CLAIM_LIMIT
@@ -188,7 +189,7 @@ class Gateway:
         _reconcile_accounts()
 
     def _publish_stops(self) -> None:
-        for stop in execution.list_stops():
+        for stop in list_stops():
             body = {"active": stop.active, "by": stop.by, "at": stop.at.isoformat() if stop.at else None}
             payload = json.dumps(body).encode()
             if self._stops.get(stop.site) != payload:

@@ -7,11 +7,13 @@ import threading
 from collections import Counter, defaultdict, deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
+from time import monotonic
 from typing import Any
 
 from django.db import DatabaseError, InterfaceError, OperationalError, connection
 
-from execution import services as execution
+from execution import mailbox
+from execution.commands import outbox
 from execution.gateway.queue import Entry
 from registry import services as registry
 from registry.live.outage import Outage
@@ -25,6 +27,8 @@ KNOCK = "knock/"
 POISON_TRIES = 3
 MOST_DESCRIPTIONS = 50
 """So many are read and kept in one go: what others wait for does not wait long behind them."""
+CHANGES_EVERY_S = 0.1
+"""The floor and the runs of a site are woken at most so often because a device has said something."""
 
 
 class Taker:
@@ -35,6 +39,7 @@ class Taker:
     ) -> None:
         self._note, self._counts = note, counts
         self._outage = outage or Outage("The database", "What devices say waits.")
+        self._woken_at: dict[str, float] = {}
 
     def take_all(self, entries: Sequence[Entry], stopping: threading.Event) -> None:
         """Take in what has come; the messages of one device in the order of their arrival."""
@@ -150,7 +155,7 @@ class Taker:
             registry.admit_newcomer(site=site, device_id=device, payload=message.payload, at=at)
         elif kind == "ack":
             ack = messages.parse_ack(message.payload)
-            execution.record_ack(
+            outbox.record_ack(
                 device=device, command_id=ack.command, status=ack.status, why=ack.why, result=ack.result, at=at
             )
         elif kind == "map" and message.payload:
@@ -159,7 +164,7 @@ class Taker:
             view = self._ingest(device, kind, message, at)
             if view is not None:
                 if kind == "presence" and view.online and not view.only_done_flag:
-                    execution.resend_commands(device=device)
+                    outbox.resend_commands(device=device)
                 self._pass_on(view, at)
 
     def _ingest(self, device: str, kind: str, message: Message, at: datetime) -> registry.DeviceView | None:
@@ -178,8 +183,14 @@ class Taker:
     def _pass_on(self, view: registry.DeviceView, at: datetime) -> None:
         registry.note_samples(view=view, at=at)
         if view.only_done_flag:
-            execution.record_done_flag(device=view.id, done=view.done, at=at)
-        execution.record_device_change(site=view.site, device_id=view.id)
+            outbox.record_done_flag(device=view.id, done=view.done, at=at)
+        self._wake_watching(view.site, monotonic())
+
+    def _wake_watching(self, site: str, now: float) -> None:
+        """Wake what depends on poses, presence or readings; what comes too soon after that is seen by the next."""
+        if now - self._woken_at.get(site, -CHANGES_EVERY_S) >= CHANGES_EVERY_S:
+            self._woken_at[site] = now
+            mailbox.hint_watching(site)
 
 
 def _rounds(entries: Sequence[Entry]) -> Iterator[list[Entry]]:

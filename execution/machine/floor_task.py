@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from vipo_device.protocol.description import Scalar
@@ -36,13 +36,8 @@ class TaskOrder:
     line: int = 0
 
 
-def order_to_json(order: TaskOrder) -> dict[str, Any]:
-    """Return the order as plain JSON."""
-    return asdict(order)
-
-
 def order_from_json(data: Mapping[str, Any]) -> TaskOrder:
-    """Read what `order_to_json` wrote."""
+    """Read an order from plain JSON, as states keep it."""
     target = data["target"]
     point = (float(target["point"][0]), float(target["point"][1])) if target["point"] else None
     route = tuple((float(x), float(y)) for x, y in data["route"])

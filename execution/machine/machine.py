@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import assert_never
 
 from editor.language.plan import instructions as p
 from execution.machine.ending import begin_guard, end_guard, end_run, finish, rethrow, unwind
@@ -91,6 +92,8 @@ def _take(turn: Turn, event: Event) -> None:
             turn.status, turn.reason = "running", ""
         case CancelAsked(reason=reason):
             finish(turn, "cancelled", reason)
+        case _:
+            assert_never(event)
 
 
 def _wake(turn: Turn, waits_for: str, waits_id: int, wake: Wake) -> None:

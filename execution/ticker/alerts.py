@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from datetime import datetime, timedelta
 from typing import Any
 
-from execution.commands.claim import CONTROLS
 from execution.models import Command, Run
+from execution.traffic.messages import CONTROLS
 from registry import services as registry
 
 LOOK_BACK = timedelta(minutes=1)

@@ -13,7 +13,8 @@ from django.db import DatabaseError, connection, transaction
 from execution import mailbox
 from execution.commands.manual_calls import expire_calls
 from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
-from execution.models import FloorState, InboxEvent, Lease, Rehearsal, Run, Timer
+from execution.machine.messages import TimerFired
+from execution.models import Lease, Rehearsal, Run, Timer
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
 from registry import services as registry
@@ -46,7 +47,7 @@ class Ticker:
         self._leads_since = self._leads_since or now
         fire_timers(now)
         if self._is_due("sites", TICK_SITES_S, now):
-            hint_active_sites()
+            mailbox.hint_watching()
             start_armed(now)
         if self._is_due("sweep", SWEEP_S, now):
             sweep(now)
@@ -56,7 +57,7 @@ class Ticker:
             registry.flush_samples()
             watch_alerts(now=now, since=self._leads_since)
         if self._is_due("prune", PRUNE_S, now):
-            InboxEvent.objects.filter(taken_at__lt=now - KEPT_FOR).delete()
+            mailbox.forget_taken(now - KEPT_FOR)
             registry.prune_samples(now=now)
             registry.prune_alerts(now=now)
         return True
@@ -85,27 +86,14 @@ def fire_timers(now: datetime) -> int:
     with transaction.atomic():
         due = list(Timer.objects.select_for_update(skip_locked=True).filter(due_at__lte=now)[:500])
         for row in due:
-            key = f"timer:{row.run_id}:{row.timer}"
-            mailbox.post(mailbox.run_target(row.run_id), [(key, {"type": "timer", "timer": row.timer})])
+            mailbox.post_to_run(row.run_id, [(f"timer:{row.run_id}:{row.timer}", TimerFired(row.timer))])
         Timer.objects.filter(id__in=[row.id for row in due]).delete()
     return len(due)
 
 
-def hint_active_sites() -> None:
-    """Let every floor look that has something under way, and every run that waits for a reading."""
-    for slug in FloorState.objects.filter(active=True).values_list("site__slug", flat=True):
-        mailbox.send_hint(mailbox.ADVANCE_SITE, slug)
-    watching = Run.objects.filter(watches=True, status=Run.Status.RUNNING)
-    for run in watching.values_list("id", flat=True):
-        mailbox.send_hint(mailbox.ADVANCE_RUN, str(run))
-
-
 def sweep(now: datetime) -> None:
     """Find what was left lying because a message was lost or a worker died."""
-    left = InboxEvent.objects.filter(taken_at=None, created_at__lt=now - LOST_AFTER)
-    for target in left.values_list("target", flat=True).distinct():
-        kind, _, name = target.partition(":")
-        mailbox.send_hint(mailbox.ADVANCE_RUN if kind == "run" else mailbox.ADVANCE_SITE, name)
+    mailbox.hint_left(now - LOST_AFTER)
     pending = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=now - LOST_AFTER)
     for run in pending.values_list("id", flat=True):
         mailbox.send_hint(mailbox.ADVANCE_RUN, str(run))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import assert_never
 
 from execution.traffic import messages as m
 from execution.traffic.conflicts import resolve, send_home
@@ -121,11 +122,15 @@ def _take(turn: Turn, event: m.Event) -> None:
             _end_call(turn, event)
         case m.RunPaused() | m.RunResumed() | m.RunOver() | m.StopPressed() | m.StopReset():
             _take_order(turn, event)
-        case _:
+        case m.RobotMoved() | m.CommandAnswered() | m.DeviceOnline() | m.DeviceOffline():
             _take_report(turn, event)
+        case m.Tick():
+            pass  # that time has passed is seen by all that follows
+        case _:
+            assert_never(event)
 
 
-def _take_report(turn: Turn, event: m.Event) -> None:
+def _take_report(turn: Turn, event: m.RobotMoved | m.CommandAnswered | m.DeviceOnline | m.DeviceOffline) -> None:
     """Take in what devices say."""
     match event:
         case m.RobotMoved(robot=robot, x=x, y=y, theta=theta):
@@ -141,7 +146,7 @@ def _take_report(turn: Turn, event: m.Event) -> None:
                 turn.put(robot_state, online=False)
 
 
-def _take_order(turn: Turn, event: m.Event) -> None:
+def _take_order(turn: Turn, event: m.RunPaused | m.RunResumed | m.RunOver | m.StopPressed | m.StopReset) -> None:
     """Take in what people want of runs and of the whole site."""
     match event:
         case m.RunPaused(run=run):

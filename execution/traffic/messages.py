@@ -10,6 +10,9 @@ from editor.language.plan.instructions import Zone
 from execution.machine.floor_task import TaskOrder
 from vipo_device.protocol.description import Scalar
 
+CONTROLS = ("pause", "resume", "cancel")
+"""Methods about a command that a device has already; every device knows them."""
+
 
 @dataclass(frozen=True, slots=True)
 class Reason:

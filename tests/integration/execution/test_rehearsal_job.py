@@ -6,7 +6,7 @@ from pathlib import Path
 from editor.language import plan_to_json
 from editor.language.plan.instructions import Constant, End, Instruction, Plan, Wait
 from execution.rehearsals.child_process import scene_to_json
-from execution.rehearsals.rehearsal import rehearse_program
+from execution.rehearsals.program_file import rehearse_program
 from simulation.world import Scene
 from tests.unit.execution import demo_floor
 
