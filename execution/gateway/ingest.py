@@ -22,8 +22,8 @@ from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.mqtt_client import Message
 
 log = logging.getLogger(__name__)
-KNOCK = "knock/"
-"""The kind of a knock; a kind of `up/` topics has no slash."""
+ENROLMENT = "knock/"
+"""The kind of a request to be enrolled; a kind of `up/` topics has no slash."""
 POISON_TRIES = 3
 MOST_DESCRIPTIONS = 50
 """So many are read and kept in one go: what others wait for does not wait long behind them."""
@@ -31,7 +31,7 @@ CHANGES_EVERY_S = 0.1
 """The floor and the runs of a site are woken at most so often because a device has said something."""
 
 
-class Taker:
+class Ingester:
     """Takes messages in and acknowledges each to the broker once it is kept, or will never be."""
 
     def __init__(
@@ -41,12 +41,12 @@ class Taker:
         self._outage = outage or Outage("The database", "What devices say waits.")
         self._woken_at: dict[str, float] = {}
 
-    def take_all(self, entries: Sequence[Entry], stopping: threading.Event) -> None:
+    def ingest_all(self, entries: Sequence[Entry], stopping: threading.Event) -> None:
         """Take in what has come; the messages of one device in the order of their arrival."""
         for together in _rounds(entries):
-            self._take_round(together, stopping)
+            self._ingest_round(together, stopping)
 
-    def _take_round(self, entries: list[Entry], stopping: threading.Event) -> None:
+    def _ingest_round(self, entries: list[Entry], stopping: threading.Event) -> None:
         """Take in at most one message of each device: answers first, since runs wait for them."""
         states = [e for e in entries if e.kind == "state" and e.message.payload and not e.outdated]
         said = [e for e in entries if e.kind == "desc" and e.message.payload]
@@ -125,7 +125,7 @@ class Taker:
         tries = 0
         while not entry.outdated and not stopping.is_set():
             try:
-                self._take_in(entry.device, entry.kind, entry.message)
+                self._ingest_one(entry.device, entry.kind, entry.message)
                 self._outage.end()
                 break
             except VipoError as error:
@@ -148,9 +148,9 @@ class Taker:
                 return
         entry.message.acknowledge()
 
-    def _take_in(self, device: str, kind: str, message: Message) -> None:
+    def _ingest_one(self, device: str, kind: str, message: Message) -> None:
         at = datetime.now(UTC)
-        if kind == KNOCK:
+        if kind == ENROLMENT:
             site, _ = messages.read_join_topic(message.topic) or ("", "")
             registry.admit_newcomer(site=site, device_id=device, payload=message.payload, at=at)
         elif kind == "ack":

@@ -2,7 +2,7 @@
 
 It knows no time, no network and no robots: time is a timer that fires, the floor is tasks that end.
 The same plan, state and event always give the same answer, so that a recorded history can be replayed.
-Its parts: `turn` (what changes), `flow` (threads, functions), `ending` (failures), `events` (what runs beside).
+Its parts: `turn` (what changes), `flow` (threads, functions, events), `ending` (failures).
 """
 
 from __future__ import annotations
@@ -14,9 +14,8 @@ from typing import assert_never
 from editor.language.plan import instructions as p
 from execution.machine.ending import begin_guard, end_guard, end_run, finish, rethrow, unwind
 from execution.machine.evaluation import EvaluationError, NoReading, in_words
-from execution.machine.events import remember_truths, start_events
 from execution.machine.floor_task import Target, TaskKind, TaskOrder
-from execution.machine.flow import end, end_thread, fork, invoke, leave_function
+from execution.machine.flow import end, end_thread, fork, invoke, leave_function, remember_truths, start_events
 from execution.machine.messages import (
     Action,
     Answered,

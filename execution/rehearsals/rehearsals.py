@@ -6,7 +6,7 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 from uuid import UUID
@@ -25,6 +25,9 @@ from registry.live import fanout
 from simulation.world import Scene
 
 ROOT = Path(__file__).resolve().parents[2]
+LOST_AFTER = timedelta(seconds=5)
+DEAD_AFTER = timedelta(seconds=60)
+DIED = "The process that rehearsed it has died. Start it again."
 
 
 def start_rehearsal(*, prepared: Prepared, by: str, seed: int = 0, driver: str = "physics") -> dict[str, Any]:
@@ -85,8 +88,21 @@ def carry_out(rehearsal_id: str) -> bool:
             _take_line(row, line)
     finally:
         if row.status == Rehearsal.Status.RUNNING:
-            _end(row, "failed", reason="The process that rehearsed it has died. Start it again.")
+            _end(row, "failed", reason=DIED)
     return True
+
+
+def sweep_rehearsals(now: datetime) -> None:
+    """Find rehearsals whose hint was lost, and those whose worker has died."""
+    queued = Rehearsal.objects.filter(status=Rehearsal.Status.QUEUED, created_at__lt=now - LOST_AFTER)
+    for rehearsal in queued.values_list("id", flat=True):
+        mailbox.send_hint(mailbox.REHEARSE, str(rehearsal))
+    dead = Rehearsal.objects.filter(status=Rehearsal.Status.RUNNING, beat_at__lt=now - DEAD_AFTER)
+    for row in dead.select_related("site"):
+        still_dead = Rehearsal.objects.filter(id=row.id, status=Rehearsal.Status.RUNNING)
+        still_dead.update(status=Rehearsal.Status.FAILED, reason=DIED)
+        row.status = Rehearsal.Status.FAILED
+        _publish(row)
 
 
 def _run_child(job: Mapping[str, Any]) -> Iterator[dict[str, Any]]:

@@ -14,11 +14,11 @@ from execution import mailbox
 from execution.commands.manual_calls import expire_calls
 from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
 from execution.machine.messages import TimerFired
-from execution.models import Lease, Rehearsal, Run, Timer
+from execution.models import Lease, Run, Timer
+from execution.rehearsals.rehearsals import sweep_rehearsals
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
 from registry import services as registry
-from registry.live import fanout
 
 LEASE_S = 5.0
 TICK_SITES_S = 0.5
@@ -26,7 +26,6 @@ SWEEP_S = 1.0
 PRUNE_S = 600.0
 KEPT_FOR = timedelta(days=2)
 LOST_AFTER = timedelta(seconds=1)
-DEAD_AFTER = timedelta(seconds=60)
 HOLDER = f"{socket.gethostname()}:{os.getpid()}"
 
 
@@ -100,19 +99,7 @@ def sweep(now: datetime) -> None:
     drop_stale_controls(now)
     end_commands_of_those_out(now)
     expire_calls(now=now)
-    _sweep_rehearsals(now)
-
-
-def _sweep_rehearsals(now: datetime) -> None:
-    queued = Rehearsal.objects.filter(status=Rehearsal.Status.QUEUED, created_at__lt=now - 5 * LOST_AFTER)
-    for rehearsal in queued.values_list("id", flat=True):
-        mailbox.send_hint(mailbox.REHEARSE, str(rehearsal))
-    dead = Rehearsal.objects.filter(status=Rehearsal.Status.RUNNING, beat_at__lt=now - DEAD_AFTER)
-    for row in dead.select_related("site"):
-        reason = "The process that rehearsed it has died. Start it again."
-        Rehearsal.objects.filter(id=row.id, status=Rehearsal.Status.RUNNING).update(status="failed", reason=reason)
-        message = {"type": "rehearsal", "id": str(row.id), "status": "failed", "progress": row.progress}
-        fanout.publish(row.site.slug, message)
+    sweep_rehearsals(now)
 
 
 _ticker = Ticker()
