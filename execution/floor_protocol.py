@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, asdict, dataclass, field, fields, is_dataclass
 from functools import cache
-from types import UnionType
+from types import NoneType, UnionType
 from typing import Any, Literal, TypeVar, assert_never, get_args, get_origin, get_type_hints
 
 from editor.language.plan.instructions import RoleBinding
@@ -195,6 +195,7 @@ TO_RUN: Mapping[str, type[ToRun]] = {
 """What kept messages are called in JSON; databases have rows with these names, so they stay."""
 STORED_AS = {"task": "mission"}
 """What a part of a message is called in JSON where that differs."""
+PLAIN: frozenset[type] = frozenset({str, int, float, bool, NoneType, object})
 _names: Mapping[type, str] = {kind: name for kinds in (TO_FLOOR, TO_RUN) for name, kind in kinds.items()}
 Message = TypeVar("Message")
 
@@ -252,37 +253,32 @@ def _is_needed(part: Field[Any]) -> bool:
 
 
 def _read(hint: Any, value: Any, where: str) -> Any:
-    """Return JSON as what a part is declared to be: objects as dataclasses, lists as tuples, the rest as it is."""
-    if isinstance(hint, UnionType):
-        return _read_one_of(get_args(hint), value, where)
-    if is_dataclass(hint):
+    """Return JSON as what a part is declared to be: objects as dataclasses, lists as tuples, the rest as it is.
+
+    A part may be of several plain types, or of one other type or None.
+    """
+    plain = _plain(hint)
+    if plain is not None:
+        if type(value) in plain or object in plain or (type(value) is int and float in plain):
+            return value
+    elif isinstance(hint, UnionType):
+        return None if value is None else _read(get_args(hint)[0], value, where)
+    elif is_dataclass(hint):
         return _read_object(hint, value, where)
-    origin, inner = get_origin(hint), get_args(hint)
-    if origin is tuple and isinstance(value, list | tuple):
+    elif isinstance(value, list | tuple):
+        inner = get_args(hint)
         hints = [inner[0]] * len(value) if inner[-1] is ... else inner
-        if len(hints) == len(value):
+        if get_origin(hint) is tuple and len(hints) == len(value):
             return tuple(_read(each, item, where) for each, item in zip(hints, value, strict=True))
-    elif origin is Mapping and isinstance(value, Mapping):
-        return {key: _read(inner[1], item, f"{where}.{key}") for key, item in value.items()}
-    elif (origin is Literal and value in inner) or (isinstance(hint, type) and _is_a(hint, value)):
+    elif isinstance(value, Mapping) and get_origin(hint) is Mapping:
+        return {key: _read(get_args(hint)[1], item, f"{where}.{key}") for key, item in value.items()}
+    elif get_origin(hint) is Literal and value in get_args(hint):
         return value
     raise UnreadableMessage(f"{where} is {value!r}, which is no {getattr(hint, '__name__', hint)}.")
 
 
-def _read_one_of(hints: tuple[Any, ...], value: Any, where: str) -> Any:
-    """Return JSON as the one of several types that it fits; a dataclass says itself what is wrong with it."""
-    for hint in hints:
-        if is_dataclass(hint) and value is not None:
-            return _read_object(hint, value, where)
-        try:
-            return _read(hint, value, where)
-        except UnreadableMessage:
-            continue
-    raise UnreadableMessage(f"{where} is {value!r}, which is none of what it may be.")
-
-
-def _is_a(kind: type, value: object) -> bool:
-    """Tell whether a value is of a plain type; whole numbers are numbers, yes and no are not."""
-    if kind in {int, float}:
-        return isinstance(value, (int, float) if kind is float else int) and not isinstance(value, bool)
-    return isinstance(value, kind)
+@cache
+def _plain(hint: Any) -> frozenset[type] | None:
+    """Return which plain types a part may have; None if it is more than that."""
+    kinds = get_args(hint) if isinstance(hint, UnionType) else (hint,)
+    return frozenset(kinds) if PLAIN.issuperset(kinds) else None

@@ -146,14 +146,18 @@ def from_json(data: Mapping[str, Any]) -> FloorState:
 
 
 def _stored(item: Robot | FloorTask | Sent) -> dict[str, Any]:
-    names = STORED_AS[type(item)]
-    return {names.get(name, name): value for name, value in asdict(item).items()}
+    stored = asdict(item)
+    for name, key in STORED_AS[type(item)].items():
+        stored[key] = stored.pop(name)
+    return stored
 
 
 def _known(data: Mapping[str, Any], kind: type) -> dict[str, Any]:
     """Return what was stored of a robot, a task or a command, by the names that its parts have now."""
-    names = {stored: name for name, stored in STORED_AS[kind].items()}
-    return {names.get(key, key): value for key, value in data.items()}
+    known = dict(data)
+    for name, key in STORED_AS[kind].items():
+        known[name] = known.pop(key)
+    return known
 
 
 def _robot(data: Mapping[str, Any]) -> Robot:

@@ -99,7 +99,7 @@ def test_a_row_from_before_there_were_zones_is_read():
         ({"type": "call_cancelled", "command": COMMAND, "given_up": 1}, "given_up is 1, which is no bool."),
         ({**ASKED, "order": {**MOVE, "speed": 1}}, "'mission_asked'.order has no part called 'speed'."),
         ({**ASKED, "order": {**MOVE, "kind": "fly"}}, "'mission_asked'.order.kind is 'fly'"),
-        ({**ASKED, "order": {**MOVE, "target": {"point": [1.0]}}}, "order.target.point is [1.0], which is none of"),
+        ({**ASKED, "order": {**MOVE, "target": {"point": [1.0]}}}, "order.target.point is [1.0], which is no tuple"),
         ({**ASKED, "zones": [1]}, "'mission_asked'.zones is 1 where an object is needed."),
     ],
 )  # fmt: skip
