@@ -21,7 +21,7 @@ from django.core.management import call_command  # noqa: E402 - Django is set up
 from django.db import transaction  # noqa: E402
 
 from bench.flow import device_name  # noqa: E402
-from execution.gateway.ingest import Taker  # noqa: E402
+from execution.gateway.ingest import Ingester  # noqa: E402
 from execution.gateway.queue import Entry  # noqa: E402
 from execution.models import Command  # noqa: E402
 from registry import services  # noqa: E402
@@ -66,13 +66,13 @@ def take_in(payloads: dict[str, bytes]) -> None:
     """Let the gateway's worker take descriptions in as it does: what waits, at most 200 at once."""
     refused: list[str] = []
     acknowledged: list[str] = []
-    taker = Taker(lambda device, reason: refused.append(f"{device}: {reason}"), Counter())
+    ingester = Ingester(lambda device, reason, _: refused.append(f"{device}: {reason}"), Counter())
     entries = [
         Entry(Message(up_topic(name, "desc"), payload, False, lambda: acknowledged.append("")), name, "desc")
         for name, payload in payloads.items()
     ]
     for start in range(0, len(entries), AT_ONCE):
-        taker.take_all(entries[start : start + AT_ONCE], Event())
+        ingester.ingest_all(entries[start : start + AT_ONCE], Event())
     if refused or len(acknowledged) < len(payloads):
         raise RuntimeError(f"{len(acknowledged)} descriptions were acknowledged. {' '.join(refused[:3])}")
 

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from bench.figures import figure
-from execution.rehearsals.program_site import read_site
-from execution.rehearsals.rehearsal import rehearse_program
+from execution.rehearsals.program_file import read_site, rehearse_program
 from simulation import physics
 from simulation.services import make_world
 from vipo_site.cli.program_file import ProgramFile, read_program_file

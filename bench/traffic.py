@@ -15,7 +15,7 @@ from execution.rehearsals import rehearsal
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from execution.traffic import floor
 from execution.traffic.layout import Layout, NoSuchSpot, make_layout
-from execution.traffic.routes import plan_way
+from execution.traffic.routes import plan_path
 from simulation.world import Scene
 from tests.unit.execution import demo_floor
 from vipo_device.protocol.description import Description, Pose
@@ -34,7 +34,7 @@ def measure_routes(layout: Layout) -> Iterator[dict[str, object]]:
     times = []
     for start, goal in permutations(sorted(layout.stations), 2):
         began = time.perf_counter()
-        assert plan_way(layout, start, goal) is not None
+        assert plan_path(layout, start, goal) is not None
         times.append((time.perf_counter() - began) * 1000)
     for name, quantile in (("p50", 0.5), ("p99", 0.99)):
         yield figure(f"plan a way between two machines, {name}", share(times, quantile), "ms", ways=len(times))

@@ -20,6 +20,8 @@ class Run(models.Model):
         FAILED = "failed"
         CANCELLED = "cancelled"
 
+    OPEN = (Status.PENDING, Status.RUNNING, Status.PAUSED)
+
     id = models.UUIDField(primary_key=True, default=uuid.uuid4)
     site = models.ForeignKey("registry.Site", on_delete=models.CASCADE, related_name="runs")
     number = models.PositiveIntegerField()

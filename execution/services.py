@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from execution.commands.claim import OutgoingCommand, claim_commands, mark_commands_sent
-from execution.commands.device_changes import record_device_change
-from execution.commands.done_flag import record_done_flag
 from execution.commands.manual_calls import call_method, cancel_call, expire_calls, get_call
 from execution.commands.outbox import record_ack, resend_commands
 from execution.errors import (
@@ -69,8 +67,6 @@ __all__ = [
     "plan_routes",
     "press_stop",
     "record_ack",
-    "record_device_change",
-    "record_done_flag",
     "resend_commands",
     "reset_stop",
     "resume_run",

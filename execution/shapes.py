@@ -67,7 +67,7 @@ class WaitReason(Schema):
 
 
 class Cause(Schema):
-    """Why something ended or was not done, for screens to say in their language (execution/runs/reasons.py)."""
+    """Why something ended or was not done, for screens to say in their language (execution/reasons.py)."""
 
     code: str
     args: dict[str, str]

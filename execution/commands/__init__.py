@@ -1,1 +1,1 @@
-"""Commands to devices: the outbox, claims, calls by hand, and devices that know only the done flag."""
+"""Commands to devices: which may go out now, what devices answer, and what people tell them by hand."""

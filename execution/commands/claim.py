@@ -15,6 +15,7 @@ import psycopg
 from django.db import connection
 
 from execution.models import Command
+from execution.traffic.messages import CONTROLS
 from registry import services as registry
 from vipo_device.protocol import messages
 
@@ -22,7 +23,6 @@ FIRST_RETRY_S = 2.0
 LAST_RETRY_S = 15.0
 NEVER_AGAIN_S = 7 * 86_400.0
 """A device that knows only its done flag would carry out a command anew each time that it hears it."""
-CONTROLS = ("pause", "resume", "cancel")
 UNANSWERED = (Command.Status.PENDING, Command.Status.SENT)
 WINDOW = 12
 """A device remembers its last 16 commands: nobody runs so far ahead of an open one that it would do that one again."""
@@ -121,7 +121,7 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
 
     One whose sending is not confirmed by `mark_commands_sent`, or that no device answers, is given out again. What
     is meant for a device that does not take part is kept back. While a site is stopped only pause, resume and
-    cancel go out. A piece of way waits until the robot has accepted the piece before it: with a gateway that died
+    cancel go out. A piece of path waits until the robot has accepted the piece before it: with a gateway that died
     in between, it would otherwise cut the corner through a wall. Nothing new goes out while a command that is
     `WINDOW` older is open: asked again, the device might have forgotten it.
     Taking is one statement; before it stand two short questions, and none where nothing is due.

@@ -15,13 +15,12 @@ from django.db import transaction
 from django.db.models import F
 
 from execution import mailbox
-from execution.commands.claim import CONTROLS
 from execution.errors import BadArguments, NotFound, NotPossibleNow
-from execution.floor.advance import site_id
 from execution.floor.stops import is_stopped
 from execution.models import Command, FloorState, Run
-from execution.runs.reasons import cause_of
+from execution.reasons import cause_of
 from execution.traffic import floor
+from execution.traffic.messages import CONTROLS, CallCancelled, CallSent
 from registry import services as registry
 from vipo_device.protocol.arguments import find_misfits
 
@@ -48,11 +47,12 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
     given = {name: value for name, value in arguments.items() if value is not None}
     _check_arguments(device, method, given)
     with transaction.atomic():
-        FloorState.objects.get_or_create(site_id=site_id(site))
+        FloorState.objects.get_or_create(site_id=registry.get_site_id(site=site))
         row = FloorState.objects.select_for_update(of=("self",)).get(site__slug=site)
         _check_free(row, registry.get_device(site=site, device_id=device_id))
         command = _write(row, device_id, method, given, by)
-        mailbox.post(mailbox.site_target(site), [(f"call:{command.id}", _news(command))])
+        sent = CallSent(str(command.id), device_id, method, given, f"{command.by}, by hand")
+        mailbox.post_to_floor(site, [(f"call:{command.id}", sent)])
         transaction.on_commit(lambda: registry.wake("gateway"))
     return call_to_json(command)
 
@@ -90,7 +90,7 @@ def _holding_run(row: FloorState, device_id: str) -> str:
     state = floor.from_json(row.state)
     robot = state.robots.get(state.stations.get(device_id, device_id))
     held = [robot.run if robot else "", state.calls.get(device_id, ""), *map(str, open_runs)]
-    acting = [job.run for job in state.jobs if job.command and job.order.target.id == device_id]
+    acting = [task.run for task in state.tasks if task.command and task.order.target.id == device_id]
     return next((run for run in (*held, *acting) if _is_run(run)), "")
 
 
@@ -126,18 +126,6 @@ def _write(row: FloorState, device_id: str, method: str, arguments: Mapping[str,
     )
 
 
-def _news(command: Command) -> dict[str, Any]:
-    """Return what the floor is told of a call."""
-    return {
-        "type": "call_sent",
-        "command": str(command.id),
-        "device": command.device,
-        "method": command.method,
-        "arguments": command.arguments,
-        "name": f"{command.by}, by hand",
-    }
-
-
 def get_call(*, site: str, call_id: UUID) -> dict[str, Any]:
     """Return a call and what has come of it. Raises NotFound."""
     return call_to_json(_find(site, call_id))
@@ -147,8 +135,7 @@ def cancel_call(*, site: str, call_id: UUID) -> dict[str, Any]:
     """Ask the device to end a call; one that is over stays as it is. Raises NotFound."""
     command = _find(site, call_id)
     if command.status in Command.OPEN:
-        news = {"type": "call_cancelled", "command": str(command.id), "given_up": False}
-        mailbox.post(mailbox.site_target(site), [(f"call-cancel:{command.id}", news)])
+        mailbox.post_to_floor(site, [(f"call-cancel:{command.id}", CallCancelled(str(command.id)))])
     return call_to_json(command)
 
 
@@ -168,8 +155,8 @@ def expire_calls(*, now: datetime) -> int:
         with transaction.atomic():
             mine = Command.objects.filter(id=command.id, status__in=waiting)
             if mine.update(status=Command.Status.TIMED_OUT, why=NO_ANSWER, ended_at=now):
-                news = {"type": "call_cancelled", "command": str(command.id), "given_up": True}
-                mailbox.post(mailbox.site_target(command.site.slug), [(f"call-expired:{command.id}", news)])
+                given_up = CallCancelled(str(command.id), given_up=True)
+                mailbox.post_to_floor(command.site.slug, [(f"call-expired:{command.id}", given_up)])
                 count += 1
     return count
 

@@ -1,4 +1,7 @@
-"""The outbox: commands are sent until they are answered, with the same id each time; answers come back here."""
+"""The outbox: commands are sent until they are answered, with the same id each time; answers come back here.
+
+A device that answers as docs/protocol.md says is judged by its answers alone, one that knows only a done flag by that.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +10,14 @@ from datetime import UTC, datetime, timedelta
 from uuid import UUID
 
 from django.db import transaction
+from django.db.models import Q
 
 from execution import mailbox
-from execution.commands.claim import CONTROLS, LAST_RETRY_S, UNANSWERED
+from execution.commands.claim import LAST_RETRY_S, NEVER_AGAIN_S, UNANSWERED
+from execution.floor_protocol import CommandEnded
 from execution.models import Command
-from execution.runs.reasons import SENTENCES
+from execution.reasons import SENTENCES
+from execution.traffic.messages import CONTROLS, CommandAnswered
 from registry import services as registry
 from vipo_device.protocol.description import Scalar
 
@@ -25,6 +31,7 @@ STATUS = {
     "CANCELED": Command.Status.CANCELLED,
 }
 OUT = SENTENCES["no_device"]
+AT_WORK = "Seen at work by its done flag."
 FINAL = frozenset({"DONE", "FAILED", "REJECTED", "CANCELED"})
 
 
@@ -64,6 +71,28 @@ def record_ack(
     return True
 
 
+def record_done_flag(*, device: str, done: bool, at: datetime) -> bool:
+    """Take in what the done flag of a device is that knows nothing else, as in the VIPO paper; tell if that was news.
+
+    A command is at work once `done` was false after it had been sent, and done once it is true again after that; what
+    never shows these edges is given up by its time limit.
+    """
+    rows = Command.objects.filter(device=device).exclude(method__in=CONTROLS).order_by("position")
+    if done:
+        row = rows.filter(status=Command.Status.RUNNING, why=AT_WORK).first()
+    else:
+        # One that is just going out is not marked as sent yet; the device may be faster.
+        going_out = Q(status=Command.Status.PENDING, tries__gt=0)
+        row = rows.filter(going_out | Q(status=Command.Status.SENT, sent_at__lte=at)).first()
+    if row is None:
+        return False
+    status, why = ("DONE", "") if done else ("RUNNING", AT_WORK)
+    with transaction.atomic():
+        is_news = record_ack(device=device, command_id=str(row.id), status=status, why=why, result={}, at=at)
+        Command.objects.filter(id=row.id).update(send_after=at + timedelta(seconds=NEVER_AGAIN_S))
+    return is_news
+
+
 def _close_pieces_before(row: Command, at: datetime) -> None:
     """A robot drives its pieces in order: who has reached the end of one is past those before it, heard or not."""
     earlier = Command.objects.select_for_update(of=("self",)).select_related("site").filter(
@@ -77,12 +106,11 @@ def _close_pieces_before(row: Command, at: datetime) -> None:
 
 def _pass_on(row: Command, status: str, why: str, result: Mapping[str, Scalar]) -> None:
     """Tell the floor, and the run for its journal."""
-    answer = {"type": "answered", "command": str(row.id), "status": status, "why": why, "result": dict(result)}
     if row.run is not None and not row.piece:
-        note = {"type": "answer", "device": row.device, "method": row.method, "step": row.step, "status": status,
-                "why": why}  # fmt: skip
-        mailbox.post(mailbox.run_target(row.run), [(f"note:{row.id}", note)])
-    mailbox.post(mailbox.site_target(row.site.slug), [(f"answer:{row.id}", answer)])
+        ended = CommandEnded(row.device, row.method, row.step, status, why)
+        mailbox.post_to_run(row.run, [(f"note:{row.id}", ended)])
+    answer = CommandAnswered(str(row.id), status, why, result)
+    mailbox.post_to_floor(row.site.slug, [(f"answer:{row.id}", answer)])
 
 
 def end_commands_of_those_out(now: datetime) -> None:

@@ -1,1 +1,1 @@
-"""The floor of a site in the database: its steps, stops, map changes."""
+"""The floor of a site in the database: one step of traffic, Stop all, another map, paths for drawing."""

@@ -8,14 +8,13 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Any, Literal
 
-from django.apps import apps
 from django.db import transaction
 
 from editor.language.site.surroundings import PlaceFacts
 from execution import mailbox
 from execution.errors import StepConflict
-from execution.machine.floor_task import mission_from_json
-from execution.models import Command, FloorState, InboxEvent
+from execution.floor_protocol import TaskEnded, to_run
+from execution.models import Command, FloorState
 from execution.traffic import floor
 from execution.traffic import messages as m
 from execution.traffic.floor_state import FloorState as State
@@ -26,7 +25,6 @@ from vipo_device.protocol.description import Description, Pose
 TRAFFIC_EVERY_S = 0.2
 AFTERWARDS_S = 20.0
 """A floor is looked after this long after its last robot has come to rest."""
-CONTROLS = frozenset({"pause", "resume", "cancel"})
 _layouts: dict[str, tuple[tuple[int, tuple[Description, ...], tuple[PlaceFacts, ...]], Layout]] = {}
 _published: dict[str, tuple[float, str]] = {}
 
@@ -34,28 +32,22 @@ _published: dict[str, tuple[float, str]] = {}
 def advance_site(slug: str) -> bool:
     """Bring a site's floor up to date; False when another process is at it already."""
     with transaction.atomic():
-        FloorState.objects.get_or_create(site_id=site_id(slug))
+        FloorState.objects.get_or_create(site_id=registry.get_site_id(site=slug))
         row = FloorState.objects.select_for_update(skip_locked=True).filter(site__slug=slug).first()
         if row is None:
             return False
-        events = mailbox.waiting(mailbox.site_target(slug))
+        deliveries = mailbox.waiting_for_floor(slug)
         devices = registry.list_devices(site=slug, lifecycle="approved")
         layout = get_layout(slug, devices)
         before = floor.from_json(row.state) if row.state else floor.start(layout, str(row.namespace))
-        news = [*_news(before, devices), *(_event(event) for event in events), m.Tick()]
+        news = [*_news(before, devices), *(delivery.message for delivery in deliveries), m.Tick()]
         after, actions = floor.step(layout, before, news, time.time())
         _write(slug, row, before, after, actions)
-        mailbox.mark_taken(events)
+        mailbox.mark_taken(deliveries)
         mailbox.crash_point("site_before_commit")
     mailbox.crash_point("site_after_commit")
     _publish_traffic(slug, layout, after)
     return True
-
-
-def site_id(slug: str) -> int:
-    """Return the row number of a site."""
-    site = apps.get_model("registry", "Site")
-    return int(site.objects.values_list("id", flat=True).get(slug=slug))
 
 
 def get_layout(slug: str, devices: tuple[registry.DeviceView, ...] | None = None) -> Layout:
@@ -91,43 +83,9 @@ def _news(before: State, devices: tuple[registry.DeviceView, ...]) -> list[m.Eve
         elif not device.online and device.id not in before.offline:
             news.append(m.DeviceOffline(device.id))
         pose = device.pose
-        if device.kind == "robot" and (robot is None or not robot.way or (robot.x, robot.y) != (pose.x, pose.y)):
+        if device.kind == "robot" and (robot is None or not robot.path or (robot.x, robot.y) != (pose.x, pose.y)):
             news.append(m.RobotMoved(device.id, pose.x, pose.y, pose.theta))
     return news
-
-
-def _event(row: InboxEvent) -> m.Event:
-    """Read an event from the inbox."""
-    data = row.payload
-    if data["type"] in {"call_sent", "call_cancelled"}:
-        return _call_event(data)
-    match data["type"]:
-        case "mission_asked":
-            order = mission_from_json(data["order"])
-            can = tuple(data["can"])
-            zones = tuple(map(m.zone_from_json, data.get("zones", ())))
-            return m.MissionAsked(data["run"], data["mission"], order, data["wants"], can, data["run_name"], zones)
-        case "mission_cancelled":
-            return m.MissionCancelled(data["run"], data["mission"])
-        case "answered":
-            return m.CommandAnswered(data["command"], data["status"], data["why"], data["result"])
-        case "run_paused":
-            return m.RunPaused(data["run"])
-        case "run_resumed":
-            return m.RunResumed(data["run"])
-        case "run_over":
-            return m.RunOver(data["run"])
-        case "stop_pressed":
-            return m.StopPressed()
-        case "stop_reset":
-            return m.StopReset()
-    raise ValueError(f"A floor does not understand an event of type {data['type']!r}.")
-
-
-def _call_event(data: Mapping[str, Any]) -> m.Event:
-    if data["type"] == "call_cancelled":
-        return m.CallCancelled(data["command"], data["given_up"])
-    return m.CallSent(data["command"], data["device"], data["method"], data["arguments"], data["name"])
 
 
 def _write(slug: str, row: FloorState, before: State, after: State, actions: tuple[m.Action, ...]) -> None:
@@ -154,9 +112,9 @@ def _write(slug: str, row: FloorState, before: State, after: State, actions: tup
 
 
 def _is_active(state: State) -> bool:
-    moving = any(len(robot.way) > 1 for robot in state.robots.values())
+    moving = any(len(robot.path) > 1 for robot in state.robots.values())
     resting = any(state.now - robot.idle_since < AFTERWARDS_S for robot in state.robots.values())
-    return bool(state.jobs or state.sent or moving or resting)
+    return bool(state.tasks or state.sent or moving or resting)
 
 
 def _command_rows(row: FloorState, commands: list[m.SendCommand], now: datetime) -> list[Command]:
@@ -181,38 +139,18 @@ def _command_rows(row: FloorState, commands: list[m.SendCommand], now: datetime)
 
 def _tell_run(row: FloorState, number: int, action: m.Action) -> None:
     """Put into a run's inbox what the floor has to say to it."""
-    key = f"{row.namespace}:{row.epoch}:{number}"
-    run, payload = "", {}
-    match action:
-        case m.MissionOver():
-            run = action.run
-            key = f"over:{run}:{action.mission}"
-            payload = {"type": "mission_over", "mission": action.mission, "kind": action.kind, "why": action.why,
-                       "result": dict(action.result)}  # fmt: skip
-        case m.RoleBound():
-            run = action.run
-            payload = {"type": "role_bound", "role": action.role, "robot": action.robot}
-        case m.WaitChanged():
-            run = action.run
-            payload = {"type": "wait", "step": action.step, "robot": action.robot, "reason": _reason(action.reason)}
-        case m.SendCommand() if action.run and not action.piece and action.method not in CONTROLS:
-            run = action.run
-            payload = {"type": "command", "device": action.device, "method": action.method, "step": action.step,
-                       "arguments": dict(action.arguments)}  # fmt: skip
-        case m.WayPlanned() if action.run:
-            run = action.run
-            payload = {"type": "way", "robot": action.robot, "path": [list(point) for point in action.path]}
-    if run:
-        mailbox.post(mailbox.run_target(run), [(key, payload)])
-
-
-def _reason(reason: m.Reason | None) -> dict[str, Any] | None:
-    return None if reason is None else {"code": reason.code, "text": reason.text, "args": dict(reason.args)}
+    told = to_run(action)
+    if told is not None:
+        run, message = told
+        key = f"{row.namespace}:{row.epoch}:{number}"
+        if isinstance(message, TaskEnded):
+            key = f"over:{run}:{message.task}"
+        mailbox.post_to_run(run, [(key, message)])
 
 
 def _publish_traffic(slug: str, layout: Layout, state: State) -> None:
-    """Show browsers the ways and reserved cells, at most five times a second and only when they have changed."""
-    robots = {robot.id: _shown(layout, state, robot.id) for robot in state.robots.values() if robot.way}
+    """Show browsers the paths and reserved cells, at most five times a second and only when they have changed."""
+    robots = {robot.id: _shown(layout, state, robot.id) for robot in state.robots.values() if robot.path}
     last_at, last = _published.get(slug, (0.0, ""))
     now = time.monotonic()
     seen = repr(robots)
@@ -223,15 +161,14 @@ def _publish_traffic(slug: str, layout: Layout, state: State) -> None:
 
 def _shown(layout: Layout, state: State, name: str) -> Mapping[str, Any]:
     robot = state.robots[name]
-    ahead = robot.way[robot.passed :]
-    waits = [_reason(job.wait) for job in state.jobs if job.robot == name and job.wait]
-    reason = waits[0] if waits else None
+    ahead = robot.path[robot.passed :]
+    reason = next((task.wait for task in state.tasks if task.robot == name and task.wait), None)
     moving = len(ahead) > 1
     return {
         "route": [list(layout.point(node)) for node in ahead] if moving else [],
-        "reserved": [list(layout.point(node)) for node in robot.way[robot.passed : robot.released + 1]]
+        "reserved": [list(layout.point(node)) for node in robot.path[robot.passed : robot.released + 1]]
         if moving
         else [],
-        "wait": reason["text"] if reason else None,
-        "why": {"code": reason["code"], "args": reason["args"]} if reason else None,
+        "wait": reason.text if reason else None,
+        "why": {"code": reason.code, "args": dict(reason.args)} if reason else None,
     }

@@ -9,21 +9,20 @@ from django.db import transaction
 
 from execution import mailbox
 from execution.errors import NotPossibleNow
-from execution.floor.advance import site_id
 from execution.floor.stops import is_stopped
 from execution.models import Command, FloorState, Run
-from execution.runs.advance import OPEN
-from registry.services import MapView
+from execution.traffic.messages import StopPressed
+from registry import services as registry
 
 
-def change_map(*, site: str, change: Callable[[], MapView]) -> MapView:
+def change_map(*, site: str, change: Callable[[], registry.MapView]) -> registry.MapView:
     """Carry out a change of the site's map, and let traffic begin anew on it.
 
     Raises:
         NotPossibleNow: a run is open, or a device still carries out a command.
     """
     with transaction.atomic():
-        FloorState.objects.get_or_create(site_id=site_id(site))
+        FloorState.objects.get_or_create(site_id=registry.get_site_id(site=site))
         floor = FloorState.objects.select_for_update(of=("self",)).get(site__slug=site)
         _require_rest(site)
         changed = change()
@@ -32,7 +31,7 @@ def change_map(*, site: str, change: Callable[[], MapView]) -> MapView:
 
 
 def _require_rest(site: str) -> None:
-    runs = Run.objects.filter(site__slug=site, status__in=OPEN).order_by("number").values_list("number", flat=True)
+    runs = Run.objects.filter(site__slug=site, status__in=Run.OPEN).order_by("number").values_list("number", flat=True)
     if runs:
         named = ", ".join(map(str, runs[:5]))
         raise NotPossibleNow(
@@ -51,6 +50,6 @@ def _begin_anew(floor: FloorState, site: str) -> None:
     """Forget the old map's cells; commands get ids of a new namespace, and a stop goes on."""
     floor.state, floor.namespace = None, uuid4()
     floor.save(update_fields=["state", "namespace"])
-    news = [(f"stop:{uuid4()}", {"type": "stop_pressed"})] if is_stopped(site=site) else []
-    mailbox.post(mailbox.site_target(site), news)
+    if is_stopped(site=site):
+        mailbox.post_to_floor(site, [(f"stop:{uuid4()}", StopPressed())])
     mailbox.hint(mailbox.site_target(site))

@@ -1,4 +1,4 @@
-"""Ways for drawing: what a robot would drive between two places."""
+"""Paths for drawing: what a robot would drive between two places."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import Any
 from execution.floor.advance import get_layout
 from execution.machine.floor_task import Target
 from execution.traffic.layout import Layout, NoSuchSpot
-from execution.traffic.routes import drawn, length_m, plan_way
+from execution.traffic.routes import drawn, length_m, plan_path
 
 SPEED_M_S = 0.5
 
 
 def plan_routes(*, site: str, pairs: Sequence[tuple[Any, Any]]) -> list[dict[str, Any] | None]:
-    """Return for each (from, to) the way as a drawn line `{path, length_m, seconds}`, or None where there is none.
+    """Return for each (from, to) the path as a drawn line `{path, length_m, seconds}`, or None where there is none.
 
     An end is a Place of docs/architecture.md (`{"device": id}`, `{"place": id}`, `{"point": [x, y]}`) or `[x, y]`.
     """
@@ -25,14 +25,14 @@ def plan_routes(*, site: str, pairs: Sequence[tuple[Any, Any]]) -> list[dict[str
 
 def _route(layout: Layout, start: Any, end: Any, speed_m_s: float) -> dict[str, Any] | None:
     try:
-        way = plan_way(layout, _node(layout, start), _node(layout, end))
+        nodes = plan_path(layout, _node(layout, start), _node(layout, end))
     except NoSuchSpot:
         return None
-    if way is None:
+    if nodes is None:
         return None
-    path = drawn(layout, way)
-    length = length_m(path)
-    return {"path": [list(point) for point in path], "length_m": round(length, 2), "seconds": round(length / speed_m_s)}
+    line = drawn(layout, nodes)
+    length = length_m(line)
+    return {"path": [list(point) for point in line], "length_m": round(length, 2), "seconds": round(length / speed_m_s)}
 
 
 def _node(layout: Layout, place: Any) -> str:

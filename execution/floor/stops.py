@@ -10,9 +10,9 @@ from uuid import uuid4
 from django.db import transaction
 
 from execution import mailbox
-from execution.floor.advance import site_id
+from execution.machine.messages import PauseAsked
 from execution.models import ArmedProgram, Run, SiteStop
-from execution.runs.advance import OPEN
+from execution.traffic.messages import StopPressed, StopReset
 from registry import services as registry
 
 
@@ -45,9 +45,9 @@ def press_stop(*, site: str, by: str) -> StopView:
             _latch(row, site, active=True, by=by)
             _disarm_all(site)
             reason = f"{by} stopped all devices of the site"
-            for run in Run.objects.filter(site__slug=site, status__in=OPEN).values_list("id", flat=True):
-                mailbox.post(mailbox.run_target(run), [(f"stop:{run}:{uuid4()}", {"type": "pause", "reason": reason})])
-            mailbox.post(mailbox.site_target(site), [(f"stop:{uuid4()}", {"type": "stop_pressed"})])
+            for run in Run.objects.filter(site__slug=site, status__in=Run.OPEN).values_list("id", flat=True):
+                mailbox.post_to_run(run, [(f"stop:{run}:{uuid4()}", PauseAsked(reason))])
+            mailbox.post_to_floor(site, [(f"stop:{uuid4()}", StopPressed())])
     return StopView(site, row.active, row.by, row.at)
 
 
@@ -57,7 +57,7 @@ def reset_stop(*, site: str, by: str) -> StopView:
         row = _lock(site)
         if row.active:
             _latch(row, site, active=False, by=by)
-            mailbox.post(mailbox.site_target(site), [(f"reset:{uuid4()}", {"type": "stop_reset"})])
+            mailbox.post_to_floor(site, [(f"reset:{uuid4()}", StopReset())])
     return StopView(site, row.active, row.by, row.at)
 
 
@@ -68,8 +68,8 @@ def _disarm_all(site: str) -> None:
 
 
 def _lock(site: str) -> SiteStop:
-    SiteStop.objects.get_or_create(site_id=site_id(site))
-    return SiteStop.objects.select_for_update().get(site_id=site_id(site))
+    SiteStop.objects.get_or_create(site_id=registry.get_site_id(site=site))
+    return SiteStop.objects.select_for_update().get(site_id=registry.get_site_id(site=site))
 
 
 def _latch(row: SiteStop, site: str, *, active: bool, by: str) -> None:

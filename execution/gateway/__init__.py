@@ -1,1 +1,1 @@
-"""MQTT in and out of the server."""
+"""Between MQTT and the database: what devices say goes in, commands and stops go out."""

@@ -18,10 +18,10 @@ from typing import Any
 
 from django.db import DatabaseError, InterfaceError, connection
 
-from execution import services as execution
-from execution.gateway.ingest import KNOCK, Taker
+from execution.commands.claim import claim_commands, mark_commands_sent
+from execution.floor.stops import list_stops
+from execution.gateway.ingest import ENROLMENT, Ingester
 from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
-from execution.ticker.alerts import note_complaint
 from registry import services as registry
 from registry.services import Outage
 from vipo_device.protocol import messages
@@ -33,7 +33,7 @@ log = logging.getLogger(__name__)
 FLOOD = fault("flood")
 
 EVERYTHING = "$share/gateway/vipo/v1/dev/+/up/#"
-KNOCKS = "$share/gateway/vipo/v1/join/+/+"
+ENROLMENTS = "$share/gateway/vipo/v1/join/+/+"
 SERVER_STATUS = "vipo/v1/srv/status"
 WAKE_CHANNEL, STOPS_CHANNEL = "gateway", "stops"
 POLL_S = 0.1
@@ -41,6 +41,8 @@ STOPS_EVERY_S = 1.0
 CLAIM_LIMIT = 100
 MOST_AT_ONCE = 200
 COUNT_EVERY_S = 2.0
+TOO_MANY = "too many messages"
+MOST_CHARACTERS = 300
 
 
 class Gateway:
@@ -54,7 +56,7 @@ class Gateway:
         self.complaints = Complaints()
         self._outage = Outage("The database", "What devices say waits at the broker, and commands wait.")
         self._outages_seen = 0
-        self._taker = Taker(self._note, self.complaints.counts, self._outage)
+        self._ingester = Ingester(self._note, self.complaints.counts, self._outage)
         self._notes: deque[tuple[str, str, Mapping[str, Any]]] = deque(maxlen=1000)
         self._greeting_due = threading.Event()
         self._stops: dict[str, bytes] = {}
@@ -64,7 +66,7 @@ class Gateway:
     def run_forever(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set."""
         self._client.subscribe_handled(EVERYTHING, 1, self._arrived)
-        self._client.subscribe_handled(KNOCKS, 1, self._arrived)
+        self._client.subscribe_handled(ENROLMENTS, 1, self._arrived)
         self._client.on_connected(self._greeting_due.set)
         self._client.start()
         sender = threading.Thread(target=self._send_until, args=(stopping,), name="gateway-sender", daemon=True)
@@ -73,7 +75,7 @@ class Gateway:
             while not stopping.is_set():
                 entries = self._inbox.get_all(0.2, MOST_AT_ONCE)
                 self._renew_connection()
-                self._taker.take_all(entries, stopping)
+                self._ingester.ingest_all(entries, stopping)
                 self._write_notes()
                 self._count_dropped(time.monotonic())
                 registry.flush_samples()
@@ -94,13 +96,13 @@ class Gateway:
     def _arrived(self, message: Message) -> None:
         """Sort a message into the inbox; runs on the network thread and must not wait."""
         found = messages.read_up_topic(message.topic)
-        knock = messages.read_join_topic(message.topic)
-        if found is None and knock is None:
+        enrolment = messages.read_join_topic(message.topic)
+        if found is None and enrolment is None:
             self.complaints.counts["topic"] += 1
             message.acknowledge()
             return
-        device, kind = found or (knock[1] if knock else "", KNOCK)
-        sender = f"join:{knock[0]}" if knock else device  # whoever knocks may name any device
+        device, kind = found or (enrolment[1] if enrolment else "", ENROLMENT)
+        sender = f"join:{enrolment[0]}" if enrolment else device  # whoever asks there may name any device
         if not self._bucket(sender).take(time.monotonic()):
             self._note(sender, FLOOD.text, facts_of([FLOOD]))
             message.acknowledge()
@@ -163,12 +165,12 @@ class Gateway:
             self._greet()
         if registry.wait_wake(STOPS_CHANNEL, 0):
             self._publish_stops()
-        commands = execution.claim_commands(limit=CLAIM_LIMIT)
+        commands = claim_commands(limit=CLAIM_LIMIT)
         self._outage.end()
         for command in commands:
             self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
         if commands:
-            execution.mark_commands_sent(ids=[command.id for command in commands])
+            mark_commands_sent(ids=[command.id for command in commands])
         if time.monotonic() - self._stops_at >= STOPS_EVERY_S:
             self._publish_stops()
         return len(commands) == CLAIM_LIMIT
@@ -187,13 +189,25 @@ class Gateway:
         _reconcile_accounts()
 
     def _publish_stops(self) -> None:
-        for stop in execution.list_stops():
+        for stop in list_stops():
             body = {"active": stop.active, "by": stop.by, "at": stop.at.isoformat() if stop.at else None}
             payload = json.dumps(body).encode()
             if self._stops.get(stop.site) != payload:
                 self._client.publish(f"vipo/v1/site/{stop.site}/stop", payload, retain=True)
                 self._stops[stop.site] = payload
         self._stops_at = time.monotonic()
+
+
+def note_complaint(device: str, reason: str, facts: Mapping[str, Any] | None = None) -> None:
+    """Take in why a message was dropped or refused; touches no database."""
+    kind, _, detail = reason.partition(": ")
+    args = {"why": detail[:MOST_CHARACTERS], **({"faults": facts["faults"]} if facts and "faults" in facts else {})}
+    if kind == TOO_MANY:
+        registry.note_alert(device_id=device, code="messages_dropped")
+    elif kind == "desc":
+        registry.note_alert(device_id=device, code="description_refused", args=args)
+    elif "/" not in kind:  # who asks to be enrolled is nobody yet
+        registry.note_alert(device_id=device, code="messages_refused", args=args)
 
 
 def _reconcile_accounts() -> None:

@@ -7,11 +7,13 @@ import threading
 from collections import Counter, defaultdict, deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import UTC, datetime
+from time import monotonic
 from typing import Any
 
 from django.db import DatabaseError, InterfaceError, OperationalError, connection
 
-from execution import services as execution
+from execution import mailbox
+from execution.commands import outbox
 from execution.gateway.queue import Entry
 from registry import services as registry
 from registry.services import Outage
@@ -20,14 +22,16 @@ from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.mqtt_client import Message
 
 log = logging.getLogger(__name__)
-KNOCK = "knock/"
-"""The kind of a knock; a kind of `up/` topics has no slash."""
+ENROLMENT = "knock/"
+"""The kind of a request to be enrolled; a kind of `up/` topics has no slash."""
 POISON_TRIES = 3
 MOST_DESCRIPTIONS = 50
 """So many are read and kept in one go: what others wait for does not wait long behind them."""
+CHANGES_EVERY_S = 0.1
+"""The floor and the runs of a site are woken at most so often because a device has said something."""
 
 
-class Taker:
+class Ingester:
     """Takes messages in and acknowledges each to the broker once it is kept, or will never be."""
 
     def __init__(
@@ -35,13 +39,14 @@ class Taker:
     ) -> None:
         self._note, self._counts = note, counts
         self._outage = outage or Outage("The database", "What devices say waits.")
+        self._woken_at: dict[str, float] = {}
 
-    def take_all(self, entries: Sequence[Entry], stopping: threading.Event) -> None:
+    def ingest_all(self, entries: Sequence[Entry], stopping: threading.Event) -> None:
         """Take in what has come; the messages of one device in the order of their arrival."""
         for together in _rounds(entries):
-            self._take_round(together, stopping)
+            self._ingest_round(together, stopping)
 
-    def _take_round(self, entries: list[Entry], stopping: threading.Event) -> None:
+    def _ingest_round(self, entries: list[Entry], stopping: threading.Event) -> None:
         """Take in at most one message of each device: answers first, since runs wait for them."""
         states = [e for e in entries if e.kind == "state" and e.message.payload and not e.outdated]
         said = [e for e in entries if e.kind == "desc" and e.message.payload]
@@ -120,7 +125,7 @@ class Taker:
         tries = 0
         while not entry.outdated and not stopping.is_set():
             try:
-                self._take_in(entry.device, entry.kind, entry.message)
+                self._ingest_one(entry.device, entry.kind, entry.message)
                 self._outage.end()
                 break
             except VipoError as error:
@@ -143,14 +148,14 @@ class Taker:
                 return
         entry.message.acknowledge()
 
-    def _take_in(self, device: str, kind: str, message: Message) -> None:
+    def _ingest_one(self, device: str, kind: str, message: Message) -> None:
         at = datetime.now(UTC)
-        if kind == KNOCK:
+        if kind == ENROLMENT:
             site, _ = messages.read_join_topic(message.topic) or ("", "")
             registry.enrol_device(site=site, device_id=device, payload=message.payload, at=at)
         elif kind == "ack":
             ack = messages.parse_ack(message.payload)
-            execution.record_ack(
+            outbox.record_ack(
                 device=device, command_id=ack.command, status=ack.status, why=ack.why, result=ack.result, at=at
             )
         elif kind == "map" and message.payload:
@@ -159,7 +164,7 @@ class Taker:
             view = self._ingest(device, kind, message, at)
             if view is not None:
                 if kind == "presence" and view.online and not view.only_done_flag:
-                    execution.resend_commands(device=device)
+                    outbox.resend_commands(device=device)
                 self._pass_on(view, at)
 
     def _ingest(self, device: str, kind: str, message: Message, at: datetime) -> registry.DeviceView | None:
@@ -178,8 +183,14 @@ class Taker:
     def _pass_on(self, view: registry.DeviceView, at: datetime) -> None:
         registry.note_samples(view=view, at=at)
         if view.only_done_flag:
-            execution.record_done_flag(device=view.id, done=view.done, at=at)
-        execution.record_device_change(site=view.site, device_id=view.id)
+            outbox.record_done_flag(device=view.id, done=view.done, at=at)
+        self._wake_watching(view.site, monotonic())
+
+    def _wake_watching(self, site: str, now: float) -> None:
+        """Wake what depends on poses, presence or readings; what comes too soon after that is seen by the next."""
+        if now - self._woken_at.get(site, -CHANGES_EVERY_S) >= CHANGES_EVERY_S:
+            self._woken_at[site] = now
+            mailbox.hint_watching(site)
 
 
 def _rounds(entries: Sequence[Entry]) -> Iterator[list[Entry]]:

@@ -12,8 +12,8 @@ from vipo_device.protocol.mqtt_client import Message
 INBOX_LIMIT = 20_000
 MESSAGES_PER_S = 50.0
 BURST = 200.0
-KNOCKS_PER_S = 1.0
-KNOCKS_AT_ONCE = 20.0
+ENROLMENTS_PER_S = 1.0
+ENROLMENTS_AT_ONCE = 20.0
 KNOWN_DEVICES = 5_000
 COMPLAINT_EVERY_S = 60.0
 
@@ -38,8 +38,8 @@ class TokenBucket:
 
 
 def new_bucket(name: str) -> TokenBucket:
-    """Return a device's bucket, or a door's (`join:…`): behind that one, everybody may be a stranger."""
-    rate, burst = (KNOCKS_PER_S, KNOCKS_AT_ONCE) if name.startswith("join:") else (MESSAGES_PER_S, BURST)
+    """Return a device's bucket, or that of a site's enrolments (`join:…`): whoever asks there may be a stranger."""
+    rate, burst = (ENROLMENTS_PER_S, ENROLMENTS_AT_ONCE) if name.startswith("join:") else (MESSAGES_PER_S, BURST)
     return TokenBucket(rate, burst, burst, monotonic())
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from editor.language.plan import instructions as p
 from execution.machine.messages import Action, Cancel, CancelQuestion, Finished, StepFailed, StepLeft
-from execution.machine.state import MAIN, Ending, Guard, Pending, RunStatus, Thread, Wake
+from execution.machine.state import FLOOR_TASK, MAIN, Ending, Guard, Pending, RunStatus, Thread, Wake
 from execution.machine.turn import Failure, Turn
 
 OVER = Wake(final=True)
@@ -135,7 +135,7 @@ def call_off(turn: Turn, thread: Thread) -> None:
     """Say that nothing of what a thread waits for is wanted any more."""
     if thread.wake is not None or thread.waits_for in {"", "join"}:
         return
-    if thread.waits_for == "mission":
+    if thread.waits_for == FLOOR_TASK:
         turn.actions.append(Cancel(thread.waits_id))
     elif thread.waits_for == "ask":
         turn.actions.append(CancelQuestion(thread.waits_id))

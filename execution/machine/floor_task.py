@@ -1,30 +1,30 @@
-"""A mission: one thing that a run asks of the floor, with its arguments worked out; pure."""
+"""A task of the floor: one thing that a run asks of it, with its arguments worked out; pure."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from vipo_device.protocol.description import Scalar
 
-MissionKind = Literal["move", "pick", "drop", "call"]
+TaskKind = Literal["move", "pick", "drop", "call"]
 FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
 
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """Where a mission goes: a device or a named place by `id`, or a point in metres."""
+    """Where a task goes: a device or a named place by `id`, or a point in metres."""
 
     id: str = ""
     point: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Mission:
+class TaskOrder:
     """What is asked: `role` names the robot's role (empty for a call on a machine that no robot takes part in)."""
 
-    kind: MissionKind
+    kind: TaskKind
     target: Target
     role: str = ""
     object: str = ""
@@ -36,14 +36,9 @@ class Mission:
     line: int = 0
 
 
-def mission_to_json(mission: Mission) -> dict[str, Any]:
-    """Return the mission as plain JSON."""
-    return asdict(mission)
-
-
-def mission_from_json(data: Mapping[str, Any]) -> Mission:
-    """Read what `mission_to_json` wrote."""
+def order_from_json(data: Mapping[str, Any]) -> TaskOrder:
+    """Read an order from plain JSON, as states keep it."""
     target = data["target"]
     point = (float(target["point"][0]), float(target["point"][1])) if target["point"] else None
     route = tuple((float(x), float(y)) for x, y in data["route"])
-    return Mission(**{**data, "target": Target(target["id"], point), "route": route})
+    return TaskOrder(**{**data, "target": Target(target["id"], point), "route": route})

@@ -1,22 +1,22 @@
 """The run machine: a run's state and one event in, the new state and what is to be done out; pure.
 
-It knows no time, no network and no robots: time is a timer that fires, the floor is missions that end.
+It knows no time, no network and no robots: time is a timer that fires, the floor is tasks that end.
 The same plan, state and event always give the same answer, so that a recorded history can be replayed.
-Its parts: `run_turn` (what changes), `run_flow` (threads, functions), `run_ending` (failures), `run_watching` (events).
+Its parts: `turn` (what changes), `flow` (threads, functions, events), `ending` (failures).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import assert_never
 
 from editor.language.expressions.nodes import Expression, PlaceRef
 from editor.language.plan import instructions as p
 from execution.machine.ending import begin_guard, end_guard, end_run, finish, rethrow, unwind
 from execution.machine.evaluation import EvaluationError, NoReading, in_words
-from execution.machine.events import remember_truths, start_events
-from execution.machine.floor_task import Mission, MissionKind, Target
-from execution.machine.flow import end, end_thread, fork, invoke, leave_function
+from execution.machine.floor_task import Target, TaskKind, TaskOrder
+from execution.machine.flow import end, end_thread, fork, invoke, leave_function, remember_truths, start_events
 from execution.machine.messages import (
     Action,
     Answered,
@@ -26,14 +26,14 @@ from execution.machine.messages import (
     CancelQuestion,
     Event,
     Facts,
-    MissionDone,
-    MissionFailed,
     PauseAsked,
     Resumed,
+    TaskDone,
+    TaskFailed,
     Tell,
     TimerFired,
 )
-from execution.machine.state import MAIN, Activation, Guard, RunState, Thread, Wake, from_json, to_json
+from execution.machine.state import FLOOR_TASK, MAIN, Activation, Guard, RunState, Thread, Wake, from_json, to_json
 from execution.machine.turn import YIELD_S, Failure, Turn
 from vipo_device.protocol.description import Scalar
 
@@ -77,10 +77,10 @@ def _take(turn: Turn, event: Event) -> None:
     match event:
         case Facts(values=values):
             turn.facts.update(values)
-        case MissionDone(mission=mission):
-            _wake(turn, "mission", mission, Wake())
-        case MissionFailed(mission=mission, kind=kind, why=why):
-            _wake(turn, "mission", mission, Wake(kind, why))
+        case TaskDone(task=task):
+            _wake(turn, FLOOR_TASK, task, Wake())
+        case TaskFailed(task=task, kind=kind, why=why):
+            _wake(turn, FLOOR_TASK, task, Wake(kind, why))
         case TimerFired(timer=timer):
             for waits_for, wake in (("timer", Wake()), ("yield", Wake()), ("until", TIMED_OUT), ("ask", UNANSWERED)):
                 _wake(turn, waits_for, timer, wake)
@@ -92,6 +92,8 @@ def _take(turn: Turn, event: Event) -> None:
             turn.status, turn.reason = "running", ""
         case CancelAsked(reason=reason):
             finish(turn, "cancelled", reason)
+        case _:
+            assert_never(event)
 
 
 def _wake(turn: Turn, waits_for: str, waits_id: int, wake: Wake) -> None:
@@ -234,25 +236,25 @@ def _change_flow(turn: Turn, thread: Thread, action: p.Action) -> Thread:
 def _ask_floor(turn: Turn, thread: Thread, action: p.Move | p.Pick | p.Drop | p.Call) -> Thread:
     instruction = turn.plan.instructions[thread.at]
     order = replace(_order(turn, thread, action), step=instruction.step, line=instruction.line)
-    mission = turn.new_id()
-    turn.actions.append(Ask(mission, order))
-    return replace(thread, waits_for="mission", waits_id=mission)
+    task = turn.new_id()
+    turn.actions.append(Ask(task, order))
+    return replace(thread, waits_for=FLOOR_TASK, waits_id=task)
 
 
-def _order(turn: Turn, thread: Thread, action: p.Move | p.Pick | p.Drop | p.Call) -> Mission:
+def _order(turn: Turn, thread: Thread, action: p.Move | p.Pick | p.Drop | p.Call) -> TaskOrder:
     match action:
         case p.Move(role=role, to=to, route=route):
-            return Mission("move", _target(turn, thread, to), role, route=route)
+            return TaskOrder("move", _target(turn, thread, to), role, route=route)
         case p.Call(device=device, method=method, arguments=arguments, serves=serves):
             values = {name: turn.scalar(thread, value) for name, value in arguments.items()}
-            return Mission("call", _target(turn, thread, device), serves or "", method=method, arguments=values)
+            return TaskOrder("call", _target(turn, thread, device), serves or "", method=method, arguments=values)
         case p.Pick() | p.Drop():
             quantity = turn.number(thread, action.quantity)
             if quantity <= 0:
                 raise Failure("refused", f"The quantity is {quantity:g}; it must be more than nothing.")
             thing = str(turn.scalar(thread, action.object))
-            kind: MissionKind = "pick" if isinstance(action, p.Pick) else "drop"
-            return Mission(kind, _target(turn, thread, action.at), action.role, thing, quantity)
+            kind: TaskKind = "pick" if isinstance(action, p.Pick) else "drop"
+            return TaskOrder(kind, _target(turn, thread, action.at), action.role, thing, quantity)
 
 
 def _target(turn: Turn, thread: Thread, place: PlaceRef) -> Target:

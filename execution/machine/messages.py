@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from editor.language.expressions.nodes import AnswerSpec
-from execution.machine.floor_task import Mission
+from execution.machine.floor_task import TaskOrder
 from vipo_device.protocol.description import Scalar
 
 
@@ -18,18 +18,18 @@ class Facts:
 
 
 @dataclass(frozen=True, slots=True)
-class MissionDone:
-    """A mission that was asked for is over."""
+class TaskDone:
+    """A task that the floor was asked for is over."""
 
-    mission: int
+    task: int
     result: Mapping[str, Scalar] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
-class MissionFailed:
-    """A mission failed; `kind` is one of `execution.machine.floor_task.FAILURE_KINDS`."""
+class TaskFailed:
+    """A task failed; `kind` is one of `execution.machine.floor_task.FAILURE_KINDS`."""
 
-    mission: int
+    task: int
     kind: str
     why: str
 
@@ -68,22 +68,22 @@ class CancelAsked:
     reason: str = ""
 
 
-Event = Facts | MissionDone | MissionFailed | TimerFired | Answered | PauseAsked | Resumed | CancelAsked
+Event = Facts | TaskDone | TaskFailed | TimerFired | Answered | PauseAsked | Resumed | CancelAsked
 
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """Ask the floor for a mission."""
+    """Ask the floor for a task."""
 
-    mission: int
-    order: Mission
+    task: int
+    order: TaskOrder
 
 
 @dataclass(frozen=True, slots=True)
 class Cancel:
-    """The mission is not wanted any more; no answer is awaited."""
+    """The task is not wanted any more; no answer is awaited."""
 
-    mission: int
+    task: int
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,8 @@ from vipo_device.protocol.description import Scalar
 
 RunStatus = Literal["running", "paused", "finished", "failed", "cancelled"]
 STATE_FORMAT = 2
+FLOOR_TASK = "mission"
+"""What `waits_for` says of a thread that waits for a task of the floor; kept states have always called it so."""
 MAIN = 0
 """The thread that carries out the program's body; when it is over the run is."""
 
@@ -68,8 +70,8 @@ class Pending:
 class Thread:
     """One line of execution.
 
-    `waits_for` is empty while it can go on, else `mission`, `timer`, `until`, `yield`, `ask` or `join`. `event` is the
-    number of the event whose body it carries out, or -1.
+    `waits_for` is empty while it can go on, else `FLOOR_TASK`, `timer`, `until`, `yield`, `ask` or `join`. `event` is
+    the number of the event whose body it carries out, or -1.
     """
 
     id: int

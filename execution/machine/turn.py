@@ -60,7 +60,7 @@ class Turn:
         return state, tuple(self.actions)
 
     def new_id(self) -> int:
-        """Return the next number: threads, frames, missions, timers and questions share one sequence."""
+        """Return the next number: threads, frames, tasks, timers and questions share one sequence."""
         self.next_id += 1
         return self.next_id - 1
 

@@ -145,7 +145,7 @@ class Recorder:
                 self._note_command(t_s, action)
                 if not piece and step:
                     self._commands[command] = (step, device, action.method)
-            case m.WayPlanned(robot=robot, path=path):
+            case m.PathPlanned(robot=robot, path=path):
                 self._routes.append({"t": round(t_s, 2), "robot": robot, "path": [list(point) for point in path]})
                 far_m = round(length_m(path), 1)
                 self._say(t_s, "", robot, f"{self._layout.name(robot)} sets out, {far_m:.1f} m.", "way", length_m=far_m)
@@ -172,12 +172,12 @@ class Recorder:
         self._say(t_s, step, device, text, "answer", method=method, status=status, why=why)
 
     def _note_wait(self, t_s: float, action: m.WaitChanged) -> None:
-        open_wait = self._open_waits.pop(action.mission, None)
+        open_wait = self._open_waits.pop(action.task, None)
         if open_wait is not None:
             self._end_wait(t_s, open_wait)
         if action.reason is not None:
             why = {"code": action.reason.code, "args": dict(action.reason.args)}
-            self._open_waits[action.mission] = {"t": round(t_s, 2), "duration_s": 0.0, "robot": action.robot,
+            self._open_waits[action.task] = {"t": round(t_s, 2), "duration_s": 0.0, "robot": action.robot,
                                                 "reason": action.reason.text, "why": why}  # fmt: skip
 
     def _end_wait(self, t_s: float, wait: dict[str, Any]) -> None:

@@ -8,17 +8,15 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, assert_never
 
-from editor.language import compile_document
 from editor.language.expressions.nodes import AnswerSpec
-from editor.language.plan.instructions import Plan, RoleBinding
+from editor.language.plan.instructions import Plan
 from editor.language.site.surroundings import PlaceFacts
+from execution.floor_protocol import AskingRun, to_floor, to_machine, to_run
 from execution.machine import machine
 from execution.machine import messages as r
 from execution.machine.needs import Facts, clock_fact, needs_of, position_facts
-from execution.machine.places import ROLE
-from execution.rehearsals.program_site import read_site
 from execution.rehearsals.recorder import Recorder
 from execution.traffic import floor
 from execution.traffic import messages as m
@@ -84,6 +82,7 @@ class _Rehearsal:
         self.plan, self.layout, self.world, self.limit_s = plan, layout, world, limit_s
         self.recorder = Recorder(layout, world.readings())
         self.needs = needs_of(plan)
+        self.asking = AskingRun(RUN, "this rehearsal", plan.roles, m.floor_zones(RUN, plan.zones))
         self.looked_at = 0.0
         self.replies: list[tuple[float, r.Answered]] = []
         self.floor = floor.start(layout, NAMESPACE)
@@ -198,12 +197,10 @@ class _Rehearsal:
             self.recorder.note_floor(now, action)
             if isinstance(action, m.SendCommand):
                 self.world.command(action.device, action.method, action.arguments, action.id)
-            elif isinstance(action, m.RoleBound):
-                self.run_events.append(r.Facts({(ROLE, action.role): action.robot}))
-            elif isinstance(action, m.MissionOver) and action.kind:
-                self.run_events.append(r.MissionFailed(action.mission, action.kind, action.why))
-            elif isinstance(action, m.MissionOver):
-                self.run_events.append(r.MissionDone(action.mission, action.result))
+            told = to_run(action)
+            event = to_machine(told[1]) if told else None
+            if event is not None:
+                self.run_events.append(event)
 
     def _do_run(self, actions: tuple[r.Action, ...]) -> None:
         now = self.world.time_s
@@ -211,20 +208,8 @@ class _Rehearsal:
         for action in actions:
             self.recorder.note_run(now, action)
             match action:
-                case r.Ask(mission=mission, order=order):
-                    role = self.plan.roles.get(order.role, RoleBinding(order.role))
-                    asked = m.MissionAsked(
-                        RUN,
-                        mission,
-                        order,
-                        role.device or "",
-                        role.can,
-                        "this rehearsal",
-                        m.floor_zones(RUN, self.plan.zones),
-                    )
-                    self.floor_events.append(asked)
-                case r.Cancel(mission=mission):
-                    self.floor_events.append(m.MissionCancelled(RUN, mission))
+                case r.Ask() | r.Cancel():
+                    self.floor_events.append(to_floor(self.asking, action))
                 case r.SetTimer(timer=timer, seconds=seconds):
                     heapq.heappush(self.timers, (now + seconds, timer))
                 case r.CancelTimer(timer=timer):
@@ -237,6 +222,10 @@ class _Rehearsal:
                     self.left.add(step)
                 case r.Finished():
                     self._finish(now, action)
+                case r.Tell() | r.CancelQuestion() | r.StepEntered() | r.StepFailed():
+                    pass  # the record has it
+                case _:
+                    assert_never(action)
 
     def _finish(self, now: float, action: r.Finished) -> None:
         self.finished = action
@@ -268,20 +257,3 @@ def pretend_answer(spec: AnswerSpec) -> Scalar:
             least = 1.0 if spec.minimum is None else spec.minimum
             return least if spec.maximum is None else min(least, spec.maximum)
     return ""
-
-
-def rehearse_program(
-    document: object, site: Mapping[str, Any], seed: int = 0, driver: DriverName = "physics"
-) -> dict[str, Any]:
-    """Rehearse a document in the site of a program file (see docs/cli.md); for the command line.
-
-    Raises:
-        ValueError: the program has errors; check it first.
-        UnreadableSite, BadMap: the site cannot be used.
-    """
-    surroundings, scene, places = read_site(site, seed)
-    compiled = compile_document(document, surroundings)
-    if compiled.plan is None:
-        errors = [d.message for d in compiled.diagnostics if d.severity == "error"]
-        raise ValueError(f"The program has errors and cannot be rehearsed. {errors[0] if errors else ''}".strip())
-    return rehearse(compiled.plan, scene, places=places, conditions=Conditions(driver))

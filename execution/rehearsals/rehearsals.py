@@ -6,7 +6,7 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 from uuid import UUID
@@ -15,7 +15,7 @@ from django.db import transaction
 
 from execution import mailbox
 from execution.errors import NotFound
-from execution.floor.advance import place_facts, site_id
+from execution.floor.advance import place_facts
 from execution.models import Rehearsal
 from execution.rehearsals.child_process import scene_to_json
 from execution.runs.programs import Prepared
@@ -24,6 +24,9 @@ from registry import services as registry
 from simulation.world import Scene
 
 ROOT = Path(__file__).resolve().parents[2]
+LOST_AFTER = timedelta(seconds=5)
+DEAD_AFTER = timedelta(seconds=60)
+DIED = "The process that rehearsed it has died. Start it again."
 
 
 def start_rehearsal(*, prepared: Prepared, by: str, seed: int = 0, driver: str = "physics") -> dict[str, Any]:
@@ -31,7 +34,7 @@ def start_rehearsal(*, prepared: Prepared, by: str, seed: int = 0, driver: str =
     job = {"plan": prepared.plan, "scene": _scene(prepared.site, seed), "driver": driver,
            "parameters": dict(prepared.parameters)}  # fmt: skip
     row = Rehearsal.objects.create(
-        site_id=site_id(prepared.site),
+        site_id=registry.get_site_id(site=prepared.site),
         program=prepared.program,
         job=job,
         document=prepared.document,
@@ -84,8 +87,21 @@ def carry_out(rehearsal_id: str) -> bool:
             _take_line(row, line)
     finally:
         if row.status == Rehearsal.Status.RUNNING:
-            _end(row, "failed", reason="The process that rehearsed it has died. Start it again.")
+            _end(row, "failed", reason=DIED)
     return True
+
+
+def sweep_rehearsals(now: datetime) -> None:
+    """Find rehearsals whose hint was lost, and those whose worker has died."""
+    queued = Rehearsal.objects.filter(status=Rehearsal.Status.QUEUED, created_at__lt=now - LOST_AFTER)
+    for rehearsal in queued.values_list("id", flat=True):
+        mailbox.send_hint(mailbox.REHEARSE, str(rehearsal))
+    dead = Rehearsal.objects.filter(status=Rehearsal.Status.RUNNING, beat_at__lt=now - DEAD_AFTER)
+    for row in dead.select_related("site"):
+        still_dead = Rehearsal.objects.filter(id=row.id, status=Rehearsal.Status.RUNNING)
+        still_dead.update(status=Rehearsal.Status.FAILED, reason=DIED)
+        row.status = Rehearsal.Status.FAILED
+        _publish(row)
 
 
 def _run_child(job: Mapping[str, Any]) -> Iterator[dict[str, Any]]:

@@ -4,56 +4,52 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Mapping
-from dataclasses import asdict
 from datetime import UTC, datetime, timedelta
-from typing import Any
+from typing import assert_never
 from uuid import UUID
 
 from django.conf import settings
 from django.db import transaction
 
 from editor.language import plan_from_json
-from editor.language.plan.instructions import Plan, RoleBinding
+from editor.language.plan.instructions import Plan
 from execution import mailbox
 from execution.errors import StepConflict
+from execution.floor_protocol import AskingRun, ToFloor, ToRun, to_floor, to_machine
 from execution.machine import machine
 from execution.machine import messages as r
-from execution.machine.floor_task import mission_to_json
 from execution.machine.needs import Needs, needs_of
-from execution.machine.places import ROLE
 from execution.machine.state import RunState
-from execution.models import InboxEvent, Run, Timer
+from execution.models import Run, Timer
 from execution.runs import notices, questions
 from execution.runs.facts import facts_of
 from execution.runs.journal import Journal, describe
-from execution.runs.settle import split_early, wake_later
-from execution.traffic.messages import floor_zones
+from execution.runs.reading_grace import asking_key, split_early, wake_later
+from execution.traffic.messages import RunPaused, RunResumed, floor_zones
 from registry import services as registry
 from vipo_device.protocol.description import Scalar
 
 PLANS_KEPT = 64
 _plans: OrderedDict[UUID, tuple[Plan, Needs]] = OrderedDict()
-OPEN = (Run.Status.PENDING, Run.Status.RUNNING, Run.Status.PAUSED)
 
 
 def advance_run(run_id: UUID | str) -> bool:
     """Bring a run up to date; False when it is over, unknown, or another process is at it already."""
     with transaction.atomic():
         rows = Run.objects.select_for_update(skip_locked=True, of=("self",)).defer("document", "compiled", "plan")
-        run = rows.select_related("site").filter(id=run_id, status__in=OPEN).first()
+        run = rows.select_related("site").filter(id=run_id, status__in=Run.OPEN).first()
         if run is None:
             return False
-        events = mailbox.waiting(mailbox.run_target(run.id))
         plan, needs = _plan(run.id)
         now = datetime.now(UTC)
-        events, early = split_early(run, needs, events, now)
+        deliveries, early = split_early(run, needs, mailbox.waiting_for_run(run.id), now)
         facts = facts_of(needs, run, now)
         journal = Journal(run, now, _names(run.site.slug))
         if early:
             wake_later(run, now)
-        state = _fold(_Step(run, plan, journal), facts, events)
+        state = _fold(_Step(run, plan, journal), facts, [delivery.message for delivery in deliveries])
         _write(run, state, journal, watches=bool(early) or _watches(plan, state))
-        mailbox.mark_taken(events)
+        mailbox.mark_taken(deliveries)
         mailbox.crash_point("run_before_commit")
     mailbox.crash_point("run_after_commit")
     return True
@@ -64,6 +60,12 @@ class _Step:
 
     def __init__(self, run: Run, plan: Plan, journal: Journal) -> None:
         self.run, self.plan, self.journal = run, plan, journal
+        zones = floor_zones(str(run.program), plan.zones)
+        self.asking = AskingRun(str(run.id), f"run {run.number}", plan.roles, zones)
+
+    def tell_floor(self, key: str, message: ToFloor) -> None:
+        """Put a message of the run into its floor's inbox; the key is the run's own."""
+        mailbox.post_to_floor(self.run.site.slug, [(f"{self.run.id}:{key}", message)])
 
 
 def _plan(run_id: UUID) -> tuple[Plan, Needs]:
@@ -80,8 +82,8 @@ def _names(slug: str) -> dict[str, str]:
     return {device.id: device.name for device in registry.list_devices(site=slug)}
 
 
-def _fold(step: _Step, facts: Mapping[tuple[str, str], Scalar], events: list[InboxEvent]) -> RunState:
-    """Take in all events, oldest first; readings come before them, since a device speaks before it answers."""
+def _fold(step: _Step, facts: Mapping[tuple[str, str], Scalar], messages: list[ToRun]) -> RunState:
+    """Take in all messages, oldest first; readings come before them, since a device speaks before it answers."""
     run = step.run
     if run.state is None:
         run.started_at = step.journal.now
@@ -93,8 +95,9 @@ def _fold(step: _Step, facts: Mapping[tuple[str, str], Scalar], events: list[Inb
         news = {key: value for key, value in facts.items() if state.facts.get(key) != value}
         if news:
             state = _tell(step, state, r.Facts(news))
-    for row in events:
-        event = _event(step, row.payload)
+    for message in messages:
+        step.journal.note(message)
+        event = to_machine(message)
         if event is not None:
             state = _tell(step, state, event)
     return state
@@ -114,37 +117,10 @@ def _tell(step: _Step, state: RunState, event: r.Event) -> RunState:
     state, actions = machine.step(step.plan, state, event)
     _do(step, actions)
     if before != state.status and {before, state.status} == {"running", "paused"}:
-        paused = state.status == "paused"
         step.journal.say("run", describe(state.status, state.reason), code=state.status)
-        _post_site(step.run, f"{state.status}:{step.run.epoch}:{step.journal.seq}",
-                   {"type": "run_paused" if paused else "run_resumed", "run": str(step.run.id)})  # fmt: skip
+        order = RunPaused(step.asking.id) if state.status == "paused" else RunResumed(step.asking.id)
+        step.tell_floor(f"{state.status}:{step.run.epoch}:{step.journal.seq}", order)
     return state
-
-
-def _event(step: _Step, data: Mapping[str, Any]) -> r.Event | None:
-    """Read an event from the inbox; what is only to be noted is noted here."""
-    match data["type"]:
-        case "mission_over" if data["kind"]:
-            return r.MissionFailed(data["mission"], data["kind"], data["why"])
-        case "mission_over":
-            return r.MissionDone(data["mission"], data["result"])
-        case "timer":
-            return r.TimerFired(data["timer"])
-        case "pause":
-            return r.PauseAsked(data["reason"])
-        case "resume":
-            return r.Resumed()
-        case "cancel":
-            return r.CancelAsked(data["reason"])
-        case "role_bound":
-            step.journal.note(data)
-            return r.Facts({(ROLE, data["role"]): data["robot"]})
-        case "answered":
-            text = f"{data['by']} answered: {questions.in_short(data['value'])}."
-            step.journal.say("question", text, step=data["step"], code="answered", by=data["by"], value=data["value"])
-            return r.Answered(data["question"], data["value"])
-    step.journal.note(data)
-    return None
 
 
 def _do(step: _Step, actions: tuple[r.Action, ...]) -> None:
@@ -152,45 +128,38 @@ def _do(step: _Step, actions: tuple[r.Action, ...]) -> None:
     run, journal = step.run, step.journal
     for action in actions:
         match action:
-            case r.Ask(mission=mission, order=order):
-                role = step.plan.roles.get(order.role, RoleBinding(order.role))
-                payload: dict[str, Any] = {"type": "mission_asked", "run": str(run.id), "run_name": f"run {run.number}"}
-                asked = {"mission": mission, "order": mission_to_json(order)}
-                _post_site(
-                    run,
-                    f"ask:{mission}",
-                    {**payload, **asked, "wants": role.device or "", "can": role.can, "zones": _zones(step)},
-                )
-            case r.Cancel(mission=mission):
-                payload = {"type": "mission_cancelled", "run": str(run.id), "mission": mission}
-                _post_site(run, f"drop:{mission}", payload)
+            case r.Ask(task=task):
+                step.tell_floor(asking_key(task), to_floor(step.asking, action))
+            case r.Cancel(task=task):
+                step.tell_floor(f"drop:{task}", to_floor(step.asking, action))
             case r.SetTimer(timer=timer, seconds=seconds):
                 due_at = journal.now + timedelta(seconds=seconds / settings.VIPO_SPEED)
                 Timer.objects.create(run=run, timer=timer, due_at=due_at)
             case r.CancelTimer(timer=timer):
                 Timer.objects.filter(run=run, timer=timer).delete()
-            case r.AskPeople(step=name, text=text):
-                journal.ask(name, text)
-                questions.ask(run, action, journal.now)
-            case r.CancelQuestion(question=number):
-                questions.withdraw(run, number)
-            case r.Tell():
-                notices.tell(run, journal, action)
+            case r.AskPeople() | r.CancelQuestion() | r.Tell():
+                _speak(step, action)
             case r.Finished(status=status, reason=reason):
                 run.ended_at = journal.now
                 notices.say_held(run, journal)
                 journal.say("run", describe(status, reason), code=status)
-                _post_site(run, "over", {"type": "run_over", "run": str(run.id)})
-            case _:
+                step.tell_floor("over", to_floor(step.asking, action))
+            case r.StepEntered() | r.StepLeft() | r.StepFailed():
                 journal.mark(action)
+            case _:
+                assert_never(action)
 
 
-def _zones(step: _Step) -> list[dict[str, Any]]:
-    return [asdict(zone) for zone in floor_zones(str(step.run.program), step.plan.zones)]
-
-
-def _post_site(run: Run, key: str, payload: Mapping[str, Any]) -> None:
-    mailbox.post(mailbox.site_target(run.site.slug), [(f"{run.id}:{key}", payload)])
+def _speak(step: _Step, action: r.AskPeople | r.CancelQuestion | r.Tell) -> None:
+    """Write down what people are asked or told."""
+    match action:
+        case r.AskPeople(step=name, text=text):
+            step.journal.ask(name, text)
+            questions.ask(step.run, action, step.journal.now)
+        case r.CancelQuestion(question=number):
+            questions.withdraw(step.run, number)
+        case r.Tell():
+            notices.tell(step.run, step.journal, action)
 
 
 def _watches(plan: Plan, state: RunState) -> bool:

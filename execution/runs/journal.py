@@ -4,12 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from datetime import datetime
-from typing import Any
+from typing import Any, assert_never
 
 from django.db import transaction
 
+from execution.floor_protocol import (
+    CommandEnded,
+    CommandGiven,
+    QuestionAnswered,
+    ResumeAsked,
+    RobotSetsOut,
+    RoleFilled,
+    TaskEnded,
+    ToRun,
+    WaitNoted,
+)
 from execution.machine import messages as r
+from execution.machine.messages import CancelAsked, PauseAsked, TimerFired
 from execution.models import Run, RunEvent
+from execution.runs.questions import in_short
 from execution.runs.views import event_to_json, run_to_json
 from registry import services as registry
 
@@ -59,7 +72,7 @@ class Journal:
         self.seq += 1
         self._rows.append(row)
 
-    def mark(self, action: r.Action) -> None:
+    def mark(self, action: r.StepEntered | r.StepLeft | r.StepFailed) -> None:
         """Mark a step as the machine says."""
         match action:
             case r.StepEntered(step=step):
@@ -85,45 +98,57 @@ class Journal:
         mark = self.steps.setdefault(step, {"started_at": self.now.isoformat(), "robot": None, "count": 1})
         mark.update(status=status, ended_at=self.now.isoformat(), wait=None, why=None)
 
-    def note(self, data: Mapping[str, Any]) -> None:
-        """Write down what the floor reports."""
-        match data["type"]:
-            case "role_bound":
-                self.roles[data["role"]] = data["robot"]
-                text = f"{self._name(data['robot'])} takes the role “{data['role']}”."
-                self.say("role", text, code="role_bound", robot=data["robot"], role=data["role"])
-            case "wait":
-                self._note_wait(data)
-            case "command":
-                self._note_command(data)
-            case "answer":
-                what = f"{self._name(data['device'])} {ANSWERS[data['status']]}: {data['method']}"
-                text = f"{what} ({data['why']})" if data["why"] else f"{what}."
-                more = {
-                    "device": data["device"],
-                    "method": data["method"],
-                    "status": data["status"],
-                    "why": data["why"],
-                }
-                self.say("answer", text, step=data["step"], code="answer", **more)
-            case "way":
-                text = f"{self._name(data['robot'])} sets out."
-                self.say("way", text, code="way", robot=data["robot"], device=data["robot"], path=data["path"])
+    def note(self, message: ToRun) -> None:
+        """Write down what the run is told, as far as people want to read it."""
+        match message:
+            case RoleFilled(role=role, robot=robot):
+                self.roles[role] = robot
+                text = f"{self._name(robot)} takes the role “{role}”."
+                self.say("role", text, code="role_bound", robot=robot, role=role)
+            case WaitNoted():
+                self._note_wait(message)
+            case CommandGiven():
+                self._note_command(message)
+            case CommandEnded():
+                self._note_answer(message)
+            case RobotSetsOut(robot=robot, path=path):
+                self.say("way", f"{self._name(robot)} sets out.", code="way", robot=robot, device=robot, path=path)
+            case QuestionAnswered(value=value, by=by, step=step):
+                text = f"{by} answered: {in_short(value)}."
+                self.say("question", text, step=step, code="answered", by=by, value=value)
+            case TaskEnded() | TimerFired() | PauseAsked() | ResumeAsked() | CancelAsked():
+                pass  # what comes of it is written when it comes
+            case _:
+                assert_never(message)
 
-    def _note_wait(self, data: Mapping[str, Any]) -> None:
-        reason, robot = data["reason"], data["robot"]
-        mark = self.steps.get(data["step"])
+    def _note_wait(self, wait: WaitNoted) -> None:
+        reason, robot = wait.reason, wait.robot
+        mark = self.steps.get(wait.step)
         if mark is not None and mark["status"] in {"running", "waiting"}:
-            mark.update(status="waiting" if reason else "running", wait=reason["text"] if reason else None)
-            mark["why"] = {"code": reason["code"], "args": reason["args"]} if reason else None
+            mark.update(status="waiting" if reason else "running", wait=reason.text if reason else None)
+            mark["why"] = {"code": reason.code, "args": dict(reason.args)} if reason else None
             mark["robot"] = robot or mark.get("robot")
-        if reason:
-            arguments = {f"{key}": value for key, value in reason["args"].items() if key not in {"robot", "device"}}
-            device = reason["args"].get("device", "")
-            self.say("wait", reason["text"], step=data["step"], code=reason["code"], robot=robot, device=device,
-                     **arguments)  # fmt: skip
+        if reason is None:
+            self.say("wait", "It goes on.", step=wait.step, code="wait_over", robot=robot)
         else:
-            self.say("wait", "It goes on.", step=data["step"], code="wait_over", robot=robot)
+            more = {key: value for key, value in reason.args.items() if key not in {"robot", "device"}}
+            device = reason.args.get("device", "")
+            self.say("wait", reason.text, step=wait.step, code=reason.code, robot=robot, device=device, **more)
+
+    def _note_command(self, given: CommandGiven) -> None:
+        mark = self.steps.get(given.step)
+        if mark is not None and given.device in self.roles.values():
+            mark["robot"] = given.device
+        values = ", ".join(str(self._names.get(str(value), value)) for value in given.arguments.values())
+        text = f"{self._name(given.device)}: {given.method}({values})"
+        self.say("command", text, step=given.step, code="command", device=given.device, method=given.method,
+                 arguments=given.arguments)  # fmt: skip
+
+    def _note_answer(self, ended: CommandEnded) -> None:
+        what = f"{self._name(ended.device)} {ANSWERS[ended.status]}: {ended.method}"
+        text = f"{what} ({ended.why})" if ended.why else f"{what}."
+        more = {"method": ended.method, "status": ended.status, "why": ended.why}
+        self.say("answer", text, step=ended.step, code="answer", device=ended.device, **more)
 
     def ask(self, step: str, text: str) -> None:
         """Write down a question; its step waits."""
@@ -131,16 +156,6 @@ class Journal:
         if mark is not None and mark["status"] == "running":
             mark.update(status="waiting", wait="It waits for an answer.", why={"code": "question", "args": {}})
         self.say("question", text, step=step, code="asked")
-
-    def _note_command(self, data: Mapping[str, Any]) -> None:
-        device = data["device"]
-        mark = self.steps.get(data["step"])
-        if mark is not None and device in self.roles.values():
-            mark["robot"] = device
-        values = ", ".join(str(self._names.get(str(value), value)) for value in data["arguments"].values())
-        text = f"{self._name(device)}: {data['method']}({values})"
-        self.say("command", text, step=data["step"], code="command", device=device, method=data["method"],
-                 arguments=data["arguments"])  # fmt: skip
 
     def _name(self, device: str) -> str:
         return self._names.get(device, device)

@@ -13,6 +13,7 @@ from django.db import transaction
 
 from execution import mailbox
 from execution.errors import AlreadyAnswered, AnswerNotFitting, NotFound, NotPossibleNow
+from execution.floor_protocol import QuestionAnswered
 from execution.machine.messages import AskPeople
 from execution.models import Question, Run
 from execution.runs.views import question_to_json
@@ -56,8 +57,7 @@ def answer_question(*, question_id: UUID | str, value: Any, by: str) -> dict[str
             row.refresh_from_db()
             _refuse(row)
         row.refresh_from_db()
-        payload = {"type": "answered", "question": row.number, "value": fitting, "by": by, "step": row.step}
-        mailbox.post(mailbox.run_target(row.run_id), [(f"reply:{row.id}", payload)])
+        mailbox.post_to_run(row.run_id, [(f"reply:{row.id}", QuestionAnswered(row.number, fitting, by, row.step))])
         publish(row)
     return question_to_json(row)
 

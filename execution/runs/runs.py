@@ -11,10 +11,10 @@ from django.db.models import Max
 
 from execution import mailbox
 from execution.errors import NotFound, NotPossibleNow
-from execution.floor.advance import site_id
 from execution.floor.stops import is_stopped
+from execution.floor_protocol import ResumeAsked, ToRun
+from execution.machine.messages import CancelAsked, PauseAsked
 from execution.models import Run, RunEvent
-from execution.runs.advance import OPEN
 from execution.runs.programs import Prepared
 from execution.runs.views import event_to_json, run_to_json
 from registry import services as registry
@@ -52,7 +52,7 @@ def _create_numbered(prepared: Prepared, by: str, entry: int) -> Run:
 
 
 def _create(prepared: Prepared, by: str, entry: int) -> Run:
-    site = site_id(prepared.site)
+    site = registry.get_site_id(site=prepared.site)
     last = Run.objects.filter(site_id=site).aggregate(last=Max("number"))["last"] or 0
     return Run.objects.create(
         site_id=site,
@@ -73,7 +73,7 @@ def _create(prepared: Prepared, by: str, entry: int) -> Run:
 def pause_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
     """Ask a run to pause: nothing new is begun, what is under way settles."""
     row = _find_open(run_id)
-    return _order(row, {"type": "pause", "reason": f"{by} paused it"})
+    return _order(row, PauseAsked(f"{by} paused it"))
 
 
 def resume_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
@@ -85,18 +85,18 @@ def resume_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
     row = _find_open(run_id)
     if is_stopped(site=row.site.slug):
         raise NotPossibleNow("The site is stopped. Reset the stop, then resume the run.")
-    return _order(row, {"type": "resume", "by": by})
+    return _order(row, ResumeAsked(by))
 
 
 def cancel_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
     """Ask a run to end: what machines do for it is called off, its robots stop at the next safe point."""
     row = _find_open(run_id)
-    return _order(row, {"type": "cancel", "reason": f"{by} cancelled it"})
+    return _order(row, CancelAsked(f"{by} cancelled it"))
 
 
-def _order(row: Run, payload: dict[str, Any]) -> dict[str, Any]:
+def _order(row: Run, order: ToRun) -> dict[str, Any]:
     with transaction.atomic():
-        mailbox.post(mailbox.run_target(row.id), [(f"order:{row.id}:{uuid4()}", payload)])
+        mailbox.post_to_run(row.id, [(f"order:{row.id}:{uuid4()}", order)])
     return run_to_json(row)
 
 
@@ -109,7 +109,7 @@ def _find(run_id: UUID | str) -> Run:
 
 def _find_open(run_id: UUID | str) -> Run:
     row = _find(run_id)
-    if row.status not in OPEN:
+    if row.status not in Run.OPEN:
         raise NotPossibleNow(f"Run {row.number} is over ({row.status}). Start the program again for a new run.")
     return row
 

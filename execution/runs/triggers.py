@@ -13,12 +13,10 @@ from django.db import transaction
 from editor.language import plan_from_json
 from editor.language.plan.instructions import EventEntry, Plan
 from execution.errors import NotPossibleNow, NotReady
-from execution.floor.advance import site_id
 from execution.floor.stops import is_stopped
 from execution.machine.evaluation import EvaluationError, is_true
 from execution.machine.needs import Facts, needs_of
 from execution.models import ArmedProgram, Run
-from execution.runs.advance import OPEN
 from execution.runs.facts import site_facts
 from execution.runs.programs import Prepared
 from execution.runs.runs import start_run
@@ -51,7 +49,13 @@ def arm_program(*, prepared: Prepared, by: str) -> dict[str, Any]:
     now = datetime.now(UTC)
     whole = {**asdict(prepared), "program": str(prepared.program)}
     truths = _look(plan, _facts(plan, prepared.site, now))
-    values = {"site_id": site_id(prepared.site), "prepared": whole, "truths": truths, "by": by, "at": now}
+    values = {
+        "site_id": registry.get_site_id(site=prepared.site),
+        "prepared": whole,
+        "truths": truths,
+        "by": by,
+        "at": now,
+    }
     with transaction.atomic():
         row, _ = ArmedProgram.objects.update_or_create(program=prepared.program, defaults=values)
         _announce(prepared.site)
@@ -86,7 +90,7 @@ def _look_at(row: ArmedProgram, now: datetime) -> bool:
         mine = ArmedProgram.objects.filter(program=row.program, epoch=row.epoch, at=row.at)
         if not mine.update(truths=truths, epoch=row.epoch + 1) or due is None:
             return False
-        if is_stopped(site=row.site.slug) or Run.objects.filter(program=row.program, status__in=OPEN).exists():
+        if is_stopped(site=row.site.slug) or Run.objects.filter(program=row.program, status__in=Run.OPEN).exists():
             return False
         prepared = Prepared(**{**row.prepared, "program": row.program})
         start_run(prepared=prepared, by=row.by, entry=due.entry)

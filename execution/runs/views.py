@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from execution.models import ArmedProgram, Question, Rehearsal, Run, RunEvent
-from execution.runs.reasons import cause_of
+from execution.reasons import cause_of
 
 WITH_CAUSE = frozenset({"failed", "cancelled", "paused"})
 WELL = frozenset({"step_entered", "step_done"})

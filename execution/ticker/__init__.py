@@ -1,1 +1,1 @@
-"""What happens by the clock: timers, lost commands, alerts."""
+"""What happens because time passes: due timers, hints that were lost, alerts."""

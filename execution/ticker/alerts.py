@@ -1,14 +1,13 @@
-"""What execution knows that gives cause for alerts: who is needed now, commands that went wrong, refused messages."""
+"""What execution knows that gives cause for alerts: who is needed now, and commands that went wrong."""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from datetime import datetime, timedelta
-from typing import Any
 
-from execution.commands.claim import CONTROLS
 from execution.models import Command, Run
+from execution.traffic.messages import CONTROLS
 from registry import services as registry
 
 LOOK_BACK = timedelta(minutes=1)
@@ -17,7 +16,6 @@ GONE_WRONG: dict[str, registry.AlertCode] = {
     Command.Status.FAILED: "command_failed",
     Command.Status.TIMED_OUT: "command_timed_out",
 }
-TOO_MANY = "too many messages"
 MOST_CHARACTERS = 300
 
 
@@ -40,7 +38,7 @@ def _find_at_work() -> frozenset[str]:
 def _find_gone_wrong(known: Sequence[registry.AlertView], now: datetime) -> Iterator[registry.Raised]:
     """Yield the commands that went wrong within the last minute and are no alert yet, those of a kind as one.
 
-    A piece of way that a robot refuses is none: it is given another one.
+    A piece of path that a robot refuses is none: it is given another one.
     """
     rows = Command.objects.filter(status__in=list(GONE_WRONG), ended_at__gt=now - LOOK_BACK).order_by("ended_at")
     rows = rows.exclude(method__in=CONTROLS).exclude(piece=True, status=Command.Status.REJECTED)
@@ -68,15 +66,3 @@ def _find_done_since(known: Sequence[registry.AlertView]) -> list[int]:
         for alert in known
         if done.filter(device=alert.device_id, method=alert.args["method"], ended_at__gt=alert.last_at).exists()
     ]
-
-
-def note_complaint(device: str, reason: str, facts: Mapping[str, Any] | None = None) -> None:
-    """Take in why a message was dropped or refused; touches no database."""
-    kind, _, detail = reason.partition(": ")
-    args = {"why": detail[:MOST_CHARACTERS], **({"faults": facts["faults"]} if facts and "faults" in facts else {})}
-    if kind == TOO_MANY:
-        registry.note_alert(device_id=device, code="messages_dropped")
-    elif kind == "desc":
-        registry.note_alert(device_id=device, code="description_refused", args=args)
-    elif "/" not in kind:  # a knock is nobody's yet
-        registry.note_alert(device_id=device, code="messages_refused", args=args)

@@ -13,7 +13,9 @@ from django.db import DatabaseError, connection, transaction
 from execution import mailbox
 from execution.commands.manual_calls import expire_calls
 from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
-from execution.models import FloorState, InboxEvent, Lease, Rehearsal, Run, Timer
+from execution.machine.messages import TimerFired
+from execution.models import Lease, Run, Timer
+from execution.rehearsals.rehearsals import sweep_rehearsals
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
 from registry import services as registry
@@ -24,7 +26,6 @@ SWEEP_S = 1.0
 PRUNE_S = 600.0
 KEPT_FOR = timedelta(days=2)
 LOST_AFTER = timedelta(seconds=1)
-DEAD_AFTER = timedelta(seconds=60)
 HOLDER = f"{socket.gethostname()}:{os.getpid()}"
 
 
@@ -45,7 +46,7 @@ class Ticker:
         self._leads_since = self._leads_since or now
         fire_timers(now)
         if self._is_due("sites", TICK_SITES_S, now):
-            hint_active_sites()
+            mailbox.hint_watching()
             start_armed(now)
         if self._is_due("sweep", SWEEP_S, now):
             sweep(now)
@@ -55,7 +56,7 @@ class Ticker:
             registry.flush_samples()
             watch_alerts(now=now, since=self._leads_since)
         if self._is_due("prune", PRUNE_S, now):
-            InboxEvent.objects.filter(taken_at__lt=now - KEPT_FOR).delete()
+            mailbox.forget_taken(now - KEPT_FOR)
             registry.prune_samples(now=now)
             registry.prune_alerts(now=now)
         return True
@@ -84,46 +85,21 @@ def fire_timers(now: datetime) -> int:
     with transaction.atomic():
         due = list(Timer.objects.select_for_update(skip_locked=True).filter(due_at__lte=now)[:500])
         for row in due:
-            key = f"timer:{row.run_id}:{row.timer}"
-            mailbox.post(mailbox.run_target(row.run_id), [(key, {"type": "timer", "timer": row.timer})])
+            mailbox.post_to_run(row.run_id, [(f"timer:{row.run_id}:{row.timer}", TimerFired(row.timer))])
         Timer.objects.filter(id__in=[row.id for row in due]).delete()
     return len(due)
 
 
-def hint_active_sites() -> None:
-    """Let every floor look that has something under way, and every run that waits for a reading."""
-    for slug in FloorState.objects.filter(active=True).values_list("site__slug", flat=True):
-        mailbox.send_hint(mailbox.ADVANCE_SITE, slug)
-    watching = Run.objects.filter(watches=True, status=Run.Status.RUNNING)
-    for run in watching.values_list("id", flat=True):
-        mailbox.send_hint(mailbox.ADVANCE_RUN, str(run))
-
-
 def sweep(now: datetime) -> None:
     """Find what was left lying because a message was lost or a worker died."""
-    left = InboxEvent.objects.filter(taken_at=None, created_at__lt=now - LOST_AFTER)
-    for target in left.values_list("target", flat=True).distinct():
-        kind, _, name = target.partition(":")
-        mailbox.send_hint(mailbox.ADVANCE_RUN if kind == "run" else mailbox.ADVANCE_SITE, name)
+    mailbox.hint_left(now - LOST_AFTER)
     pending = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=now - LOST_AFTER)
     for run in pending.values_list("id", flat=True):
         mailbox.send_hint(mailbox.ADVANCE_RUN, str(run))
     drop_stale_controls(now)
     end_commands_of_those_out(now)
     expire_calls(now=now)
-    _sweep_rehearsals(now)
-
-
-def _sweep_rehearsals(now: datetime) -> None:
-    queued = Rehearsal.objects.filter(status=Rehearsal.Status.QUEUED, created_at__lt=now - 5 * LOST_AFTER)
-    for rehearsal in queued.values_list("id", flat=True):
-        mailbox.send_hint(mailbox.REHEARSE, str(rehearsal))
-    dead = Rehearsal.objects.filter(status=Rehearsal.Status.RUNNING, beat_at__lt=now - DEAD_AFTER)
-    for row in dead.select_related("site"):
-        reason = "The process that rehearsed it has died. Start it again."
-        Rehearsal.objects.filter(id=row.id, status=Rehearsal.Status.RUNNING).update(status="failed", reason=reason)
-        message = {"type": "rehearsal", "id": str(row.id), "status": "failed", "progress": row.progress}
-        registry.publish(row.site.slug, message)
+    sweep_rehearsals(now)
 
 
 _ticker = Ticker()

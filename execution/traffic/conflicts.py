@@ -7,12 +7,12 @@ from math import hypot
 from execution.traffic.floor_state import Robot
 from execution.traffic.layout import Node
 from execution.traffic.messages import FloorZone
-from execution.traffic.path_release import cut_way, may_enter, set_way
+from execution.traffic.path_release import cut_path, may_enter, set_path
 from execution.traffic.turn import Turn
-from execution.traffic.zones import cells_of, in_the_way, kept_out, way_for
+from execution.traffic.zones import cells_of, in_the_way, kept_out, path_for
 
 ROUND_AFTER_S = 2.0
-"""How long a blocked robot waits before it looks for a way round."""
+"""How long a blocked robot waits before it looks for a path round."""
 YIELD_AT_MOST_S = 20.0
 GIVE_UP_EVADING_S = 4.0
 BLOCKED_LIMIT_S = 180.0
@@ -22,13 +22,13 @@ NOBODY = 1 << 60
 
 
 def resolve(turn: Turn) -> None:
-    """Look after every robot that stands and cannot go on, those with the oldest errands first."""
+    """Look after every robot that stands and cannot go on, those with the oldest tasks first."""
     for robot in sorted(turn.robots.values(), key=lambda r: (_rank(turn, r), r.id)):
         robot = turn.robots[robot.id]
         _end_yielding(turn, robot)
         robot = turn.robots[robot.id]
-        stands = robot.way and not turn.is_driving(robot) and robot.online and not turn.is_acting(robot)
-        if not stands or robot.released + 1 >= len(robot.way) or robot.blocked_since is None or turn.stopped:
+        stands = robot.path and not turn.is_driving(robot) and robot.online and not turn.is_acting(robot)
+        if not stands or robot.released + 1 >= len(robot.path) or robot.blocked_since is None or turn.stopped:
             continue
         if robot.evading:
             if turn.now - robot.blocked_since > GIVE_UP_EVADING_S:
@@ -38,13 +38,13 @@ def resolve(turn: Turn) -> None:
 
 
 def _rank(turn: Turn, robot: Robot) -> int:
-    job = turn.job_of(robot)
-    return job.seq if job else NOBODY
+    task = turn.task_of(robot)
+    return task.seq if task else NOBODY
 
 
 def _settle_here(turn: Turn, robot: Robot) -> None:
     node = turn.node(robot)
-    turn.put(robot, way=(node,), passed=0, released=0, evading="", blocked_since=None, idle_since=turn.now)
+    turn.put(robot, path=(node,), passed=0, released=0, evading="", blocked_since=None, idle_since=turn.now)
 
 
 def _end_yielding(turn: Turn, robot: Robot) -> None:
@@ -52,23 +52,23 @@ def _end_yielding(turn: Turn, robot: Robot) -> None:
     if not robot.yields_to or robot.evading:
         return
     other = turn.robots.get(robot.yields_to)
-    gone = other is None or len(other.way) == other.passed + 1 or bool(other.yields_to)
-    waits = other is not None and not gone and not may_enter(turn, other, min(other.released + 1, len(other.way) - 1))
-    if gone or waits or turn.now - robot.yields_since > YIELD_AT_MOST_S or not _is_near_way(turn, robot, other):
+    gone = other is None or len(other.path) == other.passed + 1 or bool(other.yields_to)
+    waits = other is not None and not gone and not may_enter(turn, other, min(other.released + 1, len(other.path) - 1))
+    if gone or waits or turn.now - robot.yields_since > YIELD_AT_MOST_S or not _is_near_path(turn, robot, other):
         turn.put(robot, yields_to="", blocked_since=None)
 
 
-def _is_near_way(turn: Turn, robot: Robot, other: Robot | None) -> bool:
+def _is_near_path(turn: Turn, robot: Robot, other: Robot | None) -> bool:
     if other is None:
         return False
-    points = (turn.layout.point(node) for node in other.way[other.passed :])
+    points = (turn.layout.point(node) for node in other.path[other.passed :])
     return any(hypot(x - robot.x, y - robot.y) < CLOSE_M for x, y in points)
 
 
 def _unblock(turn: Turn, robot: Robot) -> None:
     """Find out who is in the way, and who shall move."""
     index = robot.released + 1
-    job = turn.job_of(robot)
+    task = turn.task_of(robot)
     taken = in_the_way(turn, robot, index)
     if taken is not None:
         _wait_for_zone(turn, robot, taken[0], taken[1])
@@ -79,12 +79,12 @@ def _unblock(turn: Turn, robot: Robot) -> None:
         return
     holders = turn.holders()
     blockers = sorted(
-        {holders[c] for c in turn.layout.needed(robot.way[index]) if holders.get(c, robot.id) != robot.id}
+        {holders[c] for c in turn.layout.needed(robot.path[index]) if holders.get(c, robot.id) != robot.id}
     )
-    if job and blockers:
+    if task and blockers:
         names = " and ".join(turn.name(b) for b in blockers)
         turn.wait(
-            job,
+            task,
             "blocked_by",
             f"{turn.name(robot.id)} waits for {names} to pass.",
             robot=robot.id,
@@ -95,18 +95,18 @@ def _unblock(turn: Turn, robot: Robot) -> None:
         _move_blocker(turn, turn.robots[robot.id], turn.robots[blocker])
     if since >= ROUND_AFTER_S and not turn.robots[robot.id].evading:
         _go_round(turn, turn.robots[robot.id])
-    if job and since >= BLOCKED_LIMIT_S:
+    if task and since >= BLOCKED_LIMIT_S:
         names = " and ".join(turn.name(b) for b in blockers)
-        turn.finish(job, "blocked", f"{turn.name(robot.id)} has been blocked by {names} for too long.")
-        cut_way(turn, turn.robots[robot.id])
+        turn.finish(task, "blocked", f"{turn.name(robot.id)} has been blocked by {names} for too long.")
+        cut_path(turn, turn.robots[robot.id])
 
 
 def _wait_for_zone(turn: Turn, robot: Robot, zone: FloorZone, holder: Robot) -> None:
     """Say what the robot waits for; who stands in the zone without getting on leaves it, who is at a machine too."""
-    job = turn.job_of(robot)
-    if job:
+    task = turn.task_of(robot)
+    if task:
         text = f"{turn.name(robot.id)} waits until {zone.name} is free."
-        turn.wait(job, "zone_taken", text, robot=robot.id, zone=zone.name, others=holder.id)
+        turn.wait(task, "zone_taken", text, robot=robot.id, zone=zone.name, others=holder.id)
     _move_blocker(turn, robot, holder)
     robot = turn.robots[robot.id]
     if not robot.evading and turn.node(robot) in turn.layout.stations:
@@ -118,65 +118,65 @@ def _move_blocker(turn: Turn, robot: Robot, blocker: Robot) -> None:
     busy = turn.is_driving(blocker) or turn.is_acting(blocker) or blocker.evading
     if busy or not blocker.online or (blocker.run and blocker.run in turn.paused):
         return
-    waits_for_machine = len(blocker.way) > blocker.released + 1 and not may_enter(turn, blocker, blocker.released + 1)
+    waits_for_machine = len(blocker.path) > blocker.released + 1 and not may_enter(turn, blocker, blocker.released + 1)
     if turn.is_idle(blocker) or blocker.yields_to or waits_for_machine or _rank(turn, robot) < _rank(turn, blocker):
         if turn.is_idle(blocker) and turn.now - blocker.idle_since < 0.5:
             return
-        if not make_way_for(turn, blocker, robot):
+        if not make_room_for(turn, blocker, robot):
             _evade(turn, robot, blocker)
 
 
 def _go_round(turn: Turn, robot: Robot) -> None:
     """Plan anew around the cells of all who stand still."""
     standing = {c for r in turn.robots.values() if r.id != robot.id and not turn.is_driving(r) for c in r.held}
-    goal = robot.way[-1]
+    goal = robot.path[-1]
     moving = {c for r in turn.robots.values() if r.id != robot.id for c in r.held} - standing
-    way = way_for(turn, robot, goal, closed=standing, extra=dict.fromkeys(moving, 4.0))
-    if way is not None and way != robot.way[robot.passed :] and not standing & turn.layout.needed(goal):
+    path = path_for(turn, robot, goal, closed=standing, extra=dict.fromkeys(moving, 4.0))
+    if path is not None and path != robot.path[robot.passed :] and not standing & turn.layout.needed(goal):
         since = robot.blocked_since
-        robot = set_way(turn, robot, way)
+        robot = set_path(turn, robot, path)
         turn.put(robot, blocked_since=since)
 
 
-def make_way_for(turn: Turn, robot: Robot, other: Robot) -> bool:
-    """Send a standing robot out of another's way: home if it is free, else to the nearest cell that is; tell if so."""
+def make_room_for(turn: Turn, robot: Robot, other: Robot) -> bool:
+    """Send a standing robot off another's path: home if it is free, else to the nearest cell that is; tell if so."""
     if robot.run == "" and _go_home(turn, robot, set(_ahead(turn, other))):
         return True
     return _evade(turn, robot, other)
 
 
 def _ahead(turn: Turn, robot: Robot) -> list[int]:
-    return [cell for node in robot.way[robot.passed :] for cell in turn.layout.needed(node)]
+    return [cell for node in robot.path[robot.passed :] for cell in turn.layout.needed(node)]
 
 
 def _evade(turn: Turn, robot: Robot, other: Robot) -> bool:
-    """Send a robot to the nearest cell that nobody holds, off the other's way, that is in front of no machine."""
+    """Send a robot to the nearest cell that nobody holds, off the other's path, that is in front of no machine."""
     if robot.yields_to == other.id and robot.evading:
         return True
     layout = turn.layout
     taken = {cell for r in turn.robots.values() if r.id != robot.id for cell in r.held}
     spots = {cell for spot in (*layout.stations.values(), *layout.places.values()) for cell in spot.body}
-    own_way = set() if robot.id == other.id else set(_ahead(turn, other))
-    taken_zone = in_the_way(turn, other, min(other.released + 1, len(other.way) - 1))
+    own_path = set() if robot.id == other.id else set(_ahead(turn, other))
+    taken_zone = in_the_way(turn, other, min(other.released + 1, len(other.path) - 1))
     if taken_zone is not None and taken_zone[1].id == robot.id:
-        own_way |= cells_of(layout, taken_zone[0])
+        own_path |= cells_of(layout, taken_zone[0])
     taken |= kept_out(turn, robot) - {layout.cell(turn.node(robot))}
-    others_ways = {c for r in turn.robots.values() if r.id not in {robot.id, other.id} for c in _ahead(turn, r)}
+    others_paths = {c for r in turn.robots.values() if r.id not in {robot.id, other.id} for c in _ahead(turn, r)}
     start = layout.cell(turn.node(robot))
     reach = layout.lattice.distances(start, closed=taken)
-    for avoid in (own_way | spots | others_ways, own_way | spots, own_way):
+    for avoid in (own_path | spots | others_paths, own_path | spots, own_path):
         free = [
-            (steps, cell) for cell, steps in reach.items() if cell not in avoid and (steps or robot.way[0] != start)
+            (steps, cell) for cell, steps in reach.items() if cell not in avoid and (steps or robot.path[0] != start)
         ]
         if free:
             break
     else:
         return False
     goal = min(free)[1]
-    way = way_for(turn, robot, goal, closed=taken)
-    if way is None or len(way) < 2:
+    path = path_for(turn, robot, goal, closed=taken)
+    if path is None or len(path) < 2:
         return False
-    robot = set_way(turn, robot, way, evading=other.id)
+    robot = set_path(turn, robot, path, evading=other.id)
     yields_to = "" if robot.id == other.id else other.id
     turn.put(robot, yields_to=yields_to, yields_since=turn.now)
     return True
@@ -185,18 +185,18 @@ def _evade(turn: Turn, robot: Robot, other: Robot) -> bool:
 def _go_home(turn: Turn, robot: Robot, avoid: set[int]) -> bool:
     """Send a free robot to the nearest free dock."""
     layout = turn.layout
-    taken = {cell for r in turn.robots.values() if r.id != robot.id for cell in (*r.held, *layout.needed(r.way[-1]))
-             if r.way}  # fmt: skip
+    taken = {cell for r in turn.robots.values() if r.id != robot.id for cell in (*r.held, *layout.needed(r.path[-1]))
+             if r.path}  # fmt: skip
     node: Node = turn.node(robot)
     found = []
     for dock in layout.docks:
         if not layout.needed(dock) & (taken | avoid) and dock != node:
-            way = way_for(turn, robot, dock, closed=taken)
-            if way is not None:
-                found.append((len(way), dock, way))
+            path = path_for(turn, robot, dock, closed=taken)
+            if path is not None:
+                found.append((len(path), dock, path))
     if not found or node in layout.docks:
         return False
-    set_way(turn, robot, min(found)[2], evading="home")
+    set_path(turn, robot, min(found)[2], evading="home")
     return True
 
 
@@ -204,6 +204,6 @@ def send_home(turn: Turn) -> None:
     """Send robots home that belong to no run and stand about."""
     for robot in list(turn.robots.values()):
         rested = turn.now - robot.idle_since >= HOME_AFTER_S
-        free = robot.online and robot.run == "" and robot.way and turn.is_idle(robot) and rested and not turn.stopped
+        free = robot.online and robot.run == "" and robot.path and turn.is_idle(robot) and rested and not turn.stopped
         if free and turn.node(robot) not in turn.layout.docks:
             _go_home(turn, robot, set())

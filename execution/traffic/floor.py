@@ -8,20 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import assert_never
 
 from execution.traffic import messages as m
 from execution.traffic.conflicts import resolve, send_home
-from execution.traffic.dispatch import ABSENCE_S, CALL_LIMIT_S, bind_roles, limit_of, serve
-from execution.traffic.floor_state import FloorState, Job, Robot, Sent, from_json, to_json
+from execution.traffic.dispatch import ABSENCE_S, CALL_LIMIT_S, bind_roles, dispatch, limit_of
+from execution.traffic.floor_state import FloorState, FloorTask, Robot, Sent, from_json, to_json
 from execution.traffic.layout import Layout
 from execution.traffic.path_release import (
-    cut_way,
-    drive,
+    cut_path,
     drop_pieces,
     end_piece,
     keep_stations,
     leave_gone,
     place,
+    release_next,
     take_pose,
 )
 from execution.traffic.turn import Turn
@@ -32,9 +33,9 @@ __all__ = ["from_json", "start", "step", "to_json"]
 GAP_S = 5.0
 """A floor with something under way is looked at every half second; a longer gap means that the server was away."""
 STUCK_S = 60.0
-"""How long a robot may take for a piece of way without getting on."""
+"""How long a robot may take for a piece of path without getting on."""
 MOST_REFUSALS = 2
-"""A robot that refuses its way so often gets another one; then its errand fails."""
+"""A robot that refuses its path so often gets another one; then its task fails."""
 KINDS = {"FAILED": "failed", "REJECTED": "refused", "CANCELED": "cancelled"}
 
 
@@ -61,12 +62,12 @@ def step(
     keep_stations(turn)
     keep_zones(turn)
     bind_roles(turn)
-    serve(turn)
-    _drive_all(turn)
+    dispatch(turn)
+    _release_all(turn)
     resolve(turn)
     send_home(turn)
-    _drive_all(turn)
-    serve(turn)
+    _release_all(turn)
+    dispatch(turn)
     turn.announce_waits()
     return turn.close()
 
@@ -90,15 +91,15 @@ def _without_gap(state: FloorState, now: float) -> FloorState:
         for robot in state.robots.values()
     }
     sent = {key: replace(item, at=item.at + gap) for key, item in state.sent.items()}
-    jobs = tuple(j if j.absent_since is None else replace(j, absent_since=j.absent_since + gap) for j in state.jobs)
+    tasks = tuple(t if t.absent_since is None else replace(t, absent_since=t.absent_since + gap) for t in state.tasks)
     offline = {device: since + gap for device, since in state.offline.items()}
-    return replace(state, robots=robots, sent=sent, jobs=jobs, offline=offline)
+    return replace(state, robots=robots, sent=sent, tasks=tasks, offline=offline)
 
 
-def _drive_all(turn: Turn) -> None:
+def _release_all(turn: Turn) -> None:
     for robot in list(turn.robots.values()):
-        if robot.way:
-            drive(turn, turn.robots[robot.id])
+        if robot.path:
+            release_next(turn, turn.robots[robot.id])
 
 
 def _know_robots(turn: Turn) -> None:
@@ -110,22 +111,26 @@ def _know_robots(turn: Turn) -> None:
 
 def _take(turn: Turn, event: m.Event) -> None:
     match event:
-        case m.MissionAsked():
-            _take_mission(turn, event)
-        case m.MissionCancelled(run=run, mission=mission):
-            if job := turn.jobs.get((run, mission)):
-                _drop(turn, job)
+        case m.TaskAsked():
+            _take_task(turn, event)
+        case m.TaskCancelled(run=run, task=number):
+            if task := turn.tasks.get((run, number)):
+                _drop(turn, task)
         case m.CallSent():
             _take_call(turn, event)
         case m.CallCancelled():
             _end_call(turn, event)
         case m.RunPaused() | m.RunResumed() | m.RunOver() | m.StopPressed() | m.StopReset():
             _take_order(turn, event)
-        case _:
+        case m.RobotMoved() | m.CommandAnswered() | m.DeviceOnline() | m.DeviceOffline():
             _take_report(turn, event)
+        case m.Tick():
+            pass  # that time has passed is seen by all that follows
+        case _:
+            assert_never(event)
 
 
-def _take_report(turn: Turn, event: m.Event) -> None:
+def _take_report(turn: Turn, event: m.RobotMoved | m.CommandAnswered | m.DeviceOnline | m.DeviceOffline) -> None:
     """Take in what devices say."""
     match event:
         case m.RobotMoved(robot=robot, x=x, y=y, theta=theta):
@@ -141,7 +146,7 @@ def _take_report(turn: Turn, event: m.Event) -> None:
                 turn.put(robot_state, online=False)
 
 
-def _take_order(turn: Turn, event: m.Event) -> None:
+def _take_order(turn: Turn, event: m.RunPaused | m.RunResumed | m.RunOver | m.StopPressed | m.StopReset) -> None:
     """Take in what people want of runs and of the whole site."""
     match event:
         case m.RunPaused(run=run):
@@ -161,12 +166,12 @@ def _take_order(turn: Turn, event: m.Event) -> None:
             _resume(turn, "")
 
 
-def _take_mission(turn: Turn, event: m.MissionAsked) -> None:
-    if (event.run, event.mission) in turn.jobs:
+def _take_task(turn: Turn, event: m.TaskAsked) -> None:
+    if (event.run, event.task) in turn.tasks:
         return
     turn.next_seq += 1
-    job = Job(event.run, event.mission, turn.next_seq, event.order, event.wants, event.can, event.run_name)
-    turn.jobs[event.run, event.mission] = job
+    task = FloorTask(event.run, event.task, turn.next_seq, event.order, event.wants, event.can, event.run_name)
+    turn.tasks[event.run, event.task] = task
     turn.names[event.run] = event.run_name
     if event.zones:
         turn.zones[event.run] = event.zones
@@ -196,7 +201,7 @@ def _take_online(turn: Turn, device: str) -> None:
     robot = turn.robots.get(device)
     if robot is not None and not robot.online:
         robot = turn.put(robot, online=True, progress_at=turn.now)
-        if robot.way and not turn.is_driving(robot):
+        if robot.path and not turn.is_driving(robot):
             place(turn, robot)
 
 
@@ -214,7 +219,7 @@ def _take_answer(turn: Turn, event: m.CommandAnswered) -> None:
 
 
 def _take_answer_of_robot(turn: Turn, robot: Robot, sent: Sent, kind: str, why: str) -> None:
-    """A piece of way is driven, or not; one that was started anew on its way stands where no piece of it begins."""
+    """A piece of path is driven, or not; one that was started anew on its path stands where no piece of it begins."""
     if kind == "refused" and robot.refusals < MOST_REFUSALS:
         _halt(turn, turn.put(robot, refusals=robot.refusals + 1))
     elif kind:
@@ -224,7 +229,7 @@ def _take_answer_of_robot(turn: Turn, robot: Robot, sent: Sent, kind: str, why: 
 
 
 def _end_act(turn: Turn, sent: Sent, kind: str, why: str, event: m.CommandAnswered | None) -> None:
-    """A device is done with a mission's command, or will not be."""
+    """A device is done with a task's command, or will not be."""
     if sent.device not in turn.robots:
         caller = turn.calls.pop(sent.device, "")
         if not sent.run:
@@ -232,37 +237,37 @@ def _end_act(turn: Turn, sent: Sent, kind: str, why: str, event: m.CommandAnswer
     rested = turn.robots.get(turn.stations.get(sent.device, sent.device))
     if rested is not None:
         turn.put(rested, idle_since=turn.now)
-    if job := turn.jobs.get((sent.run, sent.mission)):
-        turn.finish(job, kind, why, event.result if event else None)
+    if task := turn.tasks.get((sent.run, sent.task)):
+        turn.finish(task, kind, why, event.result if event else None)
 
 
 def _fail_drive(turn: Turn, robot: Robot, kind: str, why: str) -> None:
-    """A robot does not drive on: it stays where it is, and its errand fails."""
-    job = None if robot.evading else turn.job_of(robot)
+    """A robot does not drive on: it stays where it is, and its task fails."""
+    task = None if robot.evading else turn.task_of(robot)
     _halt(turn, turn.put(robot, refusals=0, idle_since=turn.now))
-    if job is not None:
-        turn.finish(job, kind, why)
+    if task is not None:
+        turn.finish(task, kind, why)
 
 
 def _halt(turn: Turn, robot: Robot) -> None:
-    """Take a robot's way from it; it stands where it is."""
+    """Take a robot's path from it; it stands where it is."""
     drop_pieces(turn, robot, cancel=True)
     robot = turn.put(robot, evading="", yields_to="", blocked_since=None)
     if robot.online:
         place(turn, robot)
     else:
-        turn.put(robot, way=(turn.node(robot),), passed=0, released=0)
+        turn.put(robot, path=(turn.node(robot),), passed=0, released=0)
 
 
-def _drop(turn: Turn, job: Job) -> None:
-    """Forget a mission; what a machine does for it is called off, a robot settles at the end of what it may drive."""
-    del turn.jobs[job.run, job.mission]
-    sent = turn.sent.get(job.command)
+def _drop(turn: Turn, task: FloorTask) -> None:
+    """Forget a task; what a machine does for it is called off, a robot settles at the end of what it may drive."""
+    del turn.tasks[task.run, task.number]
+    sent = turn.sent.get(task.command)
     if sent is not None and sent.device not in turn.robots:
         turn.tell(sent, "cancel")
-    robot = turn.robots.get(job.robot)
-    if robot is not None and robot.way and not robot.evading and turn.job_of(robot) is None:
-        cut_way(turn, robot)
+    robot = turn.robots.get(task.robot)
+    if robot is not None and robot.path and not robot.evading and turn.task_of(robot) is None:
+        cut_path(turn, robot)
 
 
 def _resume(turn: Turn, run: str) -> None:
@@ -276,8 +281,8 @@ def _resume(turn: Turn, run: str) -> None:
 
 
 def _end_run(turn: Turn, run: str) -> None:
-    for job in [job for job in turn.jobs.values() if job.run == run]:
-        _drop(turn, job)
+    for task in [each for each in turn.tasks.values() if each.run == run]:
+        _drop(turn, task)
     for sent in [sent for sent in turn.sent.values() if sent.run == run and sent.held_up]:
         turn.tell(sent, "cancel")
     turn.roles = {key: robot for key, robot in turn.roles.items() if key.rpartition("/")[0] != run}

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
-from execution.machine.floor_task import Mission, mission_from_json, mission_to_json
+from execution.machine.floor_task import TaskOrder, order_from_json
 from execution.traffic.layout import Node
 from execution.traffic.messages import FloorZone, Reason, zone_from_json
 
@@ -15,40 +15,40 @@ STATE_FORMAT = 1
 
 @dataclass(frozen=True, slots=True)
 class Robot:
-    """A robot on the floor. `way` leads from `way[passed]`, where it is or was last, to its goal.
+    """A robot on the floor. `path` leads from `path[passed]`, where it is or was last, to its goal.
 
-    It may drive up to `way[released]`; `held` are the cells that nobody else may enter. At rest the way has one node.
+    It may drive up to `path[released]`; `held` are the cells that nobody else may enter. At rest the path has one node.
     """
 
     id: str
     x: float
     y: float
     theta: float = 0.0
-    way: tuple[Node, ...] = ()
+    path: tuple[Node, ...] = ()
     passed: int = 0
     released: int = 0
     held: tuple[int, ...] = ()
     online: bool = True
     run: str = ""
     evading: str = ""
-    """The robot that it makes room for, or `home`: not on its own errand."""
+    """The robot that it makes room for, or `home`: not for its own task."""
     yields_to: str = ""
     yields_since: float = 0.0
     blocked_since: float | None = None
     idle_since: float = 0.0
     progress_at: float = 0.0
     refusals: int = 0
-    """How many pieces of way in turn it has refused."""
+    """How many pieces of path in turn it has refused."""
 
 
 @dataclass(frozen=True, slots=True)
-class Job:
-    """A mission on the floor; `command` is set while a device carries it out."""
+class FloorTask:
+    """A task on the floor; `command` is set while a device carries it out."""
 
     run: str
-    mission: int
+    number: int
     seq: int
-    order: Mission
+    order: TaskOrder
     wants: str = ""
     can: tuple[str, ...] = ()
     run_name: str = ""
@@ -62,12 +62,12 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class Sent:
-    """A command under way: a robot's piece of way ends at way index `upto`; else it carries out a job."""
+    """A command under way: a robot's piece of path ends at path index `upto`; else it carries out a task."""
 
     id: str
     device: str
     run: str = ""
-    mission: int = -1
+    task: int = -1
     upto: int = -1
     at: float = 0.0
     limit_s: float = 0.0
@@ -83,7 +83,7 @@ class FloorState:
     next_seq: int = 1
     stopped: bool = False
     robots: Mapping[str, Robot] = field(default_factory=dict)
-    jobs: tuple[Job, ...] = ()
+    tasks: tuple[FloorTask, ...] = ()
     sent: Mapping[str, Sent] = field(default_factory=dict)
     calls: Mapping[str, str] = field(default_factory=dict)
     """By machine: the run whose call it carries out."""
@@ -102,16 +102,23 @@ class FloorState:
     """By zone for one robot at a time: the robot that is in it."""
 
 
+STORED_AS: Mapping[type, Mapping[str, str]] = {
+    Robot: {"path": "way"},
+    FloorTask: {"number": "mission"},
+    Sent: {"task": "mission"},
+}
+"""What kept states call the parts that have got another name since; the tasks themselves they call `jobs`."""
+
+
 def to_json(state: FloorState) -> dict[str, Any]:
     """Return the state as plain JSON."""
-    jobs = [{**asdict(job), "order": mission_to_json(job.order)} for job in state.jobs]
-    whole = {f.name: getattr(state, f.name) for f in fields(state)}
+    whole = {f.name: getattr(state, f.name) for f in fields(state) if f.name != "tasks"}
     return {
         **whole,
         "format": STATE_FORMAT,
-        "robots": [asdict(robot) for robot in state.robots.values()],
-        "jobs": jobs,
-        "sent": [asdict(sent) for sent in state.sent.values()],
+        "robots": [_stored(robot) for robot in state.robots.values()],
+        "jobs": [_stored(task) for task in state.tasks],
+        "sent": [_stored(sent) for sent in state.sent.values()],
         "calls": dict(state.calls),
         "stations": dict(state.stations),
         "roles": dict(state.roles),
@@ -126,18 +133,40 @@ def from_json(data: Mapping[str, Any]) -> FloorState:
     """Read what `to_json` wrote."""
     if data["format"] != STATE_FORMAT:
         raise ValueError(f"A floor's state of format {data['format']} cannot be read; this reads {STATE_FORMAT}.")
-    robots = [Robot(**{**r, "way": tuple(r["way"]), "held": tuple(r["held"])}) for r in data["robots"]]
-    sent = [Sent(**item) for item in data["sent"]]
+    robots = [_robot(item) for item in data["robots"]]
+    sent = [Sent(**_known(item, Sent)) for item in data["sent"]]
     more = {
         "robots": {robot.id: robot for robot in robots},
-        "jobs": tuple(_job(item) for item in data["jobs"]),
+        "tasks": tuple(_task(item) for item in data["jobs"]),
         "sent": {item.id: item for item in sent},
         "paused": tuple(data["paused"]),
         "zones": {run: tuple(map(zone_from_json, zones)) for run, zones in data.get("zones", {}).items()},
     }
-    return FloorState(**{**{k: v for k, v in data.items() if k != "format"}, **more})
+    return FloorState(**{**{key: value for key, value in data.items() if key not in {"format", "jobs"}}, **more})
 
 
-def _job(data: Mapping[str, Any]) -> Job:
-    reason = Reason(**data["wait"]) if data["wait"] else None
-    return Job(**{**data, "order": mission_from_json(data["order"]), "can": tuple(data["can"]), "wait": reason})
+def _stored(item: Robot | FloorTask | Sent) -> dict[str, Any]:
+    stored = asdict(item)
+    for name, key in STORED_AS[type(item)].items():
+        stored[key] = stored.pop(name)
+    return stored
+
+
+def _known(data: Mapping[str, Any], kind: type) -> dict[str, Any]:
+    """Return what was stored of a robot, a task or a command, by the names that its parts have now."""
+    known = dict(data)
+    for name, key in STORED_AS[kind].items():
+        known[name] = known.pop(key)
+    return known
+
+
+def _robot(data: Mapping[str, Any]) -> Robot:
+    known = _known(data, Robot)
+    return Robot(**{**known, "path": tuple(known["path"]), "held": tuple(known["held"])})
+
+
+def _task(data: Mapping[str, Any]) -> FloorTask:
+    known = _known(data, FloorTask)
+    reason = Reason(**known["wait"]) if known["wait"] else None
+    order = order_from_json(known["order"])
+    return FloorTask(**{**known, "order": order, "can": tuple(known["can"]), "wait": reason})

@@ -7,8 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from editor.language.expressions.nodes import Zone
-from execution.machine.floor_task import Mission
+from execution.machine.floor_task import TaskOrder
 from vipo_device.protocol.description import Scalar
+
+CONTROLS = ("pause", "resume", "cancel")
+"""Methods about a command that a device has already; every device knows them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,12 +45,12 @@ def floor_zones(program: str, zones: Iterable[Zone]) -> tuple[FloorZone, ...]:
 
 
 @dataclass(frozen=True, slots=True)
-class MissionAsked:
-    """A run asks for a mission. `wants` names the device of the role, or `can` what its robot must be able to do."""
+class TaskAsked:
+    """A run asks for a task. `wants` names the device of the role, or `can` what its robot must be able to do."""
 
     run: str
-    mission: int
-    order: Mission
+    task: int
+    order: TaskOrder
     wants: str = ""
     can: tuple[str, ...] = ()
     run_name: str = ""
@@ -55,11 +58,11 @@ class MissionAsked:
 
 
 @dataclass(frozen=True, slots=True)
-class MissionCancelled:
-    """A run does not want the mission any more; a robot settles at the next safe point."""
+class TaskCancelled:
+    """A run does not want the task any more; a robot settles at the next safe point."""
 
     run: str
-    mission: int
+    task: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +130,7 @@ class RunResumed:
 
 @dataclass(frozen=True, slots=True)
 class RunOver:
-    """The run has ended: its missions are dropped and its robots are free."""
+    """The run has ended: its tasks are dropped and its robots are free."""
 
     run: str
 
@@ -152,14 +155,14 @@ class CallCancelled:
 
 
 Event = (
-    CallSent | CallCancelled | MissionAsked | MissionCancelled | RobotMoved | CommandAnswered | DeviceOnline
+    CallSent | CallCancelled | TaskAsked | TaskCancelled | RobotMoved | CommandAnswered | DeviceOnline
     | DeviceOffline | Tick | StopPressed | StopReset | RunPaused | RunResumed | RunOver
 )  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
 class SendCommand:
-    """Send a device a command. `run` and `step` are for the log; pieces of a way have `piece` set."""
+    """Send a device a command. `run` and `step` are for the log; pieces of a path have `piece` set."""
 
     id: str
     device: str
@@ -171,11 +174,11 @@ class SendCommand:
 
 
 @dataclass(frozen=True, slots=True)
-class MissionOver:
-    """A mission is done (`kind` is empty) or has failed, with the kind of failure and the reason."""
+class TaskOver:
+    """A task is done (`kind` is empty) or has failed, with the kind of failure and the reason."""
 
     run: str
-    mission: int
+    task: int
     kind: str = ""
     why: str = ""
     result: Mapping[str, Scalar] = field(default_factory=dict)
@@ -192,22 +195,22 @@ class RoleBound:
 
 @dataclass(frozen=True, slots=True)
 class WaitChanged:
-    """What a mission waits for has changed; None: it goes on."""
+    """What a task waits for has changed; None: it goes on."""
 
     run: str
-    mission: int
+    task: int
     step: str
     robot: str
     reason: Reason | None
 
 
 @dataclass(frozen=True, slots=True)
-class WayPlanned:
-    """A robot has a new way, as a drawn line in metres."""
+class PathPlanned:
+    """A robot has a new path, as a drawn line in metres."""
 
     robot: str
     run: str
     path: tuple[tuple[float, float], ...]
 
 
-Action = SendCommand | MissionOver | RoleBound | WaitChanged | WayPlanned
+Action = SendCommand | TaskOver | RoleBound | WaitChanged | PathPlanned

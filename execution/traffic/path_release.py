@@ -1,4 +1,4 @@
-"""How a robot drives: where it is on its way, which cells it holds, which piece of way it gets next."""
+"""How a robot is let drive: where it is on its path, which cells it holds, which piece of path it gets next."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from math import hypot
 from execution.traffic.floor_state import Robot, Sent
 from execution.traffic.lattice import Point
 from execution.traffic.layout import Node
-from execution.traffic.messages import WayPlanned
+from execution.traffic.messages import PathPlanned
 from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
 from execution.traffic.zones import in_the_way, speed_limit, take_zones
@@ -18,7 +18,7 @@ AHEAD = 4
 EXTEND_AT = 2
 """With so many nodes left it gets the next piece, so that it drives on without stopping."""
 LAST_NODES = 5
-"""The end of the way to a machine, entered only by the robot that the machine serves."""
+"""The end of the path to a machine, entered only by the robot that the machine serves."""
 CLEAR_OF_M = 0.44
 """A cell is given back when the robot's middle is this far from the cell's: two radii and a margin."""
 LOST_M = 0.4
@@ -26,7 +26,7 @@ FORESEEN = 12
 """Nodes behind what is released of which a robot is told, so that it may prepare for them."""
 
 
-def place(turn: Turn, robot: Robot, *, keep_way: bool = False) -> Robot:
+def place(turn: Turn, robot: Robot) -> Robot:
     """Put a robot that stands still onto the node it stands at, and let it hold that node's cells.
 
     Cells that somebody else holds already are left to them: two robots never hold one.
@@ -34,7 +34,7 @@ def place(turn: Turn, robot: Robot, *, keep_way: bool = False) -> Robot:
     node = _nearest_node(turn, robot)
     others = {cell for other in turn.robots.values() if other.id != robot.id for cell in other.held}
     held = tuple(sorted(set(turn.layout.needed(node)) - others))
-    return turn.put(robot, way=(node,), passed=0, released=0, held=held)
+    return turn.put(robot, path=(node,), passed=0, released=0, held=held)
 
 
 def _nearest_node(turn: Turn, robot: Robot) -> Node:
@@ -61,7 +61,7 @@ def _can_stand(turn: Turn, point: Point) -> bool:
 
 def take_pose(turn: Turn, robot: Robot, x: float, y: float, theta: float) -> None:
     """Take in where a robot is: pass nodes, give back cells behind it."""
-    if not robot.way:
+    if not robot.path:
         place(turn, turn.put(robot, x=x, y=y, theta=theta))
         return
     robot = turn.put(robot, x=x, y=y, theta=theta)
@@ -77,8 +77,8 @@ def take_pose(turn: Turn, robot: Robot, x: float, y: float, theta: float) -> Non
 
 
 def _passed(turn: Turn, robot: Robot) -> int:
-    """Return the last node of the released way that lies behind the robot, by projection on the way."""
-    points = [turn.layout.point(node) for node in robot.way[robot.passed : robot.released + 1]]
+    """Return the last node of the released path that lies behind the robot, by projection on the way."""
+    points = [turn.layout.point(node) for node in robot.path[robot.passed : robot.released + 1]]
     best, index = 9.0, robot.passed
     for i, (a, b) in enumerate(pairwise(points)):
         span = hypot(b[0] - a[0], b[1] - a[1]) or 1e-9
@@ -93,7 +93,7 @@ def _passed(turn: Turn, robot: Robot) -> int:
 def release_behind(turn: Turn, robot: Robot) -> None:
     """Give back the cells that the robot has left behind far enough."""
     layout = turn.layout
-    kept = {cell for node in robot.way[robot.passed : robot.released + 1] for cell in layout.needed(node)}
+    kept = {cell for node in robot.path[robot.passed : robot.released + 1] for cell in layout.needed(node)}
     for cell in set(robot.held) - kept:
         x, y = layout.lattice.centre(cell)
         if hypot(x - robot.x, y - robot.y) < CLEAR_OF_M:
@@ -104,7 +104,7 @@ def release_behind(turn: Turn, robot: Robot) -> None:
 
 
 def end_piece(turn: Turn, robot: Robot, sent: Sent) -> None:
-    """A piece of way is done: the robot has reached its end."""
+    """A piece of path is done: the robot has reached its end."""
     passed = max(robot.passed, min(sent.upto, robot.released))
     robot = turn.put(robot, passed=passed, progress_at=turn.now, refusals=0)
     release_behind(turn, robot)
@@ -113,33 +113,33 @@ def end_piece(turn: Turn, robot: Robot, sent: Sent) -> None:
         x, y = turn.layout.point(turn.node(robot))
         robot = turn.put(robot, x=x, y=y) if hypot(robot.x - x, robot.y - y) > 0.1 else robot
         release_behind(turn, robot)
-        if len(robot.way) == robot.passed + 1:
-            turn.put(turn.robots[robot.id], way=robot.way[-1:], passed=0, released=0, evading="", idle_since=turn.now)
+        if len(robot.path) == robot.passed + 1:
+            turn.put(turn.robots[robot.id], path=robot.path[-1:], passed=0, released=0, evading="", idle_since=turn.now)
 
 
-def set_way(turn: Turn, robot: Robot, way: tuple[Node, ...], evading: str = "") -> Robot:
-    """Give a robot a new way from where it stands or will stop; only for one that has no piece under way."""
-    turn.actions.append(WayPlanned(robot.id, robot.run if not evading else "", drawn(turn.layout, way)))
-    return turn.put(robot, way=way, passed=0, released=0, evading=evading, blocked_since=None, progress_at=turn.now)
+def set_path(turn: Turn, robot: Robot, path: tuple[Node, ...], evading: str = "") -> Robot:
+    """Give a robot a new path from where it stands or will stop; only for one that has no piece under way."""
+    turn.actions.append(PathPlanned(robot.id, robot.run if not evading else "", drawn(turn.layout, path)))
+    return turn.put(robot, path=path, passed=0, released=0, evading=evading, blocked_since=None, progress_at=turn.now)
 
 
-def cut_way(turn: Turn, robot: Robot) -> Robot:
+def cut_path(turn: Turn, robot: Robot) -> Robot:
     """Let the robot go no farther than what is released to it."""
     if not turn.is_driving(robot):
-        robot = turn.put(robot, way=(turn.node(robot),), passed=0, released=0, idle_since=turn.now)
-    return turn.put(robot, way=robot.way[: robot.released + 1], evading="", blocked_since=None)
+        robot = turn.put(robot, path=(turn.node(robot),), passed=0, released=0, idle_since=turn.now)
+    return turn.put(robot, path=robot.path[: robot.released + 1], evading="", blocked_since=None)
 
 
-def drive(turn: Turn, robot: Robot) -> None:
-    """Reserve the next cells of a robot's way, as many as are free, and send it there."""
+def release_next(turn: Turn, robot: Robot) -> None:
+    """Reserve the next cells of a robot's path, as many as are free, and send it there."""
     left = robot.released - robot.passed
-    if left > EXTEND_AT or robot.released + 1 >= len(robot.way) or not _may_drive(turn, robot):
+    if left > EXTEND_AT or robot.released + 1 >= len(robot.path) or not _may_drive(turn, robot):
         return
     end = robot.released
     held = set(robot.held)
     holders = turn.holders()
-    while end + 1 < len(robot.way) and end + 1 - robot.passed <= AHEAD and may_enter(turn, robot, end + 1):
-        needed = turn.layout.needed(robot.way[end + 1])
+    while end + 1 < len(robot.path) and end + 1 - robot.passed <= AHEAD and may_enter(turn, robot, end + 1):
+        needed = turn.layout.needed(robot.path[end + 1])
         if any(holders.get(cell, robot.id) != robot.id for cell in needed):
             break
         held |= needed
@@ -151,7 +151,7 @@ def drive(turn: Turn, robot: Robot) -> None:
         return
     if not turn.is_driving(robot):
         turn.put(robot, progress_at=turn.now)
-    nodes = robot.way[robot.released + 1 : end + 1]
+    nodes = robot.path[robot.released + 1 : end + 1]
     robot = turn.put(turn.robots[robot.id], held=tuple(sorted(held)), released=end, blocked_since=None)
     _send_piece(turn, robot, nodes)
 
@@ -168,36 +168,36 @@ def may_enter(turn: Turn, robot: Robot, index: int) -> bool:
 
 
 def _machine_is_ready(turn: Turn, robot: Robot, index: int) -> bool:
-    goal = robot.way[-1]
-    if not isinstance(goal, str) or goal not in turn.layout.stations or index < len(robot.way) - LAST_NODES:
+    goal = robot.path[-1]
+    if not isinstance(goal, str) or goal not in turn.layout.stations or index < len(robot.path) - LAST_NODES:
         return True
     return turn.stations.get(goal) == robot.id
 
 
 def _send_piece(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> None:
     points = [list(turn.layout.point(node)) for node in nodes]
-    begin = turn.layout.point(robot.way[robot.released - len(nodes)])
+    begin = turn.layout.point(robot.path[robot.released - len(nodes)])
     arguments: dict[str, object] = {
         "path": [[round(x, 4), round(y, 4)] for x, y in points],
         "from": [round(begin[0], 4), round(begin[1], 4)],
     }
-    rest = robot.way[robot.released + 1 : robot.released + 1 + FORESEEN]
+    rest = robot.path[robot.released + 1 : robot.released + 1 + FORESEEN]
     if rest:
         arguments["ahead"] = [[round(x, 4), round(y, 4)] for x, y in map(turn.layout.point, rest)]
     last = nodes[-1]
-    theta = turn.layout.spot(last).theta if isinstance(last, str) and robot.released == len(robot.way) - 1 else None
+    theta = turn.layout.spot(last).theta if isinstance(last, str) and robot.released == len(robot.path) - 1 else None
     if theta is not None:
         arguments["theta"] = round(theta, 4)
     limit_m_s = speed_limit(turn, robot, (turn.node(robot), *nodes))
     if limit_m_s is not None:
         arguments["speed"] = limit_m_s
-    job = None if robot.evading else turn.job_of(robot)
-    run, step = (job.run, job.order.step) if job else ("", "")
+    task = None if robot.evading else turn.task_of(robot)
+    run, step = (task.run, task.order.step) if task else ("", "")
     turn.send(Sent("", robot.id, run, upto=robot.released), "move", arguments, step)
 
 
 def drop_pieces(turn: Turn, robot: Robot, *, cancel: bool) -> None:
-    """Forget the pieces of way that a robot has; with `cancel` it is told so."""
+    """Forget the pieces of path that a robot has; with `cancel` it is told so."""
     for sent in turn.pieces(robot):
         if cancel:
             turn.tell(sent, "cancel")
@@ -212,18 +212,18 @@ def leave_gone(turn: Turn) -> None:
         if robot.id not in turn.layout.devices:
             turn.offline.setdefault(robot.id, turn.now)
             robot = turn.put(robot, online=False)
-        if not all(turn.layout.has_node(node) for node in robot.way):
+        if not all(turn.layout.has_node(node) for node in robot.path):
             drop_pieces(turn, robot, cancel=True)
             place(turn, turn.put(robot, evading="", yields_to="", blocked_since=None, idle_since=turn.now))
 
 
 def keep_stations(turn: Turn) -> None:
-    """Give machines back that their robot neither stands at nor is on its way to."""
+    """Give machines back that their robot neither stands at nor is on its path to."""
     for machine, holder in list(turn.stations.items()):
         robot = turn.robots[holder]
         x, y = turn.layout.point(machine)
         near = hypot(x - robot.x, y - robot.y) < CLEAR_OF_M
-        job = turn.job_of(robot)
-        wanted = job is not None and job.order.target.id == machine
-        if not (near or wanted or machine in robot.way[robot.passed :]):
+        task = turn.task_of(robot)
+        wanted = task is not None and task.order.target.id == machine
+        if not (near or wanted or machine in robot.path[robot.passed :]):
             del turn.stations[machine]

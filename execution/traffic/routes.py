@@ -1,4 +1,4 @@
-"""Ways over the lattice: cheapest with few turns, away from walls, and drawn as a polyline."""
+"""Paths over the lattice: cheapest with few turns, away from walls, and drawn as a polyline."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def find_route(
     closed: Collection[int] = (),
     extra: Mapping[int, float] | None = None,
 ) -> tuple[int, ...] | None:
-    """Return the cheapest way from cell to cell, both included; None if there is none without the closed cells.
+    """Return the cheapest path from cell to cell, both included; None if there is none without the closed cells.
 
     `extra` adds a cost to single cells. A* over (cell, heading) with the Manhattan distance as its bound.
     """
@@ -64,36 +64,36 @@ def _cost(layout: Layout, cell: int, neighbour: int, heading: int) -> float:
 
 
 def _unwind(came: Mapping[tuple[int, int], tuple[int, int]], last: tuple[int, int]) -> tuple[int, ...]:
-    way = [last[0]]
+    path = [last[0]]
     while last in came:
         last = came[last]
-        way.append(last[0])
-    return tuple(reversed(way))
+        path.append(last[0])
+    return tuple(reversed(path))
 
 
-def plan_way(
+def plan_path(
     layout: Layout,
     start: Node,
     goal: Node,
     closed: Collection[int] = (),
     extra: Mapping[int, float] | None = None,
 ) -> tuple[Node, ...] | None:
-    """Return the way from node to node, both included, or None; where it starts may be closed."""
+    """Return the path from node to node, both included, or None; where it starts may be closed."""
     if start == goal:
         return (start,)
     cells = find_route(layout, layout.cell(start), layout.cell(goal), closed, extra)
     if cells is None:
         return None
-    way: tuple[Node, ...] = cells if isinstance(start, int) else (start, *cells)
-    return way if isinstance(goal, int) else (*way, goal)
+    path: tuple[Node, ...] = cells if isinstance(start, int) else (start, *cells)
+    return path if isinstance(goal, int) else (*path, goal)
 
 
-def drawn(layout: Layout, way: tuple[Node, ...]) -> tuple[Point, ...]:
-    """Return a way as a tidy line: only its corners, its ends at right angles to the spots that it joins."""
-    points = [layout.point(node) for node in way]
-    if len(way) > 2 and isinstance(way[0], str):
+def drawn(layout: Layout, path: tuple[Node, ...]) -> tuple[Point, ...]:
+    """Return a path as a tidy line: only its corners, its ends at right angles to the spots that it joins."""
+    points = [layout.point(node) for node in path]
+    if len(path) > 2 and isinstance(path[0], str):
         points = _square_off(points)
-    if len(way) > 2 and isinstance(way[-1], str):
+    if len(path) > 2 and isinstance(path[-1], str):
         points = _square_off(points[::-1])[::-1]
     return _corners(points)
 

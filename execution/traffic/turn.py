@@ -7,9 +7,9 @@ from dataclasses import replace
 from typing import Any
 from uuid import UUID, uuid5
 
-from execution.traffic.floor_state import FloorState, Job, Robot, Sent
+from execution.traffic.floor_state import FloorState, FloorTask, Robot, Sent
 from execution.traffic.layout import Layout, Node
-from execution.traffic.messages import Action, MissionOver, Reason, SendCommand, WaitChanged
+from execution.traffic.messages import Action, Reason, SendCommand, TaskOver, WaitChanged
 
 
 class Turn:
@@ -22,7 +22,7 @@ class Turn:
         self.next_seq = state.next_seq
         self.stopped = state.stopped
         self.robots = dict(state.robots)
-        self.jobs = {(job.run, job.mission): job for job in state.jobs}
+        self.tasks = {(task.run, task.number): task for task in state.tasks}
         self.sent = dict(state.sent)
         self.calls = dict(state.calls)
         self.stations = dict(state.stations)
@@ -43,7 +43,7 @@ class Turn:
             next_seq=self.next_seq,
             stopped=self.stopped,
             robots=self.robots,
-            jobs=tuple(self.jobs.values()),
+            tasks=tuple(self.tasks.values()),
             sent=self.sent,
             calls=self.calls,
             stations=self.stations,
@@ -61,10 +61,10 @@ class Turn:
         self.robots[robot.id] = replace(robot, **changes)
         return self.robots[robot.id]
 
-    def put_job(self, job: Job, **changes: Any) -> Job:
-        """Change a job."""
-        self.jobs[job.run, job.mission] = replace(job, **changes)
-        return self.jobs[job.run, job.mission]
+    def put_task(self, task: FloorTask, **changes: Any) -> FloorTask:
+        """Change a task."""
+        self.tasks[task.run, task.number] = replace(task, **changes)
+        return self.tasks[task.run, task.number]
 
     def send(self, sent: Sent, method: str, arguments: Mapping[str, object], step: str = "") -> str:
         """Send a command and remember it until it is answered; its id is taken from the sequence."""
@@ -84,22 +84,22 @@ class Turn:
         self.next_seq += 1
         return str(uuid5(UUID(self.before.namespace), str(self.next_seq)))
 
-    def finish(self, job: Job, kind: str = "", why: str = "", result: Mapping[str, Any] | None = None) -> None:
-        """End a job and tell its run."""
-        del self.jobs[job.run, job.mission]
-        self.actions.append(MissionOver(job.run, job.mission, kind, why, result or {}))
+    def finish(self, task: FloorTask, kind: str = "", why: str = "", result: Mapping[str, Any] | None = None) -> None:
+        """End a task and tell its run."""
+        del self.tasks[task.run, task.number]
+        self.actions.append(TaskOver(task.run, task.number, kind, why, result or {}))
 
-    def wait(self, job: Job, code: str, text: str, **arguments: str | float) -> None:
-        """Say what a job waits for."""
-        self.waits[job.run, job.mission] = Reason(code, text, arguments)
+    def wait(self, task: FloorTask, code: str, text: str, **arguments: str | float) -> None:
+        """Say what a task waits for."""
+        self.waits[task.run, task.number] = Reason(code, text, arguments)
 
     def announce_waits(self) -> None:
-        """Tell the runs whose missions now wait for something else."""
-        for key, job in self.jobs.items():
+        """Tell the runs whose tasks now wait for something else."""
+        for key, task in self.tasks.items():
             reason = self.waits.get(key)
-            if reason != job.wait:
-                self.jobs[key] = replace(job, wait=reason)
-                self.actions.append(WaitChanged(job.run, job.mission, job.order.step, job.robot, reason))
+            if reason != task.wait:
+                self.tasks[key] = replace(task, wait=reason)
+                self.actions.append(WaitChanged(task.run, task.number, task.order.step, task.robot, reason))
 
     def name(self, thing: str) -> str:
         """Return what people call a device or a place."""
@@ -107,36 +107,36 @@ class Turn:
 
     def node(self, robot: Robot) -> Node:
         """Return the node that a robot is at or passed last."""
-        return robot.way[robot.passed]
+        return robot.path[robot.passed]
 
     def pieces(self, robot: Robot) -> list[Sent]:
-        """Return the pieces of way that a robot is driving, in order."""
+        """Return the pieces of path that a robot is driving, in order."""
         return [sent for sent in self.sent.values() if sent.device == robot.id and sent.upto >= 0]
 
     def is_driving(self, robot: Robot) -> bool:
-        """Tell whether a robot has pieces of way under way."""
+        """Tell whether a robot has pieces of path under way."""
         return bool(self.pieces(robot))
 
     def is_acting(self, robot: Robot) -> bool:
         """Tell whether a robot picks, drops or does something else that it should not be disturbed in."""
         return any(sent.device == robot.id and sent.upto < 0 for sent in self.sent.values())
 
-    def job_of(self, robot: Robot) -> Job | None:
-        """Return the oldest job that a robot is at."""
-        mine = [job for job in self.jobs.values() if job.robot == robot.id]
-        return min(mine, key=lambda job: job.seq) if mine else None
+    def task_of(self, robot: Robot) -> FloorTask | None:
+        """Return the oldest task that a robot is at."""
+        mine = [task for task in self.tasks.values() if task.robot == robot.id]
+        return min(mine, key=lambda task: task.seq) if mine else None
 
     def is_idle(self, robot: Robot) -> bool:
         """Tell whether a robot stands with nothing to do."""
-        free = len(robot.way) == robot.passed + 1 and not self.is_driving(robot) and not self.is_acting(robot)
-        return free and self.job_of(robot) is None
+        free = len(robot.path) == robot.passed + 1 and not self.is_driving(robot) and not self.is_acting(robot)
+        return free and self.task_of(robot) is None
 
     def holders(self) -> dict[int, str]:
         """Return who holds each cell."""
         return {cell: robot.id for robot in self.robots.values() for cell in robot.held}
 
-    def in_order(self) -> Iterator[Job]:
-        """Go through the jobs, the oldest first; jobs that end on the way are left out."""
-        for key in sorted(self.jobs, key=lambda key: self.jobs[key].seq):
-            if key in self.jobs:
-                yield self.jobs[key]
+    def in_order(self) -> Iterator[FloorTask]:
+        """Go through the tasks, the oldest first; tasks that end meanwhile are left out."""
+        for key in sorted(self.tasks, key=lambda key: self.tasks[key].seq):
+            if key in self.tasks:
+                yield self.tasks[key]

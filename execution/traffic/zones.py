@@ -14,7 +14,7 @@ from execution.traffic.floor_state import Robot
 from execution.traffic.lattice import Point
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import FloorZone
-from execution.traffic.routes import plan_way
+from execution.traffic.routes import plan_path
 from execution.traffic.turn import Turn
 
 SLOWEST_M_S = 0.05
@@ -57,21 +57,21 @@ def kept_out(turn: Turn, robot: Robot) -> frozenset[int]:
     return frozenset(chain.from_iterable(cells_of(turn.layout, zone) for zone in _zones(turn, robot, "keep_out")))
 
 
-def way_for(
+def path_for(
     turn: Turn,
     robot: Robot,
     goal: Node,
     closed: Collection[int] = (),
     extra: Mapping[int, float] | None = None,
 ) -> tuple[Node, ...] | None:
-    """Return a robot's way that keeps out of the zones of its run; one that stands in such a zone may leave it."""
+    """Return a robot's path that keeps out of the zones of its run; one that stands in such a zone may leave it."""
     layout, start = turn.layout, turn.node(robot)
     shut = kept_out(turn, robot)
     if layout.cell(start) not in shut:
-        return plan_way(layout, start, goal, {*closed, *shut} if shut else closed, extra)
-    way = plan_way(layout, start, goal, closed, {**(extra or {}), **dict.fromkeys(shut, INSIDE_COST)})
-    inside = [layout.cell(node) in shut for node in way or ()]
-    return None if way is None or True in inside[inside.index(False) if False in inside else 0 :] else way
+        return plan_path(layout, start, goal, {*closed, *shut} if shut else closed, extra)
+    path = plan_path(layout, start, goal, closed, {**(extra or {}), **dict.fromkeys(shut, INSIDE_COST)})
+    inside = [layout.cell(node) in shut for node in path or ()]
+    return None if path is None or True in inside[inside.index(False) if False in inside else 0 :] else path
 
 
 def speed_limit(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> float | None:
@@ -85,13 +85,13 @@ def speed_limit(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> float | No
 
 
 def _wanted(turn: Turn, robot: Robot, index: int) -> list[FloorZone]:
-    """Return the zones for one robot at a time that the way leads through from there on without a break between them.
+    """Return the zones for one robot at a time that the path leads through from there on without a break between them.
 
     They are taken all at once: two robots in neighbouring zones would else wait for each other for ever.
     """
     zones = list(_zones(turn, robot, "one_at_a_time"))
     wanted: dict[str, FloorZone] = {}
-    for node in robot.way[index:] if zones else ():
+    for node in robot.path[index:] if zones else ():
         here = {zone.key: zone for zone in zones if _is_in(turn.layout, node, zone)}
         if not here:
             break
@@ -100,7 +100,7 @@ def _wanted(turn: Turn, robot: Robot, index: int) -> list[FloorZone]:
 
 
 def in_the_way(turn: Turn, robot: Robot, index: int) -> tuple[FloorZone, Robot] | None:
-    """Return the first zone that a robot may not enter at a node of its way, and who is in it."""
+    """Return the first zone that a robot may not enter at a node of its path, and who is in it."""
     for zone in _wanted(turn, robot, index):
         holder = turn.robots.get(turn.locks.get(zone.key, robot.id))
         if holder is not None and holder.id != robot.id:
@@ -109,7 +109,7 @@ def in_the_way(turn: Turn, robot: Robot, index: int) -> tuple[FloorZone, Robot] 
 
 
 def take_zones(turn: Turn, robot: Robot, index: int) -> None:
-    """A robot goes to a node of its way: the zones there are its own."""
+    """A robot goes to a node of its path: the zones there are its own."""
     for zone in _wanted(turn, robot, index):
         turn.locks[zone.key] = robot.id
 
@@ -123,13 +123,13 @@ def keep_zones(turn: Turn) -> None:
             del turn.locks[key]
     for robot in turn.robots.values():
         for zone in _zones(turn, robot, "one_at_a_time"):
-            if robot.way and _is_in(turn.layout, turn.node(robot), zone):
+            if robot.path and _is_in(turn.layout, turn.node(robot), zone):
                 turn.locks.setdefault(zone.key, robot.id)
 
 
 def _stays_in(turn: Turn, robot: Robot, zone: FloorZone) -> bool:
     """Tell whether a robot is in a zone, or has been let into it or into one before it."""
-    ahead = range(robot.passed, min(robot.released + 1, len(robot.way)))
+    ahead = range(robot.passed, min(robot.released + 1, len(robot.path)))
     if any(zone in _wanted(turn, robot, index) for index in ahead):
         return True
     here = _touches(zone.points, (robot.x, robot.y), turn.layout.ground.radius_m)

@@ -106,7 +106,7 @@ def _rehearse(program: ProgramFile, options: argparse.Namespace) -> int:
         _complain_of_errors(compiled, options.lang)
         return FAULTY
     # imported late: rehearsing loads the physics, the other commands do not need it
-    from execution.rehearsals.rehearsal import rehearse_program
+    from execution.rehearsals.program_file import rehearse_program
 
     result = rehearse_program(
         document=program.document, site=dict(program.site), seed=options.seed, driver=options.driver

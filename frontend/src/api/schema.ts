@@ -1729,7 +1729,7 @@ export interface components {
             status: "pending" | "sent" | "accepted" | "running" | "done" | "failed" | "rejected" | "cancelled" | "timed_out";
             why: string;
         };
-        /** @description Why something ended or was not done, for screens to say in their language (execution/runs/reasons.py). */
+        /** @description Why something ended or was not done, for screens to say in their language (execution/reasons.py). */
         Cause: {
             args: {
                 [key: string]: string;

@@ -1,4 +1,4 @@
-"""Alerts about commands and messages, raised and ended by the ticker and the taker that also serve the product."""
+"""Alerts about commands and messages, raised and ended by the ticker and the ingester that also serve the product."""
 
 import json
 import threading
@@ -9,10 +9,10 @@ from uuid import uuid4
 import pytest
 
 from execution import services
-from execution.gateway.ingest import Taker
+from execution.gateway.gateway import note_complaint
+from execution.gateway.ingest import Ingester
 from execution.gateway.queue import Entry
 from execution.models import Command, Run
-from execution.ticker.alerts import note_complaint
 from execution.ticker.ticker import Ticker
 from registry import services as registry
 from registry.alerts import buffer
@@ -110,11 +110,11 @@ def test_who_is_needed_and_gone_is_told(hall, tick, needed):
 
 
 def test_refused_messages_are_told_until_better_ones_come(hall, tick):
-    taker = Taker(note_complaint, Counter())
+    ingester = Ingester(note_complaint, Counter())
 
     def send(kind, payload):
         entry = Entry(Message(f"vipo/v1/dev/mixer/up/{kind}", payload, False, lambda: None), "mixer", kind)
-        taker.take_all([entry], threading.Event())
+        ingester.ingest_all([entry], threading.Event())
         registry.flush_alerts()
 
     send("desc", b"not a description")

@@ -10,7 +10,7 @@ from uuid import uuid4
 import pytest
 
 from execution import services
-from execution.gateway.ingest import Taker
+from execution.gateway.ingest import Ingester
 from execution.gateway.queue import Entry
 from execution.models import Command
 from registry import services as registry
@@ -31,12 +31,12 @@ def mixer(db):
 class Mixer:
     def __init__(self):
         self.seq, self.problems = 0, []
-        self.taker = Taker(lambda device, reason: self.problems.append(reason), Counter())
+        self.ingester = Ingester(lambda device, reason, _: self.problems.append(reason), Counter())
 
     def say(self, kind, body):
         topic = f"vipo/v1/dev/{NAME}/up/{kind}"
         payload = body if isinstance(body, bytes) else json.dumps(body).encode()
-        self.taker.take_all([Entry(Message(topic, payload, False, lambda: None), NAME, kind)], threading.Event())
+        self.ingester.ingest_all([Entry(Message(topic, payload, False, lambda: None), NAME, kind)], threading.Event())
         assert self.problems == []
 
     def say_done(self, done):

@@ -7,7 +7,7 @@ from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant
 from editor.language.plan.instructions import End, Instruction, Plan, Wait
 from execution.rehearsals.child_process import scene_to_json
-from execution.rehearsals.rehearsal import rehearse_program
+from execution.rehearsals.program_file import rehearse_program
 from simulation.world import Scene
 from tests.unit.execution import demo_floor
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from django.db import DatabaseError
 
-from execution.gateway.ingest import Taker
+from execution.gateway.ingest import Ingester
 from execution.gateway.queue import Entry
 from registry import services
 from registry.models import DeviceEvent
@@ -51,70 +51,74 @@ def notes() -> list[tuple[str, str]]:
 
 
 @pytest.fixture
-def taker(notes: list[tuple[str, str]]) -> Taker:
-    return Taker(lambda device, line, _: notes.append((device, line)), Counter())
+def ingester(notes: list[tuple[str, str]]) -> Ingester:
+    return Ingester(lambda device, line, _: notes.append((device, line)), Counter())
 
 
 def readings(device: str) -> dict[str, Any]:
     return dict(services.get_device(site="hall", device_id=device).readings)
 
 
-def test_a_device_that_describes_itself_and_speaks_in_one_breath_is_known_and_heard(taker: Taker) -> None:
+def test_a_device_that_describes_itself_and_speaks_in_one_breath_is_known_and_heard(ingester: Ingester) -> None:
     post = Post()
     entries = [post(device, "desc", description(device)) for device in ("a", "b")]
     entries += [post(device, "state", state(1, props={"stock": 3})) for device in ("a", "b")]
-    taker.take_all(entries, threading.Event())
+    ingester.ingest_all(entries, threading.Event())
     assert readings("a") == readings("b") == {"stock": 3}
     assert sorted(post.acknowledged) == [0, 1, 2, 3]
 
 
-def test_states_of_one_device_are_taken_in_their_order(taker: Taker) -> None:
+def test_states_of_one_device_are_taken_in_their_order(ingester: Ingester) -> None:
     post = Post()
     entries = [post("a", "desc", description("a")), post("a", "state", state(1, props={"stock": 1}))]
     entries += [post("b", "desc", description("b")), post("a", "state", state(2, props={"stock": 2}))]
-    taker.take_all(entries, threading.Event())
+    ingester.ingest_all(entries, threading.Event())
     assert readings("a") == {"stock": 2}
     assert sorted(post.acknowledged) == [0, 1, 2, 3]
 
 
-def test_what_cannot_be_read_is_noted_and_harms_no_other(taker: Taker, notes: list[tuple[str, str]]) -> None:
+def test_what_cannot_be_read_is_noted_and_harms_no_other(ingester: Ingester, notes: list[tuple[str, str]]) -> None:
     post = Post()
-    taker.take_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
-    taker.take_all([post("a", "state", b"{"), post("b", "state", state(1, props={"stock": 5}))], threading.Event())
+    ingester.ingest_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
+    ingester.ingest_all([post("a", "state", b"{"), post("b", "state", state(1, props={"stock": 5}))], threading.Event())
     assert readings("b") == {"stock": 5}
     assert [device for device, _ in notes] == ["a"]
     assert notes[0][1].startswith("state: ")
     assert sorted(post.acknowledged) == [0, 1, 2, 3]
 
 
-def test_an_unchanged_description_is_acknowledged_and_a_changed_one_taken(taker: Taker) -> None:
+def test_an_unchanged_description_is_acknowledged_and_a_changed_one_taken(ingester: Ingester) -> None:
     post = Post()
-    taker.take_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
-    taker.take_all([post("a", "desc", description("a")), post("b", "desc", description("b", "B2"))], threading.Event())
+    ingester.ingest_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
+    ingester.ingest_all(
+        [post("a", "desc", description("a")), post("b", "desc", description("b", "B2"))], threading.Event()
+    )
     names = [services.get_device(site="hall", device_id=device).name for device in ("a", "b")]
     assert (names, sorted(post.acknowledged)) == (["a", "B2"], [0, 1, 2, 3])
 
 
 def test_when_a_batch_cannot_be_kept_each_message_is_tried_by_itself(
-    taker: Taker, monkeypatch: pytest.MonkeyPatch
+    ingester: Ingester, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(**_: Any) -> Any:
         raise DatabaseError("The batch is too large.")
 
     post = Post()
-    taker.take_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
+    ingester.ingest_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
     monkeypatch.setattr(services, "ingest_states", refuse)
     monkeypatch.setattr(services, "find_unchanged", refuse)
     entries = [post("a", "desc", description("a")), post("b", "state", state(1, props={"stock": 7}))]
-    taker.take_all(entries, threading.Event())
+    ingester.ingest_all(entries, threading.Event())
     assert readings("b") == {"stock": 7}
     assert sorted(post.acknowledged) == [0, 1, 2, 3]
 
 
-def test_a_description_that_is_refused_is_noted_and_harms_no_other(taker: Taker, notes: list[tuple[str, str]]) -> None:
+def test_a_description_that_is_refused_is_noted_and_harms_no_other(
+    ingester: Ingester, notes: list[tuple[str, str]]
+) -> None:
     post = Post()
     entries = [post("a", "desc", description("a")), post("b", "desc", b"no RDF"), post("c", "desc", description("d"))]
-    taker.take_all([*entries, post("d", "desc", description("d"))], threading.Event())
+    ingester.ingest_all([*entries, post("d", "desc", description("d"))], threading.Event())
     assert [d.id for d in services.list_devices(site="hall")] == ["a", "d"]
     assert [device for device, _ in notes] == ["b", "c"]
     assert all(line.startswith("desc: ") for _, line in notes)
@@ -123,11 +127,11 @@ def test_a_description_that_is_refused_is_noted_and_harms_no_other(taker: Taker,
 
 def test_what_is_refused_stands_in_the_history_with_its_faults_for_readers_of_every_language() -> None:
     services.create_site(name="Hall", slug="hall")
-    taker = Taker(
+    ingester = Ingester(
         lambda device, line, facts: services.record_problem(device_id=device, text=line, facts=facts), Counter()
     )
     post = Post()
-    taker.take_all([post("a", "desc", description("a")), post("a", "desc", b'{"id": "a",}')], threading.Event())
+    ingester.ingest_all([post("a", "desc", description("a")), post("a", "desc", b'{"id": "a",}')], threading.Event())
     line = DeviceEvent.objects.get(device="a", kind="problem")
     (fault,) = line.args["faults"]
     assert (line.code, line.args["kind"], fault["code"], fault["line"], fault["column"]) == (
@@ -137,7 +141,7 @@ def test_what_is_refused_stands_in_the_history_with_its_faults_for_readers_of_ev
 
 
 def test_descriptions_that_cannot_be_kept_together_are_kept_one_by_one_and_then_acknowledged(
-    taker: Taker, monkeypatch: pytest.MonkeyPatch
+    ingester: Ingester, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     tried: list[int] = []
 
@@ -148,6 +152,6 @@ def test_descriptions_that_cannot_be_kept_together_are_kept_one_by_one_and_then_
 
     post = Post()
     monkeypatch.setattr(services, "ingest_descriptions", refuse)
-    taker.take_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
+    ingester.ingest_all([post(device, "desc", description(device)) for device in ("a", "b")], threading.Event())
     assert [d.id for d in services.list_devices(site="hall")] == ["a", "b"]
     assert (tried, sorted(post.acknowledged)) == ([2], [0, 1])

@@ -20,7 +20,7 @@ django.setup()
 from django.core.management import call_command  # noqa: E402 - Django is set up first
 from django.db import connection  # noqa: E402
 
-from execution.gateway.ingest import Taker  # noqa: E402
+from execution.gateway.ingest import Ingester  # noqa: E402
 from execution.gateway.queue import Entry  # noqa: E402
 from registry import services  # noqa: E402
 from registry.models import Device  # noqa: E402
@@ -38,7 +38,7 @@ def payload(device: str, name: str) -> bytes:
 
 def describe(worker: str, faults: list[str], acknowledged: Counter[str]) -> None:
     """Let every device speak in every round, in an order of this worker's own."""
-    taker = Taker(lambda device, reason, _: faults.append(f"{device}: {reason}"), Counter())
+    ingester = Ingester(lambda device, reason, _: faults.append(f"{device}: {reason}"), Counter())
     order = random.Random(worker)
     for number in range(ROUNDS):
         entries = [
@@ -49,7 +49,7 @@ def describe(worker: str, faults: list[str], acknowledged: Counter[str]) -> None
             )
             for name in order.sample(DEVICES, len(DEVICES))
         ]
-        taker.take_all(entries, threading.Event())
+        ingester.ingest_all(entries, threading.Event())
 
 
 def decide() -> None:

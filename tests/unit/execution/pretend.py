@@ -36,8 +36,8 @@ class PretendFloor:
         for action in actions:
             if isinstance(action, m.SendCommand):
                 self.take(action)
-            elif isinstance(action, m.MissionOver):
-                self.over[action.run, action.mission] = (action.kind, action.why)
+            elif isinstance(action, m.TaskOver):
+                self.over[action.run, action.task] = (action.kind, action.why)
             elif isinstance(action, m.WaitChanged):
                 self.waits.append(action)
         return actions
@@ -102,6 +102,6 @@ class PretendFloor:
 
     def describe(self):
         robots = [
-            (r.id, r.way[r.passed :][:3], r.evading, r.yields_to, r.blocked_since) for r in self.state.robots.values()
+            (r.id, r.path[r.passed :][:3], r.evading, r.yields_to, r.blocked_since) for r in self.state.robots.values()
         ]
-        return robots, [(j.run, j.mission, j.robot, j.wait) for j in self.state.jobs], dict(self.state.stations)
+        return robots, [(j.run, j.task, j.robot, j.wait) for j in self.state.tasks], dict(self.state.stations)

@@ -25,7 +25,7 @@ from editor.language.plan.instructions import (
 )
 from execution.machine import machine
 from execution.machine import messages as r
-from execution.machine.floor_task import Mission, Target
+from execution.machine.floor_task import Target, TaskOrder
 
 OVEN = PlaceRef(device="oven")
 SHELF = PlaceRef(device="shelf")
@@ -37,7 +37,7 @@ def plan(*instructions, **parameters):
 
 
 def names(actions):
-    return [(type(a).__name__, *(getattr(a, s) for s in ("step", "mission", "timer", "status") if hasattr(a, s)))
+    return [(type(a).__name__, *(getattr(a, s) for s in ("step", "task", "timer", "status") if hasattr(a, s)))
             for a in actions]  # fmt: skip
 
 
@@ -45,7 +45,7 @@ def reload(state):
     return machine.from_json(json.loads(json.dumps(machine.to_json(state))))
 
 
-def test_a_pick_and_drop_is_asked_one_mission_at_a_time():
+def test_a_pick_and_drop_is_asked_one_task_at_a_time():
     program = plan(
         Instruction(Move("robot", SHELF), "s1", 1),
         Instruction(Pick("robot", SHELF, BOX, ONE), "s1", 2),
@@ -53,12 +53,12 @@ def test_a_pick_and_drop_is_asked_one_mission_at_a_time():
         End(),
     )
     state, actions = machine.start(program, {})
-    assert actions == (r.StepEntered("s1"), r.Ask(1, Mission("move", Target("shelf"), "robot", step="s1", line=1)))
-    state, actions = machine.step(program, reload(state), r.MissionDone(1))
-    assert actions == (r.Ask(2, Mission("pick", Target("shelf"), "robot", "box", 1, step="s1", line=2)),)
-    state, actions = machine.step(program, reload(state), r.MissionDone(2))
-    assert actions == (r.Ask(3, Mission("drop", Target("oven"), "robot", "box", 2, step="s1", line=3)),)
-    state, actions = machine.step(program, reload(state), r.MissionDone(3))
+    assert actions == (r.StepEntered("s1"), r.Ask(1, TaskOrder("move", Target("shelf"), "robot", step="s1", line=1)))
+    state, actions = machine.step(program, reload(state), r.TaskDone(1))
+    assert actions == (r.Ask(2, TaskOrder("pick", Target("shelf"), "robot", "box", 1, step="s1", line=2)),)
+    state, actions = machine.step(program, reload(state), r.TaskDone(2))
+    assert actions == (r.Ask(3, TaskOrder("drop", Target("oven"), "robot", "box", 2, step="s1", line=3)),)
+    state, actions = machine.step(program, reload(state), r.TaskDone(3))
     assert actions == (r.StepLeft("s1"), r.Finished("finished", ""))
     assert state.status == "finished"
 
@@ -66,9 +66,9 @@ def test_a_pick_and_drop_is_asked_one_mission_at_a_time():
 def test_an_answer_that_comes_twice_or_to_nobody_changes_nothing():
     program = plan(Move("robot", SHELF), Move("robot", OVEN), End())
     state, _ = machine.start(program, {})
-    state, _ = machine.step(program, state, r.MissionDone(1))
-    assert machine.step(program, state, r.MissionDone(1)) == (state, ())
-    assert machine.step(program, state, r.MissionFailed(99, "failed", "")) == (state, ())
+    state, _ = machine.step(program, state, r.TaskDone(1))
+    assert machine.step(program, state, r.TaskDone(1)) == (state, ())
+    assert machine.step(program, state, r.TaskFailed(99, "failed", "")) == (state, ())
     assert machine.step(program, state, r.TimerFired(2)) == (state, ())
 
 
@@ -89,9 +89,9 @@ def test_parallel_branches_go_on_by_themselves_and_meet():
         ("StepEntered", "b1"),
         ("Ask", 4),
     ]
-    state, actions = machine.step(program, reload(state), r.MissionDone(4))
+    state, actions = machine.step(program, reload(state), r.TaskDone(4))
     assert names(actions) == [("StepLeft", "b1")]
-    state, actions = machine.step(program, reload(state), r.MissionDone(3))
+    state, actions = machine.step(program, reload(state), r.TaskDone(3))
     assert names(actions) == [("StepLeft", "a1"), ("StepLeft", "p"), ("Finished", "finished")]
 
 
@@ -99,7 +99,7 @@ def test_a_failing_branch_calls_the_others_off_and_fails_the_run():
     program = plan(Fork((2, 4), 1), End(), Instruction(Move("a", SHELF), "a1"), Join(),
                    Instruction(Wait(Constant(60)), "b1"), Join())  # fmt: skip
     state, _ = machine.start(program, {})
-    state, actions = machine.step(program, state, r.MissionFailed(3, "offline", "robot01 is offline."))
+    state, actions = machine.step(program, state, r.TaskFailed(3, "offline", "robot01 is offline."))
     assert actions == (
         r.StepFailed("a1", "offline", "robot01 is offline."),
         r.CancelTimer(4),
@@ -121,23 +121,23 @@ TRY = plan(
 
 def test_a_failure_of_a_kind_that_is_caught_goes_on_at_the_handler():
     state, _ = machine.start(TRY, {})
-    state, actions = machine.step(TRY, state, r.MissionFailed(1, "offline", "Gone."))
+    state, actions = machine.step(TRY, state, r.TaskFailed(1, "offline", "Gone."))
     assert names(actions) == [("StepFailed", "m"), ("StepEntered", "c"), ("Ask", 2)]
-    state, actions = machine.step(TRY, state, r.MissionDone(2))
+    state, actions = machine.step(TRY, state, r.TaskDone(2))
     assert names(actions) == [("StepLeft", "c"), ("StepLeft", "t"), ("Finished", "finished")]
 
 
 def test_a_failure_of_another_kind_is_not_caught():
     state, _ = machine.start(TRY, {})
-    state, actions = machine.step(TRY, state, r.MissionFailed(1, "blocked", "No way."))
+    state, actions = machine.step(TRY, state, r.TaskFailed(1, "blocked", "No way."))
     assert names(actions) == [("StepFailed", "m"), ("StepFailed", "t"), ("Finished", "failed")]
     assert state.reason == "No way."
 
 
 def test_a_handler_that_fails_is_not_caught_by_its_own_try():
     state, _ = machine.start(TRY, {})
-    state, _ = machine.step(TRY, state, r.MissionFailed(1, "failed", "First."))
-    state, _actions = machine.step(TRY, state, r.MissionFailed(2, "failed", "Second."))
+    state, _ = machine.step(TRY, state, r.TaskFailed(1, "failed", "First."))
+    state, _actions = machine.step(TRY, state, r.TaskFailed(2, "failed", "Second."))
     assert (state.status, state.reason) == ("failed", "Second.")
 
 
@@ -200,8 +200,8 @@ def test_a_function_has_its_own_variables_and_its_call_is_left_at_its_return():
         Return(Operation("*", (Variable("minutes"), Constant(2)))),
     )
     state, actions = machine.start(program, {})
-    assert actions[-1] == r.Ask(2, Mission("call", Target("oven"), method="mix", arguments={"time": 3}, step="inner"))
-    state, actions = machine.step(program, reload(state), r.MissionDone(2))
+    assert actions[-1] == r.Ask(2, TaskOrder("call", Target("oven"), method="mix", arguments={"time": 3}, step="inner"))
+    state, actions = machine.step(program, reload(state), r.TaskDone(2))
     assert actions == (r.StepLeft("inner"), r.StepLeft("c"), r.StepEntered("after"), r.SetTimer(3, 6))
 
 
@@ -217,10 +217,10 @@ def test_while_paused_nothing_new_is_asked_and_resuming_goes_on_at_the_same_plac
     state, _ = machine.start(program, {})
     state, actions = machine.step(program, state, r.PauseAsked("Ada paused it"))
     assert (state.status, actions) == ("paused", ())
-    state, actions = machine.step(program, reload(state), r.MissionDone(1))
+    state, actions = machine.step(program, reload(state), r.TaskDone(1))
     assert actions == ()
     state, actions = machine.step(program, reload(state), r.Resumed())
-    assert actions == (r.Ask(2, Mission("move", Target("oven"), "robot")),)
+    assert actions == (r.Ask(2, TaskOrder("move", Target("oven"), "robot")),)
     assert state.status == "running"
 
 
@@ -233,7 +233,7 @@ def test_cancelling_calls_off_what_is_under_way():
         r.StepFailed("m", "cancelled", "Ada cancelled it"),
         r.Finished("cancelled", "Ada cancelled it"),
     )
-    assert machine.step(program, state, r.MissionDone(1)) == (state, ())
+    assert machine.step(program, state, r.TaskDone(1)) == (state, ())
 
 
 @pytest.mark.parametrize(

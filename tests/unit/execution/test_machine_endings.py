@@ -25,7 +25,7 @@ def plan(*instructions):
 
 
 def names(actions):
-    return [(type(a).__name__, *(getattr(a, s) for s in ("step", "mission", "timer", "status") if hasattr(a, s)))
+    return [(type(a).__name__, *(getattr(a, s) for s in ("step", "task", "timer", "status") if hasattr(a, s)))
             for a in actions]  # fmt: skip
 
 
@@ -44,7 +44,7 @@ FINALLY = plan(
 
 def test_what_stands_in_finally_is_carried_out_before_the_failure_goes_on():
     state, _ = machine.start(FINALLY, {})
-    state, actions = machine.step(FINALLY, state, r.MissionFailed(1, "offline", "Gone."))
+    state, actions = machine.step(FINALLY, state, r.TaskFailed(1, "offline", "Gone."))
     assert names(actions) == [("StepFailed", "m"), ("StepEntered", "f"), ("SetTimer", 2)]
     state, actions = machine.step(FINALLY, state, r.TimerFired(2))
     assert names(actions) == [("StepLeft", "f"), ("StepFailed", "t"), ("Finished", "failed")]
@@ -53,7 +53,7 @@ def test_what_stands_in_finally_is_carried_out_before_the_failure_goes_on():
 
 def test_without_a_failure_the_ordinary_way_goes_on_behind_the_handler():
     state, _ = machine.start(FINALLY, {})
-    state, _ = machine.step(FINALLY, state, r.MissionDone(1))
+    state, _ = machine.step(FINALLY, state, r.TaskDone(1))
     state, actions = machine.step(FINALLY, state, r.TimerFired(2))
     assert names(actions) == [("StepLeft", "f"), ("StepLeft", "t"), ("Finished", "finished")]
 
@@ -98,7 +98,7 @@ def test_a_failure_in_a_finally_body_of_an_early_end_fails_the_run_and_no_catch_
         End(),
     )
     state, _ = machine.start(program, {})
-    state, actions = machine.step(program, state, r.MissionFailed(1, "blocked", "No way."))
+    state, actions = machine.step(program, state, r.TaskFailed(1, "blocked", "No way."))
     assert actions == (r.Finished("failed", "No way."),)
 
 
@@ -113,7 +113,7 @@ def test_a_failure_that_is_caught_inside_a_finally_body_does_no_harm():
         Rethrow(),
     )
     state, _ = machine.start(program, {})
-    state, actions = machine.step(program, state, r.MissionFailed(1, "blocked", "No way."))
+    state, actions = machine.step(program, state, r.TaskFailed(1, "blocked", "No way."))
     assert names(actions) == [("StepEntered", "f"), ("SetTimer", 2)]
     state, actions = machine.step(program, state, r.TimerFired(2))
     assert names(actions) == [("StepLeft", "f"), ("Finished", "finished")]
@@ -135,7 +135,7 @@ BRANCHES = plan(
 
 def test_a_branch_that_is_called_off_carries_out_its_finally_before_the_parallel_fails():
     state, _ = machine.start(BRANCHES, {})
-    state, actions = machine.step(BRANCHES, state, r.MissionFailed(3, "offline", "Gone."))
+    state, actions = machine.step(BRANCHES, state, r.TaskFailed(3, "offline", "Gone."))
     assert names(actions) == [("StepFailed", "a1"), ("Cancel", 4), ("StepFailed", "b1"), ("StepEntered", "f"),
                               ("SetTimer", 5)]  # fmt: skip
     state, actions = machine.step(BRANCHES, state, r.TimerFired(5))

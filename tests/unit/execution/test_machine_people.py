@@ -132,7 +132,7 @@ def test_what_holds_at_the_beginning_is_no_becoming_true():
 def test_events_end_with_the_program():
     state, _ = machine.start(WATCH, {})
     state, _ = machine.step(WATCH, state, heat(90))
-    _, actions = machine.step(WATCH, state, r.MissionDone(1))
+    _, actions = machine.step(WATCH, state, r.TaskDone(1))
     over = "The program was over."
     assert actions == (r.StepLeft("m"), r.CancelTimer(4), r.StepFailed("w", "cancelled", over),
                        r.StepFailed("e", "cancelled", over), r.Finished("finished", ""))  # fmt: skip

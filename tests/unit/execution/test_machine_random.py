@@ -61,8 +61,8 @@ plans = st.builds(
 happenings = st.one_of(
     st.sampled_from([r.PauseAsked("p"), r.Resumed(), r.CancelAsked("c"), r.Resumed(), r.Resumed()]),
     st.builds(r.Facts, st.sampled_from([{("oven", "heat"): value} for value in (0, 60, 100, "hot")])),
-    st.builds(r.MissionDone, st.integers(1, 30)),
-    st.builds(r.MissionFailed, st.integers(1, 30), st.sampled_from(["failed", "offline", "blocked"]), st.just("why")),
+    st.builds(r.TaskDone, st.integers(1, 30)),
+    st.builds(r.TaskFailed, st.integers(1, 30), st.sampled_from(["failed", "offline", "blocked"]), st.just("why")),
     st.builds(r.TimerFired, st.integers(1, 30)),
     st.builds(r.Answered, st.integers(1, 30), st.sampled_from([True, 3, "box"])),
     st.just("answer"),
@@ -72,19 +72,19 @@ happenings = st.one_of(
 def answer(asked):
     """The next event for what is open: the oldest mission is done, timer fires, question is answered."""
     kind, number = asked.pop(0)
-    return {"mission": r.MissionDone(number), "timer": r.TimerFired(number), "ask": r.Answered(number, 1)}[kind]
+    return {"mission": r.TaskDone(number), "timer": r.TimerFired(number), "ask": r.Answered(number, 1)}[kind]
 
 
 def note(actions, asked):
     for action in actions:
         match action:
-            case r.Ask(mission=number):
+            case r.Ask(task=number):
                 asked.append(("mission", number))
             case r.SetTimer(timer=number):
                 asked.append(("timer", number))
             case r.AskPeople(question=number):
                 asked.append(("ask", number))
-            case r.Cancel(mission=number):
+            case r.Cancel(task=number):
                 asked[:] = [item for item in asked if item != ("mission", number)]
             case r.CancelTimer(timer=number):
                 asked[:] = [item for item in asked if item != ("timer", number)]
@@ -144,9 +144,9 @@ def test_random_plans_against_random_events_stay_legal_and_replay_the_same(plan,
 @given(plans)
 def test_what_is_called_off_was_asked_for_and_everything_is_once(plan):
     actions = [action for _, done in carry_out(plan, ["answer"] * 30 + [r.CancelAsked("over")]) for action in done]
-    asked = [action.mission for action in actions if isinstance(action, r.Ask)]
+    asked = [action.task for action in actions if isinstance(action, r.Ask)]
     questions = [action.question for action in actions if isinstance(action, r.AskPeople)]
     assert len(set(asked)) == len(asked)
-    assert {a.mission for a in actions if isinstance(a, r.Cancel)} <= set(asked)
+    assert {a.task for a in actions if isinstance(a, r.Cancel)} <= set(asked)
     assert {a.question for a in actions if isinstance(a, r.CancelQuestion)} <= set(questions)
     assert sum(isinstance(a, r.Finished) for a in actions) == 1

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from editor.language import compile_document
 from editor.language.site.surroundings import LibraryFacts
-from execution.rehearsals.program_site import read_site
+from execution.rehearsals.program_file import read_site
 
 SITE = Path(__file__).resolve().parents[3] / "examples" / "painting-factory.json"
 CALLS_AN_OLD_FUNCTION = {

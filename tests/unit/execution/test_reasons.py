@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from execution.models import RunEvent
-from execution.runs.reasons import SAID, SENTENCES, cause_of
+from execution.reasons import SAID, SENTENCES, cause_of
 from execution.runs.views import event_to_json
 
 ROOT = Path(__file__).parents[3]

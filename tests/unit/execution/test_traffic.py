@@ -5,11 +5,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from execution.machine.floor_task import Mission, Target
+from execution.machine.floor_task import Target, TaskOrder
 from execution.traffic import floor
 from execution.traffic import messages as m
 from execution.traffic.layout import NoSuchSpot, make_layout
-from execution.traffic.routes import drawn, length_m, plan_way
+from execution.traffic.routes import drawn, length_m, plan_path
 from tests.unit.execution import demo_floor
 from tests.unit.execution.pretend import PretendFloor
 
@@ -19,21 +19,21 @@ PLACES = sorted({*LAYOUT.stations, *LAYOUT.docks})
 CAN = ("move", "pick", "drop")
 
 
-def ask(run, mission, target, kind="move", **more):
+def ask(run, task, target, kind="move", **more):
     wants = more.pop("wants", "")
-    order = Mission(kind, Target(target), more.pop("role", "robot"), "box", 1, **more)
-    return m.MissionAsked(run, mission, order, wants, () if wants else CAN, f"run {run}")
+    order = TaskOrder(kind, Target(target), more.pop("role", "robot"), "box", 1, **more)
+    return m.TaskAsked(run, task, order, wants, () if wants else CAN, f"run {run}")
 
 
 def test_a_route_of_the_factory_has_few_corners_and_stays_off_the_walls():
-    line = drawn(LAYOUT, plan_way(LAYOUT, "itemInventory01", "paintMachine01"))
+    line = drawn(LAYOUT, plan_path(LAYOUT, "itemInventory01", "paintMachine01"))
     assert line == ((2.3, -2.93), (2.3, -7.65), (20.9, -7.65), (20.9, -4.23))
     assert round(length_m(line), 2) == 26.74
 
 
 def test_no_way_leads_through_cells_that_are_closed():
     closed = set(LAYOUT.needed("paintMachine01")) | set(LAYOUT.lattice.cells_within((20.9, -4.75), 1.2))
-    assert plan_way(LAYOUT, "itemInventory01", "paintMachine01", closed=closed) is None
+    assert plan_path(LAYOUT, "itemInventory01", "paintMachine01", closed=closed) is None
 
 
 @pytest.mark.parametrize("target", [Target("nothing"), Target(point=(11.4, -1.0)), Target(point=(90.0, 90.0))])
@@ -93,8 +93,8 @@ def test_a_robot_drives_on_without_stopping_between_the_pieces_of_its_way():
     world = PretendFloor(LAYOUT)
     world.tell(ask("a", 1, "dropOff01", wants="robot01"))
     world.run_until(lambda: ("a", 1) in world.over)
-    way_m = length_m(drawn(LAYOUT, plan_way(LAYOUT, "dock1", "dropOff01")))
-    assert world.now <= way_m / 0.5 + 3
+    path_m = length_m(drawn(LAYOUT, plan_path(LAYOUT, "dock1", "dropOff01")))
+    assert world.now <= path_m / 0.5 + 3
 
 
 def test_an_idle_robot_makes_room_and_stands_elsewhere():
@@ -112,7 +112,7 @@ def test_two_robots_that_want_each_others_places_both_arrive():
     assert set(world.over.values()) == {("", "")}
 
 
-def test_a_mission_to_where_no_way_leads_fails_as_blocked():
+def test_a_task_to_where_no_way_leads_fails_as_blocked():
     world = PretendFloor(LAYOUT)
     world.tell(ask("a", 1, "nowhere", wants="robot01"))
     assert world.over["a", 1] == ("blocked", "There is no device or place called “nowhere” on this site.")
@@ -120,8 +120,8 @@ def test_a_mission_to_where_no_way_leads_fails_as_blocked():
 
 def test_no_robot_that_can_is_a_refusal():
     world = PretendFloor(LAYOUT)
-    order = Mission("move", Target("dropOff01"), "robot")
-    world.tell(m.MissionAsked("a", 1, order, "", ("fly",), "run a"))
+    order = TaskOrder("move", Target("dropOff01"), "robot")
+    world.tell(m.TaskAsked("a", 1, order, "", ("fly",), "run a"))
     assert world.over["a", 1][0] == "refused"
 
 
@@ -187,8 +187,8 @@ def test_a_robot_that_does_not_get_on_is_timed_out():
 
 def test_a_machine_carries_out_one_call_at_a_time():
     world = PretendFloor(LAYOUT)
-    order = Mission("call", Target("curingOven01"), method="curePaint", arguments={"time": 1})
-    world.tell(m.MissionAsked("1", 1, order, run_name="run 1"), m.MissionAsked("2", 1, order, run_name="run 2"))
+    order = TaskOrder("call", Target("curingOven01"), method="curePaint", arguments={"time": 1})
+    world.tell(m.TaskAsked("1", 1, order, run_name="run 1"), m.TaskAsked("2", 1, order, run_name="run 2"))
     assert [c.device for c in world.sent] == ["curingOven01"]
     assert world.waits[-1].reason.text == "Curing Oven is busy for run 1."
     world.run_until(lambda: len(world.over) == 2, 10)
@@ -196,7 +196,7 @@ def test_a_machine_carries_out_one_call_at_a_time():
 
 def test_a_method_that_a_machine_does_not_have_is_refused():
     world = PretendFloor(LAYOUT)
-    world.tell(m.MissionAsked("1", 1, Mission("call", Target("curingOven01"), method="fly"), run_name="run 1"))
+    world.tell(m.TaskAsked("1", 1, TaskOrder("call", Target("curingOven01"), method="fly"), run_name="run 1"))
     assert world.over["1", 1] == ("refused", "Curing Oven cannot fly; it offers no such method.")
     assert world.sent == []
 
@@ -221,7 +221,7 @@ def test_a_free_robot_that_stands_at_a_machine_goes_home():
     world.tell(ask("a", 1, "curingOven01", wants="robot01"))
     world.run_until(lambda: ("a", 1) in world.over)
     world.tell(m.RunOver("a"))
-    world.run_until(lambda: world.state.robots["robot01"].way == ("dock1",), 60)
+    world.run_until(lambda: world.state.robots["robot01"].path == ("dock1",), 60)
 
 
 def test_the_floor_goes_on_from_its_stored_state():
@@ -242,12 +242,12 @@ MISSIONS = st.lists(
 
 @settings(max_examples=6, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 @given(MISSIONS)
-def test_no_two_robots_hold_a_cell_and_all_missions_end(missions):
+def test_no_two_robots_hold_a_cell_and_all_tasks_end(tasks):
     world = PretendFloor(LAYOUT)
-    for number, (robot, target, kind) in enumerate(missions):
+    for number, (robot, target, kind) in enumerate(tasks):
         kind = kind if target in LAYOUT.stations else "move"
         world.tell(ask(robot, number, target, kind, wants=robot))
-    world.run_until(lambda: len(world.over) == len(missions), 1500)
+    world.run_until(lambda: len(world.over) == len(tasks), 1500)
     assert set(world.over.values()) == {("", "")}
     assert world.nearest >= 0.46
 

@@ -5,7 +5,7 @@ from math import hypot
 
 import pytest
 
-from execution.machine.floor_task import Mission, Target
+from execution.machine.floor_task import Target, TaskOrder
 from execution.machine.places import lies_in
 from execution.traffic import messages as m
 from tests.unit.execution import demo_floor
@@ -18,11 +18,11 @@ def zone(rule, points=ROOM, key="p/z", **more):
     return m.FloorZone(key, "The crossing", rule, points, **more)
 
 
-def go(floor, run, target, zones, mission=1, wants=""):
+def go(floor, run, target, zones, task=1, wants=""):
     point = target if isinstance(target, tuple) else None
     to = Target("" if point else target, point)
-    order = Mission("move", to, "robot", step=f"{run}-step")
-    floor.tell(m.MissionAsked(run, mission, order, wants, ("move",), run, zones))
+    order = TaskOrder("move", to, "robot", step=f"{run}-step")
+    floor.tell(m.TaskAsked(run, task, order, wants, ("move",), run, zones))
 
 
 def bounds():
@@ -78,7 +78,7 @@ def test_a_robot_that_stands_in_a_zone_may_leave_it_and_not_come_back():
     go(floor, "r", (18.0, -8.0), (zone("keep_out", block),), wants="robot01")
     drive(floor, lambda: ("r", 1) in floor.over, lambda: None)
     assert floor.over["r", 1] == ("", "")
-    go(floor, "r", (3.0, -8.0), (zone("keep_out", block),), mission=2, wants="robot01")
+    go(floor, "r", (3.0, -8.0), (zone("keep_out", block),), task=2, wants="robot01")
     drive(floor, lambda: ("r", 2) in floor.over, lambda: None)
     assert floor.over["r", 2][0] == "blocked"
 

@@ -11,8 +11,8 @@ import pytest
 
 from editor.language import compile_document, parse_script, tree_to_document
 from editor.language.document.outline import BRANCHES
-from execution.rehearsals.program_site import read_site
-from execution.rehearsals.rehearsal import Conditions, rehearse, rehearse_program
+from execution.rehearsals.program_file import read_site, rehearse_program
+from execution.rehearsals.rehearsal import Conditions, rehearse
 from simulation.world import Fault
 from tests.unit.language.site import ROOT
 from vipo_site.cli.main import main

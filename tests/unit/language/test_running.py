@@ -40,20 +40,20 @@ def in_words(action: m.Action) -> str:
 
 
 def answer_to(actions: tuple[m.Action, ...], fails: str) -> m.Event | None:
-    """Return what happens next: missions are done (or fail), questions are answered, time goes by."""
+    """Return what happens next: tasks are done (or fail), questions are answered, time goes by."""
     for action in reversed(actions):
         match action:
             case m.AskPeople(question=question):
                 return m.Answered(question, True)
-            case m.Ask(mission=mission):
-                return m.MissionFailed(mission, fails, "It did not work.") if fails else m.MissionDone(mission)
+            case m.Ask(task=task):
+                return m.TaskFailed(task, fails, "It did not work.") if fails else m.TaskDone(task)
             case m.SetTimer(timer=timer):
                 return m.TimerFired(timer)
     return None
 
 
 def told(case: str, fails: str = "") -> str:
-    """Carry a case out and return what happened; each mission fails in that way, if one is given."""
+    """Carry a case out and return what happened; each task fails in that way, if one is given."""
     plan = plan_of(case)
     state, actions = machine.start(plan, {}, HOT)
     log = [in_words(action) for action in actions]

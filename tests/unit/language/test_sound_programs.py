@@ -68,8 +68,8 @@ def _something(waits: list[m.Action], chance: random.Random) -> m.Event:
             return m.TimerFired(timer)
         case m.AskPeople(question=question):
             return m.Answered(question, 3)
-        case m.Ask(mission=mission) if chance.random() < 0.3:
-            return m.MissionFailed(mission, chance.choice(["failed", "blocked"]), "It did not work.")
-        case m.Ask(mission=mission):
-            return m.MissionDone(mission)
+        case m.Ask(task=task) if chance.random() < 0.3:
+            return m.TaskFailed(task, chance.choice(["failed", "blocked"]), "It did not work.")
+        case m.Ask(task=task):
+            return m.TaskDone(task)
     return m.Facts({("curingOven01", "temperature"): chance.choice([20, 80])})

@@ -14,7 +14,7 @@ import registry.shapes
 import vipo_site.http.openapi
 from editor.language import compile_document, compiled_to_json
 from editor.shapes import CompiledShape, DocumentShape
-from execution.rehearsals.rehearsal import rehearse_program
+from execution.rehearsals.program_file import rehearse_program
 from execution.shapes import RehearsalResultShape
 from vipo_site.cli.program_file import read_program_file
 from vipo_site.http.api import api

@@ -1,4 +1,4 @@
-"""A site in a program file: its devices, places and map, made into a scene to rehearse in."""
+"""A program file rehearsed from the command line: its site made into a scene, its document compiled; no database."""
 
 from __future__ import annotations
 
@@ -9,13 +9,32 @@ from typing import Any
 
 import numpy as np
 
-from editor.language import PlaceFacts, Surroundings, surroundings_from_json
+from editor.language import PlaceFacts, Surroundings, compile_document, surroundings_from_json
+from execution.rehearsals.rehearsal import Conditions, rehearse
 from registry.floorplan.map_server import read_header, read_map
 from registry.floorplan.plan import FREE, FloorPlan, Grid
+from simulation.services import DriverName
 from simulation.world import Scene
 
 RESOLUTION_M = 0.05
 ROOM_M = 3.0
+
+
+def rehearse_program(
+    document: object, site: Mapping[str, Any], seed: int = 0, driver: DriverName = "physics"
+) -> dict[str, Any]:
+    """Rehearse a document in the site of a program file (see docs/cli.md); for the command line.
+
+    Raises:
+        ValueError: the program has errors; check it first.
+        UnreadableSite, BadMap: the site cannot be used.
+    """
+    surroundings, scene, places = read_site(site, seed)
+    compiled = compile_document(document, surroundings)
+    if compiled.plan is None:
+        errors = [d.message for d in compiled.diagnostics if d.severity == "error"]
+        raise ValueError(f"The program has errors and cannot be rehearsed. {errors[0] if errors else ''}".strip())
+    return rehearse(compiled.plan, scene, places=places, conditions=Conditions(driver))
 
 
 def read_site(site: Mapping[str, Any], seed: int) -> tuple[Surroundings, Scene, tuple[PlaceFacts, ...]]:
