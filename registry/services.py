@@ -51,6 +51,15 @@ from registry.devices.lifecycle import (
 )
 from registry.devices.readings import flush_samples, note_samples, prune_samples
 from registry.devices.readings_history import PointView, SeriesView, read_history
+from registry.devices.reads import (
+    PositionView,
+    ReadingsView,
+    get_device_names,
+    get_readings,
+    list_device_ids,
+    list_placed,
+    list_positions,
+)
 from registry.devices.rows import DONE_FLAG_ONLY_SQL, OUT_SQL, BadDevice, NoSuchDevice
 from registry.devices.states import SaidState, find_unchanged, ingest_states
 from registry.devices.views import (
@@ -75,6 +84,7 @@ from registry.sites.sites import (
     get_floor,
     get_map,
     get_site,
+    get_site_id,
     get_walls,
     list_places,
     list_sites,
@@ -110,9 +120,11 @@ __all__ = [
     "NotRetired",
     "PlaceView",
     "PointView",
+    "PositionView",
     "Principal",
     "QueryAnswer",
     "Raised",
+    "ReadingsView",
     "RobotMapFacts",
     "RobotMapView",
     "SaidDescription",
@@ -146,11 +158,14 @@ __all__ = [
     "flush_alerts",
     "flush_samples",
     "get_device",
+    "get_device_names",
     "get_floor",
     "get_map",
+    "get_readings",
     "get_robot_map",
     "get_robot_map_facts",
     "get_site",
+    "get_site_id",
     "get_walls",
     "ingest_description",
     "ingest_descriptions",
@@ -162,11 +177,14 @@ __all__ = [
     "list_alerts",
     "list_broker_hashes",
     "list_device_events",
+    "list_device_ids",
     "list_devices",
     "list_granted_topics",
     "list_map_versions",
     "list_open_alerts",
+    "list_placed",
     "list_places",
+    "list_positions",
     "list_sites",
     "list_slugs",
     "mark_alert_seen",

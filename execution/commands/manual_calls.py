@@ -18,7 +18,6 @@ from execution import mailbox
 from execution.call_arguments import find_misfits
 from execution.commands.claim import CONTROLS
 from execution.errors import BadArguments, NotFound, NotPossibleNow
-from execution.floor.advance import site_id
 from execution.floor.stops import is_stopped
 from execution.models import Command, FloorState, Run
 from execution.runs.reasons import cause_of
@@ -49,7 +48,7 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
     given = {name: value for name, value in arguments.items() if value is not None}
     _check_arguments(device, method, given)
     with transaction.atomic():
-        FloorState.objects.get_or_create(site_id=site_id(site))
+        FloorState.objects.get_or_create(site_id=registry.get_site_id(site=site))
         row = FloorState.objects.select_for_update(of=("self",)).get(site__slug=site)
         _check_free(row, registry.get_device(site=site, device_id=device_id))
         command = _write(row, device_id, method, given, by)
@@ -61,7 +60,7 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
 def _check_arguments(device: registry.DeviceView, method: str, arguments: Mapping[str, Any]) -> None:
     if waiting := next((asked.topic for asked in device.asks if asked.name == method), None):
         raise NotPossibleNow(f"{method} waits until an admin confirms its topic {waiting} on {device.name}'s page.")
-    devices = [d.id for d in registry.list_devices(site=device.site, lifecycle="approved")]
+    devices = registry.list_device_ids(site=device.site, lifecycle="approved")
     places = [place.id for place in registry.list_places(site=device.site)]
     misfits = find_misfits(device.canonical, method, arguments, devices, places)
     if misfits:

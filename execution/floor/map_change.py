@@ -9,21 +9,20 @@ from django.db import transaction
 
 from execution import mailbox
 from execution.errors import NotPossibleNow
-from execution.floor.advance import site_id
 from execution.floor.stops import is_stopped
 from execution.models import Command, FloorState, Run
 from execution.runs.advance import OPEN
-from registry.services import MapView
+from registry import services as registry
 
 
-def change_map(*, site: str, change: Callable[[], MapView]) -> MapView:
+def change_map(*, site: str, change: Callable[[], registry.MapView]) -> registry.MapView:
     """Carry out a change of the site's map, and let traffic begin anew on it.
 
     Raises:
         NotPossibleNow: a run is open, or a device still carries out a command.
     """
     with transaction.atomic():
-        FloorState.objects.get_or_create(site_id=site_id(site))
+        FloorState.objects.get_or_create(site_id=registry.get_site_id(site=site))
         floor = FloorState.objects.select_for_update(of=("self",)).get(site__slug=site)
         _require_rest(site)
         changed = change()

@@ -10,7 +10,6 @@ from uuid import uuid4
 from django.db import transaction
 
 from execution import mailbox
-from execution.floor.advance import site_id
 from execution.models import ArmedProgram, Run, SiteStop
 from execution.runs.advance import OPEN
 from registry import services as registry
@@ -69,8 +68,8 @@ def _disarm_all(site: str) -> None:
 
 
 def _lock(site: str) -> SiteStop:
-    SiteStop.objects.get_or_create(site_id=site_id(site))
-    return SiteStop.objects.select_for_update().get(site_id=site_id(site))
+    SiteStop.objects.get_or_create(site_id=registry.get_site_id(site=site))
+    return SiteStop.objects.select_for_update().get(site_id=registry.get_site_id(site=site))
 
 
 def _latch(row: SiteStop, site: str, *, active: bool, by: str) -> None:

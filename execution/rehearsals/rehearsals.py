@@ -15,7 +15,7 @@ from django.db import transaction
 
 from execution import mailbox
 from execution.errors import NotFound
-from execution.floor.advance import place_facts, site_id
+from execution.floor.advance import place_facts
 from execution.models import Rehearsal
 from execution.rehearsals.child_process import scene_to_json
 from execution.runs.programs import Prepared
@@ -32,7 +32,7 @@ def start_rehearsal(*, prepared: Prepared, by: str, seed: int = 0, driver: str =
     job = {"plan": prepared.plan, "scene": _scene(prepared.site, seed), "driver": driver,
            "parameters": dict(prepared.parameters)}  # fmt: skip
     row = Rehearsal.objects.create(
-        site_id=site_id(prepared.site),
+        site_id=registry.get_site_id(site=prepared.site),
         program=prepared.program,
         job=job,
         document=prepared.document,

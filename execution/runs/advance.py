@@ -24,11 +24,10 @@ from execution.machine.places import ROLE
 from execution.machine.state import RunState
 from execution.models import InboxEvent, Run, Timer
 from execution.runs import notices, questions
-from execution.runs.facts import facts_of
+from execution.runs.facts import facts_of, names_of
 from execution.runs.journal import Journal, describe
 from execution.runs.settle import split_early, wake_later
 from execution.traffic.messages import floor_zones
-from registry import services as registry
 from vipo_device.protocol.description import Scalar
 
 PLANS_KEPT = 64
@@ -47,8 +46,8 @@ def advance_run(run_id: UUID | str) -> bool:
         plan, needs = _plan(run.id)
         now = datetime.now(UTC)
         events, early = split_early(run, needs, events, now)
-        facts = facts_of(needs, run, now)
-        journal = Journal(run, now, _names(run.site.slug))
+        facts = facts_of(needs, run, events, now)
+        journal = Journal(run, now, names_of(run, events))
         if early:
             wake_later(run, now)
         state = _fold(_Step(run, plan, journal), facts, events)
@@ -74,10 +73,6 @@ def _plan(run_id: UUID) -> tuple[Plan, Needs]:
         while len(_plans) > PLANS_KEPT:
             _plans.popitem(last=False)
     return _plans[run_id]
-
-
-def _names(slug: str) -> dict[str, str]:
-    return {device.id: device.name for device in registry.list_devices(site=slug)}
 
 
 def _fold(step: _Step, facts: Mapping[tuple[str, str], Scalar], events: list[InboxEvent]) -> RunState:

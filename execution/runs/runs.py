@@ -11,12 +11,12 @@ from django.db.models import Max
 
 from execution import mailbox
 from execution.errors import NotFound, NotPossibleNow
-from execution.floor.advance import site_id
 from execution.floor.stops import is_stopped
 from execution.models import Run, RunEvent
 from execution.runs.advance import OPEN
 from execution.runs.programs import Prepared
 from execution.runs.views import event_to_json, run_to_json
+from registry import services as registry
 from registry.live import fanout
 
 EVENTS_AT_ONCE = 1000
@@ -52,7 +52,7 @@ def _create_numbered(prepared: Prepared, by: str, entry: int) -> Run:
 
 
 def _create(prepared: Prepared, by: str, entry: int) -> Run:
-    site = site_id(prepared.site)
+    site = registry.get_site_id(site=prepared.site)
     last = Run.objects.filter(site_id=site).aggregate(last=Max("number"))["last"] or 0
     return Run.objects.create(
         site_id=site,

@@ -13,7 +13,6 @@ from django.db import transaction
 from editor.language import plan_from_json
 from editor.language.plan.instructions import EventEntry, Plan
 from execution.errors import NotPossibleNow, NotReady
-from execution.floor.advance import site_id
 from execution.floor.stops import is_stopped
 from execution.machine.evaluation import EvaluationError, is_true
 from execution.machine.needs import Facts, needs_of
@@ -23,6 +22,7 @@ from execution.runs.facts import site_facts
 from execution.runs.programs import Prepared
 from execution.runs.runs import start_run
 from execution.runs.views import armed_to_json
+from registry import services as registry
 from registry.live import fanout
 
 PLANS_KEPT = 64
@@ -51,7 +51,13 @@ def arm_program(*, prepared: Prepared, by: str) -> dict[str, Any]:
     now = datetime.now(UTC)
     whole = {**asdict(prepared), "program": str(prepared.program)}
     truths = _look(plan, _facts(plan, prepared.site, now))
-    values = {"site_id": site_id(prepared.site), "prepared": whole, "truths": truths, "by": by, "at": now}
+    values = {
+        "site_id": registry.get_site_id(site=prepared.site),
+        "prepared": whole,
+        "truths": truths,
+        "by": by,
+        "at": now,
+    }
     with transaction.atomic():
         row, _ = ArmedProgram.objects.update_or_create(program=prepared.program, defaults=values)
         _announce(prepared.site)

@@ -59,6 +59,11 @@ def find_site(slug: str) -> Site:
     return site
 
 
+def get_site_id(*, site: str) -> int:
+    """Return the row number of a site, which other apps keep beside what is the site's; raises NotAMember."""
+    return find_site(site).pk
+
+
 def list_sites(*, user: User) -> tuple[SiteView, ...]:
     """Return the sites where the user is a member, by name."""
     members = Membership.objects.filter(user=user).select_related("site").order_by("site__name", "site__slug")

@@ -1,0 +1,68 @@
+"""What the steps of a run ask of the database does not grow with the devices of the site."""
+
+import pytest
+
+from bench.hall import SITE, carry_out_run, fill_hall
+from execution.floor.advance import get_layout
+from registry import services as registry
+from registry.models import Device
+
+pytestmark = pytest.mark.django_db(transaction=True)
+MANY = 300
+
+
+def test_a_step_of_a_run_reads_only_the_devices_that_it_concerns():
+    fill_hall(MANY)
+    carry_out_run()
+    counts = carry_out_run()
+    rows = {step: count.device_rows for step, count in counts.items()}
+    assert rows == {
+        "a run begins": 1,
+        "the floor takes its task": MANY,
+        "the floor hears the answer": MANY,
+        "the run hears the answer": 3,
+        "the floor has nothing to do": MANY,
+        "a reading ends the run": 1,
+    }
+    of_runs = {step: count.statements for step, count in counts.items() if "floor" not in step}
+    assert of_runs == {"a run begins": 7, "the run hears the answer": 10, "a reading ends the run": 6}
+    assert max(count.statements for count in counts.values()) <= 13
+
+
+def test_descriptions_are_read_for_the_layout_only_when_they_are_news():
+    fill_hall(3)
+    before = get_layout(SITE)
+    Device.objects.filter(pk="robot001").update(pose={"x": 9.0, "y": 9.0, "z": 0.0, "theta": 0.0}, online=False)
+    assert get_layout(SITE) is before
+    Device.objects.filter(pk="machine000").update(name_override="Big oven")
+    named = get_layout(SITE)
+    assert (named is before, named.name("machine000")) == (False, "Big oven")
+    Device.objects.filter(pk="machine000").update(pose_override={"x": 20.0, "y": 20.0, "z": 0.0, "theta": 0.0})
+    moved = get_layout(SITE)
+    assert moved.devices["machine000"].pose.x == 20.0
+    Device.objects.filter(pk="machine000").update(lifecycle="retired")
+    assert set(get_layout(SITE).devices) == {"robot001", "robot002"}
+
+
+def test_reads_by_id_say_the_same_as_whole_views():
+    fill_hall(5)
+    Device.objects.filter(pk="machine000").update(name_override="Oven", pose={"x": 1.0, "y": 2.0})
+    Device.objects.filter(pk="machine003").update(pose_override={"x": 3.0, "y": 4.0}, pose={"x": 1.0, "y": 2.0})
+    Device.objects.filter(pk="robot001").update(pose_override={"x": 3.0, "y": 4.0}, pose={"x": 1.0, "y": 2.0})
+    Device.objects.filter(pk="robot002").update(lifecycle="pending", online=False)
+    Device.objects.filter(pk="machine004").update(lifecycle="retired")
+    views = registry.list_devices(site=SITE)
+    ids = [view.id for view in views]
+    assert ids == ["machine000", "machine003", "robot001", "robot002"]
+    assert registry.get_device_names(site=SITE, ids=[*ids, "machine004"]) == {view.id: view.name for view in views}
+    readings = registry.get_readings(site=SITE)
+    assert {device: (one.values, one.done, one.last_seen_at) for device, one in readings.items()} == {
+        view.id: (view.readings, view.done, view.last_seen_at) for view in views
+    }
+    positions = registry.list_positions(site=SITE)
+    assert [(p.id, p.kind, p.pose, p.online) for p in positions] == [(v.id, v.kind, v.pose, v.online) for v in views]
+    placed = registry.list_placed(site=SITE)
+    assert [position for position, _ in placed] == list(positions)
+    assert [said for _, said in placed] == [view.canonical for view in views]
+    assert registry.list_device_ids(site=SITE, lifecycle="approved") == tuple(ids[:3])
+    assert [p.id for p in registry.list_positions(site=SITE, ids=["robot001"])] == ["robot001"]
