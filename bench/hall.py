@@ -105,8 +105,7 @@ def carry_out_run(*, counting: bool = True) -> Mapping[str, Count]:
     """Carry a run out and return what each of its steps took; counting takes processor time itself."""
     _say(20)
     prepared = services.Prepared(uuid4(), SITE, "Heating", 1, {}, {}, plan_to_json(PLAN), {})
-    started: Any = services.start_run(prepared=prepared, by="Ada")
-    run = UUID(str(started["id"] if isinstance(started, dict) else started.id))
+    run = services.start_run(prepared=prepared, by="Ada").id
     found = {"a run begins": _measure(counting, lambda: advance_run(run))}
     found["the floor takes its task"] = _measure(counting, lambda: advance_site(SITE))
     _answer(run)
@@ -115,8 +114,7 @@ def carry_out_run(*, counting: bool = True) -> Mapping[str, Count]:
     found["the floor has nothing to do"] = _measure(counting, lambda: advance_site(SITE))
     _say(90)
     found["a reading ends the run"] = _measure(counting, lambda: advance_run(run))
-    status = services.get_run(run_id=run)
-    if (status["status"] if isinstance(status, dict) else status.status) != "finished":
+    if services.get_run(run_id=run).run.status != "finished":
         raise RuntimeError("The run did not end.")
     advance_site(SITE)
     return found
