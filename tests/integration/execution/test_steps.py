@@ -1,11 +1,28 @@
 """What the steps of a run ask of the database does not grow with the devices of the site."""
 
+from datetime import UTC, datetime
+
 import pytest
 
 from bench.hall import SITE, carry_out_run, fill_hall
+from editor.language.plan.instructions import (
+    Branch,
+    Constant,
+    End,
+    Instruction,
+    Located,
+    Operation,
+    Plan,
+    Reading,
+    Variable,
+)
 from execution.floor.advance import get_layout
+from execution.machine.needs import needs_of
+from execution.machine.places import ROLE
+from execution.models import InboxEvent, Run
+from execution.runs.facts import facts_of, site_facts
 from registry import services as registry
-from registry.models import Device
+from registry.models import Device, Site
 
 pytestmark = pytest.mark.django_db(transaction=True)
 MANY = 300
@@ -66,3 +83,24 @@ def test_reads_by_id_say_the_same_as_whole_views():
     assert [said for _, said in placed] == [view.canonical for view in views]
     assert registry.list_device_ids(site=SITE, lifecycle="approved") == tuple(ids[:3])
     assert [p.id for p in registry.list_positions(site=SITE, ids=["robot001"])] == ["robot001"]
+
+
+def test_a_role_that_is_bound_in_a_step_has_its_readings_in_the_same_step():
+    fill_hall(4)
+    Device.objects.filter(pk="robot001").update(properties={"battery": 40, "load": "box:1"})
+    battery = Operation(">", (Reading(Located(role="carrier"), "battery"), Constant(20)))
+    needs = needs_of(Plan((Instruction(Branch(battery, 1)), Instruction(End()))))
+    run = Run(site=Site.objects.get(slug=SITE), roles={})
+    bound = InboxEvent(payload={"type": "role_bound", "role": "carrier", "robot": "robot001"})
+    now = datetime.now(UTC)
+    assert facts_of(needs, run, [], now) == {}
+    assert facts_of(needs, run, [bound], now) == {("robot001", "battery"): 40}
+    run.roles = {"carrier": "robot001"}
+    assert facts_of(needs, run, [], now) == {("robot001", "battery"): 40, (ROLE, "carrier"): "robot001"}
+
+
+def test_a_device_that_only_the_run_tells_may_be_any_of_the_site():
+    fill_hall(4)
+    needs = needs_of(Plan((Instruction(Branch(Reading(Variable("machine"), "pressure"), 1)), Instruction(End()))))
+    facts = site_facts(needs, SITE, datetime.now(UTC))
+    assert facts == {(f"{kind}00{n}", "pressure"): 1 for n, kind in enumerate(("machine", "robot", "robot", "machine"))}
