@@ -51,7 +51,7 @@ class _counted:
 def _bare(file: ProgramFile, steps: int) -> float:
     """Return how long the steps take when nobody drives, measures or decides; all robots are awake."""
     _, scene, _ = read_site(file.site, 0)
-    world = make_world(scene, "physics")
+    world = make_world(scene=scene, driver="physics")
     client = world._driver._client  # type: ignore[attr-defined]
     began = time.perf_counter()
     for _ in range(steps):

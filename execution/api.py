@@ -1,4 +1,4 @@
-"""Execution over HTTP: runs, rehearsals, the stop, routes for drawing."""
+"""Execution over HTTP: runs, rehearsals, calls, questions, the stop, routes for drawing, changes of a site's map."""
 
 from __future__ import annotations
 
@@ -19,17 +19,31 @@ from execution.shapes import (
     AskRoutes,
     CallMethod,
     CallShape,
+    ChangedMap,
     QuestionShape,
     RehearsalShape,
+    RestoreMap,
     RouteShape,
     RunEventShape,
     RunShape,
     RunSummaryShape,
     StartRehearsal,
     StartRun,
+    UseRobotMap,
 )
+from execution.views import (
+    armed_to_json,
+    call_to_json,
+    event_to_json,
+    question_to_json,
+    rehearsal_to_json,
+    route_to_json,
+    run_to_json,
+    whole_run_to_json,
+)
+from registry import services as registry
 from registry.services import NotAMember, require
-from registry.shapes import Stop
+from registry.shapes import Stop, signed_in
 
 router = Router(tags=["execution"])
 
@@ -56,15 +70,16 @@ def start_rehearsal(request: HttpRequest, program: UUID, body: StartRehearsal | 
     _require_here(request, site_of_program(program_id=program), "operator", "program")
     body = body or StartRehearsal()
     prepared = prepare(program_id=program, user=request.user, parameters=body.parameters)
-    return services.start_rehearsal(prepared=prepared, by=_who(request), seed=body.seed, driver=body.driver)
+    started = services.start_rehearsal(prepared=prepared, by=_who(request), seed=body.seed, driver=body.driver)
+    return rehearsal_to_json(started)
 
 
 @router.get("/rehearsals/{uuid:rehearsal}", response=RehearsalShape)
 def get_rehearsal(request: HttpRequest, rehearsal: UUID) -> dict[str, Any]:
     """Return a rehearsal with its result."""
-    site, view = services.get_rehearsal(rehearsal_id=rehearsal)
-    _require_here(request, site, "viewer", "rehearsal")
-    return view
+    view = services.get_rehearsal(rehearsal_id=rehearsal)
+    _require_here(request, view.site, "viewer", "rehearsal")
+    return rehearsal_to_json(view)
 
 
 @router.post("/programs/{uuid:program}/runs", response=RunSummaryShape)
@@ -73,93 +88,94 @@ def start_run(request: HttpRequest, program: UUID, body: StartRun | None = None)
     _require_here(request, site_of_program(program_id=program), "operator", "program")
     body = body or StartRun()
     prepared = prepare(program_id=program, user=request.user, parameters=body.parameters)
-    return services.start_run(prepared=prepared, by=_who(request))
+    return run_to_json(services.start_run(prepared=prepared, by=_who(request)))
 
 
 @router.get("/sites/{slug:site}/runs", response=list[RunSummaryShape])
 def list_runs(request: HttpRequest, site: str) -> list[dict[str, Any]]:
     """Return the site's runs, the newest first."""
     _require(request, site, "viewer")
-    return services.list_runs(site=site)
+    return [run_to_json(run) for run in services.list_runs(site=site)]
 
 
 @router.get("/runs/{uuid:run}", response=RunShape)
 def get_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
     """Return a run with its document and compiled form."""
     _require_here(request, services.site_of_run(run_id=run), "viewer", "run")
-    return services.get_run(run_id=run)
+    return whole_run_to_json(services.get_run(run_id=run))
 
 
 @router.get("/runs/{uuid:run}/events", response=list[RunEventShape])
 def list_events(request: HttpRequest, run: UUID, after: int = 0) -> list[dict[str, Any]]:
     """Return the run's journal after a line's number."""
     _require_here(request, services.site_of_run(run_id=run), "viewer", "run")
-    return services.list_events(run_id=run, after=after)
+    return [event_to_json(event) for event in services.list_events(run_id=run, after=after)]
 
 
 @router.post("/runs/{uuid:run}/pause", response=RunSummaryShape)
 def pause_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
     """Pause a run."""
     _require_here(request, services.site_of_run(run_id=run), "operator", "run")
-    return services.pause_run(run_id=run, by=_who(request))
+    return run_to_json(services.pause_run(run_id=run, by=_who(request)))
 
 
 @router.post("/runs/{uuid:run}/resume", response=RunSummaryShape)
 def resume_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
     """Resume a run."""
     _require_here(request, services.site_of_run(run_id=run), "operator", "run")
-    return services.resume_run(run_id=run, by=_who(request))
+    return run_to_json(services.resume_run(run_id=run, by=_who(request)))
 
 
 @router.post("/runs/{uuid:run}/cancel", response=RunSummaryShape)
 def cancel_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
     """Cancel a run."""
     _require_here(request, services.site_of_run(run_id=run), "operator", "run")
-    return services.cancel_run(run_id=run, by=_who(request))
+    return run_to_json(services.cancel_run(run_id=run, by=_who(request)))
 
 
 @router.post("/sites/{slug:site}/devices/{device_id}/call", response=CallShape)
 def call_method(request: HttpRequest, site: str, device_id: str, body: CallMethod) -> dict[str, Any]:
     """Tell a device to carry out one of its methods, outside of any run; follow what comes of it by its id."""
     _require(request, site, "operator")
-    return services.call_method(
+    called = services.call_method(
         site=site, device_id=device_id, method=body.method, arguments=body.args, by=_who(request)
     )
+    return call_to_json(called)
 
 
 @router.get("/sites/{slug:site}/calls/{uuid:call}", response=CallShape)
 def get_call(request: HttpRequest, site: str, call: UUID) -> dict[str, Any]:
     """Return a call and what has come of it."""
     _require(request, site, "viewer")
-    return services.get_call(site=site, call_id=call)
+    return call_to_json(services.get_call(site=site, call_id=call))
 
 
 @router.post("/sites/{slug:site}/calls/{uuid:call}/cancel", response=CallShape)
 def cancel_call(request: HttpRequest, site: str, call: UUID) -> dict[str, Any]:
     """Ask the device to end a call."""
     _require(request, site, "operator")
-    return services.cancel_call(site=site, call_id=call)
+    return call_to_json(services.cancel_call(site=site, call_id=call))
 
 
 @router.get("/sites/{slug:site}/questions", response=list[QuestionShape])
 def list_questions(request: HttpRequest, site: str, run: UUID | None = None) -> list[dict[str, Any]]:
     """Return the site's open questions, or all of one run."""
     _require(request, site, "viewer")
-    return services.list_questions(site=site, run_id=run)
+    return [question_to_json(question) for question in services.list_questions(site=site, run_id=run)]
 
 
 @router.post("/questions/{uuid:question}/answer", response=QuestionShape)
 def answer_question(request: HttpRequest, question: UUID, body: AnswerQuestion) -> dict[str, Any]:
     """Answer a question; the first answer counts."""
     _require_here(request, services.site_of_question(question_id=question), "operator", "question")
-    return services.answer_question(question_id=question, value=body.value, by=_who(request))
+    return question_to_json(services.answer_question(question_id=question, value=body.value, by=_who(request)))
 
 
 @router.get("/sites/{slug:site}/armed", response=list[ArmedShape])
 def list_armed(request: HttpRequest, site: str) -> list[dict[str, Any]]:
     """Return the programs that start by themselves."""
     _require(request, site, "viewer")
-    return services.list_armed(site=site)
+    return [armed_to_json(armed) for armed in services.list_armed(site=site)]
 
 
 @router.post("/programs/{uuid:program}/arm", response=list[ArmedShape])
@@ -171,7 +187,7 @@ def arm_program(request: HttpRequest, program: UUID, body: ArmProgram) -> list[d
         services.arm_program(prepared=prepare(program_id=program, user=request.user, parameters={}), by=_who(request))
     else:
         services.disarm_program(program_id=program, site=site)
-    return services.list_armed(site=site)
+    return [armed_to_json(armed) for armed in services.list_armed(site=site)]
 
 
 @router.post("/sites/{slug:site}/stop", response=Stop)
@@ -199,11 +215,38 @@ def plan_route(request: HttpRequest, site: str, body: AskRoute) -> dict[str, Any
     route = services.plan_routes(site=site, pairs=[(body.start, body.to)])[0]
     if route is None:
         raise NoWay("A robot finds no way there. Choose a place that is free and can be reached.")
-    return route
+    return route_to_json(route)
 
 
 @router.post("/sites/{slug:site}/routes", response=list[RouteShape | None])
 def plan_routes(request: HttpRequest, site: str, body: AskRoutes) -> list[dict[str, Any] | None]:
     """Return many ways at once; null where there is none."""
     _require(request, site, "viewer")
-    return services.plan_routes(site=site, pairs=[(pair.start, pair.to) for pair in body.pairs])
+    routes = services.plan_routes(site=site, pairs=[(pair.start, pair.to) for pair in body.pairs])
+    return [route_to_json(route) if route else None for route in routes]
+
+
+@router.post("/sites/{slug}/map/from-device", response=ChangedMap)
+def use_robot_map(request: HttpRequest, slug: str, body: UseRobotMap) -> dict[str, Any]:
+    """Make a robot's map the site's, as a new version; places and devices stay. Refused while anything is under way."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    changed = services.change_map(
+        site=slug,
+        change=lambda: registry.use_robot_map(
+            site=slug, device_id=body.device, version=body.version, replaces=body.replaces, by=user
+        ),
+    )
+    return {"version": changed.version}
+
+
+@router.post("/sites/{slug}/map/restore", response=ChangedMap)
+def restore_map(request: HttpRequest, slug: str, body: RestoreMap) -> dict[str, Any]:
+    """Use an older version of the site's map again, as a new version. Refused while anything is under way."""
+    user = signed_in(request)
+    require(user, slug, "admin")
+    changed = services.change_map(
+        site=slug,
+        change=lambda: registry.restore_map(site=slug, version=body.version, replaces=body.replaces, by=user),
+    )
+    return {"version": changed.version}

@@ -31,22 +31,42 @@ from execution.runs.runs import (
     start_run,
 )
 from execution.runs.triggers import arm_program, disarm_program, list_armed, start_armed
-from execution.ticker.ticker import run_ticker, tick
+from execution.ticker.ticker import run_ticker
+from execution.views import (
+    ArmedView,
+    CallView,
+    QuestionView,
+    RehearsalView,
+    RouteView,
+    RunEventView,
+    RunView,
+    WholeRunView,
+    call_to_json,
+)
 
 __all__ = [
     "AlreadyAnswered",
     "AnswerNotFitting",
+    "ArmedView",
     "BadArguments",
+    "CallView",
     "ExecutionError",
     "NotFound",
     "NotPossibleNow",
     "NotReady",
     "OutgoingCommand",
     "Prepared",
+    "QuestionView",
+    "RehearsalView",
+    "RouteView",
+    "RunEventView",
+    "RunView",
     "StopView",
+    "WholeRunView",
     "answer_question",
     "arm_program",
     "call_method",
+    "call_to_json",
     "cancel_call",
     "cancel_run",
     "change_map",
@@ -76,5 +96,4 @@ __all__ = [
     "start_armed",
     "start_rehearsal",
     "start_run",
-    "tick",
 ]

@@ -12,6 +12,7 @@ from registry.shapes import Shown
 RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cancelled"]
 StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]
 Scalar = bool | int | float | str
+MapVersion = Annotated[int, Field(ge=0, lt=2**31)]
 
 
 class StartRun(Schema):
@@ -322,3 +323,24 @@ class RehearsalShape(Schema):
     document: Document
     compiled: Compiled
     created_at: str
+
+
+class UseRobotMap(Schema):
+    """Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none)."""
+
+    device: str = Field(max_length=64)
+    version: MapVersion
+    replaces: MapVersion
+
+
+class RestoreMap(Schema):
+    """Which version of the site's map is to hold again, and which one held when that was decided."""
+
+    version: MapVersion
+    replaces: MapVersion
+
+
+class ChangedMap(Schema):
+    """The version that holds now."""
+
+    version: int

@@ -51,6 +51,15 @@ from registry.devices.queries import (
     list_device_events,
     list_devices,
 )
+from registry.devices.reads import (
+    PositionView,
+    ReadingsView,
+    get_device_names,
+    get_readings,
+    list_device_ids,
+    list_placed,
+    list_positions,
+)
 from registry.devices.rows import BadDevice, NoSuchDevice
 from registry.devices.samples import flush_samples, note_samples, prune_samples
 from registry.devices.states import StateMessage, ingest_state, ingest_states
@@ -119,9 +128,11 @@ __all__ = [
     "Outage",
     "PlaceView",
     "PointView",
+    "PositionView",
     "Principal",
     "QueryAnswer",
     "Raised",
+    "ReadingsView",
     "ReservedDevice",
     "RobotMapFacts",
     "RobotMapView",
@@ -159,8 +170,10 @@ __all__ = [
     "flush_samples",
     "get_demo_grid",
     "get_device",
+    "get_device_names",
     "get_floor_plan",
     "get_map",
+    "get_readings",
     "get_robot_map",
     "get_robot_map_facts",
     "get_site",
@@ -178,11 +191,14 @@ __all__ = [
     "list_broker_hashes",
     "list_delivery_facts",
     "list_device_events",
+    "list_device_ids",
     "list_devices",
     "list_granted_topics",
     "list_map_versions",
     "list_open_alerts",
+    "list_placed",
     "list_places",
+    "list_positions",
     "list_sites",
     "list_slugs",
     "listen",

@@ -11,7 +11,7 @@ from simulation.world import Scene, World
 DriverName = Literal["physics", "kinematic"]
 
 
-def make_world(scene: Scene, driver: DriverName = "physics") -> World:
+def make_world(*, scene: Scene, driver: DriverName = "physics") -> World:
     """Return a world in virtual time; `physics` loads PyBullet, which wants a process and one thread for itself."""
     if driver == "kinematic":
         return SimulatedWorld(scene, KinematicDriver)

@@ -208,7 +208,8 @@ class Twin:
         log.info("The map or the place of a machine has changed; the simulated world was built anew.")
 
     def _make_world(self, memory: TwinMemory) -> World:
-        return make_world(memory.put_into(make_scene(self._plan, self._facts)), self._plan.driver)
+        scene = memory.put_into(make_scene(self._plan, self._facts))
+        return make_world(scene=scene, driver=self._plan.driver)
 
     def _save(self) -> None:
         memory = snapshot(self._world, self._boots)

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 from uuid import UUID
 
-from django.apps import apps
 from django.conf import settings
 from django.db import transaction
 from django.utils import timezone
@@ -52,7 +51,7 @@ def create_program(*, site: str, name: str, document: Mapping[str, Any] | None =
     """Make a program, empty or from a plain document. Raises BadRequest for a bad name."""
     plain = migrate_document(document or empty_document())
     data = encode_document(plain)
-    site_id = _site_id(site)
+    site_id = registry.get_site_id(site=site)
     with transaction.atomic():
         program = Program.objects.create(
             site_id=site_id, name=_checked_name(name), edited_at=timezone.now(), edited_by=user, last_seq=1
@@ -149,11 +148,6 @@ def _find(program_id: UUID | str) -> Program:
     if program is None:
         raise NoSuchProgram(_GONE)
     return program
-
-
-def _site_id(slug: str) -> int:
-    registry.get_site(site=slug)
-    return int(apps.get_model("registry", "Site")._default_manager.values_list("pk", flat=True).get(slug=slug))
 
 
 def _checked_name(name: str) -> str:

@@ -18,9 +18,9 @@ from execution import mailbox
 from execution.errors import BadArguments, NotFound, NotPossibleNow
 from execution.floor.stops import is_stopped
 from execution.models import Command, FloorState, Run
-from execution.reasons import cause_of
 from execution.traffic import floor
 from execution.traffic.messages import CONTROLS, CallCancelled, CallSent
+from execution.views import CallView, view_call
 from registry import services as registry
 from vipo_device.protocol.arguments import find_misfits
 
@@ -29,10 +29,9 @@ EXPIRY_S = 30.0
 NO_ANSWER = "The device did not answer in time. Look whether it is switched on and connected."
 MOST_MISFITS = 5
 DRIVES = "drives only in a program, where its way is kept free of others. Draw a Move and run it."
-LATE = "The device took longer than it may. Look what it is doing."
 
 
-def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[str, Any], by: str) -> dict[str, Any]:
+def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[str, Any], by: str) -> CallView:
     """Send a device a command, and return the call.
 
     Raises:
@@ -54,13 +53,13 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
         sent = CallSent(str(command.id), device_id, method, given, f"{command.by}, by hand")
         mailbox.post_to_floor(site, [(f"call:{command.id}", sent)])
         transaction.on_commit(lambda: registry.wake("gateway"))
-    return call_to_json(command)
+    return view_call(command)
 
 
 def _check_arguments(device: registry.DeviceView, method: str, arguments: Mapping[str, Any]) -> None:
     if waiting := next((asked.topic for asked in device.asks if asked.name == method), None):
         raise NotPossibleNow(f"{method} waits until an admin confirms its topic {waiting} on {device.name}'s page.")
-    devices = [d.id for d in registry.list_devices(site=device.site, lifecycle="approved")]
+    devices = registry.list_device_ids(site=device.site, lifecycle="approved")
     places = [place.id for place in registry.list_places(site=device.site)]
     misfits = find_misfits(device.canonical, method, arguments, devices, places)
     if misfits:
@@ -126,17 +125,17 @@ def _write(row: FloorState, device_id: str, method: str, arguments: Mapping[str,
     )
 
 
-def get_call(*, site: str, call_id: UUID) -> dict[str, Any]:
+def get_call(*, site: str, call_id: UUID) -> CallView:
     """Return a call and what has come of it. Raises NotFound."""
-    return call_to_json(_find(site, call_id))
+    return view_call(_find(site, call_id))
 
 
-def cancel_call(*, site: str, call_id: UUID) -> dict[str, Any]:
+def cancel_call(*, site: str, call_id: UUID) -> CallView:
     """Ask the device to end a call; one that is over stays as it is. Raises NotFound."""
     command = _find(site, call_id)
     if command.status in Command.OPEN:
         mailbox.post_to_floor(site, [(f"call-cancel:{command.id}", CallCancelled(str(command.id)))])
-    return call_to_json(command)
+    return view_call(command)
 
 
 def _find(site: str, call_id: UUID) -> Command:
@@ -159,25 +158,3 @@ def expire_calls(*, now: datetime) -> int:
                 mailbox.post_to_floor(command.site.slug, [(f"call-expired:{command.id}", given_up)])
                 count += 1
     return count
-
-
-def call_to_json(command: Command) -> dict[str, Any]:
-    """Return a call as the API says it."""
-    expires_at = command.created_at + timedelta(seconds=command.ttl_s)
-    why = command.why or (LATE if command.status == Command.Status.TIMED_OUT else "")
-    return {
-        "id": str(command.id),
-        "device": command.device,
-        "method": command.method,
-        "args": command.arguments,
-        "by": command.by,
-        "status": command.status,
-        "over": command.status not in Command.OPEN,
-        "why": why,
-        "cause": cause_of(why),
-        "result": command.result,
-        "created_at": command.created_at.isoformat(),
-        "expires_at": expires_at.isoformat(),
-        "sent_at": command.sent_at.isoformat() if command.sent_at else None,
-        "ended_at": command.ended_at.isoformat() if command.ended_at else None,
-    }

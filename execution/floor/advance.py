@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from typing import Any, Literal
 
@@ -25,7 +25,18 @@ from vipo_device.protocol.description import Description, Pose
 TRAFFIC_EVERY_S = 0.2
 AFTERWARDS_S = 20.0
 """A floor is looked after this long after its last robot has come to rest."""
-_layouts: dict[str, tuple[tuple[int, tuple[Description, ...], tuple[PlaceFacts, ...]], Layout]] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """A site's layout, with what it was made of; `stamp` tells the same without the descriptions (None: cannot)."""
+
+    stamp: tuple[object, ...] | None
+    made_of: tuple[int, tuple[Description, ...], tuple[PlaceFacts, ...]]
+    layout: Layout
+
+
+_layouts: dict[str, _Known] = {}
 _published: dict[str, tuple[float, str]] = {}
 
 
@@ -37,8 +48,7 @@ def advance_site(slug: str) -> bool:
         if row is None:
             return False
         deliveries = mailbox.waiting_for_floor(slug)
-        devices = registry.list_devices(site=slug, lifecycle="approved")
-        layout = get_layout(slug, devices)
+        layout, devices = _look_at_site(slug)
         before = floor.from_json(row.state) if row.state else floor.start(layout, str(row.namespace))
         news = [*_news(before, devices), *(delivery.message for delivery in deliveries), m.Tick()]
         after, actions = floor.step(layout, before, news, time.time())
@@ -50,18 +60,36 @@ def advance_site(slug: str) -> bool:
     return True
 
 
-def get_layout(slug: str, devices: tuple[registry.DeviceView, ...] | None = None) -> Layout:
+def get_layout(slug: str) -> Layout:
     """Return the layout of a site as its map, places and approved devices are now; raises NoMap."""
-    if devices is None:
-        devices = registry.list_devices(site=slug, lifecycle="approved")
-    at_home = tuple(replace(d.canonical, pose=Pose(0, 0)) if d.kind == "robot" else d.canonical for d in devices)
+    return _look_at_site(slug)[0]
+
+
+def _look_at_site(slug: str) -> tuple[Layout, tuple[registry.PositionView, ...]]:
+    """Return the layout and where the devices are; what these say of themselves is read only when it is news."""
+    positions = registry.list_positions(site=slug, lifecycle="approved")
     places = tuple(place_facts(place) for place in registry.list_places(site=slug))
     site_map = registry.get_map(site=slug)
+    known, stamp = _layouts.get(slug), _stamp(site_map.version, positions, places)
+    if known is not None and stamp is not None and known.stamp == stamp:
+        return known.layout, positions
+    placed = registry.list_placed(site=slug, lifecycle="approved")
+    positions = tuple(position for position, _ in placed)
+    at_home = tuple(replace(d, pose=Pose(0, 0)) if d.kind == "robot" else d for _, d in placed)
     made_of = (site_map.version, at_home, places)
-    known = _layouts.get(slug)
-    if known is None or known[0] != made_of:
-        known = _layouts[slug] = (made_of, make_layout(site_map.grid, at_home, places))
-    return known[1]
+    is_same = known is not None and known.made_of == made_of
+    layout = known.layout if known is not None and is_same else make_layout(site_map.grid, at_home, places)
+    _layouts[slug] = _Known(_stamp(site_map.version, positions, places), made_of, layout)
+    return layout, positions
+
+
+def _stamp(
+    version: int, positions: tuple[registry.PositionView, ...], places: tuple[PlaceFacts, ...]
+) -> tuple[object, ...] | None:
+    """Return what differs whenever a layout would; robots are at home wherever they are."""
+    if not all(position.version for position in positions):
+        return None
+    return (version, tuple((p.id, p.version, None if p.kind == "robot" else p.pose) for p in positions), places)
 
 
 def place_facts(place: registry.PlaceView) -> PlaceFacts:
@@ -72,7 +100,7 @@ def place_facts(place: registry.PlaceView) -> PlaceFacts:
     return PlaceFacts(place.id, place.name, kind, place.x, place.y, place.theta)
 
 
-def _news(before: State, devices: tuple[registry.DeviceView, ...]) -> list[m.Event]:
+def _news(before: State, devices: tuple[registry.PositionView, ...]) -> list[m.Event]:
     """Return what has changed on the floor according to the registry: who is there, and where the robots are."""
     news: list[m.Event] = []
     for device in devices:

@@ -9,30 +9,31 @@ from execution.floor.advance import get_layout
 from execution.machine.floor_task import Target
 from execution.traffic.layout import Layout, NoSuchSpot
 from execution.traffic.routes import drawn, length_m, plan_path
+from execution.views import RouteView
 
 SPEED_M_S = 0.5
 
 
-def plan_routes(*, site: str, pairs: Sequence[tuple[Any, Any]]) -> list[dict[str, Any] | None]:
-    """Return for each (from, to) the path as a drawn line `{path, length_m, seconds}`, or None where there is none.
+def plan_routes(*, site: str, pairs: Sequence[tuple[Any, Any]]) -> tuple[RouteView | None, ...]:
+    """Return for each (from, to) the path as a drawn line, or None where there is none.
 
     An end is a Place of docs/architecture.md (`{"device": id}`, `{"place": id}`, `{"point": [x, y]}`) or `[x, y]`.
     """
     layout = get_layout(site)
     speed = min((d.speed_m_s for d in layout.devices.values() if d.speed_m_s > 0), default=SPEED_M_S)
-    return [_route(layout, start, end, speed) for start, end in pairs]
+    return tuple(_route(layout, start, end, speed) for start, end in pairs)
 
 
-def _route(layout: Layout, start: Any, end: Any, speed_m_s: float) -> dict[str, Any] | None:
+def _route(layout: Layout, start: Any, end: Any, speed_m_s: float) -> RouteView | None:
     try:
         nodes = plan_path(layout, _node(layout, start), _node(layout, end))
     except NoSuchSpot:
         return None
     if nodes is None:
         return None
-    line = drawn(layout, nodes)
-    length = length_m(line)
-    return {"path": [list(point) for point in line], "length_m": round(length, 2), "seconds": round(length / speed_m_s)}
+    path = drawn(layout, nodes)
+    length = length_m(path)
+    return RouteView(path, round(length, 2), round(length / speed_m_s))
 
 
 def _node(layout: Layout, place: Any) -> str:

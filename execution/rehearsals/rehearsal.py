@@ -67,7 +67,7 @@ def rehearse(
     `conditions.limit_s` of virtual time.
     """
     conditions = conditions or Conditions()
-    world = make_world(scene, conditions.driver)
+    world = make_world(scene=scene, driver=conditions.driver)
     try:
         layout = make_layout(scene.grid, scene.devices, places)
         return _Rehearsal(plan, layout, world, conditions.limit_s, on_progress).run(conditions.parameters)

@@ -19,7 +19,7 @@ from execution.floor.advance import place_facts
 from execution.models import Rehearsal
 from execution.rehearsals.child_process import scene_to_json
 from execution.runs.programs import Prepared
-from execution.runs.views import rehearsal_to_json
+from execution.views import RehearsalView, view_rehearsal
 from registry import services as registry
 from simulation.world import Scene
 
@@ -29,7 +29,7 @@ DEAD_AFTER = timedelta(seconds=60)
 DIED = "The process that rehearsed it has died. Start it again."
 
 
-def start_rehearsal(*, prepared: Prepared, by: str, seed: int = 0, driver: str = "physics") -> dict[str, Any]:
+def start_rehearsal(*, prepared: Prepared, by: str, seed: int = 0, driver: str = "physics") -> RehearsalView:
     """Queue a rehearsal of a program that was checked, in the site as it stands now."""
     job = {"plan": prepared.plan, "scene": _scene(prepared.site, seed), "driver": driver,
            "parameters": dict(prepared.parameters)}  # fmt: skip
@@ -43,7 +43,7 @@ def start_rehearsal(*, prepared: Prepared, by: str, seed: int = 0, driver: str =
         created_at=datetime.now(UTC),
     )
     transaction.on_commit(lambda: mailbox.send_hint(mailbox.REHEARSE, str(row.id)))
-    return rehearsal_to_json(row)
+    return view_rehearsal(row)
 
 
 def _scene(site: str, seed: int) -> dict[str, Any]:
@@ -62,8 +62,8 @@ def _scene(site: str, seed: int) -> dict[str, Any]:
     return scene_to_json(scene, places)
 
 
-def get_rehearsal(*, rehearsal_id: UUID | str) -> tuple[str, dict[str, Any]]:
-    """Return the site of a rehearsal, and the rehearsal.
+def get_rehearsal(*, rehearsal_id: UUID | str) -> RehearsalView:
+    """Return a rehearsal.
 
     Raises:
         NotFound: there is none.
@@ -71,7 +71,7 @@ def get_rehearsal(*, rehearsal_id: UUID | str) -> tuple[str, dict[str, Any]]:
     row = Rehearsal.objects.select_related("site").defer("job").filter(id=rehearsal_id).first()
     if row is None:
         raise NotFound("There is no such rehearsal. It may have been deleted with its program.")
-    return row.site.slug, rehearsal_to_json(row)
+    return view_rehearsal(row)
 
 
 def carry_out(rehearsal_id: str) -> bool:

@@ -22,11 +22,10 @@ from execution.machine.needs import Needs, needs_of
 from execution.machine.state import RunState
 from execution.models import Run, Timer
 from execution.runs import notices, questions
-from execution.runs.facts import facts_of
+from execution.runs.facts import facts_of, names_of
 from execution.runs.journal import Journal, describe
 from execution.runs.reading_grace import asking_key, split_early, wake_later
 from execution.traffic.messages import RunPaused, RunResumed, floor_zones
-from registry import services as registry
 from vipo_device.protocol.description import Scalar
 
 PLANS_KEPT = 64
@@ -43,11 +42,12 @@ def advance_run(run_id: UUID | str) -> bool:
         plan, needs = _plan(run.id)
         now = datetime.now(UTC)
         deliveries, early = split_early(run, needs, mailbox.waiting_for_run(run.id), now)
-        facts = facts_of(needs, run, now)
-        journal = Journal(run, now, _names(run.site.slug))
+        messages = [delivery.message for delivery in deliveries]
+        facts = facts_of(needs, run, messages, now)
+        journal = Journal(run, now, names_of(run, messages))
         if early:
             wake_later(run, now)
-        state = _fold(_Step(run, plan, journal), facts, [delivery.message for delivery in deliveries])
+        state = _fold(_Step(run, plan, journal), facts, messages)
         _write(run, state, journal, watches=bool(early) or _watches(plan, state))
         mailbox.mark_taken(deliveries)
         mailbox.crash_point("run_before_commit")
@@ -76,10 +76,6 @@ def _plan(run_id: UUID) -> tuple[Plan, Needs]:
         while len(_plans) > PLANS_KEPT:
             _plans.popitem(last=False)
     return _plans[run_id]
-
-
-def _names(slug: str) -> dict[str, str]:
-    return {device.id: device.name for device in registry.list_devices(site=slug)}
 
 
 def _fold(step: _Step, facts: Mapping[tuple[str, str], Scalar], messages: list[ToRun]) -> RunState:

@@ -1,14 +1,16 @@
-"""What a run is told of the world before each step: readings, positions, roles, the time of day."""
+"""What a run is told of the world before each step: readings, positions, roles, the time of day, devices' names."""
 
 from __future__ import annotations
 
 import time
 from collections import OrderedDict
+from collections.abc import Iterable, Mapping
 from datetime import datetime
 from uuid import UUID
 
 from django.utils import timezone
 
+from execution.floor_protocol import CommandEnded, CommandGiven, RobotSetsOut, RoleFilled, ToRun, WaitNoted
 from execution.machine.needs import Facts, Needs, clock_fact, position_facts, role_facts
 from execution.models import Run
 from registry import services as registry
@@ -18,28 +20,49 @@ KEPT = 256
 _posed_at: OrderedDict[UUID, float] = OrderedDict()
 
 
-def facts_of(needs: Needs, run: Run, now: datetime) -> Facts:
+def facts_of(needs: Needs, run: Run, messages: Iterable[ToRun], now: datetime) -> Facts:
     """Return what a run wants to know; robots' positions at most once a second."""
     robots = run.state is None or _is_time_for_poses(run.id)
-    return site_facts(needs, run.site.slug, now, robots=robots) | role_facts(needs, run.roles)
+    taken = {message.robot for message in messages if isinstance(message, RoleFilled)}
+    of_roles = frozenset(taken.union(run.roles.values()))
+    return site_facts(needs, run.site.slug, now, robots=robots, of_roles=of_roles) | role_facts(needs, run.roles)
 
 
-def site_facts(needs: Needs, site: str, now: datetime, *, robots: bool = True) -> Facts:
-    """Return the facts about a site that are needed."""
+def site_facts(
+    needs: Needs, site: str, now: datetime, *, robots: bool = True, of_roles: frozenset[str] = frozenset()
+) -> Facts:
+    """Return the facts about a site that are needed; `of_roles` are the robots that roles have."""
     facts: Facts = {}
-    if needs.properties or needs.positions:
-        devices = registry.list_devices(site=site)
-        facts |= {
-            (d.id, name): value for d in devices for name, value in d.readings.items() if name in needs.properties
-        }
-        if needs.positions:
-            there = [d for d in devices if robots or d.kind != "robot"]
-            facts |= position_facts((d.id, d.pose.x, d.pose.y) for d in there)
-            facts |= position_facts((place.id, place.x, place.y) for place in registry.list_places(site=site))
+    things = None if needs.things is None else needs.things | of_roles
+    if needs.properties:
+        said = registry.get_readings(site=site, ids=things)
+        facts |= {(d, name): v for d, one in said.items() for name, v in one.values.items() if name in needs.properties}
+    if needs.positions:
+        there = [p for p in registry.list_positions(site=site, ids=things) if robots or p.kind != "robot"]
+        facts |= position_facts((p.id, p.pose.x, p.pose.y) for p in there)
+        facts |= position_facts((place.id, place.x, place.y) for place in registry.list_places(site=site))
     if needs.clock:
         local = timezone.localtime(now)
         facts |= clock_fact(local.hour * 3600 + local.minute * 60 + local.second)
     return facts
+
+
+def names_of(run: Run, messages: Iterable[ToRun]) -> Mapping[str, str]:
+    """Return what the devices are called that the lines about these messages may name, by id."""
+    ids = {str(name) for message in messages for name in _named(message) if name}
+    return registry.get_device_names(site=run.site.slug, ids=ids) if ids else {}
+
+
+def _named(message: ToRun) -> Iterable[object]:
+    """Return all that may be a device's id, arguments of a command among it."""
+    match message:
+        case RoleFilled(robot=robot) | RobotSetsOut(robot=robot) | WaitNoted(robot=robot):
+            return (robot,)
+        case CommandGiven(device=device, arguments=arguments):
+            return (device, *arguments.values())
+        case CommandEnded(device=device):
+            return (device,)
+    return ()
 
 
 def _is_time_for_poses(run: UUID) -> bool:

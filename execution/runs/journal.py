@@ -23,7 +23,7 @@ from execution.machine import messages as r
 from execution.machine.messages import CancelAsked, PauseAsked, TimerFired
 from execution.models import Run, RunEvent
 from execution.runs.questions import in_short
-from execution.runs.views import event_to_json, run_to_json
+from execution.views import event_to_json, run_to_json, view_event, view_run
 from registry import services as registry
 
 TOLD_AT_LEAST = 100
@@ -166,7 +166,7 @@ class Journal:
         run, rows = self.run, self._rows
         run.steps, run.roles, run.next_seq = self.steps, self.roles, self.seq
         slug = run.site.slug
-        messages = [{"type": "run_event", "run": str(run.id), "event": event_to_json(row)} for row in rows]
-        messages.append({"type": "run", "run": run_to_json(run)})
+        messages = [{"type": "run_event", "run": str(run.id), "event": event_to_json(view_event(row))} for row in rows]
+        messages.append({"type": "run", "run": run_to_json(view_run(run))})
 
         transaction.on_commit(lambda: registry.publish_all([(slug, message) for message in messages]))

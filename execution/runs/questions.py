@@ -16,18 +16,19 @@ from execution.errors import AlreadyAnswered, AnswerNotFitting, NotFound, NotPos
 from execution.floor_protocol import QuestionAnswered
 from execution.machine.messages import AskPeople
 from execution.models import Question, Run
-from execution.runs.views import question_to_json
+from execution.views import QuestionView, question_to_json, view_question
 from registry import services as registry
 from vipo_device.protocol.description import Scalar
 
 LONGEST_ANSWER = 500
 
 
-def list_questions(*, site: str, run_id: UUID | str | None = None) -> list[dict[str, Any]]:
+def list_questions(*, site: str, run_id: UUID | str | None = None) -> tuple[QuestionView, ...]:
     """Return the open questions of a site, the oldest first; of one run all questions."""
     rows = Question.objects.select_related("run", "run__site").filter(run__site__slug=site).order_by("asked_at")
     rows = rows.filter(run_id=run_id) if run_id else rows.filter(state=Question.State.OPEN)
-    return [question_to_json(row) for row in rows.defer("run__plan", "run__state", "run__document", "run__compiled")]
+    rows = rows.defer("run__plan", "run__state", "run__document", "run__compiled")
+    return tuple(view_question(row) for row in rows)
 
 
 def site_of_question(*, question_id: UUID | str) -> str:
@@ -38,7 +39,7 @@ def site_of_question(*, question_id: UUID | str) -> str:
     return row.run.site.slug
 
 
-def answer_question(*, question_id: UUID | str, value: Any, by: str) -> dict[str, Any]:
+def answer_question(*, question_id: UUID | str, value: Any, by: str) -> QuestionView:
     """Answer a question; of several people who do so at once exactly one is first.
 
     Raises:
@@ -59,7 +60,7 @@ def answer_question(*, question_id: UUID | str, value: Any, by: str) -> dict[str
         row.refresh_from_db()
         mailbox.post_to_run(row.run_id, [(f"reply:{row.id}", QuestionAnswered(row.number, fitting, by, row.step))])
         publish(row)
-    return question_to_json(row)
+    return view_question(row)
 
 
 def _refuse(row: Question) -> None:
@@ -122,6 +123,6 @@ def withdraw(run: Run, number: int) -> None:
 
 def publish(row: Question) -> None:
     """Show a question as it is now to whoever watches the site, once the transaction is through."""
-    message = {"type": "question", "question": question_to_json(row)}
+    message = {"type": "question", "question": question_to_json(view_question(row))}
     slug = row.run.site.slug
     transaction.on_commit(lambda: registry.publish(slug, message))

@@ -53,11 +53,11 @@ def _has_not_spoken(run: Run, needs: Needs, order: TaskOrder) -> bool:
     if command is None or command.ended_at is None or order.kind == "move":
         return False
     concerned = {command.device, order.target.id}
-    read = [d for d in registry.list_devices(site=run.site.slug) if d.id in concerned]
-    return any(needs.properties & set(d.readings) and not _is_fresh(d, command) for d in read)
+    said = registry.get_readings(site=run.site.slug, ids=concerned).values()
+    return any(needs.properties & set(one.values) and not _is_fresh(one, command) for one in said)
 
 
-def _is_fresh(device: registry.DeviceView, command: Command) -> bool:
+def _is_fresh(device: registry.ReadingsView, command: Command) -> bool:
     """Tell whether a device has said how it is since it was done: idle and after it was asked, or after its answer."""
     seen = device.last_seen_at
     if seen is None or command.ended_at is None:

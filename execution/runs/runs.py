@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
-from typing import Any
 from uuid import UUID, uuid4
 
 from django.db import IntegrityError, transaction
@@ -16,13 +15,13 @@ from execution.floor_protocol import ResumeAsked, ToRun
 from execution.machine.messages import CancelAsked, PauseAsked
 from execution.models import Run, RunEvent
 from execution.runs.programs import Prepared
-from execution.runs.views import event_to_json, run_to_json
+from execution.views import RunEventView, RunView, WholeRunView, run_to_json, view_event, view_run
 from registry import services as registry
 
 EVENTS_AT_ONCE = 1000
 
 
-def start_run(*, prepared: Prepared, by: str, entry: int = 0) -> dict[str, Any]:
+def start_run(*, prepared: Prepared, by: str, entry: int = 0) -> RunView:
     """Start a run of a program that was checked; a worker takes it from here. `entry` is where it begins.
 
     Raises:
@@ -33,10 +32,10 @@ def start_run(*, prepared: Prepared, by: str, entry: int = 0) -> dict[str, Any]:
     return _announce(prepared, _create_numbered(prepared, by, entry))
 
 
-def _announce(prepared: Prepared, row: Run) -> dict[str, Any]:
-    view = run_to_json(row)
+def _announce(prepared: Prepared, row: Run) -> RunView:
+    view = view_run(row)
     mailbox.hint(mailbox.run_target(row.id))
-    transaction.on_commit(lambda: registry.publish(prepared.site, {"type": "run", "run": view}))
+    transaction.on_commit(lambda: registry.publish(prepared.site, {"type": "run", "run": run_to_json(view)}))
     return view
 
 
@@ -70,13 +69,13 @@ def _create(prepared: Prepared, by: str, entry: int) -> Run:
     )
 
 
-def pause_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
+def pause_run(*, run_id: UUID | str, by: str) -> RunView:
     """Ask a run to pause: nothing new is begun, what is under way settles."""
     row = _find_open(run_id)
     return _order(row, PauseAsked(f"{by} paused it"))
 
 
-def resume_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
+def resume_run(*, run_id: UUID | str, by: str) -> RunView:
     """Let a paused run go on where it is.
 
     Raises:
@@ -88,16 +87,16 @@ def resume_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
     return _order(row, ResumeAsked(by))
 
 
-def cancel_run(*, run_id: UUID | str, by: str) -> dict[str, Any]:
+def cancel_run(*, run_id: UUID | str, by: str) -> RunView:
     """Ask a run to end: what machines do for it is called off, its robots stop at the next safe point."""
     row = _find_open(run_id)
     return _order(row, CancelAsked(f"{by} cancelled it"))
 
 
-def _order(row: Run, order: ToRun) -> dict[str, Any]:
+def _order(row: Run, order: ToRun) -> RunView:
     with transaction.atomic():
         mailbox.post_to_run(row.id, [(f"order:{row.id}:{uuid4()}", order)])
-    return run_to_json(row)
+    return view_run(row)
 
 
 def _find(run_id: UUID | str) -> Run:
@@ -119,19 +118,19 @@ def site_of_run(*, run_id: UUID | str) -> str:
     return _find(run_id).site.slug
 
 
-def get_run(*, run_id: UUID | str) -> dict[str, Any]:
+def get_run(*, run_id: UUID | str) -> WholeRunView:
     """Return a run with its document and compiled form; raises NotFound."""
     row = _find(run_id)
-    return {**run_to_json(row), "document": row.document, "compiled": row.compiled}
+    return WholeRunView(view_run(row), row.document, row.compiled)
 
 
-def list_runs(*, site: str, limit: int = 50) -> list[dict[str, Any]]:
+def list_runs(*, site: str, limit: int = 50) -> tuple[RunView, ...]:
     """Return a site's runs, the newest first."""
     rows = Run.objects.select_related("site").filter(site__slug=site).defer("document", "compiled", "plan", "state")
-    return [run_to_json(row) for row in rows.order_by("-number")[:limit]]
+    return tuple(view_run(row) for row in rows.order_by("-number")[:limit])
 
 
-def list_events(*, run_id: UUID | str, after: int = 0) -> list[dict[str, Any]]:
+def list_events(*, run_id: UUID | str, after: int = 0) -> tuple[RunEventView, ...]:
     """Return the lines of a run's journal after a number, oldest first; at most a thousand at once."""
     rows = RunEvent.objects.filter(run_id=run_id, seq__gt=after).order_by("seq")
-    return [event_to_json(row) for row in rows[:EVENTS_AT_ONCE]]
+    return tuple(view_event(row) for row in rows[:EVENTS_AT_ONCE])

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import OrderedDict
 from dataclasses import asdict
 from datetime import UTC, datetime
-from typing import Any
 from uuid import UUID
 
 from django.db import transaction
@@ -20,20 +19,20 @@ from execution.models import ArmedProgram, Run
 from execution.runs.facts import site_facts
 from execution.runs.programs import Prepared
 from execution.runs.runs import start_run
-from execution.runs.views import armed_to_json
+from execution.views import ArmedView, armed_to_json, view_armed
 from registry import services as registry
 
 PLANS_KEPT = 64
 _plans: OrderedDict[tuple[UUID, datetime], Plan] = OrderedDict()
 
 
-def list_armed(*, site: str) -> list[dict[str, Any]]:
+def list_armed(*, site: str) -> tuple[ArmedView, ...]:
     """Return the armed programs of a site."""
     rows = ArmedProgram.objects.filter(site__slug=site).order_by("at")
-    return [armed_to_json(row) for row in rows]
+    return tuple(view_armed(row) for row in rows)
 
 
-def arm_program(*, prepared: Prepared, by: str) -> dict[str, Any]:
+def arm_program(*, prepared: Prepared, by: str) -> ArmedView:
     """Let a program start by itself from now on, in the version that was prepared; what holds already does not count.
 
     Raises:
@@ -59,7 +58,7 @@ def arm_program(*, prepared: Prepared, by: str) -> dict[str, Any]:
     with transaction.atomic():
         row, _ = ArmedProgram.objects.update_or_create(program=prepared.program, defaults=values)
         _announce(prepared.site)
-    return armed_to_json(row)
+    return view_armed(row)
 
 
 def disarm_program(*, program_id: UUID, site: str) -> None:
@@ -70,10 +69,14 @@ def disarm_program(*, program_id: UUID, site: str) -> None:
 
 
 def _announce(site: str) -> None:
-    transaction.on_commit(lambda: registry.publish(site, {"type": "armed", "programs": list_armed(site=site)}))
+    def publish() -> None:
+        programs = [armed_to_json(armed) for armed in list_armed(site=site)]
+        registry.publish(site, {"type": "armed", "programs": programs})
+
+    transaction.on_commit(publish)
 
 
-def start_armed(now: datetime) -> int:
+def start_armed(*, now: datetime) -> int:
     """Look at the conditions of all armed programs and start what has become due; returns how many runs."""
     rows = ArmedProgram.objects.select_related("site")
     return sum(_look_at(row, now) for row in rows)

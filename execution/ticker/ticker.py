@@ -47,7 +47,7 @@ class Ticker:
         fire_timers(now)
         if self._is_due("sites", TICK_SITES_S, now):
             mailbox.hint_watching()
-            start_armed(now)
+            start_armed(now=now)
         if self._is_due("sweep", SWEEP_S, now):
             sweep(now)
             for view in registry.mark_stale(now=now):
@@ -115,7 +115,7 @@ TICK_S = 0.1
 IDLE_S = 1.0
 
 
-def run_ticker(stopping: threading.Event) -> None:
+def run_ticker(*, stopping: threading.Event) -> None:
     """Tick until `stopping` is set; a database that is away is waited for."""
     while not stopping.is_set():
         try:

@@ -97,14 +97,20 @@ def view_of(device: Device, site: str) -> DeviceView:
 
 
 def effective_description(device: Device) -> Description:
-    """Return what the device says of itself, with the name and place that hold.
+    """Return what the device says of itself, with the name and place that hold."""
+    said = _read_description(device)
+    pose = pose_that_holds(said.kind, device.pose, device.pose_override)
+    return replace(said, name=device.name_override or said.name, pose=Pose(**pose) if pose else said.pose)
+
+
+def pose_that_holds(
+    kind: str, measured: Mapping[str, float] | None, placed: Mapping[str, float] | None
+) -> Mapping[str, float] | None:
+    """Return where a device is, of where it says it is now and where people put it; None where it was described.
 
     A robot knows best where it is; a machine is where people put it, else where it says.
     """
-    said = _read_description(device)
-    measured, placed = device.pose, device.pose_override
-    pose = (measured or placed) if said.kind == "robot" else (placed or measured)
-    return replace(said, name=device.name_override or said.name, pose=Pose(**pose) if pose else said.pose)
+    return (measured or placed) if kind == "robot" else (placed or measured)
 
 
 def _read_description(device: Device) -> Description:

@@ -8,11 +8,13 @@ import json
 import time
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta
-from typing import Any
-from uuid import UUID
+from typing import TYPE_CHECKING, Any
 
 from vipo_device.protocol.faults import printable
 from vipo_site.cli.terminal import CLEAN, FAULTY, complain, set_up, write, write_json
+
+if TYPE_CHECKING:
+    from execution.services import CallView
 
 POLL_S = 0.2
 GRACE = timedelta(seconds=3)
@@ -34,6 +36,8 @@ def add_arguments(sub: argparse.ArgumentParser) -> None:
 def call_device(options: argparse.Namespace) -> int:
     """Call and wait; return 0 when it is done, 1 when it is not, 2 when it could not be asked for."""
     set_up()
+    # Django has to be set up before models can be imported
+    from execution.services import call_to_json
     from vipo_device.protocol.errors import VipoError
 
     try:
@@ -43,13 +47,13 @@ def call_device(options: argparse.Namespace) -> int:
     except ValueError as error:
         return complain(str(error))
     if options.json:
-        write_json(call)
+        write_json(call_to_json(call))
     else:
         write(_in_words(call))
-    return CLEAN if call["status"] == "done" else FAULTY
+    return CLEAN if call.status == "done" else FAULTY
 
 
-def _call(options: argparse.Namespace) -> dict[str, Any]:
+def _call(options: argparse.Namespace) -> CallView:
     from execution import services as execution
     from registry import services as registry
 
@@ -70,22 +74,22 @@ def _call(options: argparse.Namespace) -> dict[str, Any]:
     try:
         return _wait(device.site, call)
     except KeyboardInterrupt:
-        cancel = f"POST /api/sites/{device.site}/calls/{call['id']}/cancel"
+        cancel = f"POST /api/sites/{device.site}/calls/{call.id}/cancel"
         complain(f"{device.id} may go on with {options.method}. Its page can end that, and so can {cancel}.")
         raise
 
 
-def _wait(site: str, call: Mapping[str, Any]) -> dict[str, Any]:
+def _wait(site: str, call: CallView) -> CallView:
     """Return the call when it is over; it is given up in time even where nothing of VIPO runs that would do it."""
     from execution import services as execution
 
-    given_up_at = datetime.fromisoformat(call["expires_at"]) + GRACE
-    while not call["over"]:
+    given_up_at = call.expires_at + GRACE
+    while not call.is_over:
         time.sleep(POLL_S)
         if datetime.now(UTC) > given_up_at:
             execution.expire_calls(now=datetime.now(UTC))
-        call = execution.get_call(site=site, call_id=UUID(call["id"]))
-    return dict(call)
+        call = execution.get_call(site=site, call_id=call.id)
+    return call
 
 
 def _person() -> str:
@@ -128,8 +132,8 @@ def _value(name: str, text: str, type_name: str) -> Any:
         raise ValueError(f"{name}={text} is no {type_name}. Write {examples[type_name]}.") from error
 
 
-def _in_words(call: Mapping[str, Any]) -> str:
-    result = "".join(f", {name} {value}" for name, value in call["result"].items())
-    sent = call["sent_at"] or call["status"] != "timed_out"
-    why = f": {call['why'] if sent else NEVER_SENT}" if call["why"] else ""
-    return printable(f"{call['device']}: {call['method']} is {call['status'].replace('_', ' ')}{result}{why}")
+def _in_words(call: CallView) -> str:
+    result = "".join(f", {name} {value}" for name, value in call.result.items())
+    sent = call.sent_at or call.status != "timed_out"
+    why = f": {call.why if sent else NEVER_SENT}" if call.why else ""
+    return printable(f"{call.device}: {call.method} is {call.status.replace('_', ' ')}{result}{why}")

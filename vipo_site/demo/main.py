@@ -275,7 +275,7 @@ def start_parts(options: argparse.Namespace, state: Path) -> list[Part]:
 
     parts = [start_broker(), start_worker()]
     parts.append(start_loop("gateway", lambda stopping: Gateway(settings).run_forever(stopping)))
-    parts.append(start_loop("ticker", run_ticker))
+    parts.append(start_loop("ticker", lambda stopping: run_ticker(stopping=stopping)))
     return parts + start_children(state, options.speed)
 
 

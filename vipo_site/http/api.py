@@ -11,7 +11,6 @@ from ninja.security import django_auth
 
 from editor.api import router as editor_router
 from execution.api import router as execution_router
-from execution.maps_api import router as map_changes_router
 from registry.api.alerts import router as alerts_router
 from registry.api.devices import router as devices_router
 from registry.api.maps import router as maps_router
@@ -81,4 +80,3 @@ api.add_router("", things_router)
 api.add_router("", mtconnect_router)
 api.add_router("", editor_router)
 api.add_router("", execution_router)
-api.add_router("", map_changes_router)

@@ -21,4 +21,4 @@ class Command(BaseCommand):
         stopping = threading.Event()
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: stopping.set())
-        run_ticker(stopping)
+        run_ticker(stopping=stopping)

@@ -45,13 +45,13 @@ class Shop:
     """Drives everything by hand, in virtual time: workers, ticker, gateway and devices."""
 
     def __init__(self):
-        self.world = make_world(Scene(demo_floor.grid(), DEVICES, seed=1), "kinematic")
+        self.world = make_world(scene=Scene(demo_floor.grid(), DEVICES, seed=1), driver="kinematic")
         self.offline = set()
         self.deliveries = 1
 
     def start(self, plan, **parameters):
         prepared = services.Prepared(uuid4(), SITE, "Errand", 1, {}, {}, plan_to_json(plan), parameters)
-        return services.start_run(prepared=prepared, by="Ada")["id"]
+        return str(services.start_run(prepared=prepared, by="Ada").id)
 
     def work(self):
         """What workers do with hints: everything that waits is taken in."""

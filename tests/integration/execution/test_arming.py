@@ -38,19 +38,19 @@ def heat(value):
 
 
 def look():
-    return services.start_armed(datetime.now(UTC))
+    return services.start_armed(now=datetime.now(UTC))
 
 
 def test_a_run_starts_at_the_events_body_when_the_condition_becomes_true(factory):
     heat(20)
     armed = arm()
-    assert (armed["version"], armed["by"]) == (3, "Ada")
+    assert (armed.version, armed.by) == (3, "Ada")
     assert look() == 0
     heat(90)
     assert look() == 1
     factory.go(lambda: Run.objects.get().status == "finished", limit_s=20)
     run = Run.objects.get()
-    assert (set(run.steps), str(run.program)) == ({"e", "cool"}, armed["program"])
+    assert (set(run.steps), run.program) == ({"e", "cool"}, armed.program)
     first = RunEvent.objects.filter(run=run).first()
     assert (first.code, first.text) == ("started_itself", "Run 1 started by itself; Ada has armed the program.")
 
@@ -83,7 +83,7 @@ def test_stop_all_disarms_until_somebody_arms_again(factory):
     heat(20)
     arm()
     services.press_stop(site=SITE, by="Otto")
-    assert services.list_armed(site=SITE) == []
+    assert services.list_armed(site=SITE) == ()
     heat(90)
     assert look() == 0
     with pytest.raises(services.NotPossibleNow, match="The site is stopped"):
@@ -101,6 +101,6 @@ def test_a_program_that_nothing_starts_cannot_be_armed(factory):
 def test_a_disarmed_program_starts_no_more(factory):
     heat(20)
     armed = arm()
-    services.disarm_program(program_id=armed["program"], site=SITE)
+    services.disarm_program(program_id=armed.program, site=SITE)
     heat(90)
-    assert (look(), services.list_armed(site=SITE)) == (0, [])
+    assert (look(), services.list_armed(site=SITE)) == (0, ())

@@ -5,7 +5,7 @@ import json
 from contextlib import redirect_stderr, redirect_stdout, suppress
 from datetime import UTC, datetime, timedelta
 from threading import Event, Thread
-from uuid import UUID, uuid4
+from uuid import uuid4
 
 import pytest
 from django.db import OperationalError
@@ -49,18 +49,18 @@ def call(device="paintMixer01", method="mixPaint", **arguments):
 
 
 def state(made):
-    return services.get_call(site=SITE, call_id=UUID(made["id"]))
+    return services.get_call(site=SITE, call_id=made.id)
 
 
 def test_a_call_is_carried_out_and_its_outcome_can_be_read(factory):
     made = call(time=2)
-    assert (made["status"], made["over"], made["by"], made["args"]) == ("pending", False, "Ada", {"time": 2})
-    factory.go(lambda: state(made)["over"], dt_s=10.0)
+    assert (made.status, made.is_over, made.by, made.arguments) == ("pending", False, "Ada", {"time": 2})
+    factory.go(lambda: state(made).is_over, dt_s=10.0)
     over = state(made)
-    assert (over["status"], over["why"], over["result"]) == ("done", "", {})
-    assert over["expires_at"] > over["created_at"] < over["ended_at"]
+    assert (over.status, over.why, over.result) == ("done", "", {})
+    assert over.expires_at > over.created_at < over.ended_at
     assert Command.objects.filter(device="paintMixer01").count() == 1
-    assert call(time=1)["status"] == "pending"
+    assert call(time=1).status == "pending"
 
 
 @pytest.mark.parametrize("role", [*ROLES, "stranger", "nobody"])
@@ -70,7 +70,7 @@ def test_operators_and_above_may_call_and_every_member_may_follow(factory, role)
     refused = {"viewer": 403, "stranger": 404, "nobody": 401}.get(role, 200)
     assert ask(client).status_code == refused
     assert Command.objects.count() == (1 if allowed else 0)
-    made = Command.objects.first() or Command.objects.get(id=call(time=2)["id"])
+    made = Command.objects.first() or Command.objects.get(id=call(time=2).id)
     path = f"/api/sites/{SITE}/calls/{made.id}"
     assert client.get(path).status_code == (200 if role == "viewer" else refused)
     assert client.post(f"{path}/cancel").status_code == refused
@@ -136,15 +136,15 @@ def test_nothing_is_called_while_the_site_is_stopped_and_a_stop_holds_what_is_un
     services.press_stop(site=SITE, by="Ada")
     factory.work()
     held = Command.objects.get(method="pause")
-    assert (held.device, held.arguments) == ("paintMixer01", {"command": made["id"]})
+    assert (held.device, held.arguments) == ("paintMixer01", {"command": str(made.id)})
     answer = ask(member("operator"), path=f"/api/sites/{SITE}/devices/curingOven01/call")
     assert answer.status_code == 422
     body = {"method": "curePaint", "args": {"time": 2}}
     answer = ask(member("author"), body, f"/api/sites/{SITE}/devices/curingOven01/call")
     assert (answer.status_code, answer.json()["detail"]) == (409, "The site is stopped. Reset the stop first.")
     services.reset_stop(site=SITE, by="Ada")
-    factory.go(lambda: state(made)["over"], dt_s=10.0)
-    assert state(made)["status"] == "done"
+    factory.go(lambda: state(made).is_over, dt_s=10.0)
+    assert state(made).status == "done"
 
 
 def test_a_device_does_one_thing_at_a_time(factory):
@@ -182,10 +182,10 @@ def test_what_a_run_holds_is_not_lent_and_the_answer_says_which_run(factory):
 def test_a_run_waits_for_a_device_that_somebody_uses_by_hand(factory):
     made = call(time=2)
     run = factory.start(CURE)
-    factory.go(lambda: "Ada, by hand" in str(services.get_run(run_id=run)["steps"]))
-    assert not state(made)["over"]
-    factory.go(lambda: services.get_run(run_id=run)["status"] == "finished", dt_s=3.0)
-    assert state(made)["status"] == "done"
+    factory.go(lambda: "Ada, by hand" in str(services.get_run(run_id=run).run.steps))
+    assert not state(made).is_over
+    factory.go(lambda: services.get_run(run_id=run).run.status == "finished", dt_s=3.0)
+    assert state(made).status == "done"
 
 
 @pytest.mark.parametrize("method", ["move", "mixPaint"])
@@ -195,8 +195,8 @@ def test_a_run_whose_device_is_taken_out_ends_and_the_floor_goes_on(factory, met
     device = Command.objects.filter(method=method).first().device
     registry.retire_device(site=SITE, device_id=device, by=None, at=datetime.now(UTC))
     end_commands_of_those_out(datetime.now(UTC))
-    factory.go(lambda: services.get_run(run_id=run)["status"] == "failed", limit_s=5.0)
-    assert services.get_run(run_id=run)["cause"] == {"code": "no_device", "args": {"device": device}}
+    factory.go(lambda: services.get_run(run_id=run).run.status == "failed", limit_s=5.0)
+    assert services.get_run(run_id=run).run.cause == {"code": "no_device", "args": {"device": device}}
     assert advance_site(SITE)
 
 
@@ -208,7 +208,7 @@ def test_a_method_whose_topic_is_not_confirmed_says_so(factory):
     told = "mixPaint waits until an admin confirms its topic plant/mix on Paint Mixer A's page."
     assert answer.json()["detail"] == told
     registry.confirm_topic(site=SITE, device_id="paintMixer01", topic="plant/mix", by=None, at=datetime.now(UTC))
-    assert call(time=2)["status"] == "pending"
+    assert call(time=2).status == "pending"
 
 
 @pytest.mark.parametrize(
@@ -224,7 +224,7 @@ def test_a_device_that_says_it_fills_the_whole_floor_does_not_end_its_traffic(fa
         factory.work()
         assert advance_site(SITE)
     Device.objects.filter(id=row.id).update(description=row.description)
-    factory.go(lambda: services.get_run(run_id=run)["status"] in ("finished", "failed"), dt_s=3.0)
+    factory.go(lambda: services.get_run(run_id=run).run.status in ("finished", "failed"), dt_s=3.0)
 
 
 def test_a_robot_drives_only_in_programs(factory):
@@ -241,10 +241,10 @@ def test_a_call_that_nobody_answers_is_given_up_and_the_device_is_free_again(fac
     factory.send()
     assert expire_calls(now=datetime.now(UTC) + timedelta(seconds=29)) == 0
     assert expire_calls(now=datetime.now(UTC) + timedelta(seconds=31)) == 1
-    assert (state(made)["status"], state(made)["why"]) == ("timed_out", NO_ANSWER)
+    assert (state(made).status, state(made).why) == ("timed_out", NO_ANSWER)
     factory.work()
-    assert Command.objects.get(method="cancel").arguments == {"command": made["id"]}
-    assert call(time=1)["status"] == "pending"
+    assert Command.objects.get(method="cancel").arguments == {"command": str(made.id)}
+    assert call(time=1).status == "pending"
 
 
 def test_what_a_device_was_told_ends_when_it_is_taken_out_and_nobody_else_hears_of_it(factory):
@@ -257,13 +257,13 @@ def test_what_a_device_was_told_ends_when_it_is_taken_out_and_nobody_else_hears_
     assert services.claim_commands(limit=5) == ()
     end_commands_of_those_out(now)
     told = "There is no approved device called “paintMixer01” on this site."
-    assert (state(made)["status"], state(made)["why"], state(made)["cause"]["code"]) == ("failed", told, "no_device")
-    done = {"device": "paintMixer01", "command_id": made["id"], "status": "DONE", "why": "", "result": {}, "at": now}
+    assert (state(made).status, state(made).why, state(made).cause["code"]) == ("failed", told, "no_device")
+    done = {"device": "paintMixer01", "command_id": str(made.id), "status": "DONE", "why": "", "result": {}, "at": now}
     assert not services.record_ack(**done)
     factory.work()
     registry.approve_device(**who)
     Device.objects.filter(id="paintMixer01").update(online=True)
-    assert call("paintMixer01", time=1)["status"] == "pending"
+    assert call("paintMixer01", time=1).status == "pending"
 
 
 def test_a_call_can_be_cancelled_while_it_is_carried_out(factory):
@@ -271,10 +271,10 @@ def test_a_call_can_be_cancelled_while_it_is_carried_out(factory):
     factory.work()
     factory.send()
     factory.pass_time(1)
-    assert state(made)["status"] in {"accepted", "running"}
-    services.cancel_call(site=SITE, call_id=UUID(made["id"]))
-    factory.go(lambda: state(made)["over"], dt_s=10.0)
-    assert state(made)["status"] == "cancelled"
+    assert state(made).status in {"accepted", "running"}
+    services.cancel_call(site=SITE, call_id=made.id)
+    factory.go(lambda: state(made).is_over, dt_s=10.0)
+    assert state(made).status == "cancelled"
 
 
 def vipo(*words):

@@ -28,7 +28,7 @@ def status(run):
 def open_question(factory, answer=None, **more):
     run = factory.start(asking(answer or AnswerSpec("boolean"), **more))
     factory.work()
-    return run, services.list_questions(site=SITE)[0]["id"]
+    return run, services.list_questions(site=SITE)[0].id
 
 
 def send(client, question, value):
@@ -40,16 +40,16 @@ def send(client, question, value):
 def test_a_question_is_shown_answered_and_the_run_goes_on(factory):
     run, question = open_question(factory)
     shown = services.list_questions(site=SITE)[0]
-    assert (shown["run"], shown["run_number"], shown["text"], shown["state"]) == (run, 1, "How is it?", "open")
-    assert shown["answer"] == {"type": "boolean", "unit": "", "minimum": None, "maximum": None, "options": []}
+    assert (str(shown.run), shown.run_number, shown.text, shown.state) == (run, 1, "How is it?", "open")
+    assert shown.answer == {"type": "boolean", "unit": "", "minimum": None, "maximum": None, "options": []}
     step = Run.objects.get(id=run).steps["q"]
     assert (step["status"], step["why"]) == ("waiting", {"code": "question", "args": {}})
     answer = services.answer_question(question_id=question, value=False, by="Ada")
-    assert (answer["state"], answer["value"], answer["answered_by"]) == ("answered", False, "Ada")
+    assert (answer.state, answer.value, answer.answered_by) == ("answered", False, "Ada")
     factory.work()
     assert status(run) == "finished"
-    assert services.list_questions(site=SITE) == []
-    assert [row["state"] for row in services.list_questions(site=SITE, run_id=run)] == ["answered"]
+    assert services.list_questions(site=SITE) == ()
+    assert [row.state for row in services.list_questions(site=SITE, run_id=run)] == ["answered"]
     texts = list(RunEvent.objects.filter(run=run, kind="question").values_list("text", flat=True))
     assert texts == ["How is it?", "Ada answered: no."]
     assert Run.objects.get(id=run).state["frames"]["0"] == {"it": False}
@@ -60,7 +60,7 @@ def test_of_many_who_answer_exactly_one_is_first_and_the_run_hears_one_answer(fa
     seen = []
     for number in range(4):
         try:
-            seen.append(services.answer_question(question_id=question, value=number, by=f"P{number}")["value"])
+            seen.append(services.answer_question(question_id=question, value=number, by=f"P{number}").value)
         except services.AlreadyAnswered as error:
             seen.append(error.detail)
     assert seen == [0, *["P0 has answered already: 0."] * 3]
@@ -140,7 +140,7 @@ def test_a_variable_set_by_an_answer_is_read(factory):
     ask = AskPerson(Constant("Which?"), AnswerSpec("choice", options=("a", "b")), "which", True)
     run = factory.start(Plan((Instruction(ask, "q"), Instruction(Notify(Variable("which"))), Instruction(End()))))
     factory.work()
-    question = services.list_questions(site=SITE)[0]["id"]
+    question = services.list_questions(site=SITE)[0].id
     services.answer_question(question_id=question, value="b", by="Ada")
     factory.work()
     assert RunEvent.objects.get(run=run, kind="notice").text == "b"

@@ -5,7 +5,6 @@ from editor.language.plan.instructions import Call, Drop, End, Instruction, Move
 from execution import services
 from execution.models import Command, InboxEvent, Run, RunEvent
 from execution.runs.advance import advance_run
-from execution.runs.views import run_to_json
 
 pytestmark = pytest.mark.django_db(transaction=True)
 SHELF, BOOTH = PlaceRef(device="itemInventory01"), PlaceRef(device="paintMachine01")
@@ -36,11 +35,11 @@ def whole_history(run):
 def test_a_box_is_carried_from_shelf_to_booth(factory):
     run = factory.start(CARRY)
     factory.go(lambda: status(run) == "finished")
-    view = services.get_run(run_id=run)
-    assert (view["number"], view["reason"], view["roles"]) == (1, "", {"robot": "robot01"})
-    assert view["steps"]["s1"]["status"] == "done"
+    view = services.get_run(run_id=run).run
+    assert (view.number, view.reason, view.roles) == (1, "", {"robot": "robot01"})
+    assert view.steps["s1"]["status"] == "done"
     assert factory.world.robots()["robot01"].carrying == {}
-    texts = [event["text"] for event in services.list_events(run_id=run)]
+    texts = [event.text for event in services.list_events(run_id=run)]
     assert texts[0] == "Ada started run 1."
     assert "Item Inventory: dispense(box, 1)" in texts
     assert "TurtleBot 1 is done: drop." in texts
@@ -90,16 +89,16 @@ def test_a_cancelled_run_frees_its_robot_and_its_machines(factory):
     services.cancel_run(run_id=run, by="Ada")
     factory.go(lambda: status(run) == "cancelled")
     assert Run.objects.get(id=run).reason == "Ada cancelled it"
-    assert run_to_json(Run.objects.get(id=run))["cause"] == {"code": "cancelled_by", "args": {"by": "Ada"}}
+    assert services.get_run(run_id=run).run.cause == {"code": "cancelled_by", "args": {"by": "Ada"}}
     second = factory.start(CARRY)
     factory.go(lambda: status(second) == "finished")
-    assert services.get_run(run_id=second)["roles"] == {"robot": "robot01"}
+    assert services.get_run(run_id=second).run.roles == {"robot": "robot01"}
 
 
 def test_two_runs_use_two_robots_and_one_booth_after_the_other(factory):
     runs = [factory.start(CARRY), factory.start(CARRY)]
     factory.go(lambda: {status(run) for run in runs} == {"finished"})
-    robots = {services.get_run(run_id=run)["roles"]["robot"] for run in runs}
+    robots = {services.get_run(run_id=run).run.roles["robot"] for run in runs}
     assert len(robots) == 2
 
 
@@ -145,7 +144,7 @@ def test_a_robot_that_vanishes_fails_its_step_as_offline(factory, monkeypatch):
 def test_a_timer_is_a_row_and_fires_once(factory):
     run = factory.start(Plan((Instruction(Wait(Constant(30)), "w", 1), Instruction(End()))))
     factory.go(lambda: status(run) == "finished", limit_s=40)
-    kinds = [event["code"] for event in services.list_events(run_id=run)]
+    kinds = [event.code for event in services.list_events(run_id=run)]
     assert kinds == ["started", "step_entered", "step_done", "finished"]
 
 

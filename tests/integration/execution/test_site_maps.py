@@ -121,7 +121,7 @@ def test_nothing_changes_while_a_run_is_open_or_a_device_is_at_work(factory):
     refused = send(client, f"/sites/{SITE}/map/restore", {"version": 1, "replaces": 1})
     assert refused.json()["args"] == {"why": "map_busy", "device": "paintMixer02"}
     assert SiteMap.objects.count() == 1
-    Command.objects.filter(id=call["id"]).update(status="done")
+    Command.objects.filter(id=call.id).update(status="done")
     assert use(client).status_code == 200
 
 

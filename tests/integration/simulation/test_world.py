@@ -32,7 +32,7 @@ class Play:
     """A world, and all that happened in it."""
 
     def __init__(self, scene: Scene, driver: DriverName) -> None:
-        self.world: World = make_world(scene, driver)
+        self.world: World = make_world(scene=scene, driver=driver)
         self.events: list[WorldEvent] = []
 
     def tell(self, device: str, method: str, command: str, /, **arguments: object) -> None:
@@ -360,7 +360,7 @@ STORY = """
 import hashlib, sys
 from simulation.services import make_world
 from tests.unit.simulation.stage_set import robot, scene
-world = make_world(scene(robot("a", 3.0, 4.0), robot("b", 8.0, 4.2, 3.1), seed=3), sys.argv[1])
+world = make_world(scene=scene(robot("a", 3.0, 4.0), robot("b", 8.0, 4.2, 3.1), seed=3), driver=sys.argv[1])
 world.command("a", "move", {"path": [[9.0, 4.0]]}, "m1")
 world.command("b", "move", {"path": [[2.0, 4.2], [2.0, 2.0]]}, "m2")
 world.command("oven", "curePaint", {"time": 1}, "o")

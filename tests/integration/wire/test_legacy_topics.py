@@ -85,14 +85,14 @@ def test_a_command_reaches_its_device_on_the_confirmed_topic_and_is_refused_afte
 
     def call() -> UUID:
         made = execution.call_method(site=SITE, device_id="mixer01", method="mixPaint", arguments={"time": 5}, by="Ada")
-        return UUID(made["id"])
+        return made.id
 
     wait("the device", lambda: services.get_device(site=SITE, device_id="mixer01").online)
     with pytest.raises(NotPossibleNow):
         call()
     services.confirm_topic(site=SITE, device_id="mixer01", topic=TOPIC, by=None, at=now)
     command = call()
-    wait("the answer", lambda: execution.get_call(site=SITE, call_id=command)["status"] == "done")
+    wait("the answer", lambda: execution.get_call(site=SITE, call_id=command).status == "done")
     assert {(topic, body["id"], body["v"]["time"]) for topic, body in told} == {(TOPIC, str(command), 5)}
     services.withdraw_topic(site=SITE, device_id="mixer01", topic=TOPIC, by=None, at=now)
     with pytest.raises(NotPossibleNow):

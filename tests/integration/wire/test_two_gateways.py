@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from contextlib import ExitStack
 from datetime import UTC, datetime
 from pathlib import Path
-from uuid import UUID
 
 import pytest
 from django.conf import LazySettings
@@ -144,9 +143,7 @@ def test_the_death_of_one_gateway_loses_no_answer_and_no_description(
             gateways.kill("one")
         wait(
             f"the answers of round {number}",
-            lambda made=calls: all(
-                execution.get_call(site=SITE, call_id=UUID(c["id"]))["status"] == "done" for c in made
-            ),
+            lambda made=calls: all(execution.get_call(site=SITE, call_id=c.id).status == "done" for c in made),
             60,
         )
     last = dict.fromkeys(NAMES, STATES * ROUNDS)

@@ -13,7 +13,7 @@ import pytest
 
 from execution.models import RunEvent
 from execution.reasons import SAID, SENTENCES, cause_of
-from execution.runs.views import event_to_json
+from execution.views import view_event
 
 ROOT = Path(__file__).parents[3]
 SOURCES = sorted((ROOT / "execution").rglob("*.py"))
@@ -79,7 +79,7 @@ def test_no_reason_has_no_cause() -> None:
 )
 def test_a_line_of_a_runs_journal_tells_why(kind: str, code: str, text: str, cause: object) -> None:
     event = RunEvent(seq=1, at=datetime(2026, 11, 22, tzinfo=UTC), t_s=0.0, kind=kind, code=code, text=text)
-    assert event_to_json(event)["cause"] == cause
+    assert view_event(event).cause == cause
 
 
 @pytest.mark.parametrize("language", ["en", "de"])

@@ -1,0 +1,166 @@
+"""A hall with as many devices as wanted, one run in it, and a count of what its steps ask of the database."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import Any
+from uuid import UUID, uuid4
+
+from django.db import connection
+
+from editor.language import plan_to_json
+from editor.language.plan.instructions import (
+    Call,
+    Constant,
+    End,
+    Instruction,
+    Operation,
+    PlaceRef,
+    Plan,
+    Reading,
+    WaitUntil,
+)
+from execution import services
+from execution.floor.advance import advance_site
+from execution.models import Command
+from execution.runs.advance import advance_run
+from registry import services as registry
+from registry.floorplan.plan import Grid
+from registry.models import Device, Site
+from vipo_device.descriptions.reader import hash_of_json
+from vipo_device.protocol.description import (
+    Description,
+    MethodSpec,
+    ParameterSpec,
+    Pose,
+    PropertySpec,
+    Size,
+    description_to_json,
+)
+
+SITE = "hall"
+OVEN = "machine000"
+ROBOTS = 2
+CELLS, CELL_M, APART_M = 440, 0.1, 2.4
+HOT = Operation(">", (Reading(Constant(OVEN), "temperature"), Constant(50)))
+PLAN = Plan(
+    (
+        Instruction(Call(PlaceRef(device=OVEN), "heat", {"value": Constant(1)}), "heat"),
+        Instruction(WaitUntil(HOT, None), "wait"),
+        Instruction(End()),
+    ),
+    reads=((OVEN, "temperature"),),
+)
+
+
+@dataclass
+class Count:
+    """What was asked of the database: statements, and rows of devices that came back."""
+
+    statements: int = 0
+    device_rows: int = 0
+    cpu_ms: float = 0.0
+
+
+def fill_hall(count: int) -> None:
+    """Make the hall, with this many approved devices that are there."""
+    registry.create_site(name="Hall", slug=SITE)
+    registry.save_map(site=SITE, grid=Grid(CELLS, CELLS, CELL_M, 0.0, 0.0, bytes(CELLS * CELLS)))
+    site = Site.objects.get(slug=SITE)
+    Device.objects.bulk_create(_row(_describe(number), site) for number in range(count))
+
+
+def _describe(number: int) -> Description:
+    robot = number >= 1 and number <= ROBOTS
+    name = f"robot{number:03d}" if robot else f"machine{number:03d}"
+    row, column = divmod(number, int(CELLS * CELL_M / APART_M))
+    methods = ("move", "pick", "drop") if robot else ("heat", "dispense", "accept")
+    return Description(
+        name, f"Device {number}", "robot" if robot else "machine", "turtlebot" if robot else "oven",
+        Pose((column + 0.5) * APART_M, (row + 0.5) * APART_M), Size(0.4, 0.4, 0.4),
+        site=SITE, radius_m=0.18 if robot else 0.0, speed_m_s=0.5 if robot else 0.0,
+        properties=tuple(PropertySpec(p, "number", "DEG_C", -20, 120) for p in ("temperature", "pressure", "load")),
+        methods=tuple(
+            MethodSpec(m, f"vipo/v1/dev/{name}/down/{m}", parameters=(ParameterSpec("value", "number"),))
+            for m in methods
+        ),
+    )  # fmt: skip
+
+
+def _row(said: Description, site: Site) -> Device:
+    whole = description_to_json(said)
+    now = datetime.now(UTC)
+    return Device(
+        id=said.id, site=site, lifecycle="approved", description=whole, description_hash=hash_of_json(whole),
+        online=True, properties={"temperature": 20, "pressure": 1, "load": 0}, last_seen_at=now,
+    )  # fmt: skip
+
+
+def carry_out_run(*, counting: bool = True) -> Mapping[str, Count]:
+    """Carry a run out and return what each of its steps took; counting takes processor time itself."""
+    _say(20)
+    prepared = services.Prepared(uuid4(), SITE, "Heating", 1, {}, {}, plan_to_json(PLAN), {})
+    run = services.start_run(prepared=prepared, by="Ada").id
+    found = {"a run begins": _measure(counting, lambda: advance_run(run))}
+    found["the floor takes its task"] = _measure(counting, lambda: advance_site(SITE))
+    _answer(run)
+    found["the floor hears the answer"] = _measure(counting, lambda: advance_site(SITE))
+    found["the run hears the answer"] = _measure(counting, lambda: advance_run(run))
+    found["the floor has nothing to do"] = _measure(counting, lambda: advance_site(SITE))
+    _say(90)
+    found["a reading ends the run"] = _measure(counting, lambda: advance_run(run))
+    if services.get_run(run_id=run).run.status != "finished":
+        raise RuntimeError("The run did not end.")
+    advance_site(SITE)
+    return found
+
+
+def _say(temperature: int) -> None:
+    said = {"temperature": temperature, "pressure": 1, "load": 0}
+    Device.objects.filter(id=OVEN).update(properties=said, last_seen_at=datetime.now(UTC))
+
+
+def _answer(run: UUID) -> None:
+    """Let the machine answer that it is done, and say its state after it."""
+    command = Command.objects.get(run=run)
+    services.mark_commands_sent(ids=[str(command.id)])
+    at = datetime.now(UTC)
+    services.record_ack(device=OVEN, command_id=str(command.id), status="DONE", why="", result={}, at=at)
+    _say(21)
+
+
+def _measure(counting: bool, work: Callable[[], object]) -> Count:
+    count = Count()
+    with connection.execute_wrapper(_Counter(count)) if counting else nullcontext():
+        began = time.process_time()
+        work()
+        count.cpu_ms = (time.process_time() - began) * 1000
+    return count
+
+
+class _Counter:
+    """Counts statements; how many devices' rows one reads is asked beside it."""
+
+    def __init__(self, count: Count) -> None:
+        self._count = count
+        self._asking = False
+
+    def __call__(self, execute: Callable[..., Any], sql: str, params: Any, many: bool, context: Any) -> Any:
+        if not self._asking and not re.match(r"SAVEPOINT|RELEASE|BEGIN", sql):
+            self._count.statements += 1
+            if re.match(r'SELECT (?!.*FOR UPDATE).* FROM "registry_device"', sql):
+                with self._ask(), connection.cursor() as cursor:
+                    cursor.execute(f"SELECT count(*) FROM ({sql}) AS rows_read", params)
+                    self._count.device_rows += cursor.fetchone()[0]
+        return execute(sql, params, many, context)
+
+    @contextmanager
+    def _ask(self) -> Iterator[None]:
+        self._asking = True
+        yield
+        self._asking = False
