@@ -10,7 +10,7 @@ from ninja import Schema
 import editor.api
 import editor.shapes
 import execution.shapes
-import registry.shapes
+import registry.api.shapes
 import vipo_site.openapi
 from editor.language import compile_document, compiled_to_json
 from editor.shapes import CompiledShape, DocumentShape
