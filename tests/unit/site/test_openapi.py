@@ -11,7 +11,7 @@ import editor.api
 import editor.shapes
 import execution.shapes
 import registry.api.shapes
-import vipo_site.openapi
+import vipo_site.http.openapi
 from editor.language import compile_document, compiled_to_json
 from editor.shapes import CompiledShape, DocumentShape
 from execution.rehearsals.rehearsal import rehearse_program
