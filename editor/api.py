@@ -11,7 +11,7 @@ from ninja import Field, Router, Schema
 
 from editor import services
 from editor.expression_shapes import ExpressionShape, ExpressionToRead
-from editor.shapes import Compiled, Definition, Document, DrawnScriptShape, Parameters
+from editor.shapes import Compiled, Definition, Document, DrawnScriptShape, Parameters, StepKinds
 from editor.views import LibraryView, ProgramView, VersionView
 from registry import services as registry
 from registry.access import NotAMember, require
@@ -33,7 +33,7 @@ class ProgramShape(Schema):
     id: UUID
     name: str
     site: str
-    kinds: list[str]
+    kinds: StepKinds
     devices: list[str]
     edited_at: datetime
     edited_by: Author | None

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 from ninja import Field, Schema
+
+from editor.shapes import Value
+from registry.shown import Shown
 
 
 class ExpressionToRead(Schema):
@@ -43,7 +46,7 @@ class LineName(Schema):
 class ExpressionShape(Schema):
     """A Value and the line for it, with its type and unit as far as they are known."""
 
-    value: Any
+    value: Annotated[Any, Shown(Value)]
     text: str
     type: str
     unit: str

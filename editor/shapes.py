@@ -5,10 +5,37 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from ninja import Field, Schema
+from typing_extensions import TypeAliasType
 
 from registry.shown import Shown
 
 Position = tuple[float, float]
+StepKind = TypeAliasType(
+    "StepKind",
+    Literal[
+        "move",
+        "pick",
+        "drop",
+        "pick_and_drop",
+        "operate",
+        "wait",
+        "if",
+        "while",
+        "repeat",
+        "for_each",
+        "parallel",
+        "try",
+        "call",
+        "set",
+        "ask",
+        "notify",
+        "end",
+        "return",
+        "break",
+        "on_event",
+        "comment",
+    ],
+)
 
 
 class DevicePlace(Schema):
@@ -29,10 +56,61 @@ class PointPlace(Schema):
     point: Position
 
 
+class ParameterUse(Schema):
+    """A variable: a parameter of the program or the function, or what a step has set."""
+
+    param: str
+
+
+class Quantity(Schema):
+    """A number with its unit."""
+
+    quantity: tuple[float, str]
+
+
+class RoleUse(Schema):
+    """Whichever robot has the role."""
+
+    role: str
+
+
+class Whereabouts(Schema):
+    """Where something is, as a point."""
+
+    at: Place | RoleUse
+
+
+class ZoneUse(Schema):
+    """A zone of the program."""
+
+    zone: str
+
+
+class PropertyUse(Schema):
+    """What a device says of itself now: the device or the parameter that names it, and the property."""
+
+    property: tuple[str | ParameterUse, str]
+
+
+class Operation(Schema):
+    """An operator with what it is applied to."""
+
+    op: str
+    args: list[Value]
+
+
+Place = TypeAliasType("Place", DevicePlace | NamedPlace | PointPlace | ParameterUse)
+Value = TypeAliasType(
+    "Value",
+    "str | bool | float | None | list[Value]"
+    " | ParameterUse | Quantity | Whereabouts | ZoneUse | PropertyUse | Operation",
+)
+
+
 class StepShape(Schema):
     """A step: `place` is parent, branch and order; without it the step is a draft. `pos` in metres."""
 
-    kind: str
+    kind: StepKind
     place: tuple[str, str, str] | None = None
     pos: Position | None = None
     params: dict[str, Any]
@@ -44,7 +122,7 @@ class ParameterDefinition(Schema):
     name: str
     type: str
     unit: str
-    default: Any = None
+    default: Annotated[Any, Shown(Value)] = None
 
 
 class LibrarySource(Schema):
@@ -187,6 +265,7 @@ class DefinitionShape(Schema):
     steps: dict[str, StepShape]
 
 
+StepKinds = Annotated[list[str], Shown(list[StepKind])]
 Compiled = Annotated[dict[str, Any], Shown(CompiledShape)]
 Definition = Annotated[dict[str, Any], Shown(DefinitionShape)]
 Parameters = Annotated[list[dict[str, Any]], Shown(list[ParameterDefinition])]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any
+from typing import Annotated, Any, Literal
 
 from django.conf import settings
 from django.http import HttpRequest, HttpResponse
@@ -18,6 +18,7 @@ from registry.capability import description_to_json
 from registry.describing import read, write_description
 from registry.expecting import expect_newcomer
 from registry.rdf_text import BadDescription, DescriptionForm
+from registry.shown import Shown
 
 router = Router(tags=["registry"])
 _SENDS_TURTLE = {"responses": {200: {"content": {"text/turtle": {"schema": {"type": "string"}}}}}}
@@ -68,6 +69,21 @@ class FaultShape(Schema):
     args: dict[str, str | int | float]
 
 
+class DescribedMethod(Schema):
+    """A method of a description."""
+
+    name: str
+
+
+class DescribedShape(Schema):
+    """The most important of a description: whose it is, and what it can do."""
+
+    id: str
+    name: str
+    kind: Literal["robot", "machine"]
+    methods: list[DescribedMethod]
+
+
 class LookShape(Schema):
     """What VIPO makes of a description; with `faults` the rest is null or empty.
 
@@ -78,7 +94,7 @@ class LookShape(Schema):
     faults: list[FaultShape]
     notes: list[str]
     mended: list[FaultShape]
-    description: dict[str, Any] | None
+    description: Annotated[dict[str, Any] | None, Shown(DescribedShape | None)]
     turtle: str
 
 
