@@ -102,8 +102,7 @@ class Operation(Schema):
 Place = TypeAliasType("Place", DevicePlace | NamedPlace | PointPlace | ParameterUse)
 Value = TypeAliasType(
     "Value",
-    "str | bool | float | None | list[Value]"
-    " | ParameterUse | Quantity | Whereabouts | ZoneUse | PropertyUse | Operation",
+    "str | bool | float | list[Any] | ParameterUse | Quantity | Whereabouts | ZoneUse | PropertyUse | Operation | None",
 )
 
 
@@ -121,7 +120,7 @@ class ParameterDefinition(Schema):
 
     name: str
     type: str
-    unit: str
+    unit: str | None = None
     default: Annotated[Any, Shown(Value)] = None
 
 
@@ -144,7 +143,7 @@ class FunctionShape(Schema):
 class RoleShape(Schema):
     """A role: bound to a robot, or to any that can do what is named."""
 
-    name: str = ""
+    name: str | None = None
     device: str | None = None
     can: list[str] | None = None
 
@@ -162,7 +161,7 @@ class ResultShape(Schema):
     """What a function gives back."""
 
     type: str
-    unit: str = ""
+    unit: str | None = None
 
 
 class DocumentShape(Schema):

@@ -2182,7 +2182,7 @@ export interface components {
             default?: components["schemas"]["Value"];
             name: string;
             type: string;
-            unit: string;
+            unit?: string | null;
         };
         /** @description An argument of a method. */
         ParameterShape: {
@@ -2413,8 +2413,7 @@ export interface components {
         /** @description What a function gives back. */
         ResultShape: {
             type: string;
-            /** @default  */
-            unit: string;
+            unit?: string | null;
         };
         /** @description What a robot did, and its charge at the end (%). */
         RobotFigures: {
@@ -2439,8 +2438,7 @@ export interface components {
         RoleShape: {
             can?: string[] | null;
             device?: string | null;
-            /** @default  */
-            name: string;
+            name?: string | null;
         };
         /** @description Whichever robot has the role. */
         RoleUse: {
@@ -2654,7 +2652,7 @@ export interface components {
             replaces: number;
             version: number;
         };
-        Value: string | boolean | number | components["schemas"]["Value"][] | components["schemas"]["ParameterUse"] | components["schemas"]["Quantity"] | components["schemas"]["Whereabouts"] | components["schemas"]["ZoneUse"] | components["schemas"]["PropertyUse"] | components["schemas"]["Operation"] | null;
+        Value: string | boolean | number | unknown[] | components["schemas"]["ParameterUse"] | components["schemas"]["Quantity"] | components["schemas"]["Whereabouts"] | components["schemas"]["ZoneUse"] | components["schemas"]["PropertyUse"] | components["schemas"]["Operation"] | null;
         /** @description What a version is about. */
         VersionMessage: {
             /** @default  */

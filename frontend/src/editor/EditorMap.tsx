@@ -30,7 +30,8 @@ import { Cursors } from "./parts/Cursors";
 import { DevicePalette } from "./parts/DevicePalette";
 import { LoadAsk } from "./parts/LoadAsk";
 import { PreviewLine } from "./parts/PreviewLine";
-import { pressZoneTool, ZONE_TOOL } from "./zones/drawing";
+import { ZONE_TOOL } from "./state/tools";
+import { pressZoneTool } from "./zones/drawing";
 import { EditorZones, ZoneHandles } from "./zones/ZoneLayer";
 
 interface EditorMapProps {

@@ -1,6 +1,6 @@
 import i18next from "i18next";
 import { beforeEach, expect, test } from "vitest";
-import type { DeviceEvent } from "@/api/devices";
+import type { DeviceEvent } from "@/api/types";
 import de from "./de/device.json";
 import { deviceEventWords } from "./deviceEvents";
 import { doingWords } from "./doing";
@@ -20,7 +20,7 @@ const event = (code: string, args: Record<string, unknown>): DeviceEvent => ({
   text: "As it was written",
   code,
   args,
-  by: null,
+  by: "",
   changes: [],
 });
 

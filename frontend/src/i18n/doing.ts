@@ -1,11 +1,11 @@
 /** What a device is doing, in the language of the screen; what it says itself stays as it is, in quotes. */
 import i18next from "i18next";
-import type { Activity } from "@/api/devices";
 import { formatNumber } from "./format";
 
 interface Doer {
   readonly doing: string;
-  readonly activity?: Activity | null;
+  /** What it is doing, by a code; null where it says so only in its own words. */
+  readonly activity?: { readonly code: string; readonly args: Readonly<Record<string, unknown>> } | null;
 }
 
 /** `2 boxes`; in other languages `2 × box`, for objects are called as the site calls them. */

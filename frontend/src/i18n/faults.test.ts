@@ -1,8 +1,7 @@
 import i18next from "i18next";
 import { beforeAll, expect, test } from "vitest";
-import type { Alert } from "@/api/alerts";
-import type { DeviceEvent } from "@/api/devices";
-import type { Fault } from "@/api/faults";
+import type { Alert } from "@/api/types";
+import type { DeviceEvent, Fault } from "@/api/types";
 import { ownWords } from "@/app/alerts/words";
 import adding from "./de/adding.json";
 import device from "./de/device.json";
@@ -30,7 +29,7 @@ const twice: Fault = {
 const colon: Fault = { ...twice, code: "mended_colon", column: 0, args: { key: "methods" } };
 
 function line(args: Record<string, unknown>, code = "problem"): DeviceEvent {
-  return { at: "", kind: code, text: "desc: English", code, args, by: null, changes: [] };
+  return { at: "", kind: code, text: "desc: English", code, args, by: "", changes: [] };
 }
 
 test("a fault is told in the language of the screen, with its place", () => {

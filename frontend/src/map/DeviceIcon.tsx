@@ -1,6 +1,6 @@
 /** The icon of a device's class: VIPO's own where there is one, Lucide's else. */
 import { Boxes, Cpu, PackageCheck, PaintBucket, SprayCan, type LucideIcon } from "lucide-react";
-import { hasVipoIcon, VipoIcon } from "./VipoIcon";
+import { hasVipoIcon, VipoIcon } from "@/design/VipoIcon";
 
 const LUCIDE: Readonly<Record<string, LucideIcon>> = {
   shelf: Boxes,

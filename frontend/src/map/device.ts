@@ -1,8 +1,8 @@
 /** What a map needs to know about a device, and how a status looks. */
-import type { Activity } from "@/api/devices";
+import type { Activity, DeviceStatus } from "@/api/types";
 import { PIXELS_PER_METRE } from "./projection";
 
-export type DeviceStatus = "idle" | "busy" | "done" | "waiting" | "warning" | "error" | "offline" | "pending";
+export type { DeviceStatus };
 
 export interface MapDevice {
   readonly id: string;

@@ -7,11 +7,11 @@ import { ArmSwitch } from "@/app/ArmSwitch";
 import { Avatar } from "@/design/Avatar";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatAgo } from "@/i18n/format";
+import { StepIcons } from "@/program/StepIcons";
 import styles from "./pages.module.css";
 import { nameOf } from "./people";
 import { isOpen, lastRuns, statusOfRun } from "./runs";
 import { ProgramActions } from "./ProgramActions";
-import { StepIcons } from "./steps";
 import { useNow } from "./useNow";
 
 export function Soundness({ program }: { program: Program }) {

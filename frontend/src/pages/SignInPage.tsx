@@ -9,7 +9,7 @@ import { LoadProblem, problemText } from "@/app/LoadProblem";
 import { Waiting } from "@/app/RequireUser";
 import { api, rememberCsrf } from "@/api/client";
 import { keys, useMe } from "@/api/queries";
-import type { DemoAccount, Me } from "@/api/types";
+import type { Me } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
@@ -36,9 +36,9 @@ function DemoAccounts({
   busy,
   use,
 }: {
-  accounts: DemoAccount[];
+  accounts: Me["demo_accounts"];
   busy: boolean;
-  use: (who: DemoAccount) => void;
+  use: (who: Me["demo_accounts"][number]) => void;
 }) {
   const { t } = useTranslation();
   if (accounts.length === 0) return null;
@@ -67,7 +67,7 @@ function SignInForm({ me }: { me: Me }) {
     event.preventDefault();
     signIn.mutate(who);
   };
-  const use = ({ email, password }: DemoAccount) => {
+  const use = ({ email, password }: Me["demo_accounts"][number]) => {
     setWho({ email, password });
     signIn.mutate({ email, password });
   };

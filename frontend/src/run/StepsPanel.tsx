@@ -2,7 +2,7 @@ import { useEffect, useRef } from "react";
 import { useTranslation } from "react-i18next";
 import type { RunEvent } from "@/api/types";
 import { StatusGlyph, type StatusName } from "@/design/StatusGlyph";
-import { VipoIcon } from "@/map/VipoIcon";
+import { VipoIcon } from "@/design/VipoIcon";
 import { clock } from "@/design/clock";
 import { waitWords } from "@/i18n/waits";
 import styles from "./RunScreen.module.css";

@@ -1,7 +1,7 @@
 import { useMemo } from "react";
 import type { ProgramDocument } from "@/api/types";
 import { useEditorText } from "@/editor/canvas/useScene";
-import { kindOf } from "@/editor/scene/kinds";
+import { kindOf } from "@/program/kinds";
 import { surroundingsOf, type SiteDevice } from "@/editor/scene/surroundings";
 import { chipText, conditionText, placeName, plainText } from "@/editor/scene/words";
 import type { MapPlace } from "@/map/floor";

@@ -4,7 +4,7 @@ import { BellOff } from "lucide-react";
 import { useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useDevices } from "@/api/queries";
-import type { Alert, AlertState } from "@/api/types";
+import type { Alert } from "@/api/types";
 import { EmptyState } from "@/design/EmptyState";
 import { useClock } from "./useClock";
 import { LoadProblem } from "../LoadProblem";
@@ -13,7 +13,7 @@ import { inState, sortAlerts } from "./alerts";
 import styles from "./alerts.module.css";
 import { useAlerts, useMarkSeen, useOverAlerts } from "./useAlerts";
 
-const STATES: readonly AlertState[] = ["open", "seen", "over"];
+const STATES: readonly Alert["state"][] = ["open", "seen", "over"];
 
 function Waiting() {
   const { t } = useTranslation();
@@ -84,13 +84,13 @@ function Head({ slug, count }: { slug: string; count: number }) {
 
 export function AlertList({ slug, onLeave }: { slug: string; onLeave: () => void }) {
   const { t } = useTranslation();
-  const [state, setState] = useState<AlertState>("open");
+  const [state, setState] = useState<Alert["state"]>("open");
   const box = useRef<HTMLDivElement>(null);
   const { alerts, query } = useAlerts(slug);
   const over = useOverAlerts(slug, state === "over");
   const asked = state === "over" ? over : query;
   const shown = state === "over" ? (over.data ?? []) : sortAlerts(inState(alerts, state));
-  const label = (each: AlertState) =>
+  const label = (each: Alert["state"]) =>
     each === "over" ? t("alerts.state.over") : `${t(`alerts.state.${each}`)} ${inState(alerts, each).length}`;
   return (
     <>
@@ -100,7 +100,7 @@ export function AlertList({ slug, onLeave }: { slug: string; onLeave: () => void
         size="xs"
         aria-label={t("alerts.filter")}
         value={state}
-        onChange={(value) => setState(value as AlertState)}
+        onChange={(value) => setState(value as Alert["state"])}
         data={STATES.map((each) => ({ value: each, label: label(each) }))}
       />
       <div className={styles.scroll} ref={box} tabIndex={-1}>

@@ -1,5 +1,5 @@
 /** Which alerts are shown, in which order, and what is new among them; pure. */
-import type { Alert, AlertSeverity, AlertState, Role } from "@/api/types";
+import type { Alert, AlertSeverity, Role } from "@/api/types";
 
 const RANKS: Readonly<Record<AlertSeverity, number>> = { error: 2, warning: 1, info: 0 };
 
@@ -15,7 +15,7 @@ export function sortAlerts(alerts: readonly Alert[]): Alert[] {
   );
 }
 
-export function inState(alerts: readonly Alert[], state: AlertState): Alert[] {
+export function inState(alerts: readonly Alert[], state: Alert["state"]): Alert[] {
   return alerts.filter((alert) => alert.state === state);
 }
 

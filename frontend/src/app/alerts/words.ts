@@ -1,6 +1,6 @@
 /** An alert in the language of the screen; the server's English where a code is newer than this page. */
 import i18next from "i18next";
-import { faultsOf } from "@/api/faults";
+import { faultsOf } from "@/i18n/faults";
 import type { Alert, AlertSeverity } from "@/api/types";
 import type { StatusName } from "@/design/StatusGlyph";
 import { faultsWords } from "@/i18n/faults";

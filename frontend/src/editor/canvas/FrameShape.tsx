@@ -1,7 +1,7 @@
 /** A frame around the steps of a loop or a Try, in the state of its head. */
 import type { CSSProperties } from "react";
 import type { Frame } from "../scene/frames";
-import { isLoop } from "../scene/kinds";
+import { isLoop } from "@/program/kinds";
 import { cornerMark } from "./cornerMark";
 import classes from "./stage.module.css";
 import type { OtherPerson, StepState } from "./stepState";

@@ -1,7 +1,7 @@
 /** A step on the map: number badge, icon, short text; its shape says what it is. */
 import { Box } from "lucide-react";
 import { memo, type CSSProperties } from "react";
-import { VipoIcon } from "@/map/VipoIcon";
+import { VipoIcon } from "@/design/VipoIcon";
 import type { Chip } from "../scene/chips";
 import type { TextPart } from "../scene/words";
 import { cornerMark } from "./cornerMark";

@@ -4,10 +4,11 @@ import { useMemo, type ReactNode } from "react";
 import { Button } from "@mantine/core";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
-import { VipoIcon } from "@/map/VipoIcon";
+import { VipoIcon } from "@/design/VipoIcon";
 import { useGestures } from "../gestures/store";
 import { knownNames } from "../model/variables";
-import { kindOf } from "../scene/kinds";
+import type { StepKind } from "@/api/types";
+import { isStepKind, kindOf } from "@/program/kinds";
 import { duplicateSelected, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
@@ -97,7 +98,7 @@ function StepPanel() {
   );
 }
 
-const FORMS: Readonly<Record<string, () => ReactNode>> = {
+const FORMS: Readonly<Record<StepKind, () => ReactNode>> = {
   pick_and_drop: LoadForm,
   pick: LoadForm,
   drop: LoadForm,
@@ -122,8 +123,9 @@ const FORMS: Readonly<Record<string, () => ReactNode>> = {
 };
 
 function Form({ kind }: { kind: string }) {
+  if (!isStepKind(kind)) return null;
   const Chosen = FORMS[kind];
-  return Chosen ? <Chosen /> : null;
+  return <Chosen />;
 }
 
 function ConditionOfStep() {

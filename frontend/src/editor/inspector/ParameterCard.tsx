@@ -130,7 +130,7 @@ function Default({ parameter, disabled, onChange }: Omit<ParameterCardProps, "on
     placeholder: t("parameter.no_default"),
     disabled,
   };
-  const store = (value: unknown) => {
+  const store = (value: string | number | boolean | null) => {
     const { name, type, unit } = parameter;
     onChange({ name, type, ...(unit ? { unit } : {}), ...(value === null ? {} : { default: value }) });
   };

@@ -2,7 +2,7 @@
 import { ArrowRight, X } from "lucide-react";
 import { useEffect, useRef } from "react";
 import { IconButton } from "@/design/IconButton";
-import { VipoIcon } from "@/map/VipoIcon";
+import { VipoIcon } from "@/design/VipoIcon";
 import { namesSet } from "../model/variables";
 import { changeProgramParameter } from "../model/renaming";
 import { unitText } from "../scene/words";

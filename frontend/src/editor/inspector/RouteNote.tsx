@@ -1,5 +1,5 @@
 /** "Move added for you: 18.4 m, about 1 min 6 s". */
-import { VipoIcon } from "@/map/VipoIcon";
+import { VipoIcon } from "@/design/VipoIcon";
 import { knownRoute } from "../canvas/useRoutes";
 import { RouteChoice } from "../gestures/RouteChoice";
 import { drawnRoute } from "../model/drawnRoute";

@@ -8,7 +8,7 @@ import { EMPTY_DOCUMENT, type Diagnostic, type Fix, type ProgramDocument, type S
 const fresh = { makeId: () => "new", robotName: (number: number) => `Robot ${number}` };
 
 function mend(document: ProgramDocument, fix: Pick<Fix, "step" | "field" | "value">): ProgramDocument {
-  return applyEdits(document, fixEdits(document, { label: "", ...fix }, fresh));
+  return applyEdits(document, fixEdits(document, fix, fresh));
 }
 
 function withSteps(steps: Record<string, Step>): ProgramDocument {
@@ -62,14 +62,14 @@ test("one branch of a Parallel gets a robot of its own, also for the steps insid
 });
 
 test("a remedy for a step that is gone changes nothing", () => {
-  expect(fixEdits(EMPTY_DOCUMENT, { label: "", step: "gone", field: "quantity", value: 1 }, fresh)).toEqual([]);
+  expect(fixEdits(EMPTY_DOCUMENT, { step: "gone", field: "quantity", value: 1 }, fresh)).toEqual([]);
 });
 
 test("a version of the library is told apart from other remedies", () => {
   const value = { function: "f", library: "lib", version: 3 };
-  expect(versionOf({ label: "", step: "s", field: "source.version", value })).toEqual(value);
-  expect(versionOf({ label: "", step: "s", field: "source.version", value: 3 })).toBeNull();
-  expect(versionOf({ label: "", step: "s", field: "quantity", value })).toBeNull();
+  expect(versionOf({ step: "s", field: "source.version", value })).toEqual(value);
+  expect(versionOf({ step: "s", field: "source.version", value: 3 })).toBeNull();
+  expect(versionOf({ step: "s", field: "quantity", value })).toBeNull();
 });
 
 test("problems and their remedies are shown in the language of the screen", () => {
@@ -79,8 +79,18 @@ test("problems and their remedies are shown in the language of the screen", () =
     step: "s",
     field: "place",
     message: "Join it.",
+    when: "ever",
+    args: {},
+    line: null,
     messages: { en: "Join it.", de: "Verbinden Sie ihn." },
-    fix: { label: "Join", labels: { en: "Join", de: "Verbinden" }, step: "s", field: "place", value: null },
+    fix: {
+      label: "Join",
+      labels: { en: "Join", de: "Verbinden" },
+      label_code: "join",
+      step: "s",
+      field: "place",
+      value: null,
+    },
   };
   const [german] = inLanguage([problem], "de-AT");
   const [english] = inLanguage([problem], "en");

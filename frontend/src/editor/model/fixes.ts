@@ -12,7 +12,9 @@ export interface Fresh {
   readonly robotName: (number: number) => string;
 }
 
-type Remedy = (document: ProgramDocument, fix: Fix, fresh: Fresh) => readonly Edit[];
+/** What a remedy changes; its words are for the screens. */
+type Change = Pick<Fix, "step" | "field" | "value">;
+type Remedy = (document: ProgramDocument, fix: Change, fresh: Fresh) => readonly Edit[];
 
 /** The fields that are no parameter: the step itself, its place, its kind, the robot of one of its branches. */
 const REMEDIES: Readonly<Record<string, Remedy>> = {
@@ -23,38 +25,38 @@ const REMEDIES: Readonly<Record<string, Remedy>> = {
 };
 
 /** `field` is one of the above, else a parameter's name, or `args.name` inside one. */
-export function fixEdits(document: ProgramDocument, fix: Fix, fresh: Fresh): readonly Edit[] {
+export function fixEdits(document: ProgramDocument, fix: Change, fresh: Fresh): readonly Edit[] {
   if (!document.steps[fix.step]) return [];
   return (REMEDIES[fix.field] ?? changedParameter)(document, fix, fresh);
 }
 
 /** The library's version that this remedy brings in; it is fetched first. */
-export function versionOf(fix: Fix): { function: string; library: string; version: number } | null {
+export function versionOf(fix: Change): { function: string; library: string; version: number } | null {
   if (fix.field !== "source.version" || typeof fix.value !== "object" || fix.value === null) return null;
   const { function: id, library, version } = fix.value as Record<string, unknown>;
   const whole = typeof id === "string" && typeof library === "string" && typeof version === "number";
   return whole ? { function: id, library, version } : null;
 }
 
-function changedParameter(document: ProgramDocument, { step: id, field, value }: Fix): readonly Edit[] {
+function changedParameter(document: ProgramDocument, { step: id, field, value }: Change): readonly Edit[] {
   const [name = "", inner] = field.split(".", 2);
   if (inner === undefined) return [{ do: "set_param", id, name, value }];
   const whole = { ...(document.steps[id]?.params[name] as Record<string, unknown> | undefined), [inner]: value };
   return [{ do: "set_param", id, name, value: whole }];
 }
 
-function joined(document: ProgramDocument, { step }: Fix): readonly Edit[] {
+function joined(document: ProgramDocument, { step }: Change): readonly Edit[] {
   const decision = joinDrafts(document, [step]);
   return "edits" in decision ? decision.edits : [];
 }
 
-function changedKind(document: ProgramDocument, { step: id, value }: Fix): readonly Edit[] {
+function changedKind(document: ProgramDocument, { step: id, value }: Change): readonly Edit[] {
   const step = document.steps[id];
   return step && typeof value === "string" ? [{ do: "add_step", id, step: { ...step, kind: value, params: {} } }] : [];
 }
 
 /** Every step of the branch that the role drives gets a new role, for any robot. */
-function ownRobot(document: ProgramDocument, fix: Fix, fresh: Fresh): readonly Edit[] {
+function ownRobot(document: ProgramDocument, fix: Change, fresh: Fresh): readonly Edit[] {
   const { branch, role } = fix.value as { branch: string; role: string };
   const inBranch = ([, step]: [string, ProgramDocument["steps"][string]]) =>
     step.place?.[0] === fix.step && step.place[1] === branch;

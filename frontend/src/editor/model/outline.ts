@@ -1,30 +1,6 @@
 /** Where each step stands, whatever people or merges have left: the rules of docs/language/README.md, as in Python. */
+import { isStepKind, kindOf } from "@/program/kinds";
 import type { ProgramDocument, Step } from "./types";
-
-/** The kinds of steps and their branches in the order in which they are read; those of a Parallel are its own. */
-const BRANCHES = {
-  move: [],
-  pick: [],
-  drop: [],
-  pick_and_drop: [],
-  operate: [],
-  wait: [],
-  call: [],
-  if: ["then", "else"],
-  while: ["body"],
-  repeat: ["body"],
-  for_each: ["body"],
-  try: ["body", "catch", "finally"],
-  parallel: [],
-  set: [],
-  ask: [],
-  notify: [],
-  end: [],
-  return: [],
-  break: [],
-  on_event: ["body"],
-  comment: [],
-} as const satisfies Record<string, readonly string[]>;
 
 const DEEPEST_STEP = 30;
 const MOST_BRANCHES = 26;
@@ -40,15 +16,11 @@ export interface Outline {
   readonly unknown: readonly string[];
 }
 
-export function isKnownKind(kind: string): boolean {
-  return Object.hasOwn(BRANCHES, kind);
-}
-
 /** The branches that a step of this kind has. */
 export function branchesOf(step: Step): readonly string[] {
   if (step.kind === "parallel") return parallelBranches(step.params.branches);
   if (step.kind === "try" && step.params.catch === false) return ["body", "finally"];
-  return isKnownKind(step.kind) ? BRANCHES[step.kind as keyof typeof BRANCHES] : [];
+  return kindOf(step.kind).branches ?? [];
 }
 
 function parallelBranches(value: unknown): readonly string[] {
@@ -58,7 +30,7 @@ function parallelBranches(value: unknown): readonly string[] {
 }
 
 export function makeOutline(document: ProgramDocument): Outline {
-  const known = Object.keys(document.steps).filter((id) => id && isKnownKind(document.steps[id]?.kind ?? ""));
+  const known = Object.keys(document.steps).filter((id) => id && isStepKind(document.steps[id]?.kind ?? ""));
   const placed = new Map<string, GoodPlace>();
   for (const id of known) {
     const place = placeOf(document, id);
@@ -71,7 +43,7 @@ export function makeOutline(document: ProgramDocument): Outline {
     children: (parent, branch) => branches.get(keyOf(parent, branch)) ?? [],
     drafts: known.filter((id) => !placed.has(id) && document.steps[id]?.kind !== "comment").sort(compareBytes),
     unknown: Object.keys(document.steps)
-      .filter((id) => id && !isKnownKind(document.steps[id]?.kind ?? ""))
+      .filter((id) => id && !isStepKind(document.steps[id]?.kind ?? ""))
       .sort(compareBytes),
   };
 }
@@ -88,7 +60,7 @@ function placeOf(document: ProgramDocument, id: string): GoodPlace | null {
 
 function takes(document: ProgramDocument, parent: string, branch: string, kind: string): boolean {
   const above = Object.hasOwn(document.steps, parent) ? document.steps[parent] : undefined;
-  if (above && isKnownKind(above.kind)) return kind !== "on_event" && branchesOf(above).includes(branch);
+  if (above && isStepKind(above.kind)) return kind !== "on_event" && branchesOf(above).includes(branch);
   if (kind === "on_event") return parent === "program" && branch === "events";
   return branch === "body" && (parent === "program" || Object.hasOwn(document.functions, parent));
 }

@@ -1,141 +1,39 @@
-/** The document (format 2) as plain JSON; docs/adr/0005-the-whole-language.md. */
+/** The document (format 2) and what the server says about it, as the screens read them: nothing in them is changed. */
+import type { components } from "@/api/schema";
 
-export type StepKind =
-  | "move"
-  | "pick"
-  | "drop"
-  | "pick_and_drop"
-  | "operate"
-  | "wait"
-  | "if"
-  | "while"
-  | "repeat"
-  | "for_each"
-  | "parallel"
-  | "try"
-  | "call"
-  | "set"
-  | "ask"
-  | "notify"
-  | "end"
-  | "return"
-  | "break"
-  | "on_event"
-  | "comment";
+type Schemas = components["schemas"];
+type Frozen<T> = T extends (infer Item)[]
+  ? number extends T["length"]
+    ? readonly Frozen<Item>[]
+    : { readonly [Index in keyof T]: Frozen<T[Index]> }
+  : T extends object
+    ? { readonly [Key in keyof T]: Frozen<T[Key]> }
+    : T;
 
-export type Place =
-  | { readonly device: string }
-  | { readonly place: string }
-  | { readonly point: readonly [number, number] }
-  | { readonly param: string };
-
+export type StepKind = Schemas["StepKind"];
+export type Place = Frozen<Schemas["Place"]>;
 export type Value =
-  | string
-  | number
-  | boolean
-  | null
-  | readonly Value[]
-  | { readonly param: string }
-  | { readonly quantity: readonly [number, string] }
-  | { readonly at: Place | { readonly role: string } }
-  | { readonly zone: string }
-  | { readonly property: readonly [string | { readonly param: string }, string] }
-  | { readonly op: string; readonly args: readonly Value[] };
-
-export interface Step {
-  readonly kind: string;
-  readonly place?: readonly [string, string, string] | null;
-  readonly pos?: readonly [number, number] | null;
-  readonly params: Readonly<Record<string, unknown>>;
-}
-
-export interface Parameter {
-  readonly name: string;
-  readonly type: string;
-  readonly unit?: string | null;
-  readonly default?: unknown;
-}
-
-export interface FunctionDefinition {
-  readonly name: string;
-  readonly parameters: readonly Parameter[];
-  readonly result?: { readonly type: string; readonly unit?: string | null } | null;
-  readonly source?: { readonly library: string; readonly version: number } | null;
-}
-
-/** How a person may answer. */
-export interface Answer {
-  readonly type: "boolean" | "number" | "text" | "choice";
-  readonly unit?: string | null;
-  readonly minimum?: number | null;
-  readonly maximum?: number | null;
-  readonly options?: readonly string[] | null;
-}
-
+  | Frozen<Exclude<Schemas["Value"], unknown[] | Schemas["Operation"]>>
+  | { readonly op: string; readonly args: readonly Value[] }
+  | readonly Value[];
+/** As people and merges have left it: its kind may be one that this version of the screens does not know. */
+export type Step = Frozen<Omit<Schemas["StepShape"], "kind"> & { kind: string }>;
+export type Parameter = Frozen<Schemas["ParameterDefinition"]>;
+export type FunctionDefinition = Frozen<Schemas["FunctionShape"]>;
+type AnswerShape = Frozen<Schemas["AnswerShape"]>;
+/** How a person may answer, as far as the step says it. */
+export type Answer = Pick<AnswerShape, "type"> & { readonly [Key in keyof AnswerShape]?: AnswerShape[Key] | null };
 /** A named area with a rule; no step. */
-export interface Zone {
-  readonly name: string;
-  readonly rule: "keep_out" | "one_at_a_time" | "slow";
-  /** At least three corners, metres. */
-  readonly points: readonly (readonly [number, number])[];
-  readonly speed_m_s?: number | null;
-}
-
-export interface Role {
-  readonly name?: string;
-  readonly device?: string;
-  readonly can?: readonly string[];
-}
-
-export interface ProgramDocument {
-  readonly format: number;
-  readonly start_pos?: readonly [number, number] | null;
-  readonly steps: Readonly<Record<string, Step>>;
-  readonly functions: Readonly<Record<string, FunctionDefinition>>;
-  readonly roles: Readonly<Record<string, Role>>;
-  readonly parameters: Readonly<Record<string, Parameter>>;
-  readonly zones: Readonly<Record<string, Zone>>;
-}
-
+export type Zone = Frozen<Schemas["ZoneShape"]>;
+export type Role = Frozen<Schemas["RoleShape"]>;
+export type ProgramDocument = Frozen<
+  Omit<Schemas["DocumentShape"], "format" | "steps"> & { format: number; steps: Record<string, Step> }
+>;
 /** A sentence in each language of the screens. */
-export interface Words {
-  readonly en: string;
-  readonly de: string;
-}
-
-export interface Fix {
-  readonly label: string;
-  readonly labels?: Words;
-  readonly label_code?: string;
-  readonly step: string;
-  readonly field: string;
-  readonly value: unknown;
-}
-
-export interface Diagnostic {
-  readonly code: string;
-  readonly severity: "error" | "warning";
-  readonly step: string;
-  readonly field: string;
-  readonly message: string;
-  readonly messages?: Words;
-  /** `now`: so only as the site is at present; `ever`: until the program changes. */
-  readonly when?: "now" | "ever";
-  readonly line?: number | null;
-  readonly fix?: Fix | null;
-}
-
-/** What the server says about the document as it is. */
-export interface Compiled {
-  readonly revision?: number | string;
-  readonly script: string;
-  readonly lines: readonly string[];
-  readonly numbers: Readonly<Record<string, string>>;
-  readonly diagnostics: readonly Diagnostic[];
-  readonly added_moves: readonly string[];
-  readonly order: readonly string[];
-  readonly depth: Readonly<Record<string, number>>;
-}
+export type Words = Frozen<Schemas["Words"]>;
+export type Fix = Frozen<Schemas["FixShape"]>;
+export type Diagnostic = Frozen<Schemas["DiagnosticShape"]>;
+export type Compiled = Frozen<Schemas["CompiledShape"]>;
 
 export const EMPTY_DOCUMENT: ProgramDocument = {
   format: 2,

@@ -1,6 +1,6 @@
 /** One sentence at a time: what to do next with the tool in hand. */
 import { useGestures } from "../gestures/store";
-import { ZONE_TOOL } from "../zones/drawing";
+import { ZONE_TOOL } from "../state/tools";
 import { useOpenProgram } from "../state/context";
 import { askOf, type Ask, type Gesture } from "../state/tool";
 import { useUi } from "../state/ui";

@@ -2,7 +2,7 @@
 import { Button } from "@mantine/core";
 import { CircleCheck } from "lucide-react";
 import { useEffect } from "react";
-import { VipoIcon } from "@/map/VipoIcon";
+import { VipoIcon } from "@/design/VipoIcon";
 import { useOpenProgram } from "../state/context";
 import { RESTING, takeTool } from "../state/tool";
 import { useUi } from "../state/ui";

@@ -1,6 +1,6 @@
 /** The program as a list: everything that the map shows, by keyboard. */
 import { useRef, type KeyboardEvent } from "react";
-import { VipoIcon } from "@/map/VipoIcon";
+import { VipoIcon } from "@/design/VipoIcon";
 import { chipLabel, detailOf } from "../scene/announce";
 import type { Chip } from "../scene/chips";
 import { branchWord } from "../scene/links";

@@ -3,7 +3,7 @@ import type { Box } from "@/map/projection";
 import type { PixelPoint } from "@/map/routePath";
 import type { Compiled, Diagnostic, Step } from "../model/types";
 import { boxAt } from "./geometry";
-import { kindOf, type Family, type Shape } from "./kinds";
+import { kindOf, type Family, type Shape } from "@/program/kinds";
 import { functionOf } from "./routing";
 import { chipText, conditionText, plainText, type Speaker, type TextPart } from "./words";
 

@@ -6,7 +6,7 @@ import { branchesOf, PROGRAM, type BranchRef, type ProgramTree } from "../model/
 import type { Chip } from "./chips";
 import type { Frame } from "./frames";
 import { boxAt, elbow, elbowSideways } from "./geometry";
-import { isFramed } from "./kinds";
+import { isFramed } from "@/program/kinds";
 import { endOf, functionOf, startOf } from "./routing";
 import type { Surroundings } from "./surroundings";
 import type { Translate } from "./words";

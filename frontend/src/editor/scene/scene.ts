@@ -8,7 +8,7 @@ import { buildChip, type Chip, type Measure, type TagSide } from "./chips";
 import { framesOf, type Frame } from "./frames";
 import { boxAt, edgeTowards, elbow, grown, leastCovering, legBoxes, nearestOn, overlaps } from "./geometry";
 import { hullsOf, type Hull } from "./hulls";
-import { isFramed } from "./kinds";
+import { isFramed } from "@/program/kinds";
 import { separateLanes } from "./lanes";
 import { linksOf, type Link } from "./links";
 import { wordBox } from "./linkWords";

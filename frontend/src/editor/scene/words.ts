@@ -1,5 +1,6 @@
 /** What stands on a step's chip: a noun and an amount, a "?" where a value is still to be entered. */
-import type { Place, Step, Value } from "../model/types";
+import { isStepKind } from "@/program/kinds";
+import type { Place, Step, StepKind, Value } from "../model/types";
 import { swatchOf } from "./swatches";
 import type { Surroundings } from "./surroundings";
 import { durationText, placeName, valueText, withUnit, type Speaker } from "./valueWords";
@@ -20,7 +21,7 @@ const LONGEST = 26;
 
 type Writer = (step: Step, speaker: Speaker) => readonly TextPart[];
 
-const WRITERS: Readonly<Record<string, Writer>> = {
+const WRITERS: Readonly<Record<StepKind, Writer>> = {
   move: moveText,
   pick: loadText,
   drop: loadText,
@@ -45,7 +46,7 @@ const WRITERS: Readonly<Record<string, Writer>> = {
 };
 
 export function chipText(step: Step, speaker: Speaker): readonly TextPart[] {
-  return WRITERS[step.kind]?.(step, speaker) ?? [plain(speaker.t("kind.unknown"))];
+  return isStepKind(step.kind) ? WRITERS[step.kind](step, speaker) : [plain(speaker.t("kind.unknown"))];
 }
 
 /** The condition of an If or a While for the tag beside it. */

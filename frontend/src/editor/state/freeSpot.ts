@@ -3,7 +3,7 @@ import { knownBox } from "@/map/floor";
 import { toMetres, type Box, type Point } from "@/map/projection";
 import type { PixelPoint } from "@/map/routePath";
 import { boxAt, grown, overlaps } from "../scene/geometry";
-import { isFramed } from "../scene/kinds";
+import { isFramed } from "@/program/kinds";
 import { outerBox } from "../scene/scene";
 import { deviceBox } from "../scene/surroundings";
 import type { OpenProgram } from "./context";

@@ -3,7 +3,7 @@ import { useEffect } from "react";
 import { shiftStep } from "../model/gestures";
 import type { Position } from "../model/edits";
 import { undoLast } from "../gestures/undo";
-import { KINDS } from "../scene/kinds";
+import { TOOLS } from "./tools";
 import { duplicateSelected, nudgeSelected, removeSelected } from "./actions";
 import { useOpenProgram, type OpenProgram } from "./context";
 import { createOnFloor } from "./creating";
@@ -61,7 +61,7 @@ function controlKey(open: OpenProgram, event: KeyboardEvent): boolean {
 
 function plainKey(open: OpenProgram, event: KeyboardEvent): boolean {
   if (event.altKey) return moveKey(open, event);
-  const kind = KINDS.find((each) => each.key === event.key.toUpperCase());
+  const kind = TOOLS.find((each) => each.key === event.key.toUpperCase());
   if (kind && open.canEdit) {
     useUi.setState((ui) => ({ gesture: takeTool(ui.gesture, kind.kind, true) }));
     return true;

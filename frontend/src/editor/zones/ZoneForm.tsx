@@ -3,7 +3,7 @@ import { NumberInput, Radio, TextInput } from "@mantine/core";
 import { Trash2, X } from "lucide-react";
 import { useEffect, useState } from "react";
 import { IconButton } from "@/design/IconButton";
-import { VipoIcon } from "@/map/VipoIcon";
+import { VipoIcon } from "@/design/VipoIcon";
 import { useGestures } from "../gestures/store";
 import inspector from "../inspector/inspector.module.css";
 import type { Zone } from "../model/types";

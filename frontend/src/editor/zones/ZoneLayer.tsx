@@ -3,7 +3,7 @@ import { useEffect, useRef } from "react";
 import { boxAround, toPixels } from "@/map/projection";
 import type { PixelPoint } from "@/map/routePath";
 import type { ViewportCell } from "@/map/viewport";
-import { VipoIcon } from "@/map/VipoIcon";
+import { VipoIcon } from "@/design/VipoIcon";
 import stage from "../canvas/stage.module.css";
 import { CornerHandles } from "../gestures/CornerHandles";
 import { useGestures } from "../gestures/store";

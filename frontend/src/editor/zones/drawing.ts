@@ -6,12 +6,11 @@ import { makeId } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { freeSpot } from "../state/freeSpot";
 import { isTyping } from "../state/shortcuts";
+import { ZONE_TOOL } from "../state/tools";
 import { finish, RESTING, takeTool } from "../state/tool";
 import { say, select, useUi } from "../state/ui";
 import { useGestures } from "../gestures/store";
 import { closes, FEWEST_CORNERS, freshNumber, freshZone, squareAround, withNextCorner } from "./shape";
-
-export const ZONE_TOOL = "zone";
 
 /** Metres; a press so near to the first corner closes the zone. */
 const CLOSING_M = 0.35;

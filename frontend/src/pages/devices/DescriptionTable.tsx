@@ -57,7 +57,7 @@ export function DescriptionTable({ device }: { device: Device }) {
               </th>
               <td>{t(`device.facts.type.${property.type}`)}</td>
               <td>{unitSign(property.unit)}</td>
-              <td>{limits({ ...property, options: null, required: false })}</td>
+              <td>{limits({ ...property, options: [], required: false })}</td>
             </tr>
           ))}
           {device.methods.flatMap((method) => [

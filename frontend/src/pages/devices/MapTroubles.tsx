@@ -2,7 +2,7 @@
 import { CircleCheck, TriangleAlert } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import type { MapTrouble } from "@/api/robotMaps";
+import type { MapTrouble } from "@/api/types";
 import type { Site } from "@/api/types";
 import styles from "./robotmap.module.css";
 

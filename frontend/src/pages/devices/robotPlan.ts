@@ -1,4 +1,4 @@
-import type { RobotMap } from "@/api/robotMaps";
+import type { RobotMap } from "@/api/types";
 import type { FloorPlan } from "@/map/floor";
 
 /** A robot's map as a floor for drawing; it knows no places. */

@@ -3,7 +3,7 @@ import { Button, TextInput } from "@mantine/core";
 import { useMutation } from "@tanstack/react-query";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
-import type { Door } from "@/api/onboarding";
+import type { Enrolment } from "@/api/types";
 import type { Site } from "@/api/types";
 import { problemText } from "@/app/LoadProblem";
 import { CopyText } from "./CopyText";
@@ -11,7 +11,7 @@ import styles from "./adding.module.css";
 
 export function ManyDevices({ site }: { site: Site }) {
   const { t } = useTranslation();
-  const renew = useMutation({ mutationFn: () => api.post<Door>(`/sites/${site.slug}/join-key`) });
+  const renew = useMutation({ mutationFn: () => api.post<Enrolment>(`/sites/${site.slug}/join-key`) });
   return (
     <div className={styles.stack}>
       <p>{t("adding.manyText")}</p>

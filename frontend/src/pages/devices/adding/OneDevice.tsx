@@ -4,7 +4,7 @@ import { useMutation } from "@tanstack/react-query";
 import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
-import type { ExpectedDevice } from "@/api/onboarding";
+import type { ExpectedDevice } from "@/api/types";
 import type { Site } from "@/api/types";
 import { problemText } from "@/app/LoadProblem";
 import { SourceView } from "../SourceView";

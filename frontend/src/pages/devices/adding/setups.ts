@@ -1,5 +1,5 @@
 /** What a device is set up with, as the file or the commands that it takes. Pure. */
-import type { ExpectedDevice } from "@/api/onboarding";
+import type { ExpectedDevice } from "@/api/types";
 import type { Dialect } from "../source";
 
 export const DEVICE_SORTS = ["esp32", "ros", "other"] as const;
