@@ -1,9 +1,9 @@
 /** What the server says it sends fits what rooms without a view of the API read of it; the compiler does the checking. */
 import { expectTypeOf, test } from "vitest";
 import type { Fault } from "@/i18n/faults";
-import type { FloorPlan } from "@/map/floor";
-import type { MapDevice } from "@/map/device";
-import type { Compiled, ProgramDocument } from "@/editor/model/types";
+import type { FloorPlan } from "./map/floor/floor";
+import type { MapDevice } from "./map/devices/device";
+import type { Compiled, ProgramDocument } from "./program/document/document";
 import type { components } from "./api/schema";
 
 type Server = components["schemas"];

@@ -7,7 +7,7 @@ import { say, showTab, useUi, type DrawerTab } from "../state/ui";
 import classes from "./drawer.module.css";
 import { ProblemsPanel } from "./ProblemsPanel";
 import { ScriptPanel } from "./ScriptPanel";
-import { StepsPanel } from "./StepsPanel";
+import { StepsPanel } from "./StepTree";
 
 export function Drawer({ small }: { small: boolean }) {
   const { t, diagnostics } = useOpenProgram();

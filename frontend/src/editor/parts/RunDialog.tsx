@@ -2,15 +2,15 @@
 import { Button, Modal } from "@mantine/core";
 import { useMutation } from "@tanstack/react-query";
 import { Bot, CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
-import { useState, type ReactNode } from "react";
+import { type ReactNode, useState } from "react";
 import { useNavigate } from "react-router-dom";
 import { api } from "@/api/client";
 import type { Run } from "@/api/types";
+import { ArmSwitch } from "@/shell/ArmSwitch";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
-import { Arm } from "./Arm";
 import classes from "./dialogs.module.css";
-import { completed, RunParameters, type Given } from "./RunParameters";
+import { completed, type Given, RunParameters } from "./RunParameters";
 
 export function RunDialog() {
   const { t } = useOpenProgram();
@@ -119,4 +119,14 @@ function useRobotLines(): readonly string[] {
     const robot = role?.device ? (surroundings.devices.get(role.device)?.name ?? role.device) : t("role.any");
     return `${role?.name ?? t("role.default")}: ${robot}`;
   });
+}
+
+export function Arm() {
+  const { program, site, document } = useOpenProgram();
+  const starts = Object.values(document.steps).some(
+    (step) => step.kind === "on_event" && step.params.starts === "run" && step.place,
+  );
+  return (
+    <ArmSwitch site={site.slug} program={{ id: program.id, kinds: starts ? ["on_event"] : [] }} role={site.role} />
+  );
 }

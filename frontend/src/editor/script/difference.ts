@@ -1,6 +1,6 @@
 /** What makes one document of another, as edits: only what differs, so that other people's edits of the rest stay. */
-import type { Edit } from "../model/edits";
-import type { Parameter, ProgramDocument, Step, Zone } from "../model/types";
+import type { Edit } from "../edits/edits";
+import type { Parameter, ProgramDocument, Step, Zone } from "@/program/document/document";
 
 /** The edits that turn `base` into `next`; applied to a document that went on meanwhile, they change only that. */
 export function differenceOf(base: ProgramDocument, next: ProgramDocument): readonly Edit[] {

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import { applyEdits, type Edit } from "../model/edits";
-import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "../model/types";
+import { applyEdits, type Edit } from "../edits/edits";
+import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 import { ScriptSession, type DrawnScript, type ScriptRequest } from "./session";
 
 beforeEach(() => void vi.useFakeTimers());

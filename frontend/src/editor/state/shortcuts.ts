@@ -1,10 +1,9 @@
 /** The keys of the editor; single letters rest while a field has focus. */
 import { useEffect } from "react";
-import { shiftStep } from "../model/gestures";
-import type { Position } from "../model/edits";
-import { undoLast } from "../gestures/undo";
+import { shiftStep } from "../edits/joints";
+import type { Position } from "@/program/document/document";
+import { undoLast, duplicateSelected, nudgeSelected, removeSelected } from "./actions";
 import { TOOLS } from "./tools";
-import { duplicateSelected, nudgeSelected, removeSelected } from "./actions";
 import { useOpenProgram, type OpenProgram } from "./context";
 import { createOnFloor } from "./creating";
 import { freeSpot } from "./freeSpot";

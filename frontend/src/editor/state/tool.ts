@@ -1,5 +1,5 @@
 /** The tool in hand and how far its gesture has come; pure. */
-import type { SiteDevice } from "../scene/surroundings";
+import type { SiteDevice } from "@/program/surroundings";
 
 export type ToolName = "select" | "pan" | string;
 

@@ -4,13 +4,14 @@ import { Trash2, X } from "lucide-react";
 import { useEffect, useState } from "react";
 import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/design/VipoIcon";
-import { useGestures } from "../gestures/store";
-import inspector from "../inspector/inspector.module.css";
-import type { Zone } from "../model/types";
+import { useGestures, selectZone } from "../state/gestures";
+import inspector from "../panel.module.css";
+import type { Zone } from "@/program/document/document";
+import { soundZones } from "@/program/canvas/Zones";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
-import { changeZone, removeZone, selectZone } from "./drawing";
-import { areaOf, soundZones, ZONE_RULES } from "./shape";
+import { changeZone, removeZone } from "./drawing";
+import { areaOf, ZONE_RULES } from "./shape";
 
 export function ZoneForm() {
   const { document } = useOpenProgram();

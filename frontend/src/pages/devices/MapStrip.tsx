@@ -3,13 +3,13 @@ import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
 import { useSiteMap } from "@/api/queries";
 import type { Device, Site } from "@/api/types";
-import { LoadProblem } from "@/app/LoadProblem";
+import { LoadProblem } from "@/shell/LoadProblem";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { useLiveStore } from "@/live/store";
 import { StaticMap } from "@/map/StaticMap";
 import { newcomerOf } from "./filter";
-import { Newcomer } from "./Newcomer";
+import { Newcomer } from "./PendingDevice";
 import styles from "./devices.module.css";
 
 interface StripProps {

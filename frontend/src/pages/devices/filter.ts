@@ -1,6 +1,6 @@
 /** Finding devices: by words, status, kind and what they can do. Pure. */
 import type { Device } from "@/api/types";
-import { doingWords } from "@/i18n/doing";
+import { doingWords } from "@/i18n/activity";
 
 export interface DeviceFilter {
   readonly query: string;
