@@ -24,6 +24,7 @@ import { currentStep, stepLines } from "./stepList";
 import { Journal, StepsPanel } from "./RunSteps";
 import { Timeline, TimelineLegend } from "./Timeline";
 import { useStepWords } from "./useStepWords";
+import { textOf } from "@/program/document/document";
 
 const NO_DEVICES: Device[] = [];
 const NO_EVENTS: RunEvent[] = [];
@@ -246,7 +247,7 @@ function More({ view }: { view: RunView }) {
     [lines],
   );
   const robotOf = useCallback(
-    (step: string) => run.roles[String(run.document.steps[step]?.params.role ?? "robot")],
+    (step: string) => run.roles[textOf(run.document.steps[step]?.params.role, "robot")],
     [run.roles, run.document],
   );
   return (

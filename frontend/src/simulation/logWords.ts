@@ -18,5 +18,7 @@ export function logWords(line: Line, nameOf: (device: string) => string): string
 
 function valueWords(value: unknown): string {
   if (typeof value === "boolean") return i18next.t(value ? "run.question.yes" : "run.question.no");
-  return String(value ?? "") || i18next.t("simulation.log.nothing");
+  return (
+    (typeof value === "string" || typeof value === "number" ? String(value) : "") || i18next.t("simulation.log.nothing")
+  );
 }

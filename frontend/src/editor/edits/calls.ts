@@ -1,7 +1,7 @@
 /** Functions made of steps, and calls turned back into the steps of their function. */
 import { moved, toCentimetre } from "./clipping";
 import type { Decision, Edit } from "./edits";
-import type { Position, ProgramDocument, Step } from "@/program/document/document";
+import { type Position, type ProgramDocument, type Step, textOf } from "@/program/document/document";
 import { branchOf, neighbours, roomAt, type MakeId } from "./joints";
 import { substituted } from "./substitution";
 import { EVENTS, readTree, withDescendants } from "@/program/document/tree";
@@ -46,7 +46,7 @@ interface Expansion {
 /** Put the steps of its function where the call stands, with the call's arguments for the parameters. */
 export function expandCall(document: ProgramDocument, id: string, makeId: MakeId): Decision {
   const call = document.steps[id];
-  const functionId = String(call?.params.function ?? "");
+  const functionId = textOf(call?.params.function);
   const branch = branchOf(document, id);
   if (call?.kind !== "call" || !(functionId in document.functions) || !branch) return { refused: "nothing" };
   const expansion = expansionOf(document, call, functionId, makeId);

@@ -1,6 +1,13 @@
 /** Steps cut out of a program, as data that also fits the clipboard, and put into the same or another one. */
 import type { Edit, StepPlace } from "./edits";
-import type { Position, FunctionDefinition, ProgramDocument, Role, Step } from "@/program/document/document";
+import {
+  type Position,
+  type FunctionDefinition,
+  type ProgramDocument,
+  type Role,
+  type Step,
+  textOf,
+} from "@/program/document/document";
 import { endOfBranch, roomAt, type Goal, type MakeId } from "./joints";
 import { EVENTS, outermost, readTree, withDescendants, type ProgramTree } from "@/program/document/tree";
 
@@ -21,7 +28,7 @@ export function clip(document: ProgramDocument, ids: readonly string[]): Clippin
   const steps = pickSteps(document, withDescendants(document, outer));
   const functions = calledBy(document, Object.values(steps));
   const bodies = pickSteps(document, bodiesOf(document, functions));
-  const named = [...Object.values(steps), ...Object.values(bodies)].map((step) => String(step.params.role ?? ""));
+  const named = [...Object.values(steps), ...Object.values(bodies)].map((step) => textOf(step.params.role));
   const roles = Object.fromEntries(Object.entries(document.roles).filter(([id]) => named.includes(id)));
   const definitions = Object.entries(document.functions).filter(([id]) => functions.has(id));
   return { steps, outer, functions: Object.fromEntries(definitions), bodies, roles };
@@ -37,7 +44,7 @@ export function clippingFromText(text: string): Clipping | null {
   try {
     const { type, steps, outer, functions, bodies, roles } = JSON.parse(text) as { type?: string } & Clipping;
     const whole = [steps, functions, bodies, roles].every((part) => typeof part === "object" && part);
-    const sound = type === MARK && whole && Array.isArray(outer) && outer.every((id) => isStep(steps[id]));
+    const sound = type === MARK && whole && Array.isArray(outer) && outer.every((id: string) => isStep(steps[id]));
     const all = sound && [...Object.values(steps), ...Object.values(bodies)].every(isStep);
     return all ? { steps, outer, functions, bodies, roles } : null;
   } catch {

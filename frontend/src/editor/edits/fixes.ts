@@ -1,5 +1,5 @@
 /** A problem's remedy as edits of the document. */
-import type { Diagnostic, Fix, ProgramDocument, Words } from "@/program/document/document";
+import { type Diagnostic, type Fix, type ProgramDocument, type Words, textOf } from "@/program/document/document";
 import { withDescendants } from "@/program/document/tree";
 import type { Edit } from "./edits";
 import { deleteSteps, joinDrafts, type MakeId } from "./joints";
@@ -80,7 +80,7 @@ const DRIVING = new Set(["move", "pick", "drop", "pick_and_drop"]);
 /** The role whose robot carries out the step, null where no robot does. */
 export function drivenBy(document: ProgramDocument, id: string): string | null {
   const step = document.steps[id];
-  return step && DRIVING.has(step.kind) ? String(step.params.role ?? DEFAULT_ROLE) : null;
+  return step && DRIVING.has(step.kind) ? textOf(step.params.role, DEFAULT_ROLE) : null;
 }
 
 export function inLanguage(diagnostics: readonly Diagnostic[], language: string): readonly Diagnostic[] {

@@ -8,7 +8,7 @@ import { useLibrary, useLibraryFunction } from "@/api/queries";
 import type { LibraryFunction } from "@/api/types";
 import { applyEdits } from "../edits/edits";
 import { addStep } from "../edits/joints";
-import { alreadyImported, importFunction, type CutOut } from "../edits/library";
+import { alreadyImported, importFunction } from "../edits/library";
 import { branchNow, makeId } from "../state/actions";
 import { freeSpot } from "../state/freeSpot";
 import { useOpenProgram } from "../state/context";
@@ -96,7 +96,7 @@ function bringIn(open: ReturnType<typeof useOpenProgram>, entry: LibraryFunction
   const { document, apply, t } = open;
   const known = alreadyImported(document, entry.id, entry.version);
   const source = { library: entry.id, version: entry.version };
-  const fresh = known ? null : importFunction(entry.definition as unknown as CutOut, source, makeId);
+  const fresh = known ? null : importFunction(entry.definition, source, makeId);
   const functionId = known ?? fresh?.functionId ?? "";
   const before = fresh?.edits ?? [];
   const callId = makeId();

@@ -11,6 +11,7 @@ import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
 import { completed, type Given, RunParameters } from "./RunParameters";
+import { textOf } from "@/program/document/document";
 
 export function RunDialog() {
   const { t } = useOpenProgram();
@@ -113,7 +114,7 @@ function useRobotLines(): readonly string[] {
   const { document, surroundings, t } = useOpenProgram();
   const roles = new Set<string>();
   for (const step of Object.values(document.steps))
-    if (["move", "pick", "drop", "pick_and_drop"].includes(step.kind)) roles.add(String(step.params.role ?? "robot"));
+    if (["move", "pick", "drop", "pick_and_drop"].includes(step.kind)) roles.add(textOf(step.params.role, "robot"));
   return [...roles].map((id) => {
     const role = document.roles[id];
     const robot = role?.device ? (surroundings.devices.get(role.device)?.name ?? role.device) : t("role.any");

@@ -65,7 +65,7 @@ function draw({ text, base, shown }: ScriptRequest): DrawnScript {
   }
   const known = inOrder(base);
   const steps = lines.map((line, index): [string, Step] => {
-    const [id, before] = known[index] ?? [`s${index}`, { kind: "wait", place: null, pos: [0, 0], params: {} } as Step];
+    const [id, before] = known[index] ?? [`s${index}`, { kind: "wait", place: null, pos: [0, 0], params: {} }];
     const params = { ...before.params, duration: Number(line.trim().split(/\s+/)[1]) };
     return [id, { ...before, place: ["program", "body", String(index)], params }];
   });

@@ -83,7 +83,7 @@ function RuleField({ id, zone }: { id: string; zone: Zone }) {
     <Radio.Group
       label={open.t("gesture.zone.rule")}
       value={zone.rule}
-      onChange={(rule) => changeZone(open, id, { rule: rule as Zone["rule"] })}
+      onChange={(rule) => changeZone(open, id, { rule })}
     >
       <div className={inspector.field} style={{ marginTop: 8 }}>
         {ZONE_RULES.map((rule) => (

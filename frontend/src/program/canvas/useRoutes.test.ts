@@ -26,7 +26,7 @@ test("a way that was asked for while the server was away is known once it is bac
 });
 
 test("a refusal is not asked for again by itself", async () => {
-  const fetched = vi.fn(async () => new Response("{}", { status: 422 }));
+  const fetched = vi.fn(() => Promise.resolve(new Response("{}", { status: 422 })));
   vi.stubGlobal("fetch", fetched);
   await askFor("hall", 2, [KEY]);
   await vi.advanceTimersByTimeAsync(60_000);

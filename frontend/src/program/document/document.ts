@@ -46,3 +46,8 @@ export const EMPTY_DOCUMENT: ProgramDocument = {
   parameters: {},
   zones: {},
 };
+
+/** A value as text; `otherwise` where it is none, whatever other people may have written. */
+export function textOf(value: unknown, otherwise = ""): string {
+  return typeof value === "string" || typeof value === "number" ? String(value) : otherwise;
+}

@@ -17,7 +17,7 @@ export interface ProgramTree {
   /** Every step that is joined, parents before their children, as read from top to bottom. */
   readonly reading: readonly string[];
   /** How deep a step stands; 0 for the program's own and a function's own. */
-  depth(step: string): number;
+  readonly depth: (step: string) => number;
 }
 
 export const PROGRAM: BranchRef = { parent: "program", branch: "body" };

@@ -1,5 +1,5 @@
 /** Which ways a program drives, so that their routes can be asked for and drawn. */
-import type { Position, Place, ProgramDocument, Step } from "../document/document";
+import { type Position, type Place, type ProgramDocument, type Step, textOf } from "../document/document";
 import { isRobot } from "@/map/devices/device";
 import { type PixelPoint, simplified } from "@/map/plane/paths";
 import { type Point, toMetres } from "@/map/plane/projection";
@@ -34,7 +34,7 @@ export function waysOf(document: ProgramDocument, tree: ProgramTree, surrounding
     const step = document.steps[id];
     if (!step) continue;
     const scope = functionOf(document, id);
-    const role = `${scope ?? ""}/${String(step.params.role ?? "robot")}`;
+    const role = `${scope ?? ""}/${textOf(step.params.role, "robot")}`;
     const from =
       startOf(step, document, surroundings, scope) ?? standing.get(role) ?? homeOf(step, document, surroundings);
     const to = endOf(step, document, surroundings, scope);
@@ -82,7 +82,7 @@ export function endOf(
 
 /** A Move with nothing before it starts where the robot of its role stands, if it is one known robot. */
 function homeOf(step: Step, document: ProgramDocument, surroundings: Surroundings): Spot | null {
-  const role = document.roles[String(step.params.role ?? "robot")];
+  const role = document.roles[textOf(step.params.role, "robot")];
   const robot = role?.device ? surroundings.devices.get(role.device) : undefined;
   if (step.kind !== "move" || !robot || !isRobot(robot)) return null;
   const point: [number, number] = [Math.round(robot.location.x * 2) / 2, Math.round(robot.location.y * 2) / 2];

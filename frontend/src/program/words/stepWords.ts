@@ -1,5 +1,5 @@
 /** What stands on a step's chip: a noun and an amount, a "?" where a value is still to be entered. */
-import type { Place, Step, StepKind, Value } from "../document/document";
+import { type Place, type Step, type StepKind, type Value, textOf } from "../document/document";
 import { isStepKind } from "../kinds";
 import type { Surroundings } from "../surroundings";
 import { durationText, placeName, type Speaker, valueText, withUnit } from "./valueWords";
@@ -77,7 +77,7 @@ function loadText(step: Step, speaker: Speaker): TextPart[] {
 function operateText(step: Step, speaker: Speaker): TextPart[] {
   const { device, method } = methodOf(step, speaker.surroundings);
   if (!step.params.method) return [MISSING];
-  const parts = [plain(method?.title ?? String(step.params.method))];
+  const parts = [plain(method?.title ?? textOf(step.params.method))];
   const args = (step.params.args ?? {}) as Record<string, Value>;
   for (const parameter of method?.parameters ?? []) {
     const text = valueText(args[parameter.name] ?? null, speaker);
@@ -114,7 +114,7 @@ function forEachText(step: Step, speaker: Speaker): TextPart[] {
   const items = Array.isArray(step.params.items) ? (step.params.items as Value[]) : [];
   const [first, second, ...rest] = items.map((each) => valueText(each, speaker) ?? "?");
   const names = [first, second].filter((name) => name !== undefined).join(", ");
-  const variable = String(step.params.variable || "?");
+  const variable = textOf(step.params.variable) || "?";
   return [
     plain(speaker.t("chip.for_each", { variable })),
     items.length === 0 ? MISSING : plain(rest.length > 0 ? `${names} +${rest.length}` : names),
@@ -122,7 +122,7 @@ function forEachText(step: Step, speaker: Speaker): TextPart[] {
 }
 
 function setText(step: Step, speaker: Speaker): TextPart[] {
-  const name = step.params.variable ? plain(String(step.params.variable)) : MISSING;
+  const name = step.params.variable ? plain(textOf(step.params.variable)) : MISSING;
   return [name, plain("="), valuePart(step.params.value as Value, speaker)];
 }
 
@@ -158,7 +158,7 @@ function shortened(text: string, longest = LONGEST): string {
 function callText(step: Step, speaker: Speaker): TextPart[] {
   const definition = speaker.document.functions[String(step.params.function)];
   if (!definition) return [MISSING];
-  const result = step.params.result ? [plain(`${String(step.params.result)} =`)] : [];
+  const result = step.params.result ? [plain(`${textOf(step.params.result)} =`)] : [];
   const args = (step.params.args ?? {}) as Record<string, Value | Place>;
   const given = definition.parameters.map((parameter) => {
     const value = args[parameter.name] ?? (parameter.default as Value | Place | undefined) ?? null;

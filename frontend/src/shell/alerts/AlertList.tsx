@@ -100,7 +100,7 @@ export function AlertList({ slug, onLeave }: { slug: string; onLeave: () => void
         size="xs"
         aria-label={t("alerts.filter")}
         value={state}
-        onChange={(value) => setState(value as Alert["state"])}
+        onChange={(value) => setState(value)}
         data={STATES.map((each) => ({ value: each, label: label(each) }))}
       />
       <div className={styles.scroll} ref={box} tabIndex={-1}>

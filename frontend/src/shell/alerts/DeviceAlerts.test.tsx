@@ -18,7 +18,7 @@ const ALERT: Alert = {
 beforeEach(() => {
   const media = { matches: false, addEventListener: () => undefined, removeEventListener: () => undefined };
   vi.stubGlobal("matchMedia", () => media);
-  vi.stubGlobal("fetch", async () => Response.json({ ...ALERT, state: "seen" }));
+  vi.stubGlobal("fetch", () => Promise.resolve(Response.json({ ...ALERT, state: "seen" })));
   startI18n();
 });
 afterEach(() => {

@@ -81,7 +81,7 @@ export function TypeFields({
   onUnit: (unit: string | null) => void;
 }) {
   const { t } = useOpenProgram();
-  const types = TYPES.map((each) => ({ value: each as string, label: t(`type.${each}`) }));
+  const types = TYPES.map((each) => ({ value: each, label: t(`type.${each}`) }));
   return (
     <div className={classes.pair}>
       <Select

@@ -8,13 +8,14 @@ import { useOpenProgram } from "../../state/context";
 import { FieldFrame } from "./FieldFrame";
 import classes from "../../panel.module.css";
 import { useStepEditor } from "./stepEditor";
+import { textOf } from "@/program/document/document";
 
 const ANY = ":any";
 
 export function RoleField() {
   const { document, devices, t } = useOpenProgram();
   const { step } = useStepEditor();
-  const role = String(step.params.role ?? "robot");
+  const role = textOf(step.params.role, "robot");
   const robots = devices.filter((device) => device.kind === "robot" && device.lifecycle === "approved");
   const nameOf = (each: string) => document.roles[each]?.name ?? t("role.default");
   return (

@@ -1,6 +1,6 @@
 /** A call: which function, its arguments, where its result goes, and the function itself. */
 import { Select } from "@mantine/core";
-import type { Parameter, Place, Value } from "@/program/document/document";
+import { type Parameter, type Place, type Value, textOf } from "@/program/document/document";
 import { useOpenProgram } from "../../state/context";
 import { ExpressionField } from "../expression/ExpressionField";
 import { FieldFrame } from "../fields/FieldFrame";
@@ -13,7 +13,7 @@ import { VariableField } from "../fields/VariableField";
 export function CallForm() {
   const { t, document } = useOpenProgram();
   const { step } = useStepEditor();
-  const functionId = String(step.params.function ?? "");
+  const functionId = textOf(step.params.function);
   const definition = document.functions[functionId];
   return (
     <>
@@ -81,7 +81,7 @@ function ArgumentField({ parameter }: { parameter: Parameter }) {
       unit={parameter.unit}
       value={args[name] as Value}
       onChange={give}
-      placeholder={parameter.default === undefined ? undefined : String(parameter.default)}
+      placeholder={typeof parameter.default === "object" ? undefined : parameter.default?.toString()}
     />
   );
 }

@@ -87,7 +87,7 @@ function ComparisonForm({ field }: { field: string }) {
           size="xs"
           value={joiner}
           disabled={disabled}
-          onChange={(next) => store(rows, next as "and" | "or")}
+          onChange={(next) => store(rows, next)}
           data={[
             { value: "and", label: t("condition.and") },
             { value: "or", label: t("condition.or") },

@@ -78,7 +78,7 @@ function SetUp({ site, device, close }: { site: Site; device: ExpectedDevice; cl
         aria-label={t("adding.sort")}
         data={DEVICE_SORTS.map((each) => ({ value: each, label: t(`adding.sorts.${each}`) }))}
         value={sort}
-        onChange={(value) => setSort(value as DeviceSort)}
+        onChange={(value) => setSort(value)}
       />
       <div className={styles.setup}>
         <div className={styles.setupHead}>

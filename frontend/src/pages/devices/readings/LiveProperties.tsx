@@ -57,7 +57,7 @@ function RangeChoice({ range, choose }: { range: Range; choose: (range: Range) =
       aria-label={t("device.history.choose")}
       data={RANGES.map((value) => ({ value, label: t(`device.history.${value}`) }))}
       value={range}
-      onChange={(value) => choose(value as Range)}
+      onChange={(value) => choose(value)}
     />
   );
 }
