@@ -5,7 +5,7 @@ import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { useCompiled, useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Site, User } from "@/api/types";
-import { doingWords } from "@/i18n/activity";
+import { activityWords } from "@/i18n/activity";
 import { useSiteLive } from "@/live/site";
 import { isRobot, progressOf } from "@/map/devices/device";
 import { useEditorText, useScene } from "@/program/canvas/useScene";
@@ -156,7 +156,7 @@ function lookOf(device: Device): unknown[] {
     device.name,
     device.status,
     device.lifecycle,
-    isRobot(device) ? null : [x, y, theta, doingWords(device)],
+    isRobot(device) ? null : [x, y, theta, activityWords(device)],
     progress === null ? null : Math.round(progress * 20),
     device.methods.length,
     device.gives,

@@ -2,7 +2,7 @@ import i18next from "i18next";
 import { beforeEach, expect, test } from "vitest";
 import de from "./de/device.json";
 import { deviceEventWords } from "./deviceEvents";
-import { doingWords } from "./activity";
+import { activityWords } from "./activity";
 import en from "./en/device.json";
 
 beforeEach(() =>
@@ -22,15 +22,17 @@ const event = (code: string, args: Record<string, unknown>): Parameters<typeof d
 test("what a device is doing is said in the language of the screen", async () => {
   const carries = { doing: "Carrying 1 box, 2 cans", activity: { code: "carrying", args: { box: 1, can: 2 } } };
   const has = { doing: "3 boxes", activity: { code: "stock", args: { count: 3, object: "box" } } };
-  expect([doingWords(carries), doingWords(has)]).toEqual(["Trägt 1 × box, 2 × can", "3 × box"]);
+  expect([activityWords(carries), activityWords(has)]).toEqual(["Trägt 1 × box, 2 × can", "3 × box"]);
   await i18next.changeLanguage("en");
-  expect([doingWords(carries), doingWords(has)]).toEqual(["Carrying 1 box, 2 cans", "3 boxes"]);
+  expect([activityWords(carries), activityWords(has)]).toEqual(["Carrying 1 box, 2 cans", "3 boxes"]);
 });
 
 test("a device's own words stay as they are, in quotes; an unknown code leaves the server's words", () => {
-  expect(doingWords({ doing: "Lid open", activity: { code: "said", args: { text: "Lid open" } } })).toBe("„Lid open“");
-  expect(doingWords({ doing: "Dancing", activity: { code: "dancing", args: {} } })).toBe("Dancing");
-  expect(doingWords({ doing: "", activity: null })).toBe("");
+  expect(activityWords({ doing: "Lid open", activity: { code: "said", args: { text: "Lid open" } } })).toBe(
+    "„Lid open“",
+  );
+  expect(activityWords({ doing: "Dancing", activity: { code: "dancing", args: {} } })).toBe("Dancing");
+  expect(activityWords({ doing: "", activity: null })).toBe("");
 });
 
 test("a line of a device's history is said in the language of the screen", () => {

@@ -16,7 +16,7 @@ export function countedWords(count: number, name: string): string {
 }
 
 /** Empty where there is nothing to tell; the server's own words where the screens do not know the code. */
-export function doingWords({ doing, activity }: Doer): string {
+export function activityWords({ doing, activity }: Doer): string {
   if (!activity || !i18next.exists(`device.doing.${activity.code}`)) return doing;
   const { args } = activity;
   const load = Object.entries(args).map(([name, count]) => countedWords(Number(count), name));

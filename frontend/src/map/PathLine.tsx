@@ -3,7 +3,7 @@ import { chevrons, roundedPath, towards, angleOf, type PixelPoint } from "./plan
 
 const HEAD = 11;
 
-export function Route({
+export function PathLine({
   points,
   colour = "var(--motion)",
   opacity = 1,

@@ -7,7 +7,7 @@ import { type FloorPlan, knownBox } from "./floor/floor";
 import { FloorCanvas } from "./floor/FloorCanvas";
 import type { FloorDetail } from "./floor/floorPainter";
 import classes from "./map.module.css";
-import { Route } from "./PathLine";
+import { PathLine } from "./PathLine";
 import { type Box, fitViewport, type Point, toPixels, type Viewport } from "./plane/projection";
 import { useSize } from "./plane/useSize";
 import { ViewportCell } from "./plane/viewport";
@@ -49,7 +49,7 @@ export function StaticMap(props: StaticMapProps) {
       <svg className={classes.still} aria-hidden={props.onSelect ? undefined : true}>
         <g transform={`translate(${view.x} ${view.y}) scale(${view.zoom})`}>
           {routes.map((route, index) => (
-            <Route key={index} points={route.map(toPixels)} />
+            <PathLine key={index} points={route.map(toPixels)} />
           ))}
           {devices.map((device) => (
             <StaticDevice

@@ -21,7 +21,7 @@ import { RunActions, RunPill } from "./RunBar";
 import styles from "./RunScreen.module.css";
 import { ScriptLines } from "./ScriptLines";
 import { currentStep, stepLines } from "./stepList";
-import { Journal, StepsPanel } from "./RunSteps";
+import { Journal, RunSteps } from "./RunSteps";
 import { Timeline, TimelineLegend } from "./Timeline";
 import { useStepWords } from "./useStepWords";
 import { textOf } from "@/program/document/document";
@@ -221,7 +221,7 @@ function Side({ view }: { view: RunView }) {
   const words = useStepWords(run.document, view.devices, view.map?.places);
   return (
     <aside className={styles.side}>
-      <StepsPanel
+      <RunSteps
         lines={lines}
         current={view.over ? null : currentStep(lines)}
         now={view.now}

@@ -17,7 +17,7 @@ const GLYPHS: Record<StepLine["status"], StatusName> = {
   skipped: "offline",
 };
 
-interface StepsPanelProps {
+interface RunStepsProps {
   lines: StepLine[];
   current: StepLine | null;
   now: number;
@@ -33,7 +33,7 @@ function glyphOf(line: StepLine): StatusName {
   return line.status === "waiting" && line.started_at ? "waiting" : GLYPHS[line.status];
 }
 
-function Current({ current, now, titleOf, nameOf }: StepsPanelProps) {
+function Current({ current, now, titleOf, nameOf }: RunStepsProps) {
   const { t } = useTranslation();
   if (!current) return null;
   return (
@@ -53,7 +53,7 @@ function Current({ current, now, titleOf, nameOf }: StepsPanelProps) {
   );
 }
 
-function Line({ line, props }: { line: StepLine; props: StepsPanelProps }) {
+function Line({ line, props }: { line: StepLine; props: RunStepsProps }) {
   const { t } = useTranslation();
   const spent = spentSeconds(line, props.now);
   const word = t(`run.step.${glyphOf(line) === "waiting" ? "held" : line.status}`);
@@ -82,7 +82,7 @@ function Line({ line, props }: { line: StepLine; props: StepsPanelProps }) {
 }
 
 /** The step that is being carried out, and all steps with their state and time. */
-export function StepsPanel(props: StepsPanelProps) {
+export function RunSteps(props: RunStepsProps) {
   const { t } = useTranslation();
   const progress = outerProgress(props.lines);
   return (

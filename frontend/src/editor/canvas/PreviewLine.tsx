@@ -1,6 +1,6 @@
 /** The line that follows the pointer from the source, and the planned route once the target is known. */
 import { useEffect, useRef } from "react";
-import { Route } from "@/map/PathLine";
+import { PathLine } from "@/map/PathLine";
 import type { PixelPoint } from "@/map/plane/paths";
 import type { ViewportCell } from "@/map/plane/viewport";
 import stage from "@/program/canvas/stage.module.css";
@@ -27,7 +27,7 @@ export function PreviewLine({
   if (!from && !route) return null;
   return (
     <svg className={stage.drawing} width={1} height={1} aria-hidden="true">
-      {route ? <Route points={route} opacity={0.8} /> : null}
+      {route ? <PathLine points={route} opacity={0.8} /> : null}
       {from ? (
         <line
           ref={line}

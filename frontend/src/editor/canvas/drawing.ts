@@ -6,7 +6,7 @@ import { ViewportCell } from "@/map/plane/viewport";
 import { useRoutes } from "@/program/canvas/useRoutes";
 import type { Load } from "./LoadAsk";
 import { spotOnMachine, spotOnRoute } from "../state/placement";
-import { keyOfWay, type RouteLookup } from "@/program/scene/stepPaths";
+import { keyOfPath, type RouteLookup } from "@/program/scene/stepPaths";
 import { routePoints } from "@/program/scene/scene";
 import { deviceBox, spotOf, type SiteDevice, type Spot } from "@/program/surroundings";
 import { createStep } from "../state/actions";
@@ -34,7 +34,7 @@ export interface Drawing {
 export function useDrawing(open: OpenProgram, gesture: Gesture): Drawing {
   const { surroundings, devices } = open;
   const [pointer] = useState(() => new ViewportCell());
-  const way = useWay(open, gesture);
+  const way = usePath(open, gesture);
   const takeLoad = useTakeLoad(open, gesture, way);
   const takeDevice = (id: string) => takeDeviceFor(open, gesture, id);
   const drags = useDrags(open, gesture, takeDevice);
@@ -57,7 +57,7 @@ export function useDrawing(open: OpenProgram, gesture: Gesture): Drawing {
   };
 }
 
-interface DrawnWay {
+interface DrawnPath {
   readonly ends: { readonly from: Spot; readonly to: Spot } | null;
   readonly key: string;
   readonly routes: RouteLookup;
@@ -66,9 +66,9 @@ interface DrawnWay {
 }
 
 /** The way of a Pick-and-Drop as far as its ends are chosen. */
-function useWay(open: OpenProgram, gesture: Gesture): DrawnWay {
+function usePath(open: OpenProgram, gesture: Gesture): DrawnPath {
   const ends = endsOf(open, gesture);
-  const key = ends ? keyOfWay(ends.from, ends.to) : "";
+  const key = ends ? keyOfPath(ends.from, ends.to) : "";
   const routes = useRoutes(
     open.site.slug,
     open.plan?.version,
@@ -77,7 +77,7 @@ function useWay(open: OpenProgram, gesture: Gesture): DrawnWay {
   return { ends, key, routes, preview: ends ? routePoints(ends, routes(key)) : null };
 }
 
-function endsOf(open: OpenProgram, gesture: Gesture): DrawnWay["ends"] {
+function endsOf(open: OpenProgram, gesture: Gesture): DrawnPath["ends"] {
   const [from, to] = [spotOfDevice(open, gesture.source), spotOfDevice(open, gesture.target)];
   return gesture.tool === "pick_and_drop" && from && to ? { from, to } : null;
 }
@@ -102,7 +102,7 @@ function takeDeviceFor(open: OpenProgram, gesture: Gesture, id: string): void {
 }
 
 /** The answer to what is carried makes the step; on a way that is not known yet it is moved when the way comes. */
-function useTakeLoad(open: OpenProgram, gesture: Gesture, way: DrawnWay) {
+function useTakeLoad(open: OpenProgram, gesture: Gesture, way: DrawnPath) {
   const { document, apply, surroundings, devices, t } = open;
   const land = useLanding(open, way.routes);
   return (load: Load) => {

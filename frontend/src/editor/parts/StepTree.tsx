@@ -11,7 +11,7 @@ import { shiftInOrder } from "../state/shortcuts";
 import { select, toggleSelected, useUi } from "../state/ui";
 import classes from "./drawer.module.css";
 
-export function StepsPanel() {
+export function StepTree() {
   const open = useOpenProgram();
   const { scene, t } = open;
   const selected = useUi((ui) => ui.selected);

@@ -14,7 +14,7 @@ interface LayerProps {
 }
 
 /** Where robots go, and with trails where they have been. */
-export function RobotWays({ source, viewport, trails = false }: LayerProps & { trails?: boolean }) {
+export function RobotPaths({ source, viewport, trails = false }: LayerProps & { trails?: boolean }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     const past = trails && !prefersStill() ? new Trails() : null;
@@ -97,7 +97,7 @@ function fingerprint(
   const view = viewport.get();
   const moving = robots.some((robot) => robot.status === "busy");
   const parts = robots.map((robot) => {
-    const way = `${robot.route?.length ?? 0},${robot.reserved?.[0] ?? ""}`;
+    const way = `${robot.route?.length ?? 0},${robot.reserved?.[0]?.join() ?? ""}`;
     const pose = `${robot.x.toFixed(3)},${robot.y.toFixed(3)},${robot.theta.toFixed(2)}`;
     return `${robot.id},${pose},${robot.status},${robot.note ?? ""},${robot.wait ?? ""},${robot.carrying},${way}`;
   });

@@ -10,11 +10,11 @@ import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
 import { StatusBadge } from "@/design/StatusBadge";
 import { statusColour } from "@/design/StatusGlyph";
-import { doingWords } from "@/i18n/activity";
+import { activityWords } from "@/i18n/activity";
 import { formatAge, formatNumber } from "@/i18n/format";
 import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import { useNow } from "@/design/useNow";
-import { Changes } from "./description/History";
+import { DeviceHistory } from "./description/DeviceHistory";
 import { DescriptionTable } from "./description/DescriptionTable";
 import { jobOf } from "./filter";
 import { useFocusInList } from "./focus";
@@ -64,7 +64,7 @@ function Ring({ device }: { device: Device }) {
 function Heading({ device }: { device: Device }) {
   const { t } = useTranslation();
   const now = useNow(1000);
-  const [word, doing] = [t(`shell.status.${device.status}`), doingWords(device)];
+  const [word, doing] = [t(`shell.status.${device.status}`), activityWords(device)];
   return (
     <div className={styles.heading}>
       <h2>{device.name}</h2>
@@ -91,7 +91,7 @@ function Overview({ site, device }: { site: Site; device: Device }) {
       <Methods site={site} device={device} />
       <div className={styles.pair}>
         <RdfSource slug={site.slug} device={device.id} />
-        <Changes slug={site.slug} device={device.id} most={6} />
+        <DeviceHistory slug={site.slug} device={device.id} most={6} />
       </div>
     </div>
   );
@@ -162,7 +162,7 @@ export function DeviceDetail({ site, device }: { site: Site; device: Device }) {
           <RdfSource slug={site.slug} device={device.id} />
         </Tabs.Panel>
         <Tabs.Panel value="history" className={styles.whole}>
-          <Changes slug={site.slug} device={device.id} most={200} />
+          <DeviceHistory slug={site.slug} device={device.id} most={200} />
         </Tabs.Panel>
         <Tabs.Panel value="used" className={styles.whole}>
           <UsedIn slug={site.slug} device={device.id} />

@@ -7,7 +7,7 @@ import { byDevice } from "@/shell/alerts/alerts";
 import { AlertMark } from "@/shell/alerts/DeviceAlerts";
 import { useAlerts } from "@/shell/alerts/useAlerts";
 import { StatusBadge } from "@/design/StatusBadge";
-import { doingWords } from "@/i18n/activity";
+import { activityWords } from "@/i18n/activity";
 import { formatAge, formatNumber, formatPoint, withUnit } from "@/i18n/format";
 import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import pages from "../pages.module.css";
@@ -61,8 +61,8 @@ function Row({ device, alerts, slug, chosen, now }: RowProps) {
         <StatusBadge status={device.status}>{t(`shell.status.${device.status}`)}</StatusBadge>
         <AlertMark own={alerts} />
       </td>
-      <td className={styles.doing} title={doingWords(device)}>
-        {device.status === "pending" ? t("pages.devices.notTrusted") : doingWords(device) || "–"}
+      <td className={styles.doing} title={activityWords(device)}>
+        {device.status === "pending" ? t("pages.devices.notTrusted") : activityWords(device) || "–"}
       </td>
       <td className={pages.optional}>
         <code className={styles.position}>{formatPoint(x, y)}</code>

@@ -18,7 +18,7 @@ import { DeviceDetail } from "./DeviceDetail";
 import { DeviceFilters } from "./DeviceFilters";
 import { DeviceTable } from "./DeviceTable";
 import { KeyShown } from "./keys/KeyShown";
-import { Retired } from "./RetiredDevices";
+import { RetiredDevices } from "./RetiredDevices";
 import styles from "./devices.module.css";
 import { filterDevices, NO_FILTER } from "./filter";
 import { MapStrip } from "./MapStrip";
@@ -51,7 +51,7 @@ function Registry({ site, devices, chosen }: { site: Site; devices: Device[]; ch
         {found.length > 0 ? <DeviceTable devices={found} slug={site.slug} chosen={chosen} /> : null}
         {devices.length > 0 && found.length === 0 ? <NothingFound clear={() => setFilter(NO_FILTER)} /> : null}
       </Panel>
-      <Retired site={site} />
+      <RetiredDevices site={site} />
       <KeyShown />
     </div>
   );

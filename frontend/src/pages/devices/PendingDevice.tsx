@@ -34,7 +34,7 @@ function Facts({ device }: { device: Device }) {
   );
 }
 
-export function Newcomer({ device, site }: { device: Device; site: Site }) {
+export function PendingDevice({ device, site }: { device: Device; site: Site }) {
   const { t } = useTranslation();
   const decide = useDecide(site.slug);
   useFocusInList(device.id);

@@ -8,7 +8,7 @@ import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import { useDecide } from "./decisions";
 import styles from "./keys/keys.module.css";
 
-export function Retired({ site }: { site: Site }) {
+export function RetiredDevices({ site }: { site: Site }) {
   const { t } = useTranslation();
   const retired = useRetiredDevices(site.role === "admin" ? site.slug : undefined).data ?? [];
   const decide = useDecide(site.slug);

@@ -6,7 +6,7 @@ import type { Device, RunSummary } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { StatusGlyph } from "@/design/StatusGlyph";
-import { doingWords } from "@/i18n/activity";
+import { activityWords } from "@/i18n/activity";
 import { formatClock } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
 import { outerProgress, stepLines } from "@/run/stepList";
@@ -47,7 +47,7 @@ function DeviceLine({ device, slug }: { device: Device; slug: string }) {
         <StatusBadge status={device.status}>
           {device.status === "pending"
             ? t("shell.status.pending")
-            : doingWords(device) || t(`shell.status.${device.status}`)}
+            : activityWords(device) || t(`shell.status.${device.status}`)}
         </StatusBadge>
       </Link>
     </li>

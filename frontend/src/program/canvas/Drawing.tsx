@@ -1,6 +1,6 @@
 /** Everything of the drawing that is a line: hulls, routes, dotted links, frames. One SVG in the map's plane. */
 import { memo } from "react";
-import { Route } from "@/map/PathLine";
+import { PathLine } from "@/map/PathLine";
 import { angleOf, roundedOutline, roundedPath, towards, type PixelPoint } from "@/map/plane/paths";
 import type { Hull } from "../scene/hulls";
 import { type Link, wordPlace } from "../scene/links";
@@ -33,7 +33,7 @@ export const Drawing = memo(function Drawing(props: DrawingProps) {
       ))}
       {drawnRoutes(scene.routes, stateOf).map(({ step, points, guessed, sharers }) => (
         <g key={step}>
-          <Route
+          <PathLine
             points={points}
             colour={routeColour(stateOf(step))}
             opacity={routeOpacity(stateOf(step), guessed)}

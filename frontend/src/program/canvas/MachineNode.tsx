@@ -1,6 +1,6 @@
 /** A machine on the map: its outline with the ring, its name and how it is. */
 import { memo, type CSSProperties } from "react";
-import { doingWords } from "@/i18n/activity";
+import { activityWords } from "@/i18n/activity";
 import { statusOf } from "@/map/devices/device";
 import { DeviceToken } from "@/map/devices/DeviceToken";
 import type { SiteDevice } from "../surroundings";
@@ -33,7 +33,7 @@ export const MachineNode = memo(function MachineNode({ device, light, caption, s
       {caption ? <span className={classes.caption}>{caption}</span> : null}
       <span className={classes.label}>
         <strong>{device.name}</strong>
-        <span data-status={statusOf(device)}>{doingWords(device)}</span>
+        <span data-status={statusOf(device)}>{activityWords(device)}</span>
       </span>
     </div>
   );

@@ -7,7 +7,7 @@ import { FloorCanvas } from "@/map/floor/FloorCanvas";
 import { fitViewport, PIXELS_PER_METRE, type Viewport } from "@/map/plane/projection";
 import { useSize } from "@/map/plane/useSize";
 import { ViewportCell } from "@/map/plane/viewport";
-import { RobotLayer, RobotWays } from "@/map/robots/RobotLayer";
+import { RobotLayer, RobotPaths } from "@/map/robots/RobotLayer";
 import { buildNodes } from "./buildNodes";
 import { Drawing } from "./Drawing";
 import { deviceUnder, type LevelOfDetail, StageFlow, usePress, useBoxDirection } from "./StageFlow";
@@ -55,7 +55,7 @@ function Stage(props: MapStageProps) {
       {...usePointing(props)}
     >
       <FloorCanvas plan={plan} viewport={viewport} />
-      {robots ? <RobotWays source={robots} viewport={viewport} trails={props.trails} /> : null}
+      {robots ? <RobotPaths source={robots} viewport={viewport} trails={props.trails} /> : null}
       <StageFlow {...props} moving={moving} box={box} viewport={viewport} onLevel={setLevel}>
         {props.under}
         <Lines {...props} />

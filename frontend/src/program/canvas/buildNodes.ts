@@ -1,5 +1,5 @@
 /** The scene as React Flow's nodes, with explicit sizes so that nothing is measured. */
-import { doingWords } from "@/i18n/activity";
+import { activityWords } from "@/i18n/activity";
 import { wallBoxes, type FloorPlan } from "@/map/floor/floor";
 import { toPixels, type Box } from "@/map/plane/projection";
 import { footprint, isRobot } from "@/map/devices/device";
@@ -43,7 +43,7 @@ export function buildNodes(
     ...machines.map((device) => {
       const others = machines.filter((each) => each.id !== device.id).map((each) => grown(deviceBox(each), 4));
       const box = deviceBox(device);
-      const width = labelWidth(device.name, doingWords(device));
+      const width = labelWidth(device.name, activityWords(device));
       const near = walls.filter((wall) => overlaps(grown(box, width + REACH), wall));
       const label = labelPlace(box, width, [...covers, ...others, ...near]);
       covers.push(label.box);
@@ -79,7 +79,7 @@ function machineNode(device: SiteDevice, label: LabelPlace, looks: NodeLooks): M
     draggable: false,
     selectable: false,
     focusable: true,
-    ariaLabel: `${device.name} ${doingWords(device)}`.trim(),
+    ariaLabel: `${device.name} ${activityWords(device)}`.trim(),
     zIndex: 1,
     data: {
       device,

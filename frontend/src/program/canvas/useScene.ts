@@ -6,7 +6,7 @@ import type { Compiled, ProgramDocument } from "../document/document";
 import { readTree } from "../document/tree";
 import type { Measure } from "../scene/chips";
 import { buildScene, type Scene } from "../scene/scene";
-import { waysOf } from "../scene/stepPaths";
+import { pathsOf } from "../scene/stepPaths";
 import { type SiteDevice, type Surroundings, surroundingsOf } from "../surroundings";
 import type { Translate } from "../words/stepWords";
 import { useRoutes } from "./useRoutes";
@@ -34,7 +34,7 @@ export function useScene(input: {
   const fonts = useFontsReady();
   const surroundings = useMemo(() => surroundingsOf(devices, places), [devices, places]);
   const keys = useMemo(
-    () => waysOf(document, readTree(document), surroundings).map((way) => way.key),
+    () => pathsOf(document, readTree(document), surroundings).map((way) => way.key),
     [document, surroundings],
   );
   const routes = useRoutes(input.site, input.mapVersion, keys);

@@ -11,7 +11,7 @@ import { hullsOf, type Hull } from "./hulls";
 import { isFramed } from "../kinds";
 import { separateLanes } from "./lanes";
 import { linksOf, type Link, wordBox } from "./links";
-import { functionOf, waysOf, type RouteLookup, type RouteShape, type Way } from "./stepPaths";
+import { functionOf, pathsOf, type RouteLookup, type RouteShape, type Way } from "./stepPaths";
 import { deviceBox, type Surroundings } from "../surroundings";
 import type { Speaker, Translate } from "../words/stepWords";
 
@@ -46,7 +46,7 @@ export function buildScene(input: SceneInput): Scene {
   const tree = readTree(document);
   const speaker: Speaker = { document, surroundings, t };
   const shown = [...tree.reading, ...tree.loose, ...commentsOf(document)].filter((id) => isShown(input, id));
-  const ways = waysOf(document, tree, surroundings).filter((way) => shown.includes(way.step));
+  const ways = pathsOf(document, tree, surroundings).filter((way) => shown.includes(way.step));
   const routes = shapeRoutes(ways, input.routes);
   const chips = new Map<string, Chip>();
   const chipInput = { ...input, drafts: new Set(tree.drafts) };

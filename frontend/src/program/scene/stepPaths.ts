@@ -27,7 +27,7 @@ export interface RouteShape {
 export type RouteLookup = (key: string) => readonly (readonly [number, number])[] | null | undefined;
 
 /** One way for each Pick-and-Drop and each Move whose ends are known, in reading order. */
-export function waysOf(document: ProgramDocument, tree: ProgramTree, surroundings: Surroundings): Way[] {
+export function pathsOf(document: ProgramDocument, tree: ProgramTree, surroundings: Surroundings): Way[] {
   const ways: Way[] = [];
   const standing = new Map<string, Spot>();
   for (const id of tree.reading) {
@@ -39,7 +39,7 @@ export function waysOf(document: ProgramDocument, tree: ProgramTree, surrounding
       startOf(step, document, surroundings, scope) ?? standing.get(role) ?? homeOf(step, document, surroundings);
     const to = endOf(step, document, surroundings, scope);
     if (from && to && (step.kind === "pick_and_drop" || step.kind === "move"))
-      ways.push({ step: id, from, to, key: keyOfWay(from, to), drawn: drawnRoute(step) });
+      ways.push({ step: id, from, to, key: keyOfPath(from, to), drawn: drawnRoute(step) });
     if (to && !isInCatch(document, id)) standing.set(role, to);
   }
   return ways;
@@ -90,7 +90,7 @@ function homeOf(step: Step, document: ProgramDocument, surroundings: Surrounding
 }
 
 /** Equal for ways between the same places as they stand now. */
-export function keyOfWay(from: Spot, to: Spot): string {
+export function keyOfPath(from: Spot, to: Spot): string {
   return JSON.stringify([from.place, toMetres(from.at), to.place, toMetres(to.at)]);
 }
 

@@ -4,7 +4,7 @@ import { useTranslation } from "react-i18next";
 import { useDevices } from "@/api/queries";
 import type { Device, Site } from "@/api/types";
 import { StatusBadge } from "@/design/StatusBadge";
-import { doingWords } from "@/i18n/activity";
+import { activityWords } from "@/i18n/activity";
 import { formatMoment } from "@/i18n/format";
 import { HoldButton } from "./HoldButton";
 import styles from "./stop.module.css";
@@ -24,7 +24,9 @@ function Robots({ devices }: { devices: Device[] }) {
       {devices.map((device) => (
         <li key={device.id}>
           <strong>{device.name}</strong>
-          <StatusBadge status={device.status}>{doingWords(device) || t(`shell.status.${device.status}`)}</StatusBadge>
+          <StatusBadge status={device.status}>
+            {activityWords(device) || t(`shell.status.${device.status}`)}
+          </StatusBadge>
         </li>
       ))}
     </ul>

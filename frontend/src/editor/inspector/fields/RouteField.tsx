@@ -3,16 +3,16 @@ import { SegmentedControl } from "@mantine/core";
 import { useId } from "react";
 import { VipoIcon } from "@/design/VipoIcon";
 import { knownRoute } from "@/program/canvas/useRoutes";
-import { drawnRoute, plannedBends, waysOf } from "@/program/scene/stepPaths";
+import { drawnRoute, plannedBends, pathsOf } from "@/program/scene/stepPaths";
 import { durationText } from "@/program/words/stepWords";
 import { useOpenProgram } from "../../state/context";
 import classes from "../../panel.module.css";
 import { useStepEditor } from "./stepEditor";
 
-export function RouteNote() {
+export function RouteField() {
   const { t, document, scene, surroundings, site, plan, compiled } = useOpenProgram();
   const { id } = useStepEditor();
-  const way = waysOf(document, scene.tree, surroundings).find((each) => each.step === id);
+  const way = pathsOf(document, scene.tree, surroundings).find((each) => each.step === id);
   const route = way ? knownRoute(site.slug, plan?.version, way.key) : null;
   if (!way) return null;
   const length = route ? `${route.length_m.toFixed(1)}\u202fm` : "";

@@ -7,7 +7,7 @@ import { ExpressionField } from "../expression/ExpressionField";
 import classes from "../../panel.module.css";
 import { PlaceField } from "../fields/PlaceField";
 import { RoleField } from "../fields/RoleField";
-import { RouteNote } from "../fields/RouteField";
+import { RouteField } from "../fields/RouteField";
 import { useStepEditor } from "../fields/stepEditor";
 
 export function LoadForm() {
@@ -18,7 +18,7 @@ export function LoadForm() {
       <Load />
       <hr className={classes.line} />
       <RoleField />
-      <RouteNote />
+      <RouteField />
     </>
   );
 }

@@ -8,7 +8,7 @@ import { ConditionForm } from "./ConditionForm";
 import classes from "../../panel.module.css";
 import { PlaceField } from "../fields/PlaceField";
 import { RoleField } from "../fields/RoleField";
-import { RouteNote } from "../fields/RouteField";
+import { RouteField } from "../fields/RouteField";
 import { useStepEditor } from "../fields/stepEditor";
 import { WrittenValue } from "./valueForms";
 
@@ -26,7 +26,7 @@ export function MoveForm() {
       />
       <hr className={classes.line} />
       <RoleField />
-      <RouteNote />
+      <RouteField />
     </>
   );
 }

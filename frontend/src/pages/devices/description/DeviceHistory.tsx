@@ -56,7 +56,7 @@ function Change({ event }: { event: DeviceEvent }) {
 }
 
 /** What happened to a device, newest first. */
-export function Changes({ slug, device, most }: { slug: string; device: string; most: number }) {
+export function DeviceHistory({ slug, device, most }: { slug: string; device: string; most: number }) {
   const { t } = useTranslation();
   const path = `/sites/${slug}/devices/${encodeURIComponent(device)}/events`;
   const events = useQuery({ queryKey: keys.deviceEvents(slug, device), queryFn: () => api.get<DeviceEvent[]>(path) });
