@@ -19,6 +19,7 @@ from editor.shapes import (
     ExpressionShape,
     ExpressionToRead,
     Parameters,
+    StepKinds,
 )
 from registry import services as registry
 from registry.services import NotAMember, require
@@ -40,7 +41,7 @@ class ProgramShape(Schema):
     id: UUID
     name: str
     site: str
-    kinds: list[str]
+    kinds: StepKinds
     devices: list[str]
     edited_at: datetime
     edited_by: Author | None

@@ -5,10 +5,37 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from ninja import Field, Schema
+from typing_extensions import TypeAliasType
 
-from registry.shapes import Shown
+from registry.shapes import Unchecked
 
 Position = tuple[float, float]
+StepKind = TypeAliasType(
+    "StepKind",
+    Literal[
+        "move",
+        "pick",
+        "drop",
+        "pick_and_drop",
+        "operate",
+        "wait",
+        "if",
+        "while",
+        "repeat",
+        "for_each",
+        "parallel",
+        "try",
+        "call",
+        "set",
+        "ask",
+        "notify",
+        "end",
+        "return",
+        "break",
+        "on_event",
+        "comment",
+    ],
+)
 
 
 class DevicePlace(Schema):
@@ -29,10 +56,60 @@ class PointPlace(Schema):
     point: Position
 
 
+class ParameterUse(Schema):
+    """A variable: a parameter of the program or the function, or what a step has set."""
+
+    param: str
+
+
+class Quantity(Schema):
+    """A number with its unit."""
+
+    quantity: tuple[float, str]
+
+
+class RoleUse(Schema):
+    """Whichever robot has the role."""
+
+    role: str
+
+
+class Whereabouts(Schema):
+    """Where something is, as a point."""
+
+    at: Place | RoleUse
+
+
+class ZoneUse(Schema):
+    """A zone of the program."""
+
+    zone: str
+
+
+class PropertyUse(Schema):
+    """What a device says of itself now: the device or the parameter that names it, and the property."""
+
+    property: tuple[str | ParameterUse, str]
+
+
+class Operation(Schema):
+    """An operator with what it is applied to."""
+
+    op: str
+    args: list[Value]
+
+
+Place = TypeAliasType("Place", DevicePlace | NamedPlace | PointPlace | ParameterUse)
+Value = TypeAliasType(
+    "Value",
+    "str | bool | float | list[Any] | ParameterUse | Quantity | Whereabouts | ZoneUse | PropertyUse | Operation | None",
+)
+
+
 class StepShape(Schema):
     """A step: `place` is parent, branch and order; without it the step is a draft. `pos` in metres."""
 
-    kind: str
+    kind: StepKind
     place: tuple[str, str, str] | None = None
     pos: Position | None = None
     params: dict[str, Any]
@@ -43,8 +120,8 @@ class ParameterDefinition(Schema):
 
     name: str
     type: str
-    unit: str
-    default: Any = None
+    unit: str | None = None
+    default: Annotated[Any, Unchecked(Value)] = None
 
 
 class LibrarySource(Schema):
@@ -66,7 +143,7 @@ class FunctionShape(Schema):
 class RoleShape(Schema):
     """A role: bound to a robot, or to any that can do what is named."""
 
-    name: str = ""
+    name: str | None = None
     device: str | None = None
     can: list[str] | None = None
 
@@ -84,7 +161,7 @@ class ResultShape(Schema):
     """What a function gives back."""
 
     type: str
-    unit: str = ""
+    unit: str | None = None
 
 
 class DocumentShape(Schema):
@@ -99,8 +176,8 @@ class DocumentShape(Schema):
     zones: dict[str, ZoneShape]
 
 
-Document = Annotated[dict[str, Any], Shown(DocumentShape)]
-MaybeDocument = Annotated[dict[str, Any] | None, Shown(DocumentShape | None)]
+Document = Annotated[dict[str, Any], Unchecked(DocumentShape)]
+MaybeDocument = Annotated[dict[str, Any] | None, Unchecked(DocumentShape | None)]
 
 
 class Words(Schema):
@@ -187,9 +264,10 @@ class DefinitionShape(Schema):
     steps: dict[str, StepShape]
 
 
-Compiled = Annotated[dict[str, Any], Shown(CompiledShape)]
-Definition = Annotated[dict[str, Any], Shown(DefinitionShape)]
-Parameters = Annotated[list[dict[str, Any]], Shown(list[ParameterDefinition])]
+StepKinds = Annotated[list[str], Unchecked(list[StepKind])]
+Compiled = Annotated[dict[str, Any], Unchecked(CompiledShape)]
+Definition = Annotated[dict[str, Any], Unchecked(DefinitionShape)]
+Parameters = Annotated[list[dict[str, Any]], Unchecked(list[ParameterDefinition])]
 
 
 class ExpressionToRead(Schema):
@@ -228,7 +306,7 @@ class LineName(Schema):
 class ExpressionShape(Schema):
     """A Value and the line for it, with its type and unit as far as they are known."""
 
-    value: Any
+    value: Annotated[Any, Unchecked(Value)]
     text: str
     type: str
     unit: str

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from ninja import Field, Schema
 
 from editor.shapes import Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
-from registry.shapes import Shown
+from registry.shapes import Unchecked
 
 RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cancelled"]
 StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]
@@ -29,7 +29,7 @@ class StartRehearsal(Schema):
     driver: str = "physics"
 
 
-End = Annotated[Any, Shown(Position | DevicePlace | NamedPlace | PointPlace)]
+End = Annotated[Any, Unchecked(Position | DevicePlace | NamedPlace | PointPlace)]
 
 
 class AskRoute(Schema):
@@ -159,7 +159,7 @@ class QuestionShape(Schema):
 class AnswerQuestion(Schema):
     """The answer: yes or no, a number, a text, or one of the options."""
 
-    value: Annotated[Any, Shown(Scalar)]
+    value: Annotated[Any, Unchecked(Scalar)]
 
 
 class ArmProgram(Schema):
@@ -308,7 +308,7 @@ class RehearsalResultShape(Schema):
     log: list[LogLine]
 
 
-RehearsalResult = Annotated[dict[str, Any] | None, Shown(RehearsalResultShape | None)]
+RehearsalResult = Annotated[dict[str, Any] | None, Unchecked(RehearsalResultShape | None)]
 
 
 class RehearsalShape(Schema):

@@ -13,7 +13,7 @@ from registry.alerts.causes import AlertCode, Severity
 from registry.alerts.inbox import NoSuchAlert
 from registry.alerts.views import AlertState
 from registry.people.access import find_access, require
-from registry.shapes import Shown, signed_in
+from registry.shapes import Unchecked, signed_in
 
 router = Router(tags=["registry"])
 
@@ -29,7 +29,7 @@ class AlertShape(Schema):
     code: AlertCode
     severity: Severity
     role: Literal["viewer", "admin"]
-    args: Annotated[Any, Shown(dict[str, Any])]
+    args: Annotated[Any, Unchecked(dict[str, Any])]
     text: str
     count: int
     state: AlertState

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any
+from typing import Annotated, Any, Literal
 
 from django.conf import settings
 from django.http import HttpRequest, HttpResponse
@@ -13,7 +13,7 @@ from pydantic import Field
 
 from registry import services
 from registry.people.access import require
-from registry.shapes import signed_in
+from registry.shapes import Unchecked, signed_in
 from vipo_device.descriptions.forms import BadDescription, DescriptionForm
 from vipo_device.descriptions.reader import read, write_description
 from vipo_device.protocol.description import description_to_json
@@ -67,6 +67,21 @@ class FaultShape(Schema):
     args: dict[str, str | int | float]
 
 
+class DescribedMethod(Schema):
+    """A method of a description."""
+
+    name: str
+
+
+class DescribedShape(Schema):
+    """The most important of a description: whose it is, and what it can do."""
+
+    id: str
+    name: str
+    kind: Literal["robot", "machine"]
+    methods: list[DescribedMethod]
+
+
 class LookShape(Schema):
     """What VIPO makes of a description; with `faults` the rest is null or empty.
 
@@ -77,7 +92,7 @@ class LookShape(Schema):
     faults: list[FaultShape]
     notes: list[str]
     mended: list[FaultShape]
-    description: dict[str, Any] | None
+    description: Annotated[dict[str, Any] | None, Unchecked(DescribedShape | None)]
     turtle: str
 
 

@@ -17,7 +17,7 @@ from vipo.work import Failure, Work
 SPEED = 5000
 
 
-class Shown(Panel):
+class Unchecked(Panel):
     """Keeps what the LCD showed."""
 
     def __init__(self):
@@ -55,7 +55,7 @@ def main():
     """Try each line's driver."""
     for line in sys.stdin:
         name, options, calls = json.loads(line)
-        panel = Shown()
+        panel = Unchecked()
         driver = make_driver(name, panel, options)
         text = describe("machine01", driver, {"site": "hall"}).decode()
         answers = [asyncio.run(call(driver, panel, method, arguments)) for method, arguments in calls]

@@ -54,7 +54,7 @@ async function send(method: string, path: string, body?: BodyInit, type?: string
 }
 
 async function problemOf(response: Response): Promise<ApiProblem> {
-  const body = await response.json().then(asProblem, () => ({}) as ProblemBody);
+  const body = await response.json().then(asProblem, (): ProblemBody => ({}));
   const told = refusalWords(body.code ?? "", body.args);
   const detail = told ?? body.detail ?? i18next.t("shell.problem.unexpected", { status: response.status });
   return new ApiProblem(response.status, body.code ?? "unexpected", detail, body.fields);

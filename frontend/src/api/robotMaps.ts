@@ -2,54 +2,7 @@
 import { skipToken, useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { api, ApiProblem } from "./client";
 import { keys } from "./queries";
-
-export interface RobotMapInfo {
-  device: string;
-  version: number;
-  width: number;
-  height: number;
-  resolution_m: number;
-  origin: { x: number; y: number; yaw: number };
-  /** 0 to 1: how much of it is known. */
-  known: number;
-  at: string;
-  changed_at: string;
-}
-
-/** With its cells: row by row from the bottom row, 0 free, 100 wall, 255 unknown. */
-export interface RobotMap extends RobotMapInfo {
-  cells: Uint8Array;
-}
-
-export interface MapTrouble {
-  id: string;
-  name: string;
-  kind: string;
-  why: "outside" | "walled" | "unreachable";
-  is_new: boolean;
-}
-
-/** Square metres; `version` is of the robot's map, `replaces` of the site's (0: it has none). */
-export interface MapDifference {
-  version: number;
-  replaces: number;
-  floor_gained_m2: number;
-  floor_lost_m2: number;
-  walls_gained_m2: number;
-  walls_lost_m2: number;
-  troubles: MapTrouble[];
-}
-
-/** `source`: `upload`, `demo`, `robot:<id>`, `version:<number>` or empty. */
-export interface MapVersion {
-  version: number;
-  width: number;
-  height: number;
-  resolution_m: number;
-  source: string;
-  by: string;
-  at: string;
-}
+import type { MapDifference, MapVersion, RobotMap, RobotMapInfo } from "./types";
 
 export type MapChange =
   | { do: "use"; device: string; version: number; replaces: number }

@@ -1788,6 +1788,18 @@ export interface components {
             /** @enum {string} */
             role: "viewer" | "operator" | "author" | "admin";
         };
+        /** @description A method of a description. */
+        DescribedMethod: {
+            name: string;
+        };
+        /** @description The most important of a description: whose it is, and what it can do. */
+        DescribedShape: {
+            id: string;
+            /** @enum {string} */
+            kind: "robot" | "machine";
+            methods: components["schemas"]["DescribedMethod"][];
+            name: string;
+        };
         /** @description A description in any form. */
         DescriptionText: {
             text: string;
@@ -1933,7 +1945,7 @@ export interface components {
             text: string;
             type: string;
             unit: string;
-            value: unknown;
+            value: components["schemas"]["Value"];
         };
         /** @description A line that shall be read (`text`), or a Value that shall be printed as one; the names are those of a step. */
         ExpressionToRead: {
@@ -2053,9 +2065,7 @@ export interface components {
          *     `notes` are the sentences of `mended`: what was mended or left out.
          */
         LookShape: {
-            description: {
-                [key: string]: unknown;
-            } | null;
+            description: components["schemas"]["DescribedShape"] | null;
             faults: components["schemas"]["FaultShape"][];
             form: ("turtle" | "n-triples" | "json-ld" | "td" | "paper") | null;
             mended: components["schemas"]["FaultShape"][];
@@ -2137,6 +2147,11 @@ export interface components {
         NewDevice: {
             id: string;
         };
+        /** @description An operator with what it is applied to. */
+        Operation: {
+            args: components["schemas"]["Value"][];
+            op: string;
+        };
         /** @description Where the grid's bottom left corner is, in metres and radians. */
         Origin: {
             x: number;
@@ -2164,10 +2179,10 @@ export interface components {
         };
         /** @description A parameter of a program or a function. */
         ParameterDefinition: {
-            default?: unknown;
+            default?: components["schemas"]["Value"];
             name: string;
             type: string;
-            unit: string;
+            unit?: string | null;
         };
         /** @description An argument of a method. */
         ParameterShape: {
@@ -2179,6 +2194,10 @@ export interface components {
             type: string;
             unit: string;
         };
+        /** @description A variable: a parameter of the program or the function, or what a step has set. */
+        ParameterUse: {
+            param: string;
+        };
         /** @description Somebody who is signed in. */
         Person: {
             email: string;
@@ -2186,6 +2205,7 @@ export interface components {
             initials: string;
             name: string;
         };
+        Place: components["schemas"]["DevicePlace"] | components["schemas"]["NamedPlace"] | components["schemas"]["PointPlace"] | components["schemas"]["ParameterUse"];
         /** @description A named place; `label` is where its name is written, if not beside it. */
         PlaceShape: {
             id: string;
@@ -2258,7 +2278,7 @@ export interface components {
             errors: number;
             /** Format: uuid */
             id: string;
-            kinds: string[];
+            kinds: components["schemas"]["StepKind"][];
             name: string;
             site: string;
             warnings: number;
@@ -2278,6 +2298,20 @@ export interface components {
             type: string;
             unit: string;
             value: boolean | number | string | null;
+        };
+        /** @description What a device says of itself now: the device or the parameter that names it, and the property. */
+        PropertyUse: {
+            property: [
+                string | components["schemas"]["ParameterUse"],
+                string
+            ];
+        };
+        /** @description A number with its unit. */
+        Quantity: {
+            quantity: [
+                number,
+                string
+            ];
         };
         /** @description Something that a run asks the people of its site; `value` is the answer once there is one. */
         QuestionShape: {
@@ -2379,8 +2413,7 @@ export interface components {
         /** @description What a function gives back. */
         ResultShape: {
             type: string;
-            /** @default  */
-            unit: string;
+            unit?: string | null;
         };
         /** @description What a robot did, and its charge at the end (%). */
         RobotFigures: {
@@ -2405,8 +2438,11 @@ export interface components {
         RoleShape: {
             can?: string[] | null;
             device?: string | null;
-            /** @default  */
-            name: string;
+            name?: string | null;
+        };
+        /** @description Whichever robot has the role. */
+        RoleUse: {
+            role: string;
         };
         /** @description The way a robot would drive, in metres, and about how many seconds it takes. */
         RouteShape: {
@@ -2582,9 +2618,11 @@ export interface components {
                 [key: string]: unknown;
             };
         };
+        /** @enum {string} */
+        StepKind: "move" | "pick" | "drop" | "pick_and_drop" | "operate" | "wait" | "if" | "while" | "repeat" | "for_each" | "parallel" | "try" | "call" | "set" | "ask" | "notify" | "end" | "return" | "break" | "on_event" | "comment";
         /** @description A step: `place` is parent, branch and order; without it the step is a draft. `pos` in metres. */
         StepShape: {
-            kind: string;
+            kind: components["schemas"]["StepKind"];
             params: {
                 [key: string]: unknown;
             };
@@ -2614,6 +2652,7 @@ export interface components {
             replaces: number;
             version: number;
         };
+        Value: string | boolean | number | unknown[] | components["schemas"]["ParameterUse"] | components["schemas"]["Quantity"] | components["schemas"]["Whereabouts"] | components["schemas"]["ZoneUse"] | components["schemas"]["PropertyUse"] | components["schemas"]["Operation"] | null;
         /** @description What a version is about. */
         VersionMessage: {
             /** @default  */
@@ -2645,6 +2684,10 @@ export interface components {
             t: number;
             why: components["schemas"]["WaitReason"];
         };
+        /** @description Where something is, as a point. */
+        Whereabouts: {
+            at: components["schemas"]["Place"] | components["schemas"]["RoleUse"];
+        };
         /** @description A sentence in each language of the screens. */
         Words: {
             de: string;
@@ -2660,6 +2703,10 @@ export interface components {
             /** @enum {string} */
             rule: "keep_out" | "one_at_a_time" | "slow";
             speed_m_s?: number | null;
+        };
+        /** @description A zone of the program. */
+        ZoneUse: {
+            zone: string;
         };
     };
     responses: never;

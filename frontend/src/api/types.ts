@@ -1,11 +1,75 @@
-/** The shapes that cross the border to the server, as docs/architecture.md names them. */
+/** The names by which the screens call the server's shapes; the shapes themselves come from docs/openapi.json. */
+import type { components } from "./schema";
 
-export type * from "./alerts";
-export type * from "./devices";
-export type * from "./maps";
-export type * from "./programs";
-export type * from "./questions";
-export type * from "./rehearsals";
-export type * from "./runs";
-export type * from "./sites";
-export type * from "./values";
+type Schemas = components["schemas"];
+
+export type Scalar = string | number | boolean;
+export type Point = Schemas["PointPlace"]["point"];
+export type Words = Schemas["Words"];
+/** Why something ended or was not done; devices are named as people name them. */
+export type Cause = Schemas["Cause"];
+/** Why something waits; devices are named by their ids. */
+export type WaitReason = Schemas["WaitReason"];
+/** What is wrong with something that a device sends, or was mended in it. */
+export type Fault = Schemas["FaultShape"];
+
+export type Me = Schemas["Me"];
+export type User = Schemas["Person"];
+export type Site = Schemas["SiteShape"];
+export type Role = Site["role"];
+export type SiteStop = Schemas["Stop"];
+
+export type SiteMapInfo = Schemas["MapShape"];
+export type MapPlace = Schemas["PlaceShape"];
+/** A map with its cells: row by row from the bottom row, 0 free, 100 wall, 255 unknown. */
+export type SiteMap = SiteMapInfo & { cells: Uint8Array };
+export type MapVersion = Schemas["MapVersionShape"];
+export type MapDifference = Schemas["MapDifferenceShape"];
+export type MapTrouble = Schemas["MapTroubleShape"];
+export type RobotMapInfo = Schemas["RobotMapShape"];
+/** With its cells, as a site's map has them. */
+export type RobotMap = RobotMapInfo & { cells: Uint8Array };
+export type RouteAnswer = Schemas["RouteShape"];
+
+export type Device = Schemas["DeviceShape"];
+export type DeviceStatus = Device["status"];
+export type Activity = Schemas["Activity"];
+export type DeviceProperty = Schemas["PropertyShape"];
+export type DeviceMethod = Schemas["MethodShape"];
+export type MethodParameter = Schemas["ParameterShape"];
+export type MethodCall = Schemas["CallShape"];
+export type Series = Schemas["SeriesShape"];
+export type DeviceEvent = Schemas["DeviceEventShape"];
+export type FieldChange = Schemas["ChangeShape"];
+export type ExpectedDevice = Schemas["ExpectedDevice"];
+export type Enrolment = Schemas["Door"];
+export type DescriptionLook = Schemas["LookShape"];
+
+export type Alert = Schemas["AlertShape"];
+export type AlertSeverity = Alert["severity"];
+
+export type Program = Schemas["ProgramShape"];
+export type ProgramDocument = Schemas["DocumentShape"];
+export type StepKind = Schemas["StepKind"];
+export type Place = Schemas["Place"];
+export type Step = Schemas["StepShape"];
+export type Compiled = Schemas["CompiledShape"];
+export type Diagnostic = Schemas["DiagnosticShape"];
+export type LibraryFunction = Schemas["LibraryShape"];
+
+export type Run = Schemas["RunShape"];
+export type RunSummary = Schemas["RunSummaryShape"];
+export type RunStatus = Run["status"];
+export type RunStep = Schemas["RunStepShape"];
+export type StepStatus = RunStep["status"];
+export type RunEvent = Schemas["RunEventShape"];
+export type Question = Schemas["QuestionShape"];
+export type AnswerSpec = Schemas["AnswerShape"];
+export type ArmedProgram = Schemas["ArmedShape"];
+
+export type Rehearsal = Schemas["RehearsalShape"];
+export type RehearsalStatus = Rehearsal["status"];
+export type RehearsalResult = Schemas["RehearsalResultShape"];
+export type RehearsalError = Schemas["RehearsalError"];
+export type NearMiss = Schemas["Encounter"];
+export type LogLine = Schemas["LogLine"];

@@ -8,7 +8,7 @@ import { RouterProvider } from "react-router-dom";
 import { makeQueryClient } from "@/api/queries";
 import { makeTheme, variablesResolver } from "@/design/theme";
 import { makeRouter } from "./router";
-import { useTheme } from "./theme";
+import { useTheme } from "@/shell/theme";
 
 // Outside of the tree: state of a tree that suspends before its first commit is thrown away.
 const queries = makeQueryClient();

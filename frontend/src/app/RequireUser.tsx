@@ -1,22 +1,9 @@
-/** The door: whoever is not signed in signs in first, then comes back to where they wanted to go. */
-import { Loader } from "@mantine/core";
+/** Whoever is not signed in signs in first, then comes back to where they wanted to go. */
 import { useEffect } from "react";
-import { useTranslation } from "react-i18next";
 import { Navigate, Outlet, useLocation } from "react-router-dom";
 import { useMe } from "@/api/queries";
-import { noteVisit } from "./begun";
-import { LoadProblem } from "./LoadProblem";
-import styles from "./shell.module.css";
-
-export function Waiting() {
-  const { t } = useTranslation();
-  return (
-    <div className={styles.waiting} role="status">
-      <Loader size="sm" aria-hidden="true" />
-      <span className="visually-hidden">{t("shell.loading")}</span>
-    </div>
-  );
-}
+import { noteVisit } from "@/shell/triedSteps";
+import { LoadProblem, Waiting } from "@/shell/LoadProblem";
 
 export function RequireUser() {
   const me = useMe();

@@ -4,7 +4,7 @@ import { Compass } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link, useRouteError } from "react-router-dom";
 import { EmptyState } from "@/design/EmptyState";
-import styles from "./shell.module.css";
+import styles from "@/shell/shell.module.css";
 
 export function RouteProblem() {
   const { t } = useTranslation();

@@ -1,26 +1,27 @@
 /** Which address shows which screen. A screen is loaded when it is first needed. */
 import { lazy, Suspense, type ComponentType } from "react";
 import { createBrowserRouter, Navigate, type RouteObject } from "react-router-dom";
-import { RequireUser, Waiting } from "./RequireUser";
+import { Waiting } from "@/shell/LoadProblem";
+import { RequireUser } from "./RequireUser";
 import { RouteProblem } from "./RouteProblem";
 
 type Screens = Record<string, () => Promise<Record<string, ComponentType>>>;
 
 const screens: Screens = import.meta.glob<Record<string, ComponentType>>([
-  "../pages/*Page.tsx",
+  "../pages/*/*Page.tsx",
   "../editor/EditorScreen.tsx",
   "../run/RunScreen.tsx",
   "../simulation/SimulationScreen.tsx",
 ]);
 
 const ROUTES: readonly [path: string, file: string][] = [
-  ["/", "pages/HomePage"],
-  ["/sites/new", "pages/NewSitePage"],
-  ["/sites/:slug/devices/:id?", "pages/DevicesPage"],
-  ["/sites/:slug/programs", "pages/ProgramsPage"],
-  ["/sites/:slug/library/:id?", "pages/LibraryPage"],
-  ["/sites/:slug/runs", "pages/RunsPage"],
-  ["/sites/:slug/map", "pages/MapPage"],
+  ["/", "pages/home/HomePage"],
+  ["/sites/new", "pages/site/NewSitePage"],
+  ["/sites/:slug/devices/:id?", "pages/devices/DevicesPage"],
+  ["/sites/:slug/programs", "pages/programs/ProgramsPage"],
+  ["/sites/:slug/library/:id?", "pages/library/LibraryPage"],
+  ["/sites/:slug/runs", "pages/runs/RunsPage"],
+  ["/sites/:slug/map", "pages/map/MapPage"],
   ["/programs/:id", "editor/EditorScreen"],
   ["/programs/:id/simulate/:rehearsal?", "simulation/SimulationScreen"],
   ["/runs/:id", "run/RunScreen"],
@@ -52,7 +53,7 @@ function pick(module: Record<string, ComponentType>, name: string): ComponentTyp
 
 export function makeRouter() {
   return createBrowserRouter([
-    { errorElement: <RouteProblem />, children: route("/sign-in", "pages/SignInPage") },
+    { errorElement: <RouteProblem />, children: route("/sign-in", "pages/signin/SignInPage") },
     {
       element: <RequireUser />,
       errorElement: <RouteProblem />,

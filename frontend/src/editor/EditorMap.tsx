@@ -1,36 +1,37 @@
 /** The map of the editor: what presses, drags and keys on it mean for the program. */
 import { useCallback, useMemo } from "react";
 import { liveRobots } from "@/live/robots";
-import { isRobot } from "@/map/device";
-import type { Insets } from "@/map/projection";
-import { toPixels } from "@/map/projection";
-import type { NodeLooks } from "./canvas/buildNodes";
-import { MapControls } from "./canvas/MapControls";
-import { MapStage, type MapStageProps, type StagePress } from "./canvas/MapStage";
-import type { Light } from "./canvas/MachineNode";
-import { chipLabel } from "./scene/announce";
-import { frameAt } from "./scene/frames";
-import type { SiteDevice } from "./scene/surroundings";
+import { isRobot } from "@/map/devices/device";
+import { type Insets, toPixels } from "@/map/plane/projection";
+import type { NodeLooks } from "@/program/canvas/buildNodes";
+import { MapControls } from "@/program/canvas/MapControls";
+import { MapStage, type MapStageProps, type StagePress } from "@/program/canvas/MapStage";
+import type { Light } from "@/program/canvas/MachineNode";
+import { chipLabel } from "@/program/scene/announcements";
+import { frameAt } from "@/program/scene/frames";
+import type { SiteDevice } from "@/program/surroundings";
 import { useOpenProgram, type OpenProgram } from "./state/context";
 import { goInto } from "./state/creating";
-import { useDrawing, type Drawing } from "./state/drawing";
-import { moveChips } from "./state/moving";
+import { useDrawing, type Drawing } from "./canvas/drawing";
+import { moveChips } from "./canvas/moving";
 import { cursorShower, othersOn } from "./state/presence";
 import { askOf, stepBack, suits, type Gesture } from "./state/tool";
 import { select, toggleSelected, useUi } from "./state/ui";
-import { swapBranches } from "./model/framing";
+import { swapBranches } from "./edits/branches";
 import { FollowView } from "./gestures/FollowView";
 import { Ghosts } from "./gestures/Ghosts";
-import { KeepInView } from "./gestures/KeepInView";
+import { KeepInView } from "./canvas/KeepInView";
 import { joinByDot } from "./gestures/joining";
+import { JoinLine } from "./gestures/JoinLine";
 import { RouteBends } from "./gestures/RouteBends";
-import { settle } from "./gestures/settle";
-import { useGestures } from "./gestures/store";
-import { Cursors } from "./parts/Cursors";
-import { DevicePalette } from "./parts/DevicePalette";
-import { LoadAsk } from "./parts/LoadAsk";
-import { PreviewLine } from "./parts/PreviewLine";
-import { pressZoneTool, ZONE_TOOL } from "./zones/drawing";
+import { settle } from "./state/actions";
+import { useGestures } from "./state/gestures";
+import { Cursors } from "./canvas/Cursors";
+import { DevicePalette } from "./canvas/DevicePalette";
+import { LoadAsk } from "./canvas/LoadAsk";
+import { PreviewLine } from "./canvas/PreviewLine";
+import { ZONE_TOOL } from "./state/tools";
+import { pressZoneTool } from "./zones/drawing";
 import { EditorZones, ZoneHandles } from "./zones/ZoneLayer";
 
 interface EditorMapProps {
@@ -61,6 +62,7 @@ export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
       {...presses}
       onMove={(moved) => moveChips(open, moved)}
       onSelectMany={select}
+      joinLine={JoinLine}
       onJoin={(from, to, at) => joinByDot(open, from, to, at)}
       onOwnPan={() => useGestures.setState({ following: null })}
       onPointer={(at) => {

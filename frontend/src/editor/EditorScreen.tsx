@@ -1,22 +1,23 @@
 /** The editor: a program drawn on its map, by several people at once. */
-import { useEffect, useMemo, useState, useSyncExternalStore } from "react";
+import { useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { useCompiled, useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Site, User } from "@/api/types";
-import { LoadProblem } from "@/app/LoadProblem";
+import { activityWords } from "@/i18n/activity";
 import { useSiteLive } from "@/live/site";
-import { useEditorText, useScene } from "./canvas/useScene";
+import { isRobot, progressOf } from "@/map/devices/device";
+import { useEditorText, useScene } from "@/program/canvas/useScene";
+import { LoadProblem } from "@/shell/LoadProblem";
+import classes from "./editor.module.css";
 import { EditorWorkspace } from "./EditorWorkspace";
-import type { Edit } from "./model/edits";
-import { inLanguage } from "./model/problems";
-import { SharedProgram } from "./model/shared";
-import { useQuietDevices } from "./state/quietDevices";
-import { ProgramContext, type OpenProgram } from "./state/context";
+import type { Edit } from "./edits/edits";
+import { inLanguage } from "./edits/fixes";
+import { SharedProgram } from "./shared/sharedProgram";
+import { type OpenProgram, ProgramContext } from "./state/context";
 import { usePeople, useShowSelection } from "./state/presence";
 import { resetUi, useUi } from "./state/ui";
-import classes from "./editor.module.css";
 
 export function EditorScreen() {
   const { id } = useParams();
@@ -137,4 +138,28 @@ function Loaded({ program, site, devices: live, shared, canEdit, user }: LoadedP
       <EditorWorkspace />
     </ProgramContext>
   );
+}
+
+export function useQuietDevices(devices: Device[]): readonly Device[] {
+  const kept = useRef<{ print: string; devices: readonly Device[] }>({ print: "", devices: [] });
+  const print = JSON.stringify(devices.map(lookOf));
+  if (kept.current.print !== print) kept.current = { print, devices };
+  return kept.current.devices;
+}
+
+/** Robots are drawn from their live poses, so theirs do not count here. */
+function lookOf(device: Device): unknown[] {
+  const { x, y, theta } = device.location;
+  const progress = progressOf(device);
+  return [
+    device.id,
+    device.name,
+    device.status,
+    device.lifecycle,
+    isRobot(device) ? null : [x, y, theta, activityWords(device)],
+    progress === null ? null : Math.round(progress * 20),
+    device.methods.length,
+    device.gives,
+    device.takes,
+  ];
 }

@@ -1,27 +1,29 @@
 /** Where things stand on the editor's screen. */
-import type { CSSProperties } from "react";
-import { useMemo } from "react";
 import { useMediaQuery } from "@mantine/hooks";
-import type { Insets } from "@/map/projection";
-import { EditorMap } from "./EditorMap";
-import { EditorTop } from "./EditorTop";
+import { type CSSProperties, useEffect, useMemo } from "react";
+import type { Insets } from "@/map/plane/projection";
 import classes from "./editor.module.css";
+import { EditorMap } from "./EditorMap";
+import { useClipboard } from "./gestures/clipboard";
+import { useGestureKeys } from "./gestures/keys";
+import { StepMenu } from "./gestures/StepMenu";
 import { Inspector } from "./inspector/Inspector";
 import { Drawer } from "./parts/Drawer";
+import { EditorTop } from "./parts/EditorTop";
 import { FunctionDialog } from "./parts/FunctionDialog";
-import { HelpSentence } from "./parts/HelpSentence";
 import { LibraryDialog } from "./parts/LibraryDialog";
-import { EmptyProgram, Toast } from "./parts/Overlays";
-import { ProgramButton } from "./parts/ProgramButton";
+import { EmptyProgram, HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
 import { RunDialog } from "./parts/RunDialog";
 import { SaveFunctionDialog } from "./parts/SaveFunctionDialog";
 import { ShortcutsDialog } from "./parts/ShortcutsDialog";
 import { ToolRail } from "./parts/ToolRail";
-import { StepMenu } from "./gestures/StepMenu";
-import { useGestureInput } from "./gestures/useGestureInput";
-import { ZoneForm } from "./zones/ZoneForm";
+import { pasteIfScript } from "./script/pastedScript";
+import { useOpenProgram } from "./state/context";
+import { resetGestures } from "./state/gestures";
 import { useShortcuts } from "./state/shortcuts";
 import { useUi } from "./state/ui";
+import { useZoneKeys } from "./zones/drawing";
+import { ZoneForm } from "./zones/ZoneForm";
 
 const FITTED: Insets = { left: 100, right: 336, top: 34, bottom: 300 };
 
@@ -67,4 +69,13 @@ export function EditorWorkspace() {
       <ShortcutsDialog />
     </div>
   );
+}
+
+/** The keys and the clipboard of the gestures, for as long as the editor is on the screen. */
+function useGestureInput(): void {
+  const open = useOpenProgram();
+  useGestureKeys(open);
+  useZoneKeys(open);
+  useClipboard(open, pasteIfScript);
+  useEffect(() => resetGestures, [open.program.id]);
 }

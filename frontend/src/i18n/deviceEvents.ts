@@ -1,11 +1,16 @@
 /** A line of a device's history in the language of the screen; older lines are shown as they were written. */
 import i18next from "i18next";
-import type { DeviceEvent } from "@/api/devices";
-import { faultsOf } from "@/api/faults";
-import { faultsWords } from "./faults";
+import { faultsOf, faultsWords } from "./faults";
 import { formatPoint } from "./format";
 
 type Args = Readonly<Record<string, unknown>>;
+
+/** What a line of a device's history is said from; `code` is empty for older lines. */
+interface DeviceEvent {
+  readonly code: string;
+  readonly args: Args;
+  readonly text: string;
+}
 
 export function deviceEventWords(event: DeviceEvent): string {
   const parts = event.args.parts;

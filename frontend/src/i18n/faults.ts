@@ -1,6 +1,24 @@
 /** What is wrong with a device's message, in the language of the screen; where it is stands before it. */
 import i18next from "i18next";
-import type { Fault } from "@/api/faults";
+
+/** What is wrong with something that a device sends, or was mended in it. */
+export interface Fault {
+  /** The English sentence. */
+  readonly text: string;
+  /** From 1; 0 where there is none. */
+  readonly line: number;
+  readonly column: number;
+  /** Into JSON; may be empty. */
+  readonly path: string;
+  /** What the sentence is made of; empty where it stands for itself. */
+  readonly code: string;
+  readonly args: Readonly<Record<string, number | string>>;
+}
+
+/** The faults among the arguments of a line of history, an alert or a refusal; older ones have none. */
+export function faultsOf(args: Readonly<Record<string, unknown>> | undefined): readonly Fault[] {
+  return Array.isArray(args?.faults) ? (args.faults as Fault[]) : [];
+}
 
 /** Whether the screens have words of their own for it. */
 export function isKnownFault({ code }: Fault): boolean {

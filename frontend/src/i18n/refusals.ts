@@ -1,7 +1,6 @@
 /** A refusal of the server in the language of the screen, where it says what it is made of. */
 import i18next from "i18next";
-import { faultsOf } from "@/api/faults";
-import { faultsWords } from "./faults";
+import { faultsOf, faultsWords } from "./faults";
 
 /** The sentence for a refusal; null where the screens do not know it, so that the server's own is shown. */
 export function refusalWords(code: string, args: Readonly<Record<string, unknown>> | undefined): string | null {

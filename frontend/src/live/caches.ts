@@ -16,7 +16,7 @@ export class LiveCaches {
     this.#unfollow = queries.getQueryCache().subscribe((event) => {
       if (event.type === "removed") this.#late.delete(event.query.queryHash);
       if (event.type === "updated" && event.action.type === "success" && !event.action.manual)
-        this.#arrived(event.query);
+        this.#arrived(event.query as Query);
     });
   }
 

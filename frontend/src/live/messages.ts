@@ -4,13 +4,23 @@ import type {
   ArmedProgram,
   Compiled,
   Device,
+  Point,
   Question,
   RehearsalStatus,
-  RobotTraffic,
   RunEvent,
   RunSummary,
   SiteStop,
+  WaitReason,
 } from "@/api/types";
+
+/** Where a robot is about to drive, metres. */
+export interface RobotTraffic {
+  route: Point[];
+  /** The piece of it that is its own. */
+  reserved: Point[];
+  wait: string | null;
+  why?: WaitReason | null;
+}
 
 export type DeviceChange = Partial<Device> & { id: string };
 

@@ -1,5 +1,5 @@
 /** Fast things that must not re-render anything: robots' last two poses, and readings of this session. */
-import type { TimedPose } from "@/map/robots";
+import type { TimedPose } from "@/map/robots/robots";
 import type { Device, Scalar } from "@/api/types";
 
 export interface PosePair {

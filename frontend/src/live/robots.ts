@@ -1,8 +1,8 @@
 /** The live robots of a site as the map's robot layer asks for them, once a frame. */
-import { doingWords } from "@/i18n/doing";
+import { activityWords } from "@/i18n/activity";
 import { waitWords } from "@/i18n/waits";
-import { statusOf } from "@/map/device";
-import { interpolatePose, type RobotSource, type RobotView } from "@/map/robots";
+import { statusOf } from "@/map/devices/device";
+import { interpolatePose, type RobotSource, type RobotView } from "@/map/robots/robots";
 import { poseOf } from "./readings";
 import { useLiveStore } from "./store";
 
@@ -19,7 +19,7 @@ export const liveRobots: RobotSource = (now) => {
       id: device.id,
       name: device.name,
       status: statusOf(device),
-      note: doingWords(device) || undefined,
+      note: activityWords(device) || undefined,
       carrying: Object.values(device.carrying).some((count) => count > 0),
       x: pose.x,
       y: pose.y,

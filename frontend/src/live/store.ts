@@ -1,6 +1,7 @@
 /** What changes often at the site that is being looked at; select narrowly. */
 import { create } from "zustand";
-import type { Device, RobotTraffic, SiteStop } from "@/api/types";
+import type { Device, SiteStop } from "@/api/types";
+import type { RobotTraffic } from "./messages";
 
 export type Connection = "connecting" | "live" | "reconnecting";
 

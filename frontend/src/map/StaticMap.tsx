@@ -1,17 +1,16 @@
 /** A small read-only map: floor, devices and, if given, routes. */
-import { useEffect, useMemo, useState, type ReactNode } from "react";
-import { DeviceGlyph } from "./DeviceToken";
-import { footprint, type MapDevice } from "./device";
-import { knownBox, type FloorPlan } from "./floor";
-import { FloorCanvas } from "./FloorCanvas";
-import type { FloorDetail } from "./floorPainter";
+import { type ReactNode, useEffect, useMemo, useState } from "react";
+import { footprint, type MapDevice } from "./devices/device";
+import { DeviceGlyph } from "./devices/DeviceToken";
+import { boxOfDevices, NAME_SIZE, nameOnMap, nameSize } from "./devices/framing";
+import { type FloorPlan, knownBox } from "./floor/floor";
+import { FloorCanvas } from "./floor/FloorCanvas";
+import type { FloorDetail } from "./floor/floorPainter";
 import classes from "./map.module.css";
-import { boxOfDevices, NAME_SIZE, nameOnMap, nameSize } from "./framing";
-import { walk } from "./walking";
-import { fitViewport, toPixels, type Box, type Point, type Viewport } from "./projection";
-import { Route } from "./Route";
-import { useSize } from "./useSize";
-import { ViewportCell } from "./viewport";
+import { PathLine } from "./PathLine";
+import { type Box, fitViewport, type Point, toPixels, type Viewport } from "./plane/projection";
+import { useSize } from "./plane/useSize";
+import { ViewportCell } from "./plane/viewport";
 
 const QUIET: FloorDetail = { rulers: false, labels: false, grid: true };
 const NAMED: FloorDetail = { rulers: false, labels: true, grid: true };
@@ -50,7 +49,7 @@ export function StaticMap(props: StaticMapProps) {
       <svg className={classes.still} aria-hidden={props.onSelect ? undefined : true}>
         <g transform={`translate(${view.x} ${view.y}) scale(${view.zoom})`}>
           {routes.map((route, index) => (
-            <Route key={index} points={route.map(toPixels)} />
+            <PathLine key={index} points={route.map(toPixels)} />
           ))}
           {devices.map((device) => (
             <StaticDevice
@@ -134,4 +133,23 @@ function DeviceName({ device, chosen, zoom }: { device: MapDevice; chosen: boole
       {nameOnMap(device.name)}
     </text>
   );
+}
+
+const WAYS: Readonly<Record<string, (at: number, count: number) => number>> = {
+  ArrowRight: (at, count) => (at + 1) % count,
+  ArrowDown: (at, count) => (at + 1) % count,
+  ArrowLeft: (at, count) => (at + count - 1) % count,
+  ArrowUp: (at, count) => (at + count - 1) % count,
+  Home: () => 0,
+  End: (_, count) => count - 1,
+};
+
+/** Give the focus to the next of the buttons among which `element` stands; false for any other key. */
+export function walk(element: Element, key: string): boolean {
+  const way = WAYS[key];
+  const all = [...(element.parentElement?.querySelectorAll<SVGElement>(":scope > [role=button]") ?? [])];
+  const at = all.indexOf(element as SVGElement);
+  if (!way || at < 0) return false;
+  all[way(at, all.length)]?.focus();
+  return true;
 }

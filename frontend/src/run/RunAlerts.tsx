@@ -1,8 +1,8 @@
 /** What is wrong with the devices that take part in a run. */
 import { useMemo } from "react";
 import type { Run } from "@/api/types";
-import { devicesIn } from "@/app/alerts/alerts";
-import { DeviceAlerts } from "@/app/alerts/DeviceAlerts";
+import { devicesIn } from "@/shell/alerts/alerts";
+import { DeviceAlerts } from "@/shell/alerts/DeviceAlerts";
 
 export function RunAlerts({ run }: { run: Run }) {
   const { roles, document } = run;

@@ -6,12 +6,12 @@ import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
 import { keys, useDevices, useQuestions, useRun, useRunEvents, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Run, RunEvent, Site } from "@/api/types";
-import { QuestionCard } from "@/app/questions/QuestionCard";
-import { shownQuestions } from "@/app/questions/shown";
-import { LoadProblem } from "@/app/LoadProblem";
-import { Crumb, TopBar } from "@/app/TopBar";
+import { QuestionCard } from "@/shell/questions/QuestionCard";
+import { shownQuestions } from "@/shell/questions/openQuestions";
+import { LoadProblem } from "@/shell/LoadProblem";
+import { Crumb, TopBar } from "@/shell/TopBar";
 import { Chip } from "@/design/Chip";
-import { ProgramMap } from "@/editor/ProgramMap";
+import { ProgramMap } from "@/program/ProgramMap";
 import { reasonWords } from "@/i18n/reasons";
 import { liveRobots } from "@/live/robots";
 import { useSiteLive } from "@/live/site";
@@ -21,9 +21,10 @@ import { RunActions, RunPill } from "./RunBar";
 import styles from "./RunScreen.module.css";
 import { ScriptLines } from "./ScriptLines";
 import { currentStep, stepLines } from "./stepList";
-import { Journal, StepsPanel } from "./StepsPanel";
+import { Journal, RunSteps } from "./RunSteps";
 import { Timeline, TimelineLegend } from "./Timeline";
 import { useStepWords } from "./useStepWords";
+import { textOf } from "@/program/document/document";
 
 const NO_DEVICES: Device[] = [];
 const NO_EVENTS: RunEvent[] = [];
@@ -220,7 +221,7 @@ function Side({ view }: { view: RunView }) {
   const words = useStepWords(run.document, view.devices, view.map?.places);
   return (
     <aside className={styles.side}>
-      <StepsPanel
+      <RunSteps
         lines={lines}
         current={view.over ? null : currentStep(lines)}
         now={view.now}
@@ -246,7 +247,7 @@ function More({ view }: { view: RunView }) {
     [lines],
   );
   const robotOf = useCallback(
-    (step: string) => run.roles[String(run.document.steps[step]?.params.role ?? "robot")],
+    (step: string) => run.roles[textOf(run.document.steps[step]?.params.role, "robot")],
     [run.roles, run.document],
   );
   return (

@@ -1,7 +1,7 @@
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, RunEvent } from "@/api/types";
-import { DeviceIcon } from "@/map/DeviceIcon";
+import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import { clock, tickEvery } from "@/design/clock";
 import { type Bar, ganttOf, type RobotOf } from "./gantt";
 import styles from "./Timeline.module.css";

@@ -1,10 +1,10 @@
 import { useMemo } from "react";
 import type { ProgramDocument } from "@/api/types";
-import { useEditorText } from "@/editor/canvas/useScene";
-import { kindOf } from "@/editor/scene/kinds";
-import { surroundingsOf, type SiteDevice } from "@/editor/scene/surroundings";
-import { chipText, conditionText, placeName, plainText } from "@/editor/scene/words";
-import type { MapPlace } from "@/map/floor";
+import { useEditorText } from "@/program/canvas/useScene";
+import { kindOf } from "@/program/kinds";
+import { surroundingsOf, type SiteDevice } from "@/program/surroundings";
+import { chipText, conditionText, placeName, plainText } from "@/program/words/stepWords";
+import type { MapPlace } from "@/map/floor/floor";
 
 const NO_PLACES: readonly MapPlace[] = [];
 

@@ -1,8 +1,8 @@
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { Compiled, Device, ProgramDocument, RehearsalResult, SiteMap } from "@/api/types";
-import { ProgramMap } from "@/editor/ProgramMap";
-import type { RobotSource } from "@/map/robots";
+import { ProgramMap } from "@/program/ProgramMap";
+import type { RobotSource } from "@/map/robots/robots";
 import { latest, poseAt } from "./frames";
 import styles from "./SimulationScreen.module.css";
 import type { Moment } from "./scene/types";

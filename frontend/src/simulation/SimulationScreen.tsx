@@ -8,7 +8,7 @@ import { api, ApiProblem } from "@/api/client";
 import { missing } from "@/api/failed";
 import { keys, useDevices, useProgram, useRehearsal, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
-import { Crumb, TopBar } from "@/app/TopBar";
+import { Crumb, TopBar } from "@/shell/TopBar";
 import { waitWords } from "@/i18n/waits";
 import { useSiteLive } from "@/live/site";
 import { MapPane } from "./MapPane";

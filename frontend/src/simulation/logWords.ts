@@ -2,7 +2,9 @@
 import i18next from "i18next";
 import type { LogLine } from "@/api/types";
 
-export function logWords(line: Omit<LogLine, "t" | "step">, nameOf: (device: string) => string): string {
+type Line = Pick<LogLine, "device" | "text"> & Partial<LogLine>;
+
+export function logWords(line: Line, nameOf: (device: string) => string): string {
   const { code = "", args = {}, device, text } = line;
   const key = `simulation.log.${args.why && code === "answer" ? "answer_why" : code}`;
   if (!code || !i18next.exists(key)) return text;
@@ -16,5 +18,7 @@ export function logWords(line: Omit<LogLine, "t" | "step">, nameOf: (device: str
 
 function valueWords(value: unknown): string {
   if (typeof value === "boolean") return i18next.t(value ? "run.question.yes" : "run.question.no");
-  return String(value ?? "") || i18next.t("simulation.log.nothing");
+  return (
+    (typeof value === "string" || typeof value === "number" ? String(value) : "") || i18next.t("simulation.log.nothing")
+  );
 }

@@ -2,18 +2,8 @@
 
 import pytest
 
-from editor.language.plan.instructions import (
-    Branch,
-    Constant,
-    End,
-    Expression,
-    Instruction,
-    Located,
-    Operation,
-    Plan,
-    Reading,
-    Variable,
-)
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
+from editor.language.plan.instructions import Branch, End, Instruction, Plan
 from execution.machine.needs import needs_of
 
 OVEN, DOCK, ROBOT = Located(device="oven"), Located(place="dock"), Located(role="robot")

@@ -18,6 +18,7 @@ from editor.language.printing.steps import PRINTERS
 from editor.language.reading.steps import READERS
 from editor.language.tree.nodes import COMPOSITES, Node
 from editor.language.tree.variables import VALUES
+from editor.shapes import StepKind
 from scripts.checks_page import read_site
 from scripts.construct_programs import pictures
 
@@ -111,15 +112,14 @@ def names_in(file, begin, end, pattern):
 def test_every_kind_stands_in_every_table_of_the_browser():
     key = r"^  (\w+)(?::|,)"
     tables = {
-        "StepKind in editor/model/types.ts": names_in("editor/model/types.ts", "type StepKind", ";", r'"(\w+)"'),
-        "BRANCHES in editor/model/outline.ts": names_in("editor/model/outline.ts", "BRANCHES =", "} as const", key),
-        "KINDS in editor/scene/kinds.ts": names_in("editor/scene/kinds.ts", "KINDS:", "];", r'kind: "(\w+)"'),
-        "WRITERS in editor/scene/words.ts": names_in("editor/scene/words.ts", "WRITERS:", "};", key),
+        "StepKind in editor/shapes.py": get_args(StepKind.__value__),
+        "LOOKS in program/kinds.ts": names_in("program/kinds.ts", "LOOKS:", "};", key),
+        "WRITERS in program/words/stepWords.ts": names_in("program/words/stepWords.ts", "WRITERS:", "};", key),
         "FORMS in editor/inspector/Inspector.tsx": names_in("editor/inspector/Inspector.tsx", "FORMS:", "};", key),
     }
     for language in ("en", "de"):
         words = json.loads((FRONTEND / "i18n" / language / "editor.json").read_text())
         tables |= {f"{part} in i18n/{language}/editor.json": words[part] for part in ("kind", "about")}
     missing = [sentence for table, found in tables.items() for sentence in lacking(table, DRAWN, found)]
-    icons = names_in("editor/scene/kinds.ts", "KINDS:", "];", r'icon: "(\w+)"')
+    icons = names_in("program/kinds.ts", "LOOKS:", "};", r'icon: "(\w+)"')
     assert [*missing, *lacking("icons", icons, (path.stem for path in (FRONTEND / "icons").glob("*.svg")))] == []

@@ -71,7 +71,6 @@ def test_services_do_not_speak_to_the_database(app: str) -> None:
     assert DATABASE.findall((ROOT / app / "services.py").read_text()) == []
 
 
-@pytest.mark.skip(reason="the claim of commands still asks the registry's tables by SQL of the registry's")
 @pytest.mark.parametrize("app", APPS)
 def test_services_give_out_no_sql(app: str) -> None:
     given_out = vars(importlib.import_module(f"{app}.services"))
@@ -102,7 +101,6 @@ def test_no_folder_has_more_modules_than_one_looks_through(package: str) -> None
     assert crowded(path for path in modules if not path.parent.as_posix().endswith(aside)) == {}
 
 
-@pytest.mark.skip(reason="the pages do not stand in their rooms yet")
 def test_no_folder_of_the_pages_has_more_modules_than_one_looks_through() -> None:
     modules = [path for kind in ("ts", "tsx") for path in (ROOT / "frontend" / "src").rglob(f"*.{kind}")]
     assert crowded(path for path in modules if ".test." not in path.name) == {}

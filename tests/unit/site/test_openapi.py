@@ -13,7 +13,8 @@ import execution.shapes
 import registry.shapes
 import vipo_site.http.openapi
 from editor.language import compile_document, compiled_to_json
-from editor.shapes import CompiledShape, DocumentShape
+from editor.language.document.outline import BRANCHES, COMMENT
+from editor.shapes import CompiledShape, DocumentShape, StepKind
 from execution.rehearsals.program_file import rehearse_program
 from execution.shapes import RehearsalResultShape
 from vipo_site.cli.program_file import read_program_file
@@ -66,6 +67,10 @@ def test_no_two_shapes_have_one_name():
     modules = (registry.shapes, editor.api, editor.shapes, execution.shapes, vipo_site.http.openapi)
     shapes = {s for m in modules for s in vars(m).values() if isinstance(s, type) and issubclass(s, Schema)}
     assert [name for name, count in Counter(shape.__name__ for shape in shapes).items() if count > 1] == []
+
+
+def test_the_kinds_of_steps_are_those_of_the_language():
+    assert set(StepKind.__value__.__args__) == {*BRANCHES, COMMENT}
 
 
 @pytest.mark.parametrize("name", ["pick-and-drop", "paint-order"])

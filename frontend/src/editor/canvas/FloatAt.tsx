@@ -1,8 +1,8 @@
 /** Something that stays at a point of the map, in its own size, while the map is moved. */
 import { useLayoutEffect, useRef, type ReactNode } from "react";
-import type { PixelPoint } from "@/map/routePath";
-import classes from "./stage.module.css";
-import { useStage } from "./stageContext";
+import type { PixelPoint } from "@/map/plane/paths";
+import classes from "@/program/canvas/stage.module.css";
+import { useStage } from "@/program/canvas/stageContext";
 
 export function FloatAt({ at, dy = 0, children }: { at: PixelPoint; dy?: number; children: ReactNode }) {
   const element = useRef<HTMLDivElement>(null);

@@ -4,8 +4,8 @@ import { Avatar } from "@/design/Avatar";
 import { useOpenProgram } from "../state/context";
 import type { Person } from "../state/presence";
 import { say } from "../state/ui";
-import classes from "./gestures.module.css";
-import { useGestures } from "./store";
+import classes from "../canvas/gestures.module.css";
+import { useGestures } from "../state/gestures";
 
 export function FollowButton({ person }: { person: Person }) {
   const { t } = useOpenProgram();

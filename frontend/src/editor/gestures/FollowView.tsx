@@ -1,11 +1,10 @@
 /** One's own view shown to the others, and somebody else's view followed until one moves the map oneself. */
 import { useEffect } from "react";
-import { toMetres, toPixels } from "@/map/projection";
-import { useStage } from "../canvas/stageContext";
-import type { SharedProgram } from "../model/shared";
+import { PIXELS_PER_METRE, toMetres, toPixels } from "@/map/plane/projection";
+import { useStage } from "@/program/canvas/stageContext";
+import type { SharedProgram } from "../shared/sharedProgram";
 import { useOpenProgram } from "../state/context";
-import { useGestures } from "./store";
-import { viewFrom, zoomFor, type SharedView } from "./views";
+import { useGestures } from "../state/gestures";
 
 const TELL_EVERY_MS = 150;
 
@@ -56,4 +55,19 @@ function useFollow(shared: SharedProgram): void {
     shared.awareness.on("change", go);
     return () => shared.awareness.off("change", go);
   }, [shared, following, flow, pane.width]);
+}
+
+export type SharedView = readonly [x: number, y: number, width: number];
+
+/** What another client says, if it makes sense. */
+export function viewFrom(value: unknown): SharedView | null {
+  if (!Array.isArray(value) || value.length !== 3) return null;
+  const [x, y, width] = value as unknown[];
+  const sound = [x, y, width].every((each) => typeof each === "number" && Number.isFinite(each));
+  return sound && (width as number) > 0 ? [x as number, y as number, width as number] : null;
+}
+
+/** The zoom at which a pane shows as much from left to right, within what the map allows. */
+export function zoomFor([, , width]: SharedView, paneWidth: number): number {
+  return Math.min(3, Math.max(0.2, paneWidth / (width * PIXELS_PER_METRE)));
 }

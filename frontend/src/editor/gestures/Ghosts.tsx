@@ -1,36 +1,20 @@
 /** Steps that somebody else took away while this person had them selected: still there to be kept. */
 import { useEffect } from "react";
-import type * as Y from "yjs";
-import { toPixels } from "@/map/projection";
+import { toPixels } from "@/map/plane/projection";
 import { FloatAt } from "../canvas/FloatAt";
-import { clip } from "../model/clipping";
-import type { Edit } from "../model/edits";
-import type { SharedProgram } from "../model/shared";
+import { clip } from "../edits/clipping";
+import type { Edit } from "../edits/edits";
+import type { SharedProgram } from "../shared/sharedProgram";
 import { useOpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
-import classes from "./gestures.module.css";
-import { useGestures, type Ghost } from "./store";
-
-const MOST_TOLD = 40;
+import classes from "../canvas/gestures.module.css";
+import { useGestures, type Ghost } from "../state/gestures";
 
 export function Ghosts() {
   const { shared, canEdit } = useOpenProgram();
   const ghosts = useGestures((ui) => ui.ghosts);
-  useEffect(() => watchRemovals(shared), [shared]);
+  useEffect(() => shared.onRemoval((gone) => keepGhosts(shared, gone)), [shared]);
   return canEdit ? ghosts.map((ghost) => <GhostCard key={ghost.id} ghost={ghost} />) : null;
-}
-
-/** Tells the others what this person removes, and keeps what others remove of what is selected here. */
-function watchRemovals(shared: SharedProgram): () => void {
-  const steps = shared.doc.getMap("steps");
-  const note = (event: Y.YMapEvent<unknown>) => {
-    const gone = [...event.changes.keys].filter(([, change]) => change.action === "delete").map(([id]) => id);
-    if (gone.length === 0) return;
-    if (event.transaction.local) shared.awareness.setLocalStateField("removed", gone.slice(0, MOST_TOLD));
-    else keepGhosts(shared, gone);
-  };
-  steps.observe(note);
-  return () => steps.unobserve(note);
 }
 
 /** The document that others read is still the one before: it is read anew only when the transaction has ended. */

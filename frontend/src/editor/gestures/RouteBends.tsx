@@ -1,10 +1,10 @@
 /** The bends of the selected step's route, to be dragged; whoever drags one has drawn the route. */
-import { simplified } from "@/map/routePath";
-import { toMetres } from "@/map/projection";
-import { drawnRoute } from "../model/drawnRoute";
+import { simplified } from "@/map/plane/paths";
+import { toMetres } from "@/map/plane/projection";
+import { drawnRoute } from "@/program/scene/stepPaths";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
-import { CornerHandles } from "./CornerHandles";
+import { CornerHandles } from "../canvas/CornerHandles";
 
 export function RouteBends() {
   const { document, scene, canEdit, apply, t } = useOpenProgram();

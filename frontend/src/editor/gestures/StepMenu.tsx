@@ -4,8 +4,8 @@ import { useEffect } from "react";
 import { useOpenProgram, type OpenProgram } from "../state/context";
 import { select, useUi } from "../state/ui";
 import { COMMANDS } from "./commands";
-import classes from "./gestures.module.css";
-import { useGestures, type MenuItem } from "./store";
+import classes from "../canvas/gestures.module.css";
+import { useGestures, type MenuItem } from "../state/gestures";
 
 const MENU = "gestures-menu";
 

@@ -1,8 +1,6 @@
 /** Copy, cut and paste: in this browser's memory and on the system's clipboard, so that other windows take it, too. */
 import { useEffect } from "react";
-import { clip, clippingFromText, clippingToText } from "../model/clipping";
-import { looksLikeScript } from "../script/pasteScript";
-import { pasteScript } from "../script/pasting";
+import { clip, clippingFromText, clippingToText } from "../edits/clipping";
 import { copySelected, pasteCopied, putCopies, removeSelected } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { isTyping } from "../state/shortcuts";
@@ -23,8 +21,8 @@ function takeSelected({ document, apply, canEdit }: OpenProgram, cut: boolean): 
   return text;
 }
 
-/** The browser's own events of Ctrl+C, X and V, wherever no field has them. */
-export function useClipboard(open: OpenProgram): void {
+/** The browser's own events of Ctrl+C, X and V, wherever no field has them; `pasteText` takes what is no clipping. */
+export function useClipboard(open: OpenProgram, pasteText: (open: OpenProgram, text: string) => boolean): void {
   useEffect(() => {
     const take = (event: ClipboardEvent) => {
       if (isElsewhere(event.target)) return;
@@ -38,8 +36,7 @@ export function useClipboard(open: OpenProgram): void {
       const text = event.clipboardData?.getData("text/plain") ?? "";
       const clipping = clippingFromText(text);
       if (clipping) putCopies(open.document, open.apply, clipping);
-      else if (looksLikeScript(text)) void pasteScript(open, text);
-      else pasteCopied(open.document, open.apply);
+      else if (!pasteText(open, text)) pasteCopied(open.document, open.apply);
       event.preventDefault();
     };
     window.addEventListener("copy", take);
@@ -50,7 +47,7 @@ export function useClipboard(open: OpenProgram): void {
       window.removeEventListener("cut", take);
       window.removeEventListener("paste", put);
     };
-  }, [open]);
+  }, [open, pasteText]);
 }
 
 /** In a field, a dialog, or over text that somebody marked. */

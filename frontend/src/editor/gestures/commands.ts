@@ -1,15 +1,14 @@
 /** One record per gesture that changes the order: feeds the step's menu and the keys. */
-import { expandCall } from "../model/calls";
-import type { Decision, Edit } from "../model/edits";
-import { liftOut, moveIn, swapBranches, takeApart } from "../model/framing";
-import { disconnect, joinDrafts, shiftStep } from "../model/gestures";
-import { outermost } from "../model/tree";
-import type { ProgramDocument } from "../model/types";
-import { duplicateSelected, makeId, removeSelected } from "../state/actions";
+import { expandCall } from "../edits/calls";
+import type { Decision, Edit } from "../edits/edits";
+import { liftOut, moveIn, swapBranches, takeApart } from "../edits/branches";
+import { disconnect, joinDrafts, shiftStep } from "../edits/joints";
+import { outermost } from "@/program/document/tree";
+import type { ProgramDocument } from "@/program/document/document";
+import { duplicateSelected, makeId, removeSelected, settle } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
 import { copyToSystem } from "./clipboard";
-import { settle } from "./settle";
 
 export interface Command {
   /** `gestures.command.<id>` in the catalogues. */

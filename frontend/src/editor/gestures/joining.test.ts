@@ -1,9 +1,10 @@
 import { expect, test } from "vitest";
-import { START_ID } from "../canvas/buildNodes";
-import { EMPTY_DOCUMENT, type ProgramDocument } from "../model/types";
-import type { Chip } from "../scene/chips";
-import { boxAt } from "../scene/geometry";
-import { decideJoin, joinTarget } from "./joining";
+import { START_ID } from "@/program/canvas/buildNodes";
+import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
+import type { Chip } from "@/program/scene/chips";
+import { boxAt } from "@/program/scene/geometry";
+import { joinTarget } from "@/program/canvas/snapping";
+import { decideJoin } from "./joining";
 
 const chip = (id: string, x: number) =>
   [id, { id, at: { x, y: 0 }, box: boxAt({ x, y: 0 }, 100, 28) } as Chip] as const;

@@ -1,38 +1,13 @@
 /** A step's dot dragged to another step: what it would say, and what it does when it is let go. */
-import type { Box } from "@/map/projection";
-import type { PixelPoint } from "@/map/routePath";
-import { START_ID } from "../canvas/buildNodes";
-import type { Decision } from "../model/edits";
-import { joinSteps, moveStep } from "../model/gestures";
-import { ancestors, branchesOf, PROGRAM } from "../model/tree";
-import type { ProgramDocument } from "../model/types";
-import { grown } from "../scene/geometry";
-import { branchWord } from "../scene/links";
-import type { Scene } from "../scene/scene";
+import { START_ID } from "@/program/canvas/buildNodes";
+import type { Decision } from "../edits/edits";
+import { joinSteps, moveStep } from "../edits/joints";
+import { ancestors, branchesOf, PROGRAM } from "@/program/document/tree";
+import type { ProgramDocument } from "@/program/document/document";
+import { branchWord } from "@/program/scene/links";
 import type { OpenProgram } from "../state/context";
-import { settle } from "./settle";
-import { useGestures, type MenuItem } from "./store";
-
-/** Pixels of the screen. */
-const REACH = 24;
-
-/** The step within reach of the pointer, the nearest of several. */
-export function joinTarget(chips: Scene["chips"], from: string, point: PixelPoint, zoom: number): string | null {
-  const near = [...chips.values()]
-    .filter((chip) => chip.id !== from && inside(grown(chip.box, REACH / zoom), point))
-    .map((chip) => ({ id: chip.id, far: Math.hypot(chip.at.x - point.x, chip.at.y - point.y) }));
-  return near.sort((one, other) => one.far - other.far)[0]?.id ?? null;
-}
-
-/** Where a pointer or a finger was, pixels of the window. */
-export function pointOf(event: MouseEvent | TouchEvent): { x: number; y: number } | null {
-  const pointer = "changedTouches" in event ? event.changedTouches[0] : event;
-  return pointer ? { x: pointer.clientX, y: pointer.clientY } : null;
-}
-
-function inside(box: Box, { x, y }: PixelPoint): boolean {
-  return x > box.left && x < box.right && y > box.top && y < box.bottom;
-}
+import { settle } from "../state/actions";
+import { useGestures, type MenuItem } from "../state/gestures";
 
 export function decideJoin(document: ProgramDocument, from: string, to: string): Decision {
   return from === START_ID ? moveStep(document, to, PROGRAM, null) : joinSteps(document, from, to);

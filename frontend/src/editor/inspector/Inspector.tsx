@@ -4,25 +4,25 @@ import { useMemo, type ReactNode } from "react";
 import { Button } from "@mantine/core";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
-import { VipoIcon } from "@/map/VipoIcon";
-import { useGestures } from "../gestures/store";
-import { knownNames } from "../model/variables";
-import { kindOf } from "../scene/kinds";
+import { VipoIcon } from "@/design/VipoIcon";
+import { useGestures } from "../state/gestures";
+import { knownNames } from "../edits/variables";
+import type { StepKind } from "@/api/types";
+import { isStepKind, kindOf } from "@/program/kinds";
 import { duplicateSelected, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
-import { CallForm } from "./CallForm";
-import { ConditionForm } from "./ConditionForm";
-import { CommentForm, EventForm, ForEachForm, TryForm } from "./flowForms";
-import { IfForm } from "./IfForm";
-import { LoadForm } from "./LoadForm";
-import { OperateForm } from "./OperateForm";
-import { AskForm, NotifyForm } from "./messageForms";
+import { CallForm } from "./forms/CallForm";
+import { ConditionForm, IfForm } from "./forms/ConditionForm";
+import { CommentForm, EventForm, ForEachForm, TryForm } from "./forms/flowForms";
+import { LoadForm } from "./forms/LoadForm";
+import { OperateForm } from "./forms/OperateForm";
+import { AskForm, NotifyForm } from "./forms/messageForms";
 import { ProgramPanel } from "./ProgramPanel";
-import { MoveForm, ParallelForm, WaitForm } from "./smallForms";
-import classes from "./inspector.module.css";
-import { StepEditorContext, useStepEditor, type StepEditor } from "./stepEditor";
-import { RepeatForm, ReturnForm, Sentence, SetForm } from "./valueForms";
+import { MoveForm, ParallelForm, WaitForm } from "./forms/smallForms";
+import classes from "../panel.module.css";
+import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
+import { RepeatForm, ReturnForm, Sentence, SetForm } from "./forms/valueForms";
 
 export function Inspector() {
   const { document } = useOpenProgram();
@@ -97,7 +97,7 @@ function StepPanel() {
   );
 }
 
-const FORMS: Readonly<Record<string, () => ReactNode>> = {
+const FORMS: Readonly<Record<StepKind, () => ReactNode>> = {
   pick_and_drop: LoadForm,
   pick: LoadForm,
   drop: LoadForm,
@@ -122,8 +122,9 @@ const FORMS: Readonly<Record<string, () => ReactNode>> = {
 };
 
 function Form({ kind }: { kind: string }) {
+  if (!isStepKind(kind)) return null;
   const Chosen = FORMS[kind];
-  return Chosen ? <Chosen /> : null;
+  return <Chosen />;
 }
 
 function ConditionOfStep() {

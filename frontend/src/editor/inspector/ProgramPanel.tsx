@@ -2,19 +2,19 @@
 import { ArrowRight, X } from "lucide-react";
 import { useEffect, useRef } from "react";
 import { IconButton } from "@/design/IconButton";
-import { VipoIcon } from "@/map/VipoIcon";
-import { namesSet } from "../model/variables";
-import { changeProgramParameter } from "../model/renaming";
-import { unitText } from "../scene/words";
+import { VipoIcon } from "@/design/VipoIcon";
+import { namesSet } from "../edits/variables";
+import { changeProgramParameter } from "../edits/names";
+import { unitText } from "@/program/words/stepWords";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { hideProgram, select, useUi } from "../state/ui";
-import { selectZone } from "../zones/drawing";
-import { AddParameter } from "./FunctionForm";
-import classes from "./inspector.module.css";
-import { ParameterCard } from "./ParameterCard";
+import { selectZone } from "../state/gestures";
+import { AddParameter } from "./forms/FunctionForm";
+import classes from "../panel.module.css";
+import { ParameterCard } from "./fields/ParameterCard";
 import { RolesSection } from "./RolesSection";
-import { Section } from "./Section";
+import { Section } from "./fields/FieldFrame";
 
 export function ProgramPanel() {
   const { t, program } = useOpenProgram();

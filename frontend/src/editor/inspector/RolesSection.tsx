@@ -1,13 +1,13 @@
 /** The robots of the program: each is one robot by name, or any that can do what is asked. */
 import { ActionIcon, Button, MultiSelect, Select } from "@mantine/core";
 import { Plus, Trash2 } from "lucide-react";
-import { drivenBy } from "../model/fixes";
-import type { ProgramDocument, Role } from "../model/types";
+import { drivenBy } from "../edits/fixes";
+import type { ProgramDocument, Role } from "@/program/document/document";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
-import classes from "./inspector.module.css";
-import { NamedField } from "./NamedField";
-import { Section } from "./Section";
+import classes from "../panel.module.css";
+import { NamedField } from "./fields/NamedField";
+import { Section } from "./fields/FieldFrame";
 
 const ANY = ":any";
 /** The role that every program has. */

@@ -7,7 +7,7 @@ import { say, showTab, useUi, type DrawerTab } from "../state/ui";
 import classes from "./drawer.module.css";
 import { ProblemsPanel } from "./ProblemsPanel";
 import { ScriptPanel } from "./ScriptPanel";
-import { StepsPanel } from "./StepsPanel";
+import { StepTree } from "./StepTree";
 
 export function Drawer({ small }: { small: boolean }) {
   const { t, diagnostics } = useOpenProgram();
@@ -57,7 +57,7 @@ function Body({ tab, beside }: { tab: DrawerTab; beside: boolean }) {
     <div className={classes.body} role="tabpanel" id="drawer-panel" aria-labelledby={`drawer-tab-${tab}`}>
       {tab === "script" ? <ScriptPanel /> : null}
       {tab === "problems" ? <ProblemsPanel /> : null}
-      {tab === "steps" ? <StepsPanel /> : null}
+      {tab === "steps" ? <StepTree /> : null}
       {beside ? (
         <div className={classes.beside}>
           <ProblemsPanel titled />

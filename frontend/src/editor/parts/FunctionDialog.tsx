@@ -2,7 +2,7 @@
 import { Button, Modal, TextInput } from "@mantine/core";
 import { Library } from "lucide-react";
 import { useEffect, useState } from "react";
-import { wrapInFunction } from "../model/calls";
+import { wrapInFunction } from "../edits/calls";
 import { createStep, makeId } from "../state/actions";
 import { freeSpot } from "../state/freeSpot";
 import { useOpenProgram } from "../state/context";

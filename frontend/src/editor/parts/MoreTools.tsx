@@ -2,19 +2,20 @@
 import { Popover, Tooltip } from "@mantine/core";
 import { Ellipsis } from "lucide-react";
 import { useState, type KeyboardEvent } from "react";
-import { VipoIcon } from "@/map/VipoIcon";
-import { KINDS, type Kind } from "../scene/kinds";
+import { VipoIcon } from "@/design/VipoIcon";
+import type { Kind } from "@/program/kinds";
+import { TOOLS } from "../state/tools";
 import { useOpenProgram } from "../state/context";
 import { RESTING, takeTool } from "../state/tool";
 import { useUi } from "../state/ui";
 import classes from "./rail.module.css";
 
-const RARE_FIRST = [...KINDS].sort((one, other) => Number(other.rare ?? false) - Number(one.rare ?? false));
+const RARE_FIRST = [...TOOLS].sort((one, other) => Number(other.rare ?? false) - Number(one.rare ?? false));
 
 export function MoreTools() {
   const { t } = useOpenProgram();
   const opened = useUi((ui) => ui.more);
-  const rareTool = useUi((ui) => KINDS.some((kind) => kind.rare && kind.kind === ui.gesture.tool));
+  const rareTool = useUi((ui) => TOOLS.some((kind) => kind.rare && kind.kind === ui.gesture.tool));
   const show = (more: boolean) => useUi.setState({ more });
   return (
     <Popover opened={opened} onChange={show} position="right-end" offset={14} trapFocus returnFocus shadow="md">

@@ -1,12 +1,15 @@
 /** What floats over the map for a moment: a short word with Undo, and how to begin. */
 import { Button } from "@mantine/core";
-import { CircleCheck } from "lucide-react";
+import { CircleCheck, Settings2 } from "lucide-react";
 import { useEffect } from "react";
-import { VipoIcon } from "@/map/VipoIcon";
+import { IconButton } from "@/design/IconButton";
+import { VipoIcon } from "@/design/VipoIcon";
+import classes from "../canvas/float.module.css";
 import { useOpenProgram } from "../state/context";
-import { RESTING, takeTool } from "../state/tool";
-import { useUi } from "../state/ui";
-import classes from "./float.module.css";
+import { useGestures } from "../state/gestures";
+import { type Ask, askOf, type Gesture, RESTING, takeTool } from "../state/tool";
+import { ZONE_TOOL } from "../state/tools";
+import { hideProgram, PROGRAM_BUTTON, useUi } from "../state/ui";
 
 const TOAST_MS = 6000;
 
@@ -55,4 +58,51 @@ export function EmptyProgram() {
       </button>
     </section>
   );
+}
+
+export function ProgramButton({ small, shown }: { small: boolean; shown: boolean }) {
+  const { t } = useOpenProgram();
+  const selected = useUi((ui) => ui.selected.length > 0);
+  if (selected || (shown && !small)) return null;
+  return (
+    <div className={classes.programButton}>
+      <IconButton
+        id={PROGRAM_BUTTON}
+        label={t("program.show")}
+        aria-expanded={shown}
+        onClick={() => (shown ? hideProgram() : useUi.setState({ inspector: true, programSheet: true }))}
+      >
+        <Settings2 size={17} aria-hidden="true" />
+      </IconButton>
+    </div>
+  );
+}
+
+export function HelpSentence() {
+  const { t } = useOpenProgram();
+  const gesture = useUi((ui) => ui.gesture);
+  const into = useUi((ui) => ui.into);
+  const pick = useUi((ui) => ui.fieldPick);
+  const ask = askOf(gesture);
+  const corners = useGestures((ui) => ui.corners.length);
+  const text = pick
+    ? t("help.field")
+    : gesture.tool === ZONE_TOOL
+      ? t(corners > 0 ? "gesture.zone.help_more" : "gesture.zone.help_first")
+      : ask === "nothing" || ask === "load" || ask === "function"
+        ? into
+          ? t("help.into", { branch: into.word })
+          : null
+        : t(`help.${sentenceOf(ask, gesture)}`);
+  if (!text) return null;
+  return (
+    <output className={classes.help} aria-live="polite">
+      {text}
+    </output>
+  );
+}
+
+function sentenceOf(ask: Ask, gesture: Gesture): string {
+  if (ask === "target" && gesture.tool === "drop") return "drop_target";
+  return ask === "floor" && gesture.byKeyboard ? "floor_key" : ask;
 }

@@ -2,15 +2,16 @@
 import { Button, Modal } from "@mantine/core";
 import { useMutation } from "@tanstack/react-query";
 import { Bot, CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
-import { useState, type ReactNode } from "react";
+import { type ReactNode, useState } from "react";
 import { useNavigate } from "react-router-dom";
 import { api } from "@/api/client";
 import type { Run } from "@/api/types";
+import { ArmSwitch } from "@/shell/ArmSwitch";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
-import { Arm } from "./Arm";
 import classes from "./dialogs.module.css";
-import { completed, RunParameters, type Given } from "./RunParameters";
+import { completed, type Given, RunParameters } from "./RunParameters";
+import { textOf } from "@/program/document/document";
 
 export function RunDialog() {
   const { t } = useOpenProgram();
@@ -113,10 +114,20 @@ function useRobotLines(): readonly string[] {
   const { document, surroundings, t } = useOpenProgram();
   const roles = new Set<string>();
   for (const step of Object.values(document.steps))
-    if (["move", "pick", "drop", "pick_and_drop"].includes(step.kind)) roles.add(String(step.params.role ?? "robot"));
+    if (["move", "pick", "drop", "pick_and_drop"].includes(step.kind)) roles.add(textOf(step.params.role, "robot"));
   return [...roles].map((id) => {
     const role = document.roles[id];
     const robot = role?.device ? (surroundings.devices.get(role.device)?.name ?? role.device) : t("role.any");
     return `${role?.name ?? t("role.default")}: ${robot}`;
   });
+}
+
+export function Arm() {
+  const { program, site, document } = useOpenProgram();
+  const starts = Object.values(document.steps).some(
+    (step) => step.kind === "on_event" && step.params.starts === "run" && step.place,
+  );
+  return (
+    <ArmSwitch site={site.slug} program={{ id: program.id, kinds: starts ? ["on_event"] : [] }} role={site.role} />
+  );
 }

@@ -1,7 +1,7 @@
 /** What a run is told when it starts: the program's parameters, with their defaults. */
 import { NumberInput, Select, TextInput } from "@mantine/core";
-import type { Parameter } from "../model/types";
-import { unitText } from "../scene/words";
+import type { Parameter } from "@/program/document/document";
+import { unitText } from "@/program/words/stepWords";
 import { useOpenProgram } from "../state/context";
 
 export type Given = Readonly<Record<string, unknown>>;

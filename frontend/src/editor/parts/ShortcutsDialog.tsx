@@ -1,7 +1,7 @@
 /** The list of keys. */
 import { Modal } from "@mantine/core";
 import { COMMANDS } from "../gestures/commands";
-import { KINDS } from "../scene/kinds";
+import { TOOLS } from "../state/tools";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
@@ -33,7 +33,7 @@ export function ShortcutsDialog() {
   return (
     <Modal opened={opened} onClose={() => useUi.setState({ dialog: null })} closeOnClickOutside title={t("keys.title")}>
       <dl className={classes.keys}>
-        {KINDS.filter((kind) => kind.key).map((kind) => [
+        {TOOLS.filter((kind) => kind.key).map((kind) => [
           <dt key={`${kind.kind}-key`}>{kind.key}</dt>,
           <dd key={kind.kind}>{t(`kind.${kind.kind}`)}</dd>,
         ])}

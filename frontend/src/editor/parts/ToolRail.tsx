@@ -2,15 +2,16 @@
 import { Tooltip } from "@mantine/core";
 import { Hand, Lock, MousePointer2 } from "lucide-react";
 import type { ReactNode } from "react";
-import { VipoIcon } from "@/map/VipoIcon";
-import { KINDS, type Family } from "../scene/kinds";
+import { VipoIcon } from "@/design/VipoIcon";
+import type { Family } from "@/program/kinds";
+import { TOOLS } from "../state/tools";
 import { useOpenProgram } from "../state/context";
 import { takeTool } from "../state/tool";
 import { useUi } from "../state/ui";
 import { MoreTools } from "./MoreTools";
 import classes from "./rail.module.css";
 
-const COMMON = KINDS.filter((kind) => !kind.rare);
+const COMMON = TOOLS.filter((kind) => !kind.rare);
 
 export function ToolRail() {
   const { t, canEdit } = useOpenProgram();

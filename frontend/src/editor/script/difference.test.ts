@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 import * as Y from "yjs";
-import { applyEditsToDoc } from "../model/shared";
-import { readDocument } from "../model/snapshot";
-import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "../model/types";
+import { applyEditsToDoc } from "../shared/sharedProgram";
+import { readDocument } from "../shared/snapshot";
+import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 import { differenceOf, withFreshIds } from "./difference";
 
 function wait(order: string, duration: unknown, more: Record<string, unknown> = {}): Step {

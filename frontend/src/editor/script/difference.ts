@@ -1,6 +1,6 @@
 /** What makes one document of another, as edits: only what differs, so that other people's edits of the rest stay. */
-import type { Edit } from "../model/edits";
-import type { Parameter, ProgramDocument, Step, Zone } from "../model/types";
+import type { Edit } from "../edits/edits";
+import type { ProgramDocument, Step } from "@/program/document/document";
 
 /** The edits that turn `base` into `next`; applied to a document that went on meanwhile, they change only that. */
 export function differenceOf(base: ProgramDocument, next: ProgramDocument): readonly Edit[] {
@@ -10,9 +10,9 @@ export function differenceOf(base: ProgramDocument, next: ProgramDocument): read
     ...recordEdits(base.parameters, next.parameters, (id, value) => ({
       do: "set_parameter",
       id,
-      value: value as Parameter | null,
+      value,
     })),
-    ...recordEdits(base.zones, next.zones, (id, value) => ({ do: "set_zone", id, value: value as Zone | null })),
+    ...recordEdits(base.zones, next.zones, (id, value) => ({ do: "set_zone", id, value })),
     ...Object.entries(next.steps).flatMap(([id, step]) => stepEdits(id, base.steps[id], step)),
     ...Object.keys(base.steps)
       .filter((id) => !next.steps[id])

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import { applyEdits, type Edit } from "../model/edits";
-import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "../model/types";
+import { applyEdits, type Edit } from "../edits/edits";
+import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 import { ScriptSession, type DrawnScript, type ScriptRequest } from "./session";
 
 beforeEach(() => void vi.useFakeTimers());
@@ -65,7 +65,7 @@ function draw({ text, base, shown }: ScriptRequest): DrawnScript {
   }
   const known = inOrder(base);
   const steps = lines.map((line, index): [string, Step] => {
-    const [id, before] = known[index] ?? [`s${index}`, { kind: "wait", place: null, pos: [0, 0], params: {} } as Step];
+    const [id, before] = known[index] ?? [`s${index}`, { kind: "wait", place: null, pos: [0, 0], params: {} }];
     const params = { ...before.params, duration: Number(line.trim().split(/\s+/)[1]) };
     return [id, { ...before, place: ["program", "body", String(index)], params }];
   });

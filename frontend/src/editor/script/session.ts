@@ -2,8 +2,8 @@
 
 A text is always known together with the document that prints as it, the pair: a script is drawn over the pair's
 document, so that only what was typed since changes the program, whatever other people did meanwhile. */
-import type { Edit } from "../model/edits";
-import type { ProgramDocument } from "../model/types";
+import type { Edit } from "../edits/edits";
+import type { ProgramDocument } from "@/program/document/document";
 import { differenceOf, withFreshIds } from "./difference";
 import { mergeTexts, type Conflict } from "./textMerge";
 

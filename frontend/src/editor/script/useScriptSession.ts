@@ -1,7 +1,7 @@
 /** The session of the open program's script; it outlives the panel, so that no unfinished text is lost with a tab. */
 import { useEffect, useMemo } from "react";
 import { api } from "@/api/client";
-import type { SharedProgram } from "../model/shared";
+import type { SharedProgram } from "../shared/sharedProgram";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { ScriptSession, type DrawnScript } from "./session";

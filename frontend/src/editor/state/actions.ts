@@ -1,11 +1,13 @@
 /** What the toolbar, the keys and the menus do; each is one gesture and one entry to undo. */
-import type { Edit, Position } from "../model/edits";
-import { clip, paste, type Clipping } from "../model/clipping";
-import { addStep, branchForNew, branchOf, deleteSteps, endOfBranch, type Goal, type NewStep } from "../model/gestures";
-import type { BranchRef } from "../model/tree";
-import type { ProgramDocument } from "../model/types";
+import type { ProgramDocument, Position } from "@/program/document/document";
+import type { BranchRef } from "@/program/document/tree";
+import { clip, type Clipping, paste } from "../edits/clipping";
+import type { Decision, Edit } from "../edits/edits";
+import { addStep, branchForNew, branchOf, deleteSteps, endOfBranch, type Goal, type NewStep } from "../edits/joints";
+import { changedSince } from "../edits/undo";
+import type { OpenProgram } from "./context";
 import { finish } from "./tool";
-import { select, useUi } from "./ui";
+import { say, select, useUi } from "./ui";
 
 export type Apply = (edits: readonly Edit[]) => void;
 
@@ -76,4 +78,18 @@ export function nudgeSelected(document: ProgramDocument, apply: Apply, by: Posit
     return [{ do: "set_pos", id, pos: [moved(0), moved(1)] }];
   });
   apply(edits);
+}
+
+export function undoLast({ shared, t }: Pick<OpenProgram, "shared" | "t">): void {
+  if (changedSince(shared.getDocument(), shared.lastEdits())) say(t("gesture.overwritten"), true);
+  else shared.undo.undo();
+}
+
+export function settle({ apply, t }: OpenProgram, decision: Decision): boolean {
+  if ("edits" in decision) {
+    apply(decision.edits);
+    return true;
+  }
+  say(t(`refused.${decision.refused}`));
+  return false;
 }

@@ -1,13 +1,13 @@
 /** The open program for all parts of the editor's screen. */
 import { createContext, use } from "react";
 import type { Device, Program, Site } from "@/api/types";
-import type { FloorPlan } from "@/map/floor";
-import type { Edit } from "../model/edits";
-import type { SharedProgram } from "../model/shared";
-import type { Compiled, Diagnostic, ProgramDocument } from "../model/types";
-import type { Scene } from "../scene/scene";
-import type { Surroundings } from "../scene/surroundings";
-import type { Speaker, Translate } from "../scene/words";
+import type { FloorPlan } from "@/map/floor/floor";
+import type { Edit } from "../edits/edits";
+import type { SharedProgram } from "../shared/sharedProgram";
+import type { Compiled, Diagnostic, ProgramDocument } from "@/program/document/document";
+import type { Scene } from "@/program/scene/scene";
+import type { Surroundings } from "@/program/surroundings";
+import type { Speaker, Translate } from "@/program/words/stepWords";
 import type { Person } from "./presence";
 
 export interface OpenProgram {

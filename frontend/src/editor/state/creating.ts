@@ -1,11 +1,11 @@
 /** New steps where a gesture ends: at a device or on the floor. */
-import { toPixels, type Box, type Point } from "@/map/projection";
-import type { ProgramDocument, StepKind } from "../model/types";
-import { freshName } from "../model/variables";
-import { frameAt, type Frame } from "../scene/frames";
-import { spotBelow, spotOnMachine } from "../scene/placing";
-import { outerBox } from "../scene/scene";
-import { deviceBox, type SiteDevice } from "../scene/surroundings";
+import { toPixels, type Box, type Point } from "@/map/plane/projection";
+import type { ProgramDocument, StepKind } from "@/program/document/document";
+import { freshName } from "../edits/variables";
+import { frameAt, type Frame } from "@/program/scene/frames";
+import { spotBelow, spotOnMachine } from "./placement";
+import { outerBox } from "@/program/scene/scene";
+import { deviceBox, type SiteDevice } from "@/program/surroundings";
 import { branchNow, createStep } from "./actions";
 import type { OpenProgram } from "./context";
 import { operable, withDevice, type Gesture } from "./tool";

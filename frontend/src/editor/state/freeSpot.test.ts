@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { boxAt } from "../scene/geometry";
+import { boxAt } from "@/program/scene/geometry";
 import { freeNear } from "./freeSpot";
 
 const SIZE = { width: 100, height: 30 };

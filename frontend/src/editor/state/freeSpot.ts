@@ -1,11 +1,11 @@
 /** A free place for a chip that belongs to no place of its own. */
-import { knownBox } from "@/map/floor";
-import { toMetres, type Box, type Point } from "@/map/projection";
-import type { PixelPoint } from "@/map/routePath";
-import { boxAt, grown, overlaps } from "../scene/geometry";
-import { isFramed } from "../scene/kinds";
-import { outerBox } from "../scene/scene";
-import { deviceBox } from "../scene/surroundings";
+import { knownBox } from "@/map/floor/floor";
+import { toMetres, type Box, type Point } from "@/map/plane/projection";
+import type { PixelPoint } from "@/map/plane/paths";
+import { boxAt, grown, overlaps } from "@/program/scene/geometry";
+import { isFramed } from "@/program/kinds";
+import { outerBox } from "@/program/scene/scene";
+import { deviceBox } from "@/program/surroundings";
 import type { OpenProgram } from "./context";
 import { useUi } from "./ui";
 

@@ -1,8 +1,8 @@
 /** Who else is here: their cursors, selections and what they edit, through awareness. */
 import { useEffect, useState } from "react";
 import { personColour } from "@/design/Avatar";
-import type { OtherPerson } from "../canvas/StepChip";
-import type { SharedProgram } from "../model/shared";
+import type { OtherPerson } from "@/program/canvas/StepChip";
+import type { SharedProgram } from "../shared/sharedProgram";
 import { useUi } from "./ui";
 
 export interface Person extends OtherPerson {

@@ -1,10 +1,9 @@
 /** The keys of the editor; single letters rest while a field has focus. */
 import { useEffect } from "react";
-import { shiftStep } from "../model/gestures";
-import type { Position } from "../model/edits";
-import { undoLast } from "../gestures/undo";
-import { KINDS } from "../scene/kinds";
-import { duplicateSelected, nudgeSelected, removeSelected } from "./actions";
+import { shiftStep } from "../edits/joints";
+import type { Position } from "@/program/document/document";
+import { undoLast, duplicateSelected, nudgeSelected, removeSelected } from "./actions";
+import { TOOLS } from "./tools";
 import { useOpenProgram, type OpenProgram } from "./context";
 import { createOnFloor } from "./creating";
 import { freeSpot } from "./freeSpot";
@@ -61,7 +60,7 @@ function controlKey(open: OpenProgram, event: KeyboardEvent): boolean {
 
 function plainKey(open: OpenProgram, event: KeyboardEvent): boolean {
   if (event.altKey) return moveKey(open, event);
-  const kind = KINDS.find((each) => each.key === event.key.toUpperCase());
+  const kind = TOOLS.find((each) => each.key === event.key.toUpperCase());
   if (kind && open.canEdit) {
     useUi.setState((ui) => ({ gesture: takeTool(ui.gesture, kind.kind, true) }));
     return true;

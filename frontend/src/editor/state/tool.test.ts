@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { SiteDevice } from "../scene/surroundings";
+import type { SiteDevice } from "@/program/surroundings";
 import { askOf, finish, RESTING, stepBack, suggestedLoads, suits, takeTool, withDevice } from "./tool";
 
 function machine(id: string, gives: string[], takes: string[]): SiteDevice {

@@ -1,7 +1,7 @@
 /** The tool in hand and how far its gesture has come; pure. */
-import type { SiteDevice } from "../scene/surroundings";
+import type { SiteDevice } from "@/program/surroundings";
 
-export type ToolName = "select" | "pan" | string;
+export type ToolName = string;
 
 /** What a gesture has gathered so far. */
 export interface Gesture {

@@ -1,7 +1,7 @@
 /** What is on one person's screen: selection, tool, open panels. Never part of the document. */
 import { create } from "zustand";
-import type { BranchRef } from "../model/tree";
-import type { Clipping } from "../model/clipping";
+import type { BranchRef } from "@/program/document/tree";
+import type { Clipping } from "../edits/clipping";
 import { RESTING, type Gesture } from "./tool";
 
 export type DrawerTab = "script" | "problems" | "steps";

@@ -3,14 +3,15 @@ import { NumberInput, Radio, TextInput } from "@mantine/core";
 import { Trash2, X } from "lucide-react";
 import { useEffect, useState } from "react";
 import { IconButton } from "@/design/IconButton";
-import { VipoIcon } from "@/map/VipoIcon";
-import { useGestures } from "../gestures/store";
-import inspector from "../inspector/inspector.module.css";
-import type { Zone } from "../model/types";
+import { VipoIcon } from "@/design/VipoIcon";
+import { useGestures, selectZone } from "../state/gestures";
+import inspector from "../panel.module.css";
+import type { Zone } from "@/program/document/document";
+import { soundZones } from "@/program/canvas/Zones";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
-import { changeZone, removeZone, selectZone } from "./drawing";
-import { areaOf, soundZones, ZONE_RULES } from "./shape";
+import { changeZone, removeZone } from "./drawing";
+import { areaOf, ZONE_RULES } from "./shape";
 
 export function ZoneForm() {
   const { document } = useOpenProgram();
@@ -82,7 +83,7 @@ function RuleField({ id, zone }: { id: string; zone: Zone }) {
     <Radio.Group
       label={open.t("gesture.zone.rule")}
       value={zone.rule}
-      onChange={(rule) => changeZone(open, id, { rule: rule as Zone["rule"] })}
+      onChange={(rule) => changeZone(open, id, { rule })}
     >
       <div className={inspector.field} style={{ marginTop: 8 }}>
         {ZONE_RULES.map((rule) => (

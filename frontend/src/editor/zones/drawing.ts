@@ -1,25 +1,19 @@
 /** The zone tool: corner after corner, closed on the first one or with Enter. */
 import { useEffect } from "react";
-import type { Position } from "../model/edits";
-import type { Zone } from "../model/types";
+import { FEWEST_CORNERS } from "@/program/canvas/Zones";
+import type { Position, Zone } from "@/program/document/document";
 import { makeId } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { freeSpot } from "../state/freeSpot";
 import { isTyping } from "../state/shortcuts";
+import { ZONE_TOOL } from "../state/tools";
 import { finish, RESTING, takeTool } from "../state/tool";
-import { say, select, useUi } from "../state/ui";
-import { useGestures } from "../gestures/store";
-import { closes, FEWEST_CORNERS, freshNumber, freshZone, squareAround, withNextCorner } from "./shape";
-
-export const ZONE_TOOL = "zone";
+import { say, useUi } from "../state/ui";
+import { selectZone, useGestures } from "../state/gestures";
+import { closes, freshNumber, freshZone, squareAround, withNextCorner } from "./shape";
 
 /** Metres; a press so near to the first corner closes the zone. */
 const CLOSING_M = 0.35;
-
-export function selectZone(zone: string | null): void {
-  if (zone !== null) select([]);
-  useGestures.setState({ zone });
-}
 
 export function pressZoneTool(open: OpenProgram, at: Position): void {
   const { corners } = useGestures.getState();

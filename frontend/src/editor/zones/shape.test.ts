@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
-import { EMPTY_DOCUMENT, type ProgramDocument, type Zone } from "../model/types";
-import { areaOf, closes, freshNumber, soundZones, squareAround, withNextCorner } from "./shape";
+import { soundZones } from "@/program/canvas/Zones";
+import { EMPTY_DOCUMENT, type ProgramDocument, type Zone } from "@/program/document/document";
+import { areaOf, closes, freshNumber, squareAround, withNextCorner } from "./shape";
 
 const zone = (name: string, points: Zone["points"]): Zone => ({ name, rule: "slow", points });
 

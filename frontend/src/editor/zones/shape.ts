@@ -1,9 +1,8 @@
 /** Zones as polygons; pure, metres. */
-import type { Position } from "../model/edits";
-import type { ProgramDocument, Zone } from "../model/types";
+import { FEWEST_CORNERS } from "@/program/canvas/Zones";
+import type { Position, ProgramDocument, Zone } from "@/program/document/document";
 
 export const ZONE_RULES = ["keep_out", "one_at_a_time", "slow"] as const;
-export const FEWEST_CORNERS = 3;
 const SLOW_M_S = 0.3;
 const SIDE_M = 2;
 
@@ -39,17 +38,6 @@ export function squareAround([x, y]: Position): readonly Position[] {
 
 export function freshZone(name: string, points: readonly Position[]): Zone {
   return { name, rule: "slow", points, speed_m_s: SLOW_M_S };
-}
-
-/** The zones that can be drawn; other people may have written anything. */
-export function soundZones(document: ProgramDocument): readonly (readonly [string, Zone])[] {
-  return Object.entries(document.zones).filter(
-    ([, zone]) => Array.isArray(zone?.points) && zone.points.length >= FEWEST_CORNERS && zone.points.every(isPoint),
-  );
-}
-
-function isPoint(value: unknown): boolean {
-  return Array.isArray(value) && value.length === 2 && value.every((each) => Number.isFinite(each));
 }
 
 /** A number that no zone's name ends with yet. */

@@ -5,25 +5,25 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate } from "react-router-dom";
 import type { Device, Site } from "@/api/types";
-import { DeviceAlerts } from "@/app/alerts/DeviceAlerts";
+import { DeviceAlerts } from "@/shell/alerts/DeviceAlerts";
 import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
 import { StatusBadge } from "@/design/StatusBadge";
 import { statusColour } from "@/design/StatusGlyph";
-import { doingWords } from "@/i18n/doing";
+import { activityWords } from "@/i18n/activity";
 import { formatAge, formatNumber } from "@/i18n/format";
-import { DeviceIcon } from "@/map/DeviceIcon";
-import { useNow } from "../useNow";
-import { Changes } from "./Changes";
-import { DescriptionTable } from "./DescriptionTable";
+import { DeviceIcon } from "@/map/devices/DeviceIcon";
+import { useNow } from "@/design/useNow";
+import { DeviceHistory } from "./description/DeviceHistory";
+import { DescriptionTable } from "./description/DescriptionTable";
 import { jobOf } from "./filter";
 import { useFocusInList } from "./focus";
-import { AskKeyDecision, KeyMenuItems, KeyTrouble, type KeyDecision } from "./KeyActions";
-import { LiveProperties } from "./LiveProperties";
-import { Methods } from "./Methods";
-import { RdfSource } from "./RdfSource";
+import { AskKeyDecision, KeyMenuItems, KeyTrouble, type KeyDecision } from "./keys/KeyActions";
+import { LiveProperties } from "./readings/LiveProperties";
+import { Methods } from "./methods/Methods";
+import { RdfSource } from "./description/RdfSource";
 import { RenameDevice } from "./RenameDevice";
-import { RobotMapCard } from "./RobotMapCard";
+import { RobotMapCard } from "./robotMap/RobotMapCard";
 import { UsedIn, useUsedIn } from "./UsedIn";
 import styles from "./detail.module.css";
 
@@ -64,7 +64,7 @@ function Ring({ device }: { device: Device }) {
 function Heading({ device }: { device: Device }) {
   const { t } = useTranslation();
   const now = useNow(1000);
-  const [word, doing] = [t(`shell.status.${device.status}`), doingWords(device)];
+  const [word, doing] = [t(`shell.status.${device.status}`), activityWords(device)];
   return (
     <div className={styles.heading}>
       <h2>{device.name}</h2>
@@ -91,7 +91,7 @@ function Overview({ site, device }: { site: Site; device: Device }) {
       <Methods site={site} device={device} />
       <div className={styles.pair}>
         <RdfSource slug={site.slug} device={device.id} />
-        <Changes slug={site.slug} device={device.id} most={6} />
+        <DeviceHistory slug={site.slug} device={device.id} most={6} />
       </div>
     </div>
   );
@@ -162,7 +162,7 @@ export function DeviceDetail({ site, device }: { site: Site; device: Device }) {
           <RdfSource slug={site.slug} device={device.id} />
         </Tabs.Panel>
         <Tabs.Panel value="history" className={styles.whole}>
-          <Changes slug={site.slug} device={device.id} most={200} />
+          <DeviceHistory slug={site.slug} device={device.id} most={200} />
         </Tabs.Panel>
         <Tabs.Panel value="used" className={styles.whole}>
           <UsedIn slug={site.slug} device={device.id} />

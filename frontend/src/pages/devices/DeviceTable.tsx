@@ -3,15 +3,15 @@ import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import type { Alert, Device } from "@/api/types";
-import { byDevice } from "@/app/alerts/alerts";
-import { AlertMark } from "@/app/alerts/DeviceAlerts";
-import { useAlerts } from "@/app/alerts/useAlerts";
+import { byDevice } from "@/shell/alerts/alerts";
+import { AlertMark } from "@/shell/alerts/DeviceAlerts";
+import { useAlerts } from "@/shell/alerts/useAlerts";
 import { StatusBadge } from "@/design/StatusBadge";
-import { doingWords } from "@/i18n/doing";
+import { activityWords } from "@/i18n/activity";
 import { formatAge, formatNumber, formatPoint, withUnit } from "@/i18n/format";
-import { DeviceIcon } from "@/map/DeviceIcon";
+import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import pages from "../pages.module.css";
-import { useNow } from "../useNow";
+import { useNow } from "@/design/useNow";
 import { batteryOf } from "./filter";
 import { rowId } from "./focus";
 import styles from "./devices.module.css";
@@ -61,8 +61,8 @@ function Row({ device, alerts, slug, chosen, now }: RowProps) {
         <StatusBadge status={device.status}>{t(`shell.status.${device.status}`)}</StatusBadge>
         <AlertMark own={alerts} />
       </td>
-      <td className={styles.doing} title={doingWords(device)}>
-        {device.status === "pending" ? t("pages.devices.notTrusted") : doingWords(device) || "–"}
+      <td className={styles.doing} title={activityWords(device)}>
+        {device.status === "pending" ? t("pages.devices.notTrusted") : activityWords(device) || "–"}
       </td>
       <td className={pages.optional}>
         <code className={styles.position}>{formatPoint(x, y)}</code>

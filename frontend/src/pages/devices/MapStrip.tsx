@@ -3,13 +3,13 @@ import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
 import { useSiteMap } from "@/api/queries";
 import type { Device, Site } from "@/api/types";
-import { LoadProblem } from "@/app/LoadProblem";
+import { LoadProblem } from "@/shell/LoadProblem";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { useLiveStore } from "@/live/store";
 import { StaticMap } from "@/map/StaticMap";
 import { newcomerOf } from "./filter";
-import { Newcomer } from "./Newcomer";
+import { PendingDevice } from "./PendingDevice";
 import styles from "./devices.module.css";
 
 interface StripProps {
@@ -49,7 +49,7 @@ export function MapStrip({ site, devices, chosen }: StripProps) {
           <StatusBadge status={live ? "done" : "offline"}>{t(live ? "pages.live" : "pages.notLive")}</StatusBadge>
         </span>
       </div>
-      {newcomer ? <Newcomer key={newcomer.id} device={newcomer} site={site} /> : null}
+      {newcomer ? <PendingDevice key={newcomer.id} device={newcomer} site={site} /> : null}
     </Panel>
   );
 }

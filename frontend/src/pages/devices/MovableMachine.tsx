@@ -3,13 +3,13 @@ import { useEffect, useRef, useState, type KeyboardEvent, type PointerEvent } fr
 import { useTranslation } from "react-i18next";
 import type { Device, Site, SiteMap } from "@/api/types";
 import { formatNumber } from "@/i18n/format";
-import { footprint } from "@/map/device";
-import { nameOnMap } from "@/map/framing";
-import { DeviceGlyph } from "@/map/DeviceToken";
-import { toMetres, toPixels, type Point } from "@/map/projection";
-import { useDecide } from "./decide";
-import { isSame, nudge, onMap } from "./placing";
-import styles from "./keys.module.css";
+import { footprint } from "@/map/devices/device";
+import { nameOnMap } from "@/map/devices/framing";
+import { DeviceGlyph } from "@/map/devices/DeviceToken";
+import { toMetres, toPixels, type Point } from "@/map/plane/projection";
+import { useDecide } from "./decisions";
+import { isSame, nudge, onMap } from "./placement";
+import styles from "./keys/keys.module.css";
 
 const HALO = 5;
 

@@ -3,7 +3,7 @@ import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, Site } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
-import { useDecide } from "./decide";
+import { useDecide } from "./decisions";
 import styles from "./detail.module.css";
 
 export function RenameDevice({ site, device, onClose }: { site: Site; device: Device; onClose: () => void }) {

@@ -4,10 +4,10 @@ import { Workflow } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { usePrograms } from "@/api/queries";
-import { LoadProblem } from "@/app/LoadProblem";
+import { LoadProblem } from "@/shell/LoadProblem";
 import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
-import { Soundness } from "../ProgramTable";
+import { Soundness } from "../programs/ProgramTable";
 import styles from "./detail.module.css";
 
 /** The programs of a site that name the device; `found` is null until that is known. */

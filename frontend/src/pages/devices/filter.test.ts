@@ -14,7 +14,9 @@ const method = (name: string, title: string) => ({
   parameters: [],
 });
 const holding = (name: string, value: number | string) =>
-  [{ name, type: "number", unit: "", minimum: null, maximum: null, value }] satisfies Device["properties"];
+  [
+    { name, title: "", type: "number", unit: "", minimum: null, maximum: null, options: [], value },
+  ] satisfies Device["properties"];
 
 const oven = device("oven01", { name: "Curing Oven", methods: [method("cure", "Cure")] });
 const mixer = device("mixer01", { name: "Paint Mixer", status: "busy", methods: [method("mixPaint", "Mix")] });

@@ -1,6 +1,6 @@
 /** Finding devices: by words, status, kind and what they can do. Pure. */
 import type { Device } from "@/api/types";
-import { doingWords } from "@/i18n/doing";
+import { activityWords } from "@/i18n/activity";
 
 export interface DeviceFilter {
   readonly query: string;
@@ -40,7 +40,7 @@ export function newcomerOf(devices: readonly Device[], chosen: string | undefine
 
 function textOf(device: Device): string {
   const methods = device.methods.flatMap((method) => [method.name, method.title, method.topic]);
-  return [device.name, device.id, doingWords(device), ...methods].join(" ").toLowerCase();
+  return [device.name, device.id, activityWords(device), ...methods].join(" ").toLowerCase();
 }
 
 /** Names of all methods, each once, in order of the alphabet. */

@@ -2,7 +2,7 @@
 import { memo, useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { Device, SiteMap } from "@/api/types";
-import { DeviceIcon } from "@/map/DeviceIcon";
+import { DeviceIcon } from "@/map/devices/DeviceIcon";
 import { statusColour } from "@/design/StatusGlyph";
 import { blocksOf, floorBoxes, lookOf, project, wallBlocks, type Block, type Corner } from "./projection";
 import styles from "./home.module.css";

@@ -6,12 +6,12 @@ import type { Device, RunSummary } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { StatusGlyph } from "@/design/StatusGlyph";
-import { doingWords } from "@/i18n/doing";
+import { activityWords } from "@/i18n/activity";
 import { formatClock } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
 import { outerProgress, stepLines } from "@/run/stepList";
-import { isOpen, secondsOfRun, statusOfRun } from "../runs";
-import { useNow } from "../useNow";
+import { isOpen, secondsOfRun, statusOfRun } from "../runs/runStatus";
+import { useNow } from "@/design/useNow";
 import styles from "./home.module.css";
 
 const TELLING: readonly string[] = ["pending", "error", "warning", "busy", "waiting", "offline"];
@@ -47,7 +47,7 @@ function DeviceLine({ device, slug }: { device: Device; slug: string }) {
         <StatusBadge status={device.status}>
           {device.status === "pending"
             ? t("shell.status.pending")
-            : doingWords(device) || t(`shell.status.${device.status}`)}
+            : activityWords(device) || t(`shell.status.${device.status}`)}
         </StatusBadge>
       </Link>
     </li>

@@ -5,8 +5,8 @@ import { Panel } from "@/design/Panel";
 import { StatusGlyph } from "@/design/StatusGlyph";
 import { formatAgo, formatSpan } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
-import { isOpen, secondsOfRun, statusOfRun, stepsDone } from "../runs";
-import { useNow } from "../useNow";
+import { isOpen, secondsOfRun, statusOfRun, stepsDone } from "../runs/runStatus";
+import { useNow } from "@/design/useNow";
 import styles from "./home.module.css";
 
 function RunLine({ run, now }: { run: RunSummary; now: number }) {

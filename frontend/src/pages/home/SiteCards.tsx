@@ -8,7 +8,7 @@ import type { Site } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { StaticMap } from "@/map/StaticMap";
-import { isOpen } from "../runs";
+import { isOpen } from "../runs/runStatus";
 import styles from "./home.module.css";
 
 function SiteState({ site, running }: { site: Site; running: boolean }) {

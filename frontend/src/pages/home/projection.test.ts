@@ -47,7 +47,7 @@ test("known cells become floor, unknown ones do not", () => {
 
 test("readings and small movements do not change the look, a status and a real move do", () => {
   const before = device("a", 1, 1);
-  expect(lookOf([{ ...before, properties: [], doing: "x" } as Device])).toBe(lookOf([before]));
+  expect(lookOf([{ ...before, properties: [], doing: "x" }])).toBe(lookOf([before]));
   expect(lookOf([device("a", 1.02, 1)])).toBe(lookOf([before]));
   expect(lookOf([device("a", 1.2, 1)])).not.toBe(lookOf([before]));
   expect(lookOf([device("a", 1, 1, { status: "busy" })])).not.toBe(lookOf([before]));

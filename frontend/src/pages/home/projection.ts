@@ -1,6 +1,6 @@
 /** A parallel view onto the floor from above and the side; metres in, drawing units out. Pure. */
 import type { Device, SiteMap } from "@/api/types";
-import { mergeCells } from "@/map/floor";
+import { mergeCells } from "@/map/floor/floor";
 
 export type Corner = readonly [x: number, y: number, z: number];
 export interface Block {

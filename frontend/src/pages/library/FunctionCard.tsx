@@ -1,7 +1,7 @@
 import { Workflow } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import type { FunctionParameter, LibraryFunction } from "@/api/types";
+import type { LibraryFunction } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { Chip, type Tone } from "@/design/Chip";
 import { unitSign } from "@/i18n/units";
@@ -18,7 +18,7 @@ const TONES: Readonly<Record<string, Tone>> = {
   integer: "quiet",
 };
 
-export function ParameterType({ parameter }: { parameter: FunctionParameter }) {
+export function ParameterType({ parameter }: { parameter: LibraryFunction["parameters"][number] }) {
   const { t } = useTranslation();
   const known = t(`pages.library.type.${parameter.type}`, { defaultValue: parameter.type });
   return (

@@ -1,6 +1,6 @@
 /** What a function's picture shows: the machines it touches and the ways between them. Pure. */
 import type { Device, LibraryFunction, Place, Point, Step } from "@/api/types";
-import { boxAround, toPixels, type Box } from "@/map/projection";
+import { boxAround, toPixels, type Box } from "@/map/plane/projection";
 
 const MARGIN_M = 1.6;
 

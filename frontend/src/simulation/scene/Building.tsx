@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useRef } from "react";
 import * as THREE from "three";
-import { mergeCells } from "@/map/floor";
+import { mergeCells } from "@/map/floor/floor";
 import type { Palette } from "./palette";
 import type { SceneMap } from "./types";
 

@@ -1,4 +1,4 @@
-import type { FloorPlan } from "@/map/floor";
+import type { FloorPlan } from "@/map/floor/floor";
 import type { Frames } from "../frames";
 
 export type SceneMap = FloorPlan;

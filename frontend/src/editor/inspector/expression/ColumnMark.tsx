@@ -1,7 +1,6 @@
 /** A wavy line under the word of a text box that cannot be understood. */
-import { useLayoutEffect, useState, type RefObject } from "react";
+import { type RefObject, useLayoutEffect, useState } from "react";
 import classes from "./expression.module.css";
-import { wordAt } from "./wordAt";
 
 interface ColumnMarkProps {
   input: RefObject<HTMLInputElement | null>;
@@ -26,4 +25,9 @@ export function ColumnMark({ input, text, column, scrolled }: ColumnMarkProps) {
       </span>
     </span>
   );
+}
+
+export function wordAt(text: string, column: number): string {
+  const rest = text.slice(column - 1);
+  return /^[\p{L}\p{N}_.]+/u.exec(rest)?.[0] ?? (rest.charAt(0).trim() || "\u00a0");
 }

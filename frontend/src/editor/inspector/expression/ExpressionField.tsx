@@ -1,8 +1,8 @@
 /** A value written as one line: what the script has, without `self.`, and `10 min` for a quantity. */
 import { ExpressionInput } from "./ExpressionInput";
-import { FieldFrame, useFieldProblems } from "../fields";
-import type { Value } from "../../model/types";
-import { unitText, withUnit } from "../../scene/words";
+import { FieldFrame, useFieldProblems } from "../fields/FieldFrame";
+import type { Value } from "@/program/document/document";
+import { unitText, withUnit } from "@/program/words/stepWords";
 import { Readings } from "./Readings";
 import { useExpression } from "./useExpression";
 import { useWanted } from "./useWanted";

@@ -2,7 +2,7 @@
 import { TextInput } from "@mantine/core";
 import { useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { useStepEditor } from "../stepEditor";
+import { useStepEditor } from "../fields/stepEditor";
 import { ColumnMark } from "./ColumnMark";
 import classes from "./expression.module.css";
 import type { Wanted } from "./literal";

@@ -1,10 +1,10 @@
 /** The current readings that a value looks at, straight from the live store. */
 import { useLiveStore } from "@/live/store";
-import { readingsOf } from "../../model/conditions";
-import type { Value } from "../../model/types";
-import { withUnit } from "../../scene/words";
+import { readingsOf } from "../../edits/conditions";
+import type { Value } from "@/program/document/document";
+import { withUnit } from "@/program/words/stepWords";
 import { useOpenProgram } from "../../state/context";
-import classes from "../inspector.module.css";
+import classes from "../../panel.module.css";
 
 export function Readings({ value }: { value: Value | undefined }) {
   return readingsOf(value ?? null).map(([device, name]) => (

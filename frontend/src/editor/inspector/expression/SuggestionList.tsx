@@ -1,7 +1,7 @@
 /** The list under an expression's text box; readings show what they are now. */
 import { useEffect, useRef } from "react";
 import { useTranslation } from "react-i18next";
-import { withUnit } from "../../scene/words";
+import { withUnit } from "@/program/words/stepWords";
 import { useOpenProgram } from "../../state/context";
 import classes from "./expression.module.css";
 import { useReading } from "./Readings";

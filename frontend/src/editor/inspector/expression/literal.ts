@@ -1,5 +1,5 @@
 /** What stands for itself in a field that wants it: numbers, yes and no, texts without quotation marks. */
-import type { Value } from "../../model/types";
+import type { Value } from "@/program/document/document";
 
 export interface Wanted {
   /** number, boolean, text and the like; undefined where anything may stand. */

@@ -1,10 +1,12 @@
 /** The list of a text box that completes: when it is open, what is marked in it, what the keys do. */
-import { useState, type ChangeEvent, type KeyboardEvent, type RefObject } from "react";
-import { useStepEditor } from "../stepEditor";
+import { useQuery } from "@tanstack/react-query";
+import { type ChangeEvent, type KeyboardEvent, type RefObject, useState } from "react";
+import { api } from "@/api/client";
+import { useOpenProgram } from "../../state/context";
+import { useStepEditor } from "../fields/stepEditor";
 import { choicesOf, type Wanted } from "./literal";
-import { suggest, suggestChoices, take, type Suggestion } from "./suggestions";
+import { type LineName, suggest, suggestChoices, type Suggestion, take } from "./suggestions";
 import type { Expression } from "./useExpression";
-import { useNames } from "./useNames";
 
 interface Open {
   readonly caret: number;
@@ -64,4 +66,15 @@ export function useCombobox(expression: Expression, wanted: Wanted, input: RefOb
     if (choices.length > 0 && !open) setOpen({ caret: caretNow(), marked: -1, all: true });
   };
   return { shown, marked, choose, handlers: { onChange, onKeyDown, onBlur, onClick, onFocus: () => setFocused(true) } };
+}
+
+export function useNames(step: string, wanted: boolean): readonly LineName[] {
+  const { program, compiled } = useOpenProgram();
+  const names = useQuery({
+    queryKey: ["expression-names", program.id, step, compiled?.revision ?? 0],
+    queryFn: () => api.post<{ names: LineName[] }>(`/programs/${program.id}/expression`, { step, names: true }),
+    enabled: wanted,
+    placeholderData: (before) => before,
+  });
+  return names.data?.names ?? [];
 }

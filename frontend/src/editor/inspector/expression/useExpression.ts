@@ -2,11 +2,10 @@
 import { useDebouncedCallback } from "@mantine/hooks";
 import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { ApiProblem } from "@/api/client";
-import type { Value } from "../../model/types";
+import { api, ApiProblem } from "@/api/client";
+import type { Value } from "@/program/document/document";
 import { useOpenProgram } from "../../state/context";
-import { readPlain, writePlain, type Wanted } from "./literal";
-import { readExpression, type ReadExpression } from "./readExpression";
+import { readPlain, type Wanted, writePlain } from "./literal";
 
 const PAUSE_MS = 250;
 
@@ -121,4 +120,26 @@ function useLatest<T>(value: T) {
     latest.current = value;
   }, [value]);
   return latest;
+}
+
+export interface ExpressionProblem {
+  readonly message: string;
+  /** The message by language. */
+  readonly messages: Readonly<Record<string, string>>;
+  readonly column: number;
+}
+
+export interface ReadExpression {
+  readonly value: Value;
+  readonly text: string;
+  readonly type: string;
+  readonly unit: string;
+  readonly problem: ExpressionProblem | null;
+}
+
+type Asked = { readonly text: string } | { readonly value: Value };
+
+/** A text that stands for nothing comes back with its problem; only silence and refusals throw. */
+export function readExpression(program: string, step: string, asked: Asked): Promise<ReadExpression> {
+  return api.post<ReadExpression>(`/programs/${program}/expression`, { ...asked, step });
 }

@@ -1,7 +1,7 @@
 /** What a field wants, with the names that its step can use and the words of the screen's language. */
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
-import { useStepEditor } from "../stepEditor";
+import { useStepEditor } from "../fields/stepEditor";
 import type { Wanted } from "./literal";
 
 const NO_OPTIONS: readonly unknown[] = [];

@@ -1,0 +1,81 @@
+/** Chips let go on the map: moved, put into a link, or put into a frame. */
+import { toPixels, type Point } from "@/map/plane/projection";
+import type { PixelPoint } from "@/map/plane/paths";
+import type { MovedNode } from "@/program/canvas/useMovingNodes";
+import type { Edit } from "../edits/edits";
+import { liftOut } from "../edits/branches";
+import { moveStep } from "../edits/joints";
+import { withDescendants } from "@/program/document/tree";
+import { frameAt } from "@/program/scene/frames";
+import { boxAt, gap, nearestOn } from "@/program/scene/geometry";
+import { START_ID } from "@/program/canvas/buildNodes";
+import type { OpenProgram } from "../state/context";
+import { say } from "../state/ui";
+
+const ON_LINK = 14;
+const OUTSIDE = 24;
+
+export function moveChips(open: OpenProgram, moved: readonly MovedNode[]): void {
+  const { document, apply } = open;
+  const start = moved.find((each) => each.id === START_ID);
+  const steps = moved.filter((each) => document.steps[each.id]);
+  const edits: Edit[] = start ? [{ do: "set_start", pos: start.at }] : [];
+  for (const { id, at } of steps) edits.push({ do: "set_pos", id, pos: at });
+  edits.push(...carried(open, steps));
+  const [only] = steps;
+  if (steps.length === 1 && only) edits.push(...joined(open, only.id, only.pointed));
+  apply(edits);
+}
+
+/** What stands inside a frame moves with its head. */
+function carried(open: OpenProgram, moved: readonly { id: string; at: Point }[]): Edit[] {
+  const { document, scene } = open;
+  const own = new Set(moved.map((each) => each.id));
+  return moved.flatMap(({ id, at }) => {
+    const frame = scene.frames.find((each) => each.id === id);
+    const before = document.steps[id]?.pos;
+    if (!frame || !before) return [];
+    const [dx, dy] = [at[0] - before[0], at[1] - before[1]];
+    return [...withDescendants(document, frame.holds)].flatMap((inner): Edit[] => {
+      const pos = document.steps[inner]?.pos;
+      if (!pos || own.has(inner)) return [];
+      const rounded = (value: number) => Math.round(value * 100) / 100;
+      return [{ do: "set_pos", id: inner, pos: [rounded(pos[0] + dx), rounded(pos[1] + dy)] }];
+    });
+  });
+}
+
+/** Dropped on a dotted link: inserted there. Dropped into a frame: the last in it. Dragged out of one: behind it. */
+function joined(open: OpenProgram, id: string, at: Point): readonly Edit[] {
+  const { document, scene, t } = open;
+  const point = toPixels(at);
+  const link = scene.links.find((each) => {
+    if (each.from === id || each.to === id || each.into.parent === id) return false;
+    return (nearestOn(each.points, point)?.off ?? Infinity) < ON_LINK;
+  });
+  const others = scene.frames.filter((each) => each.id !== id && document.steps[id]?.place?.[0] !== each.id);
+  const frame = frameAt(others, point);
+  const goal = link
+    ? { branch: link.into, after: link.after }
+    : frame
+      ? {
+          branch: { parent: frame.id, branch: "body" },
+          after: scene.tree.children(frame.id, "body").at(-1) ?? null,
+        }
+      : null;
+  if (!goal) return draggedOut(open, id, point);
+  const decision = moveStep(document, id, goal.branch, goal.after);
+  if ("edits" in decision) return decision.edits;
+  if (decision.refused === "cycle") say(t("refused.cycle"));
+  return [];
+}
+
+/** A chip that stood inside its frame and now stands well outside it follows the frame. */
+function draggedOut({ document, scene, t }: OpenProgram, id: string, point: PixelPoint): readonly Edit[] {
+  const frame = scene.frames.find((each) => each.holds.has(id));
+  if (!frame || gap(frame.box, boxAt(point, 0, 0)) < OUTSIDE) return [];
+  const decision = liftOut(document, [id]);
+  if (!("edits" in decision)) return [];
+  say(t("gesture.lifted", { frame: t(`kind.${frame.kind}`) }), true);
+  return decision.edits;
+}

@@ -1,0 +1,53 @@
+import { expect, test } from "vitest";
+import { applyEdits } from "./edits";
+import { alreadyImported, importFunction, replaceFunction, type CutOut } from "./library";
+import { readTree } from "@/program/document/tree";
+import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
+
+const cut: CutOut = {
+  id: "f",
+  function: { name: "mixPaint", parameters: [] },
+  functions: { g: { name: "rinse", parameters: [] } },
+  steps: {
+    loop: { kind: "while", place: ["f", "body", "A"], params: {} },
+    inside: { kind: "call", place: ["loop", "body", "A"], params: { function: "g", args: {} } },
+    rinse: { kind: "wait", place: ["g", "body", "A"], params: { seconds: 1 } },
+  },
+};
+
+test("an imported function has new ids throughout and knows where it is from", () => {
+  let count = 0;
+  const { edits, functionId } = importFunction(cut, { library: "lib", version: 3 }, () => `n${(count += 1)}`);
+  const document = applyEdits(EMPTY_DOCUMENT, edits);
+  const tree = readTree(document);
+  const [loop] = tree.children(functionId, "body");
+  const [call] = tree.children(loop ?? "", "body");
+  const called = String(document.steps[call ?? ""]?.params.function);
+  expect(document.functions[functionId]?.source).toEqual({ library: "lib", version: 3 });
+  expect(document.functions[called]?.name).toBe("rinse");
+  expect(tree.children(called, "body")).toHaveLength(1);
+  expect(tree.drafts).toEqual([]);
+  expect(alreadyImported(document, "lib", 3)).toBe(functionId);
+  expect(alreadyImported(document, "lib", 4)).toBeNull();
+});
+
+test("another version takes the place of the function, and its calls stay", () => {
+  const document: ProgramDocument = {
+    ...EMPTY_DOCUMENT,
+    functions: { mix: { name: "mixPaint", parameters: [], source: { library: "lib", version: 2 } } },
+    steps: {
+      old: { kind: "try", place: ["mix", "body", "A"], params: {} },
+      inner: { kind: "wait", place: ["old", "body", "A"], params: { duration: 1 } },
+      call: { kind: "call", place: ["program", "body", "A"], params: { function: "mix", args: {} } },
+    },
+  };
+  let count = 0;
+  const edits = replaceFunction(document, "mix", cut, { library: "lib", version: 3 }, () => `n${(count += 1)}`);
+  const after = applyEdits(document, edits);
+  expect(after.functions.mix?.source).toEqual({ library: "lib", version: 3 });
+  expect(after.steps.old).toBeUndefined();
+  expect(after.steps.inner).toBeUndefined();
+  expect(readTree(after).children("mix", "body")).toHaveLength(1);
+  expect(after.steps.call).toEqual(document.steps.call);
+  expect(replaceFunction(document, "gone", cut, { library: "lib", version: 3 }, () => "n")).toEqual([]);
+});

@@ -1,0 +1,72 @@
+/** Functions of the library brought into a document, with ids of their own. */
+import type { Edit } from "./edits";
+import type { FunctionDefinition, ProgramDocument, Step } from "@/program/document/document";
+import { deleteSteps, type MakeId } from "./joints";
+
+/** A function cut out of a program: its body and the functions that it calls. */
+export interface CutOut {
+  readonly id: string;
+  readonly function: FunctionDefinition;
+  readonly functions: Readonly<Record<string, FunctionDefinition>>;
+  readonly steps: Readonly<Record<string, Step>>;
+}
+
+export interface Imported {
+  readonly edits: readonly Edit[];
+  readonly functionId: string;
+}
+
+/** The function that the document already has from this version of the library, if any. */
+export function alreadyImported(document: ProgramDocument, library: string, version: number): string | null {
+  const found = Object.entries(document.functions).find(
+    ([, definition]) => definition.source?.library === library && definition.source.version === version,
+  );
+  return found?.[0] ?? null;
+}
+
+export interface Source {
+  readonly library: string;
+  readonly version: number;
+}
+
+export function importFunction(cut: CutOut, source: Source, makeId: MakeId, functionId = makeId()): Imported {
+  const fresh = new Map<string, string>([[cut.id, functionId]]);
+  for (const id of [...Object.keys(cut.functions), ...Object.keys(cut.steps)]) fresh.set(id, makeId());
+  const renamed = (id: string) => fresh.get(id) ?? id;
+  const steps = Object.entries(cut.steps).map(([id, step]): Edit => ({
+    do: "add_step",
+    id: renamed(id),
+    step: renameStep(step, renamed),
+  }));
+  const others = Object.entries(cut.functions).map(([id, value]): Edit => ({
+    do: "set_function",
+    id: renamed(id),
+    value,
+  }));
+  return {
+    functionId,
+    edits: [{ do: "set_function", id: functionId, value: { ...cut.function, source } }, ...others, ...steps],
+  };
+}
+
+/** The function's definition and body as another version of the library has them; its calls stay. */
+export function replaceFunction(
+  document: ProgramDocument,
+  functionId: string,
+  cut: CutOut,
+  source: Source,
+  makeId: MakeId,
+): readonly Edit[] {
+  if (!document.functions[functionId]) return [];
+  const body = Object.keys(document.steps).filter((id) => document.steps[id]?.place?.[0] === functionId);
+  return [...deleteSteps(document, body), ...importFunction(cut, source, makeId, functionId).edits];
+}
+
+function renameStep(step: Step, renamed: (id: string) => string): Step {
+  const called = step.params.function;
+  return {
+    ...step,
+    place: step.place ? [renamed(step.place[0]), step.place[1], step.place[2]] : null,
+    params: typeof called === "string" ? { ...step.params, function: renamed(called) } : step.params,
+  };
+}

@@ -1,0 +1,35 @@
+import { expect, test } from "vitest";
+import { applyEdits, type Edit } from "./edits";
+import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/document";
+import { changedSince } from "./undo";
+
+const step = { kind: "wait", place: ["program", "body", "A"], pos: [1, -1], params: { duration: 5 } } as const;
+const before: ProgramDocument = { ...EMPTY_DOCUMENT, steps: { a: step, b: step } };
+const mine: readonly Edit[] = [
+  { do: "set_place", id: "a", place: null },
+  { do: "set_place", id: "a", place: ["program", "body", "B"] },
+  { do: "set_param", id: "a", name: "duration", value: null },
+];
+const after = applyEdits(before, mine);
+
+test("what I set is as I set it while nobody touches it", () => {
+  expect(changedSince(after, mine)).toBe(false);
+  expect(changedSince(applyEdits(after, [{ do: "set_pos", id: "a", pos: [2, 2] }]), mine)).toBe(false);
+  expect(changedSince(applyEdits(after, [{ do: "set_param", id: "b", name: "duration", value: 7 }]), mine)).toBe(false);
+});
+
+test("somebody who changes the same field changes it after me", () => {
+  expect(changedSince(applyEdits(after, [{ do: "set_param", id: "a", name: "duration", value: 7 }]), mine)).toBe(true);
+  expect(changedSince(applyEdits(after, [{ do: "set_place", id: "a", place: null }]), mine)).toBe(true);
+});
+
+test("a step that has gone, or that I added or removed, stands in nobody's way", () => {
+  expect(changedSince(applyEdits(after, [{ do: "remove_step", id: "a" }]), mine)).toBe(false);
+  expect(changedSince(before, [{ do: "add_step", id: "a", step: { ...step, pos: [9, 9] } }])).toBe(false);
+});
+
+test("zones, functions and the start count as well", () => {
+  expect(changedSince(before, [{ do: "set_start", pos: [3, 3] }])).toBe(true);
+  expect(changedSince(before, [{ do: "set_zone", id: "z", value: null }])).toBe(false);
+  expect(changedSince(before, [{ do: "set_function", id: "f", value: { name: "f", parameters: [] } }])).toBe(true);
+});

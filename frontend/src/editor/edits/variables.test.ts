@@ -1,0 +1,49 @@
+import { expect, test } from "vitest";
+import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
+import { asName, freshName, knownNames, namesSet } from "./variables";
+
+function step(kind: string, place: Step["place"], params: Step["params"] = {}): Step {
+  return { kind, place, pos: null, params };
+}
+
+const DOCUMENT: ProgramDocument = {
+  ...EMPTY_DOCUMENT,
+  parameters: { p: { name: "boxes", type: "number" } },
+  functions: {
+    mix: { name: "mix", parameters: [{ name: "minutes", type: "number", unit: "MIN" }], result: { type: "number" } },
+  },
+  steps: {
+    ask: step("ask", ["program", "body", "A"], { variable: "dry", answer: { type: "choice", options: ["a"] } }),
+    loop: step("for_each", ["program", "body", "B"], { variable: "mixer", items: [{ at: { device: "m1" } }] }),
+    inner: step("operate", ["loop", "body", "A"]),
+    call: step("call", ["program", "body", "C"], { function: "mix", result: "total" }),
+    local: step("set", ["mix", "body", "A"], { variable: "count", value: { quantity: [3, "MIN"] } }),
+    draft: step("set", null, { variable: "lost", value: 1 }),
+  },
+};
+
+test("inside a loop its variable comes first, then what the program sets and takes", () => {
+  expect(knownNames(DOCUMENT, "inner")).toEqual([
+    { name: "mixer", type: "device" },
+    { name: "dry", type: "text" },
+    { name: "total", type: "number" },
+    { name: "boxes", type: "number" },
+  ]);
+});
+
+test("inside a function its parameters and its own names come before the program's", () => {
+  expect(knownNames(DOCUMENT, "local").map((each) => each.name)).toEqual(["minutes", "count", "dry", "total", "boxes"]);
+  expect(namesSet(DOCUMENT, "mix")).toEqual([{ name: "count", type: "number", unit: "MIN" }]);
+});
+
+test("what only a draft sets is not known", () => {
+  expect(namesSet(DOCUMENT, null).map((each) => each.name)).toEqual(["dry", "total"]);
+});
+
+test("a fresh name is one that nothing has", () => {
+  expect([freshName(DOCUMENT, "item"), freshName(DOCUMENT, "mixer")]).toEqual(["item", "mixer2"]);
+});
+
+test("a name is written as the script can have it", () => {
+  expect([asName(" red boxes "), asName("2nd"), asName("größe!")]).toEqual(["red_boxes", "_2nd", "größe"]);
+});

@@ -1,0 +1,96 @@
+/** The names that a step can read: loop variables, parameters and what is set anywhere; none is declared. */
+import { ancestors } from "@/program/document/tree";
+import type { Answer, Parameter, ProgramDocument, Step } from "@/program/document/document";
+
+/** Nearest first: loops around the step, its function's parameters, what is set, the program's parameters. */
+export function knownNames(document: ProgramDocument, id: string): readonly Parameter[] {
+  const around = ancestors(document, id);
+  const scope = around.at(-1) ?? "";
+  const loops = around.flatMap((each) => loopName(document.steps[each]));
+  const own = document.functions[scope]?.parameters ?? [];
+  return onePerName([
+    ...loops,
+    ...own,
+    ...namesSet(document, document.functions[scope] ? scope : null),
+    ...namesSet(document, null),
+    ...Object.values(document.parameters),
+  ]);
+}
+
+/** What the program and its events set, or, for a function, what its body sets. */
+export function namesSet(document: ProgramDocument, functionId: string | null): readonly Parameter[] {
+  const found = Object.entries(document.steps).flatMap(([id, step]) => {
+    if (!step.place) return [];
+    const top = ancestors(document, id).at(-1);
+    return (functionId ?? "program") === top ? setName(step, document) : [];
+  });
+  return onePerName(found);
+}
+
+/** A name that nothing has yet: "item", "item2", … */
+export function freshName(document: ProgramDocument, stem: string): string {
+  const taken = new Set(
+    Object.values(document.steps)
+      .map((step) => step.params.variable ?? step.params.result)
+      .concat(Object.values(document.parameters).map((parameter) => parameter.name)),
+  );
+  for (let count = 1; ; count += 1) {
+    const name = count === 1 ? stem : `${stem}${count}`;
+    if (!taken.has(name)) return name;
+  }
+}
+
+/** A name as the script can have it. */
+export function asName(text: string): string {
+  const clean = text
+    .trim()
+    .replace(/[^\p{L}\p{N}_]+/gu, "_")
+    .replace(/^_+|_+$/g, "");
+  return /^\p{N}/u.test(clean) ? `_${clean}` : clean;
+}
+
+function setName(step: Step, document: ProgramDocument): Parameter[] {
+  switch (step.kind) {
+    case "set":
+      return named(step.params.variable, typeOf(step.params.value));
+    case "ask":
+      return named(step.params.variable, answerType(step.params.answer as Answer | undefined));
+    case "call":
+      return named(step.params.result, document.functions[String(step.params.function)]?.result ?? { type: "number" });
+    default:
+      return [];
+  }
+}
+
+function loopName(step: Step | undefined): Parameter[] {
+  if (step?.kind !== "for_each") return [];
+  const items = Array.isArray(step.params.items) ? (step.params.items as unknown[]) : [];
+  return named(step.params.variable, typeOf(items[0]));
+}
+
+type Typed = { readonly type: string; readonly unit?: string | null };
+
+function named(name: unknown, typed: Typed): Parameter[] {
+  return typeof name === "string" && name ? [{ name, ...typed }] : [];
+}
+
+function typeOf(value: unknown): Typed {
+  if (typeof value === "string") return { type: "text" };
+  if (typeof value === "boolean") return { type: "boolean" };
+  if (typeof value !== "object" || value === null) return { type: "number" };
+  if ("quantity" in value && Array.isArray(value.quantity)) return { type: "number", unit: String(value.quantity[1]) };
+  if ("op" in value) return { type: value.op === "text" ? "text" : "number" };
+  if (!("at" in value) || typeof value.at !== "object" || value.at === null) return { type: "number" };
+  return { type: "device" in value.at ? "device" : "place" };
+}
+
+function answerType(answer: Answer | undefined): Typed {
+  const type = answer?.type ?? "boolean";
+  return type === "choice" ? { type: "text" } : { type, unit: answer?.unit };
+}
+
+function onePerName(names: readonly Parameter[]): readonly Parameter[] {
+  const first = new Map<string, Parameter>();
+  for (const each of names) if (!first.has(each.name)) first.set(each.name, each);
+  return [...first.values()];
+}

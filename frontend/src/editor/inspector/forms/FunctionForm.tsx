@@ -1,0 +1,111 @@
+/** A function of the program: its name, what it takes, what it gives back. */
+import { Button } from "@mantine/core";
+import { Library, Plus } from "lucide-react";
+import { changeParameter } from "../../edits/names";
+import type { FunctionDefinition, Parameter } from "@/program/document/document";
+import { useOpenProgram } from "../../state/context";
+import { useUi } from "../../state/ui";
+import classes from "../../panel.module.css";
+import { NamedField } from "../fields/NamedField";
+import { ParameterCard, TypeFields } from "../fields/ParameterCard";
+
+export function FunctionForm({ functionId, definition }: { functionId: string; definition: FunctionDefinition }) {
+  const { t, apply, document, canEdit } = useOpenProgram();
+  const disabled = !canEdit;
+  const store = (change: Partial<FunctionDefinition>) =>
+    apply([{ do: "set_function", id: functionId, value: { ...definition, ...change } }]);
+  const { parameters } = definition;
+  return (
+    <>
+      <NamedField
+        label={t("call.name")}
+        value={definition.name}
+        disabled={disabled}
+        onChange={(name) => store({ name })}
+      />
+      {definition.source ? (
+        <p className={classes.now}>{t("call.from_library", { version: definition.source.version })}</p>
+      ) : null}
+      <div className={classes.field}>
+        <span className={classes.legend}>{t("call.parameters")}</span>
+        {parameters.map((parameter, index) => (
+          <ParameterCard
+            key={index}
+            parameter={parameter}
+            disabled={disabled}
+            onChange={(next) => apply(changeParameter(document, functionId, index, next))}
+            onRemove={() => store({ parameters: parameters.filter((_, at) => at !== index) })}
+          />
+        ))}
+        <AddParameter
+          taken={parameters}
+          disabled={disabled}
+          onAdd={(fresh) => store({ parameters: [...parameters, fresh] })}
+        />
+      </div>
+      <Result definition={definition} disabled={disabled} store={store} />
+      <Button
+        variant="default"
+        leftSection={<Library size={15} aria-hidden="true" />}
+        disabled={disabled}
+        onClick={() => useUi.setState({ dialog: "save_function", dialogFunction: functionId })}
+      >
+        {t("call.save")}
+      </Button>
+    </>
+  );
+}
+
+function Result({
+  definition,
+  disabled,
+  store,
+}: {
+  definition: FunctionDefinition;
+  disabled: boolean;
+  store: (change: Partial<FunctionDefinition>) => void;
+}) {
+  const { t } = useOpenProgram();
+  const result = definition.result ?? null;
+  return (
+    <div className={classes.field}>
+      <span className={classes.legend}>{t("call.gives")}</span>
+      <TypeFields
+        name={t("call.gives")}
+        type={result?.type ?? ""}
+        unit={result?.unit}
+        none={t("call.gives_nothing")}
+        disabled={disabled}
+        onType={(type) => store({ result: type ? { type } : null })}
+        onUnit={(unit) => store({ result: { type: "number", ...(unit ? { unit } : {}) } })}
+      />
+    </div>
+  );
+}
+
+export function AddParameter({
+  taken,
+  disabled,
+  onAdd,
+}: {
+  taken: readonly Parameter[];
+  disabled: boolean;
+  onAdd: (parameter: Parameter) => void;
+}) {
+  const { t } = useOpenProgram();
+  const names = taken.map((each) => each.name);
+  const fresh = Array.from({ length: names.length + 1 }, (_, index) => t("call.fresh", { count: index + 1 }));
+  const name = fresh.find((each) => !names.includes(each)) ?? "";
+  return (
+    <Button
+      variant="default"
+      size="xs"
+      className={classes.between}
+      leftSection={<Plus size={14} aria-hidden="true" />}
+      disabled={disabled}
+      onClick={() => onAdd({ name, type: "number" })}
+    >
+      {t("call.add_parameter")}
+    </Button>
+  );
+}

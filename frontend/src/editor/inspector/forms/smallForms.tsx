@@ -1,0 +1,108 @@
+/** Forms of the constructs that ask for little: Move, Wait, Parallel. */
+import { Button, SegmentedControl } from "@mantine/core";
+import { Minus, Plus } from "lucide-react";
+import { branchesOf } from "@/program/document/tree";
+import type { Place } from "@/program/document/document";
+import { useOpenProgram } from "../../state/context";
+import { ConditionForm } from "./ConditionForm";
+import classes from "../../panel.module.css";
+import { PlaceField } from "../fields/PlaceField";
+import { RoleField } from "../fields/RoleField";
+import { RouteField } from "../fields/RouteField";
+import { useStepEditor } from "../fields/stepEditor";
+import { WrittenValue } from "./valueForms";
+
+export function MoveForm() {
+  const { t } = useOpenProgram();
+  const { step, set } = useStepEditor();
+  return (
+    <>
+      <PlaceField
+        label={t("field.to")}
+        field="to"
+        places
+        value={(step.params.to as Place) ?? null}
+        onChange={(place) => set("to", place)}
+      />
+      <hr className={classes.line} />
+      <RoleField />
+      <RouteField />
+    </>
+  );
+}
+
+export function WaitForm() {
+  const { t, apply } = useOpenProgram();
+  const { id, step, disabled } = useStepEditor();
+  const until = "until" in step.params;
+  const choose = (mode: string) =>
+    apply(
+      mode === "until"
+        ? [
+            { do: "set_param", id, name: "duration", value: null },
+            { do: "set_param", id, name: "until", value: { op: "<", args: [null, null] } },
+          ]
+        : [
+            { do: "set_param", id, name: "until", value: null },
+            { do: "set_param", id, name: "timeout", value: null },
+          ],
+    );
+  return (
+    <>
+      <SegmentedControl
+        fullWidth
+        value={until ? "until" : "time"}
+        onChange={choose}
+        disabled={disabled}
+        aria-label={t("wait.mode")}
+        data={[
+          { value: "time", label: t("wait.time") },
+          { value: "until", label: t("wait.until") },
+        ]}
+      />
+      {until ? (
+        <>
+          <ConditionForm field="until" />
+          <WrittenValue label={t("wait.limit")} field="timeout" wanted="number" placeholder={t("wait.no_limit")} />
+        </>
+      ) : (
+        <WrittenValue label={t("wait.seconds")} field="duration" wanted="number" placeholder={t("wait.example")} />
+      )}
+      <p className={classes.now}>{t("wait.unit")}</p>
+    </>
+  );
+}
+
+const LETTERS = "abcdefgh";
+
+export function ParallelForm() {
+  const { t, scene } = useOpenProgram();
+  const { id, step, set, disabled } = useStepEditor();
+  const branches = branchesOf(step);
+  const last = branches.at(-1) ?? "b";
+  const next = LETTERS[branches.length];
+  return (
+    <div className={classes.field}>
+      <span className={classes.legend}>{t("parallel.branches", { names: branches.join(", ") })}</span>
+      <div className={classes.row}>
+        <Button
+          variant="default"
+          leftSection={<Plus size={15} aria-hidden="true" />}
+          disabled={disabled || !next}
+          onClick={() => set("branches", [...branches, next])}
+        >
+          {t("parallel.add")}
+        </Button>
+        <Button
+          variant="default"
+          leftSection={<Minus size={15} aria-hidden="true" />}
+          disabled={disabled || branches.length <= 2 || scene.tree.children(id, last).length > 0}
+          onClick={() => set("branches", branches.slice(0, -1))}
+        >
+          {t("parallel.remove", { name: last })}
+        </Button>
+      </div>
+      <p className={classes.now}>{t("parallel.note")}</p>
+    </div>
+  );
+}

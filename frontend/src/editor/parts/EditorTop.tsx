@@ -1,0 +1,212 @@
+/** The editor's top bar: where we are, what is saved, who is here, what can be done. */
+import { Button } from "@mantine/core";
+import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { Box, CircleAlert, Cloud, CloudOff, Play, Redo2, TriangleAlert, Undo2 } from "lucide-react";
+import { useEffect, useState, useSyncExternalStore } from "react";
+import { useNavigate } from "react-router-dom";
+import { api } from "@/api/client";
+import { keys } from "@/api/queries";
+import type { Program, Rehearsal } from "@/api/types";
+import { Crumb, TopBar } from "@/shell/TopBar";
+import { Avatar } from "@/design/Avatar";
+import { Chip } from "@/design/Chip";
+import { IconButton } from "@/design/IconButton";
+import { undoLast } from "../state/actions";
+import { FollowButton } from "../gestures/FollowButton";
+import { Arm } from "./RunDialog";
+import { useOpenProgram } from "../state/context";
+import { say, select, showTab, useUi } from "../state/ui";
+import classes from "./top.module.css";
+
+export function EditorTop() {
+  const { site, t } = useOpenProgram();
+  return (
+    <TopBar
+      site={site.slug}
+      crumbs={
+        <>
+          <Crumb to={`/sites/${site.slug}/programs`}>{site.name}</Crumb>
+          <ProgramName />
+        </>
+      }
+      chips={<SavedChip />}
+      presence={<People />}
+      actions={<Actions />}
+    >
+      <span className={classes.undo} role="group" aria-label={t("history")}>
+        <UndoButtons />
+      </span>
+    </TopBar>
+  );
+}
+
+function ProgramName() {
+  const { program, canEdit, t } = useOpenProgram();
+  const queries = useQueryClient();
+  const [name, setName] = useState(program.name);
+  useEffect(() => setName(program.name), [program.name]);
+  const rename = useMutation({
+    mutationFn: (next: string) => api.patch<Program>(`/programs/${program.id}`, { name: next }),
+    onSuccess: () => queries.invalidateQueries({ queryKey: keys.program(program.id) }),
+    onError: (error) => {
+      setName(program.name);
+      say(error.message);
+    },
+  });
+  if (!canEdit) return <Crumb>{program.name}</Crumb>;
+  const keep = () => {
+    const next = name.trim();
+    if (next && next !== program.name) rename.mutate(next);
+    else setName(program.name);
+  };
+  return (
+    <input
+      className={classes.name}
+      aria-label={t("program_name")}
+      value={name}
+      size={Math.max(8, name.length)}
+      onChange={(event) => setName(event.target.value)}
+      onBlur={keep}
+      onKeyDown={(event) => {
+        if (event.key === "Enter") event.currentTarget.blur();
+        if (event.key === "Escape") setName(program.name);
+      }}
+    />
+  );
+}
+
+function SavedChip() {
+  const { shared, t, canEdit } = useOpenProgram();
+  const saving = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
+  if (!canEdit) return <Chip tone="plain">{t("read_only")}</Chip>;
+  if (saving.connection === "refused") return <Chip tone="error">{t("saved.refused")}</Chip>;
+  const away = saving.connection !== "live";
+  return (
+    <Chip tone={away ? "note" : "plain"}>
+      {away ? <CloudOff size={14} aria-hidden="true" /> : <Cloud size={14} aria-hidden="true" />}
+      <span aria-live="polite">{t(away ? "saved.away" : saving.unsaved ? "saved.saving" : "saved.saved")}</span>
+    </Chip>
+  );
+}
+
+function UndoButtons() {
+  const { shared, t, canEdit } = useOpenProgram();
+  const [, setRound] = useState(0);
+  useEffect(() => {
+    const changed = () => setRound((round) => round + 1);
+    const events = ["stack-item-added", "stack-item-popped", "stack-cleared"] as const;
+    for (const event of events) shared.undo.on(event, changed);
+    return () => {
+      for (const event of events) shared.undo.off(event, changed);
+    };
+  }, [shared]);
+  return (
+    <>
+      <IconButton
+        label={t("undo")}
+        disabled={!canEdit || !shared.undo.canUndo()}
+        onClick={() => undoLast({ shared, t })}
+      >
+        <Undo2 size={17} aria-hidden="true" />
+      </IconButton>
+      <IconButton label={t("redo")} disabled={!canEdit || !shared.undo.canRedo()} onClick={() => shared.undo.redo()}>
+        <Redo2 size={17} aria-hidden="true" />
+      </IconButton>
+    </>
+  );
+}
+
+function People() {
+  const { people, t } = useOpenProgram();
+  return (
+    <>
+      {people
+        .slice(0, 6)
+        .map((person) =>
+          person.me ? (
+            <Avatar
+              key={person.client}
+              name={person.name}
+              initials={person.initials}
+              colour={person.colour}
+              live
+              title={t("you", { name: person.name })}
+            />
+          ) : (
+            <FollowButton key={person.client} person={person} />
+          ),
+        )}
+    </>
+  );
+}
+
+function Actions() {
+  const { diagnostics, t, canRun } = useOpenProgram();
+  const errors = diagnostics.filter((each) => each.severity === "error").length;
+  return (
+    <>
+      <span className={classes.arm}>
+        <Arm />
+      </span>
+      <Problems />
+      <SimulateButton />
+      <Button
+        leftSection={<Play size={16} aria-hidden="true" />}
+        disabled={!canRun || errors > 0}
+        title={errors > 0 ? t("run_blocked") : undefined}
+        onClick={() => useUi.setState({ dialog: "run" })}
+      >
+        {t("run")}
+      </Button>
+    </>
+  );
+}
+
+/** How much is wrong; a press goes to the first of it. */
+function Problems() {
+  const { diagnostics, t } = useOpenProgram();
+  const errors = diagnostics.filter((each) => each.severity === "error");
+  const warnings = diagnostics.length - errors.length;
+  const toFirst = () => {
+    showTab("problems");
+    const first = errors[0] ?? diagnostics[0];
+    if (first?.step) select([first.step]);
+  };
+  return (
+    <>
+      {errors.length > 0 ? (
+        <button type="button" className={classes.problems} data-tone="error" onClick={toFirst}>
+          <CircleAlert size={14} aria-hidden="true" />
+          {t("errors", { count: errors.length })}
+        </button>
+      ) : null}
+      {warnings > 0 ? (
+        <button type="button" className={classes.problems} data-tone="warn" onClick={toFirst}>
+          <TriangleAlert size={14} aria-hidden="true" />
+          {t("warnings", { count: warnings })}
+        </button>
+      ) : null}
+    </>
+  );
+}
+
+function SimulateButton() {
+  const { t, program, canRun } = useOpenProgram();
+  const navigate = useNavigate();
+  const rehearse = useMutation({
+    mutationFn: () => api.post<Rehearsal>(`/programs/${program.id}/rehearsals`, {}),
+    onSuccess: (rehearsal) => void navigate(`/programs/${program.id}/simulate/${rehearsal.id}`),
+    onError: (error) => say(error.message),
+  });
+  return (
+    <Button
+      variant="default"
+      leftSection={<Box size={16} aria-hidden="true" />}
+      loading={rehearse.isPending}
+      disabled={!canRun}
+      onClick={() => rehearse.mutate()}
+    >
+      {t("simulate")}
+    </Button>
+  );
+}

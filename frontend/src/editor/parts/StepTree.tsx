@@ -1,0 +1,114 @@
+/** The program as a list: everything that the map shows, by keyboard. */
+import { useRef, type KeyboardEvent } from "react";
+import { VipoIcon } from "@/design/VipoIcon";
+import { chipLabel, detailOf } from "@/program/scene/announcements";
+import type { Chip } from "@/program/scene/chips";
+import { branchWord } from "@/program/scene/links";
+import { placeName } from "@/program/words/stepWords";
+import type { Place } from "@/program/document/document";
+import { useOpenProgram } from "../state/context";
+import { shiftInOrder } from "../state/shortcuts";
+import { select, toggleSelected, useUi } from "../state/ui";
+import classes from "./drawer.module.css";
+
+export function StepTree() {
+  const open = useOpenProgram();
+  const { scene, t } = open;
+  const selected = useUi((ui) => ui.selected);
+  const list = useRef<HTMLUListElement>(null);
+  const comments = [...scene.chips.values()].filter((chip) => chip.kind === "comment").map((chip) => chip.id);
+  const rows = [...scene.tree.reading, ...scene.tree.loose, ...comments].flatMap((id) => scene.chips.get(id) ?? []);
+  const current = selected.at(-1) ?? rows[0]?.id;
+  const go = (id: string | undefined) => {
+    if (!id) return;
+    select([id]);
+    list.current?.querySelector<HTMLElement>(`[data-step="${id}"]`)?.focus();
+  };
+  const press = (event: KeyboardEvent, chip: Chip, index: number) => {
+    if (event.altKey && event.shiftKey && (event.key === "ArrowUp" || event.key === "ArrowDown"))
+      shiftInOrder(open, chip.id, event.key === "ArrowUp" ? -1 : 1);
+    else if (event.key === "ArrowDown") go(rows[index + 1]?.id);
+    else if (event.key === "ArrowUp") go(rows[index - 1]?.id);
+    else if (event.key === "Enter" || event.key === " ") select([chip.id]);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  if (rows.length === 0) return <p className={classes.nothing}>{t("steps.none")}</p>;
+  return (
+    <ul className={classes.steps} role="tree" aria-label={t("drawer.steps")} aria-multiselectable ref={list}>
+      {rows.map((chip, index) => (
+        <StepRow
+          key={chip.id}
+          chip={chip}
+          current={chip.id === current}
+          onPress={(event) => press(event, chip, index)}
+        />
+      ))}
+    </ul>
+  );
+}
+
+function StepRow({
+  chip,
+  current,
+  onPress,
+}: {
+  chip: Chip;
+  current: boolean;
+  onPress: (event: KeyboardEvent) => void;
+}) {
+  const { scene, speaker, t } = useOpenProgram();
+  const selected = useUi((ui) => ui.selected);
+  return (
+    <li
+      data-step={chip.id}
+      className={classes.step}
+      role="treeitem"
+      aria-level={scene.tree.depth(chip.id) + 1}
+      aria-selected={selected.includes(chip.id)}
+      aria-label={chipLabel(chip, speaker)}
+      tabIndex={current ? 0 : -1}
+      style={{ paddingLeft: 8 + scene.tree.depth(chip.id) * 22 }}
+      onClick={(event) => (event.shiftKey ? toggleSelected(chip.id) : select([chip.id]))}
+      onKeyDown={onPress}
+    >
+      <span className={classes.number}>{chip.number || "–"}</span>
+      <span style={{ color: `var(--${chip.family})`, display: "inline-flex" }}>
+        <VipoIcon name={chip.icon} size={16} />
+      </span>
+      <BranchName step={chip.id} />
+      <span>
+        {t(`kind.${chip.kind}`)}
+        {detailOf(chip).length > 0 ? ": " : " "}
+        {detailOf(chip).map((part, at) => (
+          <span key={at} className={part.tone === "missing" ? classes.missing : undefined}>
+            {`${part.text} `}
+          </span>
+        ))}
+        <Where step={chip.id} />
+      </span>
+      {chip.draft ? <span className={classes.branch}>{t("steps.draft")}</span> : null}
+    </li>
+  );
+}
+
+/** The word of its arrow, or the function whose own step it is. */
+function BranchName({ step }: { step: string }) {
+  const { document, t } = useOpenProgram();
+  const place = document.steps[step]?.place;
+  if (!place) return null;
+  const kind = document.steps[place[0]]?.kind;
+  const word = kind && place[1] !== "body" ? branchWord(place[1], kind, t) : document.functions[place[0]]?.name;
+  return word ? <span className={classes.branch}>{word}</span> : null;
+}
+
+function Where({ step: id }: { step: string }) {
+  const { document, speaker, t } = useOpenProgram();
+  const step = document.steps[id];
+  const name = (field: string) => placeName(step?.params[field] as Place, speaker) ?? "?";
+  if (step?.kind === "pick_and_drop")
+    return <>{t("announce.from_to", { source: name("source"), target: name("target") })}</>;
+  if (step?.kind === "operate") return <>{t("announce.at", { place: name("device") })}</>;
+  return step?.kind === "pick" || step?.kind === "drop" ? <>{t("announce.at", { place: name("at") })}</> : null;
+}

@@ -1,0 +1,70 @@
+import { expect, test } from "vitest";
+import type { NamedDevice } from "./completion";
+import { looksLikeScript, scriptWith } from "./pastedScript";
+
+const OVEN: NamedDevice = { id: "curingOven01", name: "Curing Oven", kind: "machine", methods: [], properties: [] };
+const PRINTED = {
+  script: `class Task(object):
+    def new_task(self):
+        if self.curing_oven.temperature > 60:
+            self.wait(1)
+        else:
+            self.wait(2)
+        self.wait(3)
+
+    def run(self, ctx):
+        self.curing_oven = ctx.get("curingOven01")
+        self.new_task()
+`,
+  lines: ["", "", "if", "w1", "if", "w2", "w3", "", "", "", "", ""],
+};
+const EMPTY = {
+  script:
+    "class Task(object):\n    def new_task(self):\n        pass\n\n    def run(self, ctx):\n        self.new_task()\n",
+  lines: [],
+};
+
+test("only what begins like script is taken for it", () => {
+  expect(["self.wait(5)", "\n    if a > 1:\n", "class Task(object):"].map(looksLikeScript)).toEqual([true, true, true]);
+  expect(["Buy milk", "{}", "", "vipo"].map(looksLikeScript)).toEqual([false, false, false, false]);
+});
+
+test("lines go to the end of the program, indented as they must be", () => {
+  const text = scriptWith("  self.wait(7)\n  while True:\n    self.wait(8)\n", PRINTED, null, [])?.split("\n");
+  expect(text?.slice(6, 11)).toEqual([
+    "        self.wait(3)",
+    "        self.wait(7)",
+    "        while True:",
+    "          self.wait(8)",
+    "",
+  ]);
+});
+
+test("lines go behind the selected step and what stands in it", () => {
+  expect(scriptWith("self.wait(7)", PRINTED, "if", [])?.split("\n")[6]).toBe("        self.wait(7)");
+  expect(scriptWith("self.wait(7)", PRINTED, "w1", [])?.split("\n")[4]).toBe("            self.wait(7)");
+});
+
+test("devices and robots that the program does not have yet are given in run", () => {
+  const pasted = "self.robot.move(self.curing_oven.location)\nself.mix_paint(3)";
+  expect(scriptWith(pasted, EMPTY, null, [OVEN])?.split("\n").slice(1)).toEqual([
+    "    def new_task(self):",
+    "        self.robot.move(self.curing_oven.location)",
+    "        self.mix_paint(3)",
+    "",
+    "    def run(self, ctx):",
+    "        self.robot = ctx.any()",
+    '        self.curing_oven = ctx.get("curingOven01")',
+    "        self.new_task()",
+    "",
+  ]);
+});
+
+test("of a whole script the steps are taken, with what its run gives them", () => {
+  const text = scriptWith(PRINTED.script.replace("curingOven01", "oven02"), EMPTY, null, [OVEN]);
+  expect(text).toBe(PRINTED.script.replace("curingOven01", "oven02"));
+});
+
+test("an empty text is nothing to paste", () => {
+  expect(scriptWith(" \n", EMPTY, null, [])).toBeNull();
+});

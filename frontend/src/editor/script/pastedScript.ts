@@ -1,0 +1,122 @@
+/** Script that was copied elsewhere, put among the lines of the program's own. */
+import { api, ApiProblem } from "@/api/client";
+import { makeId } from "../state/actions";
+import type { OpenProgram } from "../state/context";
+import { say, select, useUi } from "../state/ui";
+import { type NamedDevice, pythonName } from "./completion";
+import { differenceOf, withFreshIds } from "./difference";
+import type { DrawnScript } from "./session";
+
+const SCRIPT = /^\s*(self\.\w+|if .*:|while .*:|for .*:|try:|class Task)/;
+const GIVEN = /self\.(\w+)\s*=\s*(ctx\.\w+\([^\n]*\))/g;
+const CALL_OF_NEW_TASK = /^\s*self\.new_task\(\)\s*$/;
+
+export interface Printed {
+  readonly script: string;
+  /** The step of each line. */
+  readonly lines: readonly string[];
+}
+
+/** Whether a text may be script: its first line that says something begins like one. */
+export function looksLikeScript(text: string): boolean {
+  return SCRIPT.test(text.split("\n").find((line) => line.trim() !== "") ?? "");
+}
+
+/** The program's script with the pasted lines behind a step, or at its end; null where nothing is to be pasted. */
+export function scriptWith(
+  pasted: string,
+  { script, lines }: Printed,
+  behind: string | null,
+  devices: readonly NamedDevice[],
+): string | null {
+  const body = bodyOf(pasted.replaceAll("\t", "    ").split("\n"));
+  if (body.length === 0) return null;
+  const printed = script.split("\n");
+  const spot = spotBehind(printed, lines, behind) ?? endOfNewTask(printed);
+  const own = body.map((line) => (line.trim() ? " ".repeat(spot.indent) + line : ""));
+  const run = printed.findLastIndex((line) => CALL_OF_NEW_TASK.test(line));
+  const given = missingNames(body.join("\n"), script, pasted, devices);
+  const before = printed.slice(0, spot.at).filter((line, index) => !(index === spot.at - 1 && line.trim() === "pass"));
+  return [...before, ...own, ...printed.slice(spot.at, run), ...given, ...printed.slice(run)].join("\n");
+}
+
+/** The lines of new_task of a whole script, else all lines; without what indents them all, and blank ends. */
+function bodyOf(lines: readonly string[]): string[] {
+  const start = lines.findIndex((line) => /^\s*def new_task\(/.test(line));
+  const rest = start < 0 ? lines : lines.slice(start + 1);
+  const end = start < 0 ? -1 : rest.findIndex((line) => /^\s*def /.test(line));
+  const body = end < 0 ? rest : rest.slice(0, end);
+  const indent = Math.min(...body.filter((line) => line.trim()).map(indentOf));
+  const bare = body.map((line) => line.slice(Math.min(indent, indentOf(line))).trimEnd());
+  const first = bare.findIndex(Boolean);
+  return first < 0 ? [] : bare.slice(first, bare.findLastIndex(Boolean) + 1);
+}
+
+function indentOf(line: string): number {
+  return line.length - line.trimStart().length;
+}
+
+interface Spot {
+  readonly at: number;
+  readonly indent: number;
+}
+
+/** Behind the step's lines and those that stand in it. */
+function spotBehind(printed: readonly string[], lines: readonly string[], step: string | null): Spot | null {
+  const first = step ? lines.indexOf(step) : -1;
+  if (first < 0) return null;
+  const indent = indentOf(printed[first] ?? "");
+  let at = lines.lastIndexOf(step ?? "") + 1;
+  while ((printed[at] ?? "").trim() && indentOf(printed[at] ?? "") > indent) at += 1;
+  return { at, indent };
+}
+
+function endOfNewTask(printed: readonly string[]): Spot {
+  const start = printed.findIndex((line) => /^\s*def new_task\(/.test(line));
+  const length = printed.slice(start + 1).findIndex((line) => !line.trim());
+  return { at: start + 1 + (length < 0 ? printed.length - start - 1 : length), indent: 8 };
+}
+
+/** The lines that `run` needs for names that it does not give yet. */
+function missingNames(body: string, script: string, pasted: string, devices: readonly NamedDevice[]): string[] {
+  const known = new Set([...script.matchAll(GIVEN)].map(([, name]) => name));
+  const theirs = new Map([...pasted.matchAll(GIVEN)].map(([, name, what]) => [name, what]));
+  const used = new Set([...body.matchAll(/self\.(\w+)(?!\w*\()/g)].map(([, name]) => name ?? ""));
+  return [...used].flatMap((name) => {
+    const device = devices.find((each) => pythonName(each.name) === name);
+    const drives = new RegExp(`self\\.${name}\\.(move|pick|drop)\\(`).test(body);
+    const what = theirs.get(name) ?? (device ? `ctx.get("${device.id}")` : drives ? "ctx.any()" : null);
+    return known.has(name) || what === null ? [] : [`        self.${name} = ${what}`];
+  });
+}
+
+/** Draw the pasted lines behind the selected step, or say why that cannot be. */
+export async function pasteScript(open: OpenProgram, pasted: string): Promise<void> {
+  const { compiled, shared, program, devices, t } = open;
+  if (!compiled) return;
+  const behind = useUi.getState().selected.at(-1) ?? null;
+  const text = scriptWith(pasted, compiled, behind, devices);
+  if (text === null) return;
+  const base = shared.getDocument();
+  try {
+    const request = { text, base, shown: compiled.script };
+    const drawn = await api.post<DrawnScript>(`/programs/${encodeURIComponent(program.id)}/script`, request);
+    if (!drawn.document) {
+      say(drawn.diagnostics[0]?.message ?? t("script.paste_again"));
+      return;
+    }
+    const { document } = withFreshIds({ document: drawn.document, lines: drawn.lines }, base, makeId);
+    shared.apply(differenceOf(base, document));
+    select(Object.keys(document.steps).filter((id) => !base.steps[id]));
+  } catch (error) {
+    if (!(error instanceof ApiProblem)) throw error;
+    say(error.detail);
+  }
+}
+
+/** Take a pasted text for script, if it looks like it. */
+export function pasteIfScript(open: OpenProgram, text: string): boolean {
+  const isScript = looksLikeScript(text);
+  if (isScript) void pasteScript(open, text);
+  return isScript;
+}

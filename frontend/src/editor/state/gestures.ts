@@ -1,0 +1,49 @@
+/** What gestures keep on one person's screen: the open menu, the zone in hand, ghosts, whose view is followed. */
+import { create } from "zustand";
+import { select } from "./ui";
+import type { Position } from "@/program/document/document";
+import type { Clipping } from "../edits/clipping";
+
+export interface MenuItem {
+  readonly id: string;
+  readonly label: string;
+  readonly keys?: string;
+  readonly run: () => void;
+}
+
+export interface OpenMenu {
+  /** Pixels of the window. */
+  readonly at: { readonly x: number; readonly y: number };
+  readonly label: string;
+  readonly items: readonly MenuItem[];
+}
+
+/** A step that this person had selected when somebody else took it away. */
+export interface Ghost {
+  readonly id: string;
+  readonly clipping: Clipping;
+}
+
+export interface GestureUi {
+  menu: OpenMenu | null;
+  /** The selected zone. */
+  zone: string | null;
+  /** Corners of the zone that is being drawn. */
+  corners: readonly Position[];
+  ghosts: readonly Ghost[];
+  /** The Yjs client whose view is followed. */
+  following: number | null;
+}
+
+const START: GestureUi = { menu: null, zone: null, corners: [], ghosts: [], following: null };
+
+export const useGestures = create<GestureUi>(() => START);
+
+export function resetGestures(): void {
+  useGestures.setState(START);
+}
+
+export function selectZone(zone: string | null): void {
+  if (zone !== null) select([]);
+  useGestures.setState({ zone });
+}

@@ -1,0 +1,28 @@
+/** What a device is doing, in the language of the screen; what it says itself stays as it is, in quotes. */
+import i18next from "i18next";
+import { formatNumber } from "./format";
+
+interface Doer {
+  readonly doing: string;
+  /** What it is doing, by a code; null where it says so only in its own words. */
+  readonly activity?: { readonly code: string; readonly args: Readonly<Record<string, unknown>> } | null;
+}
+
+/** `2 boxes`; in other languages `2 × box`, for objects are called as the site calls them. */
+export function countedWords(count: number, name: string): string {
+  if (!i18next.language.startsWith("en")) return `${formatNumber(count)} × ${name}`;
+  if (count === 1) return `1 ${name}`;
+  return `${formatNumber(count)} ${name}${/(x|s|ch|sh)$/.test(name) ? "es" : "s"}`;
+}
+
+/** Empty where there is nothing to tell; the server's own words where the screens do not know the code. */
+export function activityWords({ doing, activity }: Doer): string {
+  if (!activity || !i18next.exists(`device.doing.${activity.code}`)) return doing;
+  const { args } = activity;
+  const load = Object.entries(args).map(([name, count]) => countedWords(Number(count), name));
+  return i18next.t(`device.doing.${activity.code}`, {
+    ...args,
+    load: load.join(", "),
+    stock: countedWords(Number(args.count), String(args.object)),
+  });
+}

@@ -1,0 +1,29 @@
+/** The floor below everything else: one canvas that follows a viewport. */
+import { useCallback, useMemo } from "react";
+import type { FloorPlan } from "./floor";
+import { floorShapes, paintFloor, type FloorDetail } from "./floorPainter";
+import classes from "../map.module.css";
+import type { Palette } from "../plane/palette";
+import { useCanvas } from "../plane/useCanvas";
+import type { ViewportSource } from "../plane/viewport";
+
+const FULL: FloorDetail = { rulers: true, labels: true, grid: true };
+
+export function FloorCanvas({
+  plan,
+  viewport,
+  detail = FULL,
+}: {
+  plan: FloorPlan | null;
+  viewport: ViewportSource;
+  detail?: FloorDetail;
+}) {
+  const shapes = useMemo(() => (plan ? floorShapes(plan) : null), [plan]);
+  const paint = useCallback(
+    (canvas: CanvasRenderingContext2D, size: { width: number; height: number }, palette: Palette) =>
+      paintFloor(canvas, size, palette, shapes, viewport.get(), detail),
+    [shapes, viewport, detail],
+  );
+  const canvas = useCanvas(paint, viewport);
+  return <canvas ref={canvas} className={classes.layer} aria-hidden="true" />;
+}

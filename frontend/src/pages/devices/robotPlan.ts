@@ -1,7 +1,0 @@
-import type { RobotMap } from "@/api/robotMaps";
-import type { FloorPlan } from "@/map/floor";
-
-/** A robot's map as a floor for drawing; it knows no places. */
-export function planOf(map: RobotMap): FloorPlan {
-  return { ...map, places: [] };
-}

@@ -1,0 +1,84 @@
+/** Functions that people made from steps, to be used again in other programs. */
+import { Button, TextInput } from "@mantine/core";
+import { useDebouncedValue } from "@mantine/hooks";
+import { keepPreviousData, useQuery } from "@tanstack/react-query";
+import { Search, SquareFunction } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import { Link, useParams } from "react-router-dom";
+import { api } from "@/api/client";
+import { keys } from "@/api/queries";
+import type { LibraryFunction } from "@/api/types";
+import { LoadProblem } from "@/shell/LoadProblem";
+import { PageShell } from "@/shell/PageShell";
+import { Chip } from "@/design/Chip";
+import { EmptyState } from "@/design/EmptyState";
+import { Panel } from "@/design/Panel";
+import { FunctionCard } from "./FunctionCard";
+import { FunctionDetail } from "./FunctionDetail";
+import styles from "./library.module.css";
+import { NothingFound } from "../NothingFound";
+import pages from "../pages.module.css";
+import { TableSkeleton } from "../TableSkeleton";
+
+function useFound(query: string) {
+  return useQuery({
+    queryKey: keys.library(query),
+    queryFn: () => api.get<LibraryFunction[]>(`/library?q=${encodeURIComponent(query)}`),
+    placeholderData: keepPreviousData,
+  });
+}
+
+function EmptyLibrary({ slug }: { slug: string }) {
+  const { t } = useTranslation();
+  return (
+    <Panel>
+      <EmptyState
+        icon={<SquareFunction size={20} />}
+        title={t("pages.library.none")}
+        text={t("pages.library.noneText")}
+      >
+        <Button component={Link} to={`/sites/${slug}/programs`}>
+          {t("pages.runs.toPrograms")}
+        </Button>
+      </EmptyState>
+    </Panel>
+  );
+}
+
+export function LibraryPage() {
+  const { t } = useTranslation();
+  const { slug = "", id } = useParams();
+  const [typed, setTyped] = useState("");
+  const [query] = useDebouncedValue(typed.trim(), 200);
+  const found = useFound(query);
+  const items = found.data ?? [];
+  const chosen = items.find((item) => item.id === id);
+  return (
+    <PageShell
+      title={t("shell.nav.library")}
+      chips={found.data ? <Chip>{t("pages.library.functions", { count: items.length })}</Chip> : null}
+      detail={chosen ? <FunctionDetail key={chosen.id} slug={slug} item={chosen} /> : null}
+    >
+      <div className={pages.stack}>
+        <TextInput
+          className={pages.search}
+          leftSection={<Search size={16} aria-hidden="true" />}
+          aria-label={t("pages.library.search")}
+          placeholder={t("pages.library.search")}
+          value={typed}
+          onChange={(event) => setTyped(event.target.value)}
+        />
+        {found.isPending ? <TableSkeleton /> : null}
+        {found.isLoadingError ? <LoadProblem error={found.error} again={() => void found.refetch()} /> : null}
+        {found.data && items.length === 0 && query ? <NothingFound clear={() => setTyped("")} /> : null}
+        {found.data && items.length === 0 && !query ? <EmptyLibrary slug={slug} /> : null}
+        <ul className={styles.cards}>
+          {items.map((item) => (
+            <FunctionCard key={item.id} slug={slug} item={item} chosen={item.id === id} />
+          ))}
+        </ul>
+      </div>
+    </PageShell>
+  );
+}

@@ -1,0 +1,166 @@
+/** The site's map, large, with what there is to know about it and its ROS files. */
+import { Button, Skeleton } from "@mantine/core";
+import { Check, MapPinned, Move } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
+import { missing } from "@/api/failed";
+import { useDevices, useSite, useSiteMap } from "@/api/queries";
+import type { Site, SiteMap } from "@/api/types";
+import { Chip } from "@/design/Chip";
+import { EmptyState } from "@/design/EmptyState";
+import { Panel } from "@/design/Panel";
+import { formatNumber, formatPoint, withUnit } from "@/i18n/format";
+import { StaticMap } from "@/map/StaticMap";
+import { LoadProblem } from "@/shell/LoadProblem";
+import { PageShell } from "@/shell/PageShell";
+import { MovableMachine } from "../devices/MovableMachine";
+import { MapDownloads } from "./MapDownloads";
+import styles from "./MapPage.module.css";
+import { MapVersions } from "./MapVersions";
+
+function Facts({ map }: { map: SiteMap }) {
+  const { t } = useTranslation();
+  const metres = (value: number, digits = 1) => withUnit(formatNumber(value, digits), "m");
+  const facts: [string, string][] = [
+    ["size", `${metres(map.width * map.resolution_m)} × ${metres(map.height * map.resolution_m)}`],
+    ["free", withUnit(formatNumber(freeArea(map), 1), "m²")],
+    ["known", withUnit(formatNumber(knownShare(map) * 100), "%")],
+    ["resolution", withUnit(formatNumber(map.resolution_m * 100, 1), t("pages.map.perCell"))],
+    ["cells", `${formatNumber(map.width)} × ${formatNumber(map.height)}`],
+    ["origin", formatPoint(map.origin.x, map.origin.y)],
+  ];
+  return (
+    <dl className={styles.facts}>
+      {facts.map(([name, value]) => (
+        <div key={name}>
+          <dt>{t(`pages.map.fact.${name}`)}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}
+
+function Places({ map }: { map: SiteMap }) {
+  const { t } = useTranslation();
+  return (
+    <section aria-labelledby="places">
+      <h2 id="places">{t("pages.map.places")}</h2>
+      {map.places.length === 0 ? <p>{t("pages.map.noPlaces")}</p> : null}
+      <ul className={styles.places}>
+        {map.places.map((place) => (
+          <li key={place.id}>
+            <span>{place.name}</span>
+            <Chip>{t(`pages.map.kind.${place.kind}`, { defaultValue: place.kind })}</Chip>
+            <code>{formatPoint(place.x, place.y)}</code>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+function MoveMachines({ moving, change }: { moving: boolean; change: (moving: boolean) => void }) {
+  const { t } = useTranslation();
+  const Icon = moving ? Check : Move;
+  return (
+    <Button
+      variant={moving ? "filled" : "default"}
+      leftSection={<Icon size={16} aria-hidden="true" />}
+      onClick={() => change(!moving)}
+    >
+      {t(moving ? "placing.finish" : "placing.move")}
+    </Button>
+  );
+}
+
+function MapView({ site, map, moving }: { site: Site; map: SiteMap; moving: boolean }) {
+  const { t } = useTranslation();
+  const navigate = useNavigate();
+  const [query] = useSearchParams();
+  const devices = (useDevices(site.slug).data ?? []).filter((device) => device.lifecycle !== "retired");
+  const movable = moving ? devices.filter((device) => device.kind === "machine") : [];
+  return (
+    <div className={styles.page}>
+      <Panel className={styles.map}>
+        <StaticMap
+          plan={map}
+          devices={devices.filter((device) => !movable.includes(device))}
+          named
+          selected={query.get("device")}
+          onSelect={(id) => void navigate(`/sites/${site.slug}/devices/${id}`)}
+          label={t("pages.map.of", { site: site.name })}
+        >
+          {movable.map((device) => (
+            <MovableMachine key={device.id} site={site} map={map} device={device} />
+          ))}
+        </StaticMap>
+      </Panel>
+      <Panel className={styles.about}>
+        {moving ? <p id="placing-help">{t("placing.help")}</p> : null}
+        <h2>{t("pages.map.about")}</h2>
+        <Facts map={map} />
+        <Places map={map} />
+        <MapVersions site={site} />
+      </Panel>
+    </div>
+  );
+}
+
+export function MapPage() {
+  const { t } = useTranslation();
+  const { slug = "" } = useParams();
+  const site = useSite(slug);
+  const map = useSiteMap(site.data?.has_map ? slug : undefined);
+  const [moving, setMoving] = useState(false);
+  const problem = missing(site, map);
+  return (
+    <PageShell
+      title={t("shell.nav.map")}
+      chips={map.data ? <Chip>{t("pages.map.version", { version: map.data.version })}</Chip> : null}
+      actions={
+        map.data ? (
+          <>
+            {site.data?.role === "admin" ? <MoveMachines moving={moving} change={setMoving} /> : null}
+            <MapDownloads fileOf={(form) => `/api/sites/${slug}/map.${form}`} />
+          </>
+        ) : null
+      }
+    >
+      {problem ? <LoadProblem error={problem} again={() => void Promise.all([site.refetch(), map.refetch()])} /> : null}
+      {!problem && !map.data && site.data?.has_map !== false ? <Skeleton height="100%" radius="lg" /> : null}
+      {site.data && map.data ? <MapView site={site.data} map={map.data} moving={moving} /> : null}
+      {site.data?.has_map === false ? (
+        <Panel>
+          <EmptyState icon={<MapPinned size={20} />} title={t("pages.map.none")} text={t("pages.map.noneText")}>
+            <Button component={Link} to="/sites/new">
+              {t("pages.newSite.upload")}
+            </Button>
+          </EmptyState>
+        </Panel>
+      ) : null}
+    </PageShell>
+  );
+}
+
+interface Cells {
+  readonly cells: Uint8Array;
+  readonly resolution_m: number;
+}
+
+function share(cells: Uint8Array, accept: (cell: number) => boolean): number {
+  let found = 0;
+  for (const cell of cells) if (accept(cell)) found += 1;
+  return found;
+}
+
+/** Square metres that are free. */
+export function freeArea({ cells, resolution_m }: Cells): number {
+  return share(cells, (cell) => cell === 0) * resolution_m * resolution_m;
+}
+
+/** 0 to 1: how much of the map is known. */
+export function knownShare({ cells }: Cells): number {
+  return cells.length > 0 ? share(cells, (cell) => cell !== 255) / cells.length : 0;
+}

@@ -1,0 +1,38 @@
+import { expect, test } from "vitest";
+import type { RunStatus, RunSummary } from "@/api/types";
+import { isOpen, lastRuns, secondsOfRun, statusOfRun, stepsDone } from "./runStatus";
+
+const run = (more: Partial<RunSummary> = {}) =>
+  ({ id: "r", number: 1, program: { id: "p", name: "P" }, status: "running", steps: {}, ...more }) as RunSummary;
+const step = (status: string) => ({ status }) as RunSummary["steps"][string];
+
+test("each status has its sign", () => {
+  const statuses: RunStatus[] = ["pending", "running", "paused", "finished", "failed", "cancelled"];
+  const signs = statuses.map((status) => statusOfRun(run({ status })));
+  expect(signs).toEqual(["idle", "busy", "waiting", "done", "error", "offline"]);
+  expect(statuses.filter((status) => isOpen(run({ status })))).toEqual(["pending", "running", "paused"]);
+});
+
+test("only steps that are done are counted", () => {
+  const steps = { a: step("done"), b: step("skipped"), c: step("running"), d: step("failed"), e: step("waiting") };
+  expect(stepsDone(run({ steps }))).toBe(1);
+});
+
+test("time runs from the start to the end, or to now", () => {
+  const started_at = "2026-01-01T12:00:00Z";
+  const now = Date.parse("2026-01-01T12:01:06Z");
+  expect(secondsOfRun(run({ started_at: null }), now)).toBeNull();
+  expect(secondsOfRun(run({ started_at, ended_at: null }), now)).toBe(66);
+  expect(secondsOfRun(run({ started_at, ended_at: "2026-01-01T12:00:30Z" }), now)).toBe(30);
+  expect(secondsOfRun(run({ started_at, ended_at: null }), Date.parse("2026-01-01T11:59:00Z"))).toBe(0);
+});
+
+test("the last run of a program is the one with the highest number", () => {
+  const runs = [
+    run({ id: "c", number: 3 }),
+    run({ id: "b", number: 2 }),
+    run({ id: "q", program: { id: "q", name: "" } }),
+  ];
+  const last = lastRuns(runs);
+  expect([last.get("p")?.id, last.get("q")?.id, last.size]).toEqual(["c", "q", 2]);
+});

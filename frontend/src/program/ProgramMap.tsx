@@ -1,0 +1,87 @@
+/** A program on its map to look at: for the run monitor and the simulation. */
+import { useMemo } from "react";
+import type { FloorPlan } from "@/map/floor/floor";
+import type { Insets } from "@/map/plane/projection";
+import type { RobotSource } from "@/map/robots/robots";
+import type { NodeLooks } from "./canvas/buildNodes";
+import { MapControls } from "./canvas/MapControls";
+import { MapStage } from "./canvas/MapStage";
+import type { OtherPerson, StepState } from "./canvas/StepChip";
+import { useScene } from "./canvas/useScene";
+import type { Compiled, ProgramDocument } from "./document/document";
+import { chipLabel } from "./scene/announcements";
+import { Zones } from "./canvas/Zones";
+import type { SiteDevice } from "./surroundings";
+
+export interface ProgramMapProps {
+  /** The site's slug, for its routes. */
+  site: string | undefined;
+  plan: FloorPlan | null;
+  devices: readonly SiteDevice[];
+  document: ProgramDocument;
+  compiled: Compiled | null | undefined;
+  /** Each step's status in a run or rehearsal; steps that are not in it are planned. Left out: no run. */
+  statuses?: Readonly<Record<string, { readonly status: string }>>;
+  robots?: RobotSource;
+  trails?: boolean;
+  selected?: string | null;
+  onSelect?: (step: string | null) => void;
+  onSelectDevice?: (device: string) => void;
+  insets?: Insets;
+  /** Zoom buttons at the bottom right. */
+  controls?: boolean;
+}
+
+const NO_INSETS: Insets = { left: 36, top: 36, right: 24, bottom: 24 };
+const NOBODY: ReadonlyMap<string, OtherPerson> = new Map();
+
+export function ProgramMap(props: ProgramMapProps) {
+  const { plan, devices, statuses, selected = null, onSelect } = props;
+  const { scene, t, surroundings } = useScene({
+    site: props.site,
+    mapVersion: plan?.version,
+    document: props.document,
+    compiled: props.compiled,
+    devices,
+    places: plan?.places,
+  });
+  const looks = useMemo<NodeLooks>(
+    () => ({
+      selected: new Set(selected ? [selected] : []),
+      stateOf: (step) => stateFrom(statuses, step),
+      othersOn: NOBODY,
+      lightOf: () => null,
+      captionOf: () => null,
+      noteOf: () => null,
+      labelOf: (chip) => chipLabel(chip, { document: props.document, surroundings, t }),
+      startLabel: t("start"),
+      editable: false,
+    }),
+    [selected, statuses, props.document, surroundings, t],
+  );
+  return (
+    <MapStage
+      plan={plan}
+      devices={devices}
+      scene={scene}
+      looks={looks}
+      robots={props.robots}
+      trails={props.trails}
+      insets={props.insets ?? NO_INSETS}
+      label={t("map_label")}
+      mode="pan"
+      under={<Zones document={props.document} t={t} />}
+      onStep={(step) => onSelect?.(step)}
+      onDevice={(device) => props.onSelectDevice?.(device)}
+      onFloor={() => onSelect?.(null)}
+    >
+      {props.controls ? <MapControls plan={plan} scene={scene} insets={props.insets ?? NO_INSETS} /> : null}
+    </MapStage>
+  );
+}
+
+function stateFrom(statuses: ProgramMapProps["statuses"], step: string): StepState {
+  if (!statuses) return null;
+  const status = statuses[step]?.status;
+  return status === "running" || status === "done" || status === "failed" || status === "skipped" ? status : "planned";
+}

@@ -1,0 +1,159 @@
+/** The part of the stage that zooms, pans, selects and drags: React Flow, told what its events mean here. */
+import {
+  ConnectionMode,
+  type Node,
+  type OnConnectEnd,
+  ReactFlow,
+  SelectionMode,
+  useReactFlow,
+  ViewportPortal,
+} from "@xyflow/react";
+import { type MouseEvent, type PointerEvent, type ReactNode, useCallback, useRef, useState } from "react";
+import { joinTarget, pointOf } from "./snapping";
+import { type FloorPlan, planBox } from "@/map/floor/floor";
+import { toMetres } from "@/map/plane/projection";
+import type { ViewportCell } from "@/map/plane/viewport";
+import { DEVICE_PREFIX, START_ID } from "./buildNodes";
+import { nodeTypes, type StageNode } from "./nodes";
+import type { MapStageProps, StagePress } from "./stageProps";
+import type { MovingNodes } from "./useMovingNodes";
+
+export type LevelOfDetail = "full" | "icon" | "dot";
+
+interface StageFlowProps extends MapStageProps {
+  moving: MovingNodes;
+  box: ReturnType<typeof useBoxDirection>;
+  viewport: ViewportCell;
+  onLevel: (level: LevelOfDetail) => void;
+  children: ReactNode;
+}
+
+const NO_EDGES: never[] = [];
+
+/** Reads a press as a place on the floor. */
+export function usePress() {
+  const flow = useReactFlow();
+  return (event: MouseEvent | PointerEvent): StagePress => ({
+    at: toMetres(flow.screenToFlowPosition({ x: event.clientX, y: event.clientY })),
+    add: event.shiftKey,
+  });
+}
+
+export function StageFlow(props: StageFlowProps) {
+  const { moving, box, viewport, mode, looks } = props;
+  const flow = useReactFlow();
+  return (
+    <ReactFlow<StageNode>
+      nodes={moving.nodes}
+      edges={NO_EDGES}
+      nodeTypes={nodeTypes}
+      onNodesChange={moving.onNodesChange}
+      onNodeDragStop={moving.onDragStop}
+      {...usePresses(props)}
+      {...useSelecting(props)}
+      onConnectEnd={useJoining(props)}
+      connectionLineComponent={props.joinLine}
+      connectionMode={ConnectionMode.Loose}
+      connectionRadius={0}
+      onInit={() => viewport.set(flow.getViewport())}
+      onMove={(event, view) => {
+        if (event) props.onOwnPan?.();
+        viewport.set(view);
+        props.onLevel(view.zoom < 0.35 ? "dot" : view.zoom < 0.6 ? "icon" : "full");
+      }}
+      selectionMode={box.mode}
+      panOnDrag={mode === "pan" || !looks.editable ? true : [1]}
+      panActivationKeyCode="Space"
+      deleteKeyCode={null}
+      disableKeyboardA11y
+      nodesDraggable={looks.editable && mode !== "draw"}
+      nodesConnectable={looks.editable}
+      zoomOnDoubleClick={false}
+      minZoom={0.2}
+      maxZoom={3}
+      onlyRenderVisibleElements
+      nodeDragThreshold={3}
+      translateExtent={props.plan ? extentOf(props.plan) : undefined}
+      proOptions={{ hideAttribution: true }}
+    >
+      <ViewportPortal>{props.children}</ViewportPortal>
+    </ReactFlow>
+  );
+}
+
+function usePresses(props: StageFlowProps) {
+  const press = usePress();
+  return {
+    onNodeClick: (event: MouseEvent, node: StageNode) => clickNode(props, node, press(event)),
+    onNodeDoubleClick: (_event: MouseEvent, node: StageNode) => {
+      if (node.type === "step") props.onEditStep?.(node.id);
+    },
+    onPaneClick: (event: MouseEvent) => props.onFloor?.(press(event)),
+    onPaneContextMenu: (event: MouseEvent | globalThis.MouseEvent) => {
+      event.preventDefault();
+      props.onBack?.();
+    },
+  };
+}
+
+function useSelecting({ moving, box, mode, looks }: StageFlowProps) {
+  return {
+    onSelectionDragStop: moving.onSelectionDragStop,
+    onSelectionStart: box.begin,
+    onSelectionEnd: () => {
+      box.end();
+      moving.onSelectionEnd();
+    },
+    selectionOnDrag: mode === "select" && looks.editable,
+    selectionKeyCode: null,
+    multiSelectionKeyCode: "Shift",
+  };
+}
+
+function useJoining({ scene, viewport, onJoin }: StageFlowProps): OnConnectEnd {
+  const flow = useReactFlow();
+  return (event, state) => {
+    const at = pointOf(event);
+    const from = state.fromNode?.id;
+    if (from === undefined || !at) return;
+    const to = joinTarget(scene.chips, from, flow.screenToFlowPosition(at), viewport.get().zoom);
+    if (to !== null) onJoin?.(from, to, at);
+  };
+}
+
+function extentOf(plan: FloorPlan): [[number, number], [number, number]] {
+  const box = planBox(plan);
+  const margin = 1200;
+  return [
+    [box.left - margin, box.top - margin],
+    [box.right + margin, box.bottom + margin],
+  ];
+}
+
+export function clickNode(props: MapStageProps, node: Node, press: StagePress): void {
+  if (node.id.startsWith(DEVICE_PREFIX)) props.onDevice?.(node.id.slice(DEVICE_PREFIX.length), press);
+  else if (node.id !== START_ID) props.onStep?.(node.id, press.add);
+}
+
+/** The machine whose node an event happened on. */
+export function deviceUnder(event: PointerEvent): string | null {
+  const under = document.elementFromPoint(event.clientX, event.clientY);
+  const id = under?.closest(".react-flow__node")?.getAttribute("data-id");
+  return id?.startsWith(DEVICE_PREFIX) ? id.slice(DEVICE_PREFIX.length) : null;
+}
+
+export function useBoxDirection() {
+  const [touching, setTouching] = useState(false);
+  const start = useRef<number | null>(null);
+  const begin = useCallback((event: { clientX: number }) => {
+    start.current = event.clientX;
+  }, []);
+  const watch = useCallback((event: { clientX: number; buttons: number }) => {
+    if (start.current !== null && event.buttons > 0) setTouching(event.clientX < start.current);
+  }, []);
+  const end = useCallback(() => {
+    start.current = null;
+    setTouching(false);
+  }, []);
+  return { mode: touching ? SelectionMode.Partial : SelectionMode.Full, begin, watch, end };
+}

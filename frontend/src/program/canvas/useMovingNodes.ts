@@ -1,0 +1,120 @@
+/** Chips under the pointer move at once; the document hears of it when they are let go. */
+import { applyNodeChanges, type Node, type NodeChange, type NodePositionChange } from "@xyflow/react";
+import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
+import { toMetres, type Point } from "@/map/plane/projection";
+import type { Guide, Snapped } from "./snapping";
+import type { StageNode } from "./nodes";
+
+export interface MovedNode {
+  readonly id: string;
+  /** Where it stands now. */
+  readonly at: Point;
+  /** Where it was let go, before it snapped. */
+  readonly pointed: Point;
+}
+
+export interface MovingNodes {
+  readonly nodes: StageNode[];
+  readonly guides: readonly Guide[];
+  readonly onNodesChange: (changes: NodeChange<StageNode>[]) => void;
+  readonly onDragStop: (event: unknown, node: Node, nodes: Node[]) => void;
+  readonly onSelectionDragStop: (event: unknown, nodes: Node[]) => void;
+  readonly onSelectionEnd: () => void;
+}
+
+const NO_GUIDES: readonly Guide[] = [];
+
+export function useMovingNodes(
+  built: StageNode[],
+  onMove: ((moved: readonly MovedNode[]) => void) | undefined,
+  onSelectMany: ((steps: readonly string[]) => void) | undefined,
+  snapTo: (id: string, at: { x: number; y: number }) => Snapped,
+): MovingNodes {
+  const [nodes, setNodes] = useState(built);
+  const [guides, setGuides] = useState(NO_GUIDES);
+  const dragging = useRef(new Set<string>());
+  const boxed = useRef(new Set<string>());
+  const snapped = useRef(new Map<string, { x: number; y: number }>());
+  useEffect(() => {
+    setNodes((now) => (dragging.current.size === 0 ? built : keepDragged(built, now, dragging.current)));
+  }, [built]);
+  const onNodesChange = useCallback(
+    (changes: NodeChange<StageNode>[]) => {
+      noteSelection(changes, boxed.current);
+      const moves = changes.filter((change) => change.type === "position");
+      if (moves.length === 0) return;
+      for (const move of moves) if (move.dragging) dragging.current.add(move.id);
+      const [placed, lines] =
+        dragging.current.size === 1 ? snapMoves(moves, snapTo, snapped.current) : [moves, NO_GUIDES];
+      setGuides(lines);
+      setNodes((now) => applyNodeChanges<StageNode>(placed, now));
+    },
+    [snapTo],
+  );
+  const drop = useCallback(
+    (dropped: readonly Node[]) => {
+      const moved = dropped.map((node) => ({
+        id: node.id,
+        at: toMetres(snapped.current.get(node.id) ?? node.position),
+        pointed: toMetres(node.position),
+      }));
+      dragging.current.clear();
+      snapped.current.clear();
+      setGuides(NO_GUIDES);
+      if (moved.length > 0) onMove?.(moved);
+    },
+    [onMove],
+  );
+  return {
+    nodes,
+    guides,
+    onNodesChange,
+    onDragStop: useCallback((_event, node, all) => drop(all.length > 0 ? all : [node]), [drop]),
+    onSelectionDragStop: useCallback((_event, all) => drop(all), [drop]),
+    onSelectionEnd: useBoxEnd(boxed, onSelectMany),
+  };
+}
+
+function useBoxEnd(
+  boxed: RefObject<Set<string>>,
+  onSelectMany: ((steps: readonly string[]) => void) | undefined,
+): () => void {
+  return useCallback(() => {
+    if (boxed.current.size > 0) onSelectMany?.([...boxed.current]);
+    boxed.current.clear();
+  }, [boxed, onSelectMany]);
+}
+
+function noteSelection(changes: readonly NodeChange<StageNode>[], boxed: Set<string>): void {
+  for (const change of changes) {
+    if (change.type !== "select") continue;
+    if (change.selected) boxed.add(change.id);
+    else boxed.delete(change.id);
+  }
+}
+
+/** The one node that is held goes where it snaps to; the last of these places is remembered. */
+function snapMoves(
+  moves: readonly NodePositionChange[],
+  snapTo: (id: string, at: { x: number; y: number }) => Snapped,
+  snapped: Map<string, { x: number; y: number }>,
+): [NodePositionChange[], readonly Guide[]] {
+  let guides = NO_GUIDES;
+  const placed = moves.map((move) => {
+    if (!move.position || !move.dragging) return { ...move, position: snapped.get(move.id) ?? move.position };
+    const goal = snapTo(move.id, move.position);
+    snapped.set(move.id, goal.at);
+    guides = goal.guides;
+    return { ...move, position: goal.at };
+  });
+  return [placed, guides];
+}
+
+/** Other people's changes go on while a chip is held; the held one stays under the pointer. */
+function keepDragged(built: StageNode[], now: readonly StageNode[], held: ReadonlySet<string>): StageNode[] {
+  const positions = new Map(now.map((node) => [node.id, node.position]));
+  return built.map((node) => {
+    const position = held.has(node.id) ? positions.get(node.id) : undefined;
+    return position ? { ...node, position } : node;
+  });
+}

@@ -1,0 +1,97 @@
+/** The drawing of a document, rebuilt only when something that it shows has changed. */
+import { useEffect, useMemo, useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { MapPlace } from "@/map/floor/floor";
+import type { Compiled, ProgramDocument } from "../document/document";
+import { readTree } from "../document/tree";
+import type { Measure } from "../scene/chips";
+import { buildScene, type Scene } from "../scene/scene";
+import { pathsOf } from "../scene/stepPaths";
+import { type SiteDevice, type Surroundings, surroundingsOf } from "../surroundings";
+import type { Translate } from "../words/stepWords";
+import { useRoutes } from "./useRoutes";
+
+export interface SceneParts {
+  readonly scene: Scene;
+  readonly surroundings: Surroundings;
+  readonly t: Translate;
+}
+
+const NOBODY: ReadonlySet<string> = new Set();
+const NO_PLACES: readonly MapPlace[] = [];
+
+export function useScene(input: {
+  site: string | undefined;
+  mapVersion: number | undefined;
+  document: ProgramDocument;
+  compiled: Compiled | null | undefined;
+  devices: readonly SiteDevice[];
+  places: readonly MapPlace[] | undefined;
+  collapsed?: ReadonlySet<string>;
+}): SceneParts {
+  const { document, compiled, devices, places = NO_PLACES, collapsed = NOBODY } = input;
+  const t = useEditorText();
+  const fonts = useFontsReady();
+  const surroundings = useMemo(() => surroundingsOf(devices, places), [devices, places]);
+  const keys = useMemo(
+    () => pathsOf(document, readTree(document), surroundings).map((way) => way.key),
+    [document, surroundings],
+  );
+  const routes = useRoutes(input.site, input.mapVersion, keys);
+  const scene = useMemo(
+    () =>
+      buildScene({
+        document,
+        compiled: compiled ?? null,
+        surroundings,
+        routes,
+        collapsed,
+        t,
+        measure: (text, font) => measureText(text, font) + (fonts ? 0 : 0),
+      }),
+    [document, compiled, surroundings, routes, collapsed, t, fonts],
+  );
+  return { scene, surroundings, t };
+}
+
+/** `t("tool.move")` for `editor.tool.move`. */
+export function useEditorText(): Translate {
+  const { t } = useTranslation();
+  return useMemo<Translate>(() => (key, values) => String(t(`editor.${key}`, values ?? {})), [t]);
+}
+
+function useFontsReady(): boolean {
+  const [ready, setReady] = useState(() => document.fonts?.status === "loaded");
+  useEffect(() => {
+    let here = true;
+    void document.fonts?.ready.then(() => {
+      if (here) setReady(true);
+    });
+    return () => {
+      here = false;
+    };
+  }, []);
+  return ready;
+}
+
+const FONTS = {
+  chip: "600 12px 'Inter Variable', Inter, sans-serif",
+  badge: "700 11px 'Inter Variable', Inter, sans-serif",
+  mono: "500 11.5px 'JetBrains Mono', monospace",
+} as const;
+
+const known = new Map<string, number>();
+let context: CanvasRenderingContext2D | null = null;
+
+export const measureText: Measure = (text, font) => {
+  const key = `${font}\n${text}`;
+  const before = known.get(key);
+  if (before !== undefined) return before;
+  context ??= document.createElement("canvas").getContext("2d");
+  if (!context) return text.length * 7;
+  context.font = FONTS[font];
+  const width = context.measureText(text).width;
+  // A width measured before the fonts have come is not kept.
+  if (document.fonts?.status === "loaded") known.set(key, width);
+  return width;
+};

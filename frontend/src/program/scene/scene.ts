@@ -1,0 +1,184 @@
+/** The whole drawing of a program as plain shapes: pure, so that every screen draws the same. */
+import { isRobot } from "@/map/devices/device";
+import { toPixels, type Box } from "@/map/plane/projection";
+import { pointAlong, pathLength, simplified, type PixelPoint } from "@/map/plane/paths";
+import type { Compiled, ProgramDocument, Step } from "../document/document";
+import { readTree, type ProgramTree } from "../document/tree";
+import { buildChip, type Chip, type Measure, type TagSide } from "./chips";
+import { framesOf, type Frame } from "./frames";
+import { boxAt, edgeTowards, elbow, grown, leastCovering, legBoxes, nearestOn, overlaps } from "./geometry";
+import { hullsOf, type Hull } from "./hulls";
+import { isFramed } from "../kinds";
+import { separateLanes } from "./lanes";
+import { linksOf, type Link, wordBox } from "./links";
+import { functionOf, pathsOf, type RouteLookup, type RouteShape, type Way } from "./stepPaths";
+import { deviceBox, type Surroundings } from "../surroundings";
+import type { Speaker, Translate } from "../words/stepWords";
+
+export interface Scene {
+  readonly tree: ProgramTree;
+  readonly start: PixelPoint;
+  readonly chips: ReadonlyMap<string, Chip>;
+  readonly routes: readonly RouteShape[];
+  readonly links: readonly Link[];
+  readonly frames: readonly Frame[];
+  readonly hulls: readonly Hull[];
+}
+
+export interface SceneInput {
+  readonly document: ProgramDocument;
+  readonly compiled: Pick<Compiled, "numbers" | "diagnostics" | "added_moves"> | null;
+  readonly surroundings: Surroundings;
+  readonly routes: RouteLookup;
+  /** Functions whose bodies are not drawn. */
+  readonly collapsed: ReadonlySet<string>;
+  readonly t: Translate;
+  readonly measure: Measure;
+}
+
+const DEFAULT_START: readonly [number, number] = [1, -1];
+
+/** How near a chip must lie to its route to be drawn on it. */
+const ON_ROUTE = 26;
+
+export function buildScene(input: SceneInput): Scene {
+  const { document, surroundings, t } = input;
+  const tree = readTree(document);
+  const speaker: Speaker = { document, surroundings, t };
+  const shown = [...tree.reading, ...tree.loose, ...commentsOf(document)].filter((id) => isShown(input, id));
+  const ways = pathsOf(document, tree, surroundings).filter((way) => shown.includes(way.step));
+  const routes = shapeRoutes(ways, input.routes);
+  const chips = new Map<string, Chip>();
+  const chipInput = { ...input, drafts: new Set(tree.drafts) };
+  for (const id of shown) {
+    const step = document.steps[id];
+    if (step)
+      chips.set(
+        id,
+        buildChip(
+          id,
+          step,
+          chipPosition(step, standsInFrame(document, step) ? undefined : routes.get(id)),
+          chipInput,
+          speaker,
+        ),
+      );
+  }
+  const frames = framesOf(document, tree, chips);
+  const start = document.start_pos ? toPixels(document.start_pos) : freeStart(surroundings, chips);
+  const links = linksOf({ document, tree, chips, frames, start, surroundings, t });
+  placeTags(chips, routes, links);
+  return {
+    tree,
+    start,
+    chips,
+    routes: [...routes.values()],
+    links,
+    frames: [...frames.values()],
+    hulls: hullsOf(document, tree, chips, routes, surroundings, input.collapsed),
+  };
+}
+
+function placeTags(chips: Map<string, Chip>, routes: ReadonlyMap<string, RouteShape>, links: readonly Link[]): void {
+  const lines = [
+    ...[...routes.values()].flatMap((route) => legBoxes(route.points, 5)),
+    ...links.flatMap((link) => (link.tone === "then" ? [] : legBoxes(link.points, 3))),
+    ...links.flatMap((link) => wordBox(link) ?? []),
+  ];
+  for (const chip of chips.values())
+    if (chip.shape === "diamond" && chip.condition)
+      chips.set(chip.id, { ...chip, tagSide: tagSide(chip, chips, lines) });
+}
+
+/** Beside the diamond where the condition covers no chip, no line and no word. */
+function tagSide(chip: Chip, chips: ReadonlyMap<string, Chip>, lines: readonly Box[]): TagSide {
+  const others = [...chips.values()].filter((each) => each.id !== chip.id).map((each) => grown(each.box, 3));
+  const { x, y } = chip.at;
+  const [beside, height] = [chip.width / 2 + 8 + chip.tagWidth / 2, 20];
+  const at = (side: TagSide, dx: number, dy: number) => ({
+    side,
+    box: boxAt({ x: x + dx, y: y + dy }, chip.tagWidth, height),
+  });
+  const sides = [
+    at("right", beside, 0),
+    at("above", chip.tagWidth / 2 - 7, -34),
+    at("below-left", -chip.tagWidth / 2 - 8, 38),
+    at("below", 0, 38),
+    at("left", -beside - 6, 0),
+  ] as const;
+  return leastCovering([...sides], [...others, ...lines]).side;
+}
+
+/** Along the top of the floor, where neither a machine nor a chip stands. */
+function freeStart(surroundings: Surroundings, chips: ReadonlyMap<string, Chip>): PixelPoint {
+  const machines = [...surroundings.devices.values()].filter((device) => !isRobot(device)).map(deviceBox);
+  const taken = [...machines.map((box) => grown(box, 14)), ...[...chips.values()].map((chip) => grown(chip.box, 8))];
+  for (let x = DEFAULT_START[0]; x < 20; x += 0.5) {
+    const at = toPixels([x, DEFAULT_START[1]]);
+    if (!taken.some((box) => overlaps(box, boxAt(at, 78, 30)))) return at;
+  }
+  return toPixels(DEFAULT_START);
+}
+
+function isShown(input: SceneInput, id: string): boolean {
+  const scope = functionOf(input.document, id);
+  return scope === null || !input.collapsed.has(scope);
+}
+
+/** Steps that drive the same way share its line. */
+function shapeRoutes(ways: readonly Way[], lookup: RouteLookup): Map<string, RouteShape> {
+  const lineOf = (way: Way) => way.key + (way.drawn ? JSON.stringify(way.drawn) : "");
+  const pathOf = (way: Way) => way.drawn ?? lookup(way.key);
+  const different = [...new Map(ways.map((way) => [lineOf(way), way])).values()];
+  const lanes = separateLanes(
+    different.map((way) => routePoints(way, pathOf(way))),
+    different.map((way) => ({ start: way.from.box !== null, end: way.to.box !== null })),
+  );
+  const lines = new Map(different.map((way, index) => [lineOf(way), lanes[index] ?? []]));
+  return new Map(
+    ways.map((way) => {
+      const points = lines.get(lineOf(way)) ?? [];
+      return [way.step, { step: way.step, points, guessed: !pathOf(way) }];
+    }),
+  );
+}
+
+/** From edge to edge: the planned way between the outlines of what it joins. */
+export function routePoints(
+  way: Pick<Way, "from" | "to">,
+  path: readonly (readonly [number, number])[] | null | undefined,
+): PixelPoint[] {
+  const around = (spot: Way["from"]) =>
+    spot.box ?? { left: spot.at.x - 4, right: spot.at.x + 4, top: spot.at.y - 4, bottom: spot.at.y + 4 };
+  if (!path || path.length === 0) return elbow(around(way.from), around(way.to));
+  const middle = path.map((point) => toPixels(point));
+  const [first, last] = [middle[0], middle.at(-1)];
+  if (!first || !last) return [];
+  const head = way.from.box ? [edgeTowards(way.from.box, first)] : [];
+  const tail = way.to.box ? [edgeTowards(way.to.box, last)] : [];
+  return simplified([...head, ...middle, ...tail]);
+}
+
+/** Steps inside a frame stand beside its head, not on their routes. */
+function standsInFrame(document: ProgramDocument, step: Step): boolean {
+  const parent = step.pos && step.place?.[1] === "body" ? document.steps[step.place[0]] : undefined;
+  return parent !== undefined && isFramed(parent.kind);
+}
+
+function commentsOf(document: ProgramDocument): string[] {
+  return Object.keys(document.steps).filter((id) => document.steps[id]?.kind === "comment");
+}
+
+/** Where a step's chip is drawn: its own position, brought onto its route where that is near. */
+function chipPosition(step: Step, route: RouteShape | undefined): PixelPoint {
+  const own = step.pos ? toPixels(step.pos) : null;
+  if (!route) return own ?? toPixels(DEFAULT_START);
+  if (!own) return pointAlong(route.points, pathLength(route.points) / 2) ?? toPixels(DEFAULT_START);
+  const near = nearestOn(route.points, own);
+  return near && near.off <= ON_ROUTE && !route.guessed ? near.at : own;
+}
+
+/** The box around a chip and, for a frame, around what stands in it. */
+export function outerBox(scene: Pick<Scene, "chips" | "frames">, id: string): Box | null {
+  return scene.frames.find((frame) => frame.id === id)?.box ?? scene.chips.get(id)?.box ?? null;
+}

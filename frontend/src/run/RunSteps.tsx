@@ -1,0 +1,170 @@
+import { useEffect, useRef } from "react";
+import { useTranslation } from "react-i18next";
+import type { RunEvent } from "@/api/types";
+import { StatusGlyph, type StatusName } from "@/design/StatusGlyph";
+import { VipoIcon } from "@/design/VipoIcon";
+import { clock } from "@/design/clock";
+import { waitWords } from "@/i18n/waits";
+import styles from "./RunScreen.module.css";
+import { eventWords } from "./eventWords";
+import { outerProgress, spentSeconds, type StepLine } from "./stepList";
+
+const GLYPHS: Record<StepLine["status"], StatusName> = {
+  waiting: "idle",
+  running: "busy",
+  done: "done",
+  failed: "error",
+  skipped: "offline",
+};
+
+interface RunStepsProps {
+  lines: StepLine[];
+  current: StepLine | null;
+  now: number;
+  selected: string | null;
+  titleOf: (step: string) => string;
+  iconOf: (step: string) => string;
+  nameOf: (device: string) => string;
+  onSelect: (step: string) => void;
+}
+
+/** Waiting with a beginning means held up; without one it has not begun. */
+function glyphOf(line: StepLine): StatusName {
+  return line.status === "waiting" && line.started_at ? "waiting" : GLYPHS[line.status];
+}
+
+function Current({ current, now, titleOf, nameOf }: RunStepsProps) {
+  const { t } = useTranslation();
+  if (!current) return null;
+  return (
+    <div className={styles.current} data-waiting={current.wait ? true : undefined}>
+      <p>
+        <span className={styles.number}>{current.number}</span> <b>{titleOf(current.step)}</b>
+      </p>
+      <p className={styles.currentNote}>
+        <span>
+          {waitWords(current.why, nameOf) ??
+            current.wait ??
+            (current.robot ? nameOf(current.robot) : t("run.underWay"))}
+        </span>
+        <span>{clock(spentSeconds(current, now) ?? 0)}</span>
+      </p>
+    </div>
+  );
+}
+
+function Line({ line, props }: { line: StepLine; props: RunStepsProps }) {
+  const { t } = useTranslation();
+  const spent = spentSeconds(line, props.now);
+  const word = t(`run.step.${glyphOf(line) === "waiting" ? "held" : line.status}`);
+  return (
+    <li>
+      <button
+        type="button"
+        className={styles.line}
+        aria-current={props.current?.step === line.step ? "step" : undefined}
+        aria-pressed={props.selected === line.step}
+        style={{ paddingLeft: 12 + line.depth * 18 }}
+        onClick={() => props.onSelect(line.step)}
+      >
+        <StatusGlyph status={glyphOf(line)} size={15} />
+        <span className="visually-hidden">{word}</span>
+        <span className={styles.number}>{line.number}</span>
+        <VipoIcon name={props.iconOf(line.step)} size={15} />
+        <span className={styles.lineTitle}>
+          {props.titleOf(line.step)}
+          {line.count > 1 ? ` · ${t("run.times", { count: line.count })}` : ""}
+        </span>
+        <span className={styles.mono}>{spent === null ? "–" : clock(spent)}</span>
+      </button>
+    </li>
+  );
+}
+
+/** The step that is being carried out, and all steps with their state and time. */
+export function RunSteps(props: RunStepsProps) {
+  const { t } = useTranslation();
+  const progress = outerProgress(props.lines);
+  return (
+    <>
+      <Current {...props} />
+      <section className={styles.steps} aria-label={t("run.steps")}>
+        <h2>
+          {t("run.steps")} <small>{t("run.stepsDone", progress)}</small>
+        </h2>
+        <ol>
+          {props.lines.map((line) => (
+            <Line key={line.step} line={line} props={props} />
+          ))}
+        </ol>
+      </section>
+    </>
+  );
+}
+
+const KINDS: Record<string, StatusName> = {
+  wait: "waiting",
+  answer: "done",
+  command: "busy",
+  failed: "error",
+  question: "waiting",
+};
+
+function eventGlyph(event: RunEvent): StatusName {
+  if (event.code === "step_done" || event.code === "finished") return "done";
+  if (event.code.startsWith("step_") && event.code !== "step_entered") return "error";
+  if (event.kind === "answer" && event.args.status !== "DONE") return "error";
+  if (event.code === "answered") return "done";
+  if (event.code === "told" && event.args.level === "warning") return "warning";
+  return KINDS[event.kind] ?? "idle";
+}
+
+interface JournalProps {
+  events: readonly RunEvent[];
+  numberOf: (step: string) => string;
+  nameOf: (device: string) => string;
+  label: string;
+  full?: boolean;
+}
+
+/** What happened, newest last; it stays at the newest while one looks at the end. */
+export function Journal({ events, numberOf, nameOf, label, full = false }: JournalProps) {
+  const { t } = useTranslation();
+  const list = useRef<HTMLOListElement>(null);
+  const shown = full ? events : events.filter((event) => !["command", "way"].includes(event.kind));
+  const atEnd = useRef(true);
+  useEffect(() => {
+    const element = list.current;
+    if (element && atEnd.current) element.scrollTop = element.scrollHeight;
+  }, [shown.length]);
+  return (
+    <section className={styles.journal} aria-label={label}>
+      {full ? null : (
+        <h2>
+          {label} <small>{t("run.entries", { count: events.length })}</small>
+        </h2>
+      )}
+      <ol
+        ref={list}
+        // A list that scrolls must be reachable by keyboard.
+        // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
+        tabIndex={0}
+        aria-label={label}
+        onScroll={({ currentTarget: element }) => {
+          atEnd.current = element.scrollHeight - element.scrollTop - element.clientHeight < 40;
+        }}
+      >
+        {shown.map((event) => (
+          <li key={event.seq}>
+            <span className={styles.mono}>{clock(event.t_s)}</span>
+            <StatusGlyph status={eventGlyph(event)} size={13} />
+            <span>
+              {event.step && numberOf(event.step) ? <b>{numberOf(event.step)} </b> : null}
+              {eventWords(event, nameOf)}
+            </span>
+          </li>
+        ))}
+      </ol>
+    </section>
+  );
+}

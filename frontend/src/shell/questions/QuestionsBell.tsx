@@ -1,0 +1,64 @@
+/** How many questions wait at the site, with the questions behind it; new ones and notices come as toasts. */
+import { Popover } from "@mantine/core";
+import { notifications } from "@mantine/notifications";
+import { CircleHelp } from "lucide-react";
+import { useEffect } from "react";
+import { useTranslation } from "react-i18next";
+import { useQuestions, useSite } from "@/api/queries";
+import type { Question } from "@/api/types";
+import { useLiveStore } from "@/live/store";
+import { QuestionCard } from "./QuestionCard";
+import styles from "./questions.module.css";
+import { openCount, shownQuestions } from "./openQuestions";
+
+const NONE: Question[] = [];
+/** What this browser has shown as a toast, for all pages of the visit. */
+const toasted = new Set<string>();
+let lastNotice = 0;
+
+function useToasts(questions: readonly Question[], allowed: boolean): void {
+  const { t } = useTranslation();
+  const notices = useLiveStore((state) => state.notices);
+  useEffect(() => {
+    for (const question of questions) {
+      if (question.state !== "open") notifications.hide(question.id);
+      if (!allowed || question.state !== "open" || toasted.has(question.id)) continue;
+      toasted.add(question.id);
+      const title = t("run.question.asks", { number: question.run_number });
+      notifications.show({ id: question.id, title, message: question.text, color: "yellow", autoClose: 12_000 });
+    }
+  }, [questions, allowed, t]);
+  useEffect(() => {
+    for (const notice of notices) {
+      if (notice.id <= lastNotice) continue;
+      lastNotice = notice.id;
+      const color = notice.level === "warning" ? "yellow" : "blue";
+      notifications.show({ message: notice.text, color, autoClose: 8000 });
+    }
+    if (notices.length === 0) lastNotice = 0;
+  }, [notices]);
+}
+
+export function QuestionsBell({ slug }: { slug: string }) {
+  const { t } = useTranslation();
+  const role = useSite(slug).data?.role;
+  const questions = useQuestions(slug).data ?? NONE;
+  const allowed = role !== undefined && role !== "viewer";
+  useToasts(questions, allowed);
+  const count = openCount(questions);
+  if (count === 0) return null;
+  return (
+    <Popover position="bottom-end" width={340} shadow="md" withinPortal trapFocus>
+      <Popover.Target>
+        <button type="button" className={styles.bell} aria-label={t("run.question.open", { count })}>
+          <CircleHelp size={17} aria-hidden /> <b>{count}</b>
+        </button>
+      </Popover.Target>
+      <Popover.Dropdown className={styles.list}>
+        {shownQuestions(questions).map((question) => (
+          <QuestionCard key={question.id} question={question} allowed={allowed} />
+        ))}
+      </Popover.Dropdown>
+    </Popover>
+  );
+}
