@@ -64,8 +64,7 @@ check-units: setup-dev
 
 test: setup-dev servers frontend
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check-frontend check-static
-	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native tests/e2e
-	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --numprocesses=2 --dist=loadfile --ignore=tests/e2e tests
+	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --durations=25 --numprocesses=2 --dist=loadfile --no-loadscope-reorder
 
 openapi: setup-dev
 	$(BIN)/python manage.py openapi

@@ -24,8 +24,8 @@ import redis
 from bench.figures import figure, share
 from bench.flow import ROOT, Flow, cpu_seconds
 from bench.peers.subjects import bare_loop, node_red
-from tests.integration.wire.served import settings_for
-from tests.servers import run_mosquitto, run_postgres, run_redis
+from tests.kit.served import settings_for
+from tests.kit.servers import run_mosquitto, run_postgres, run_redis
 
 DEVICES, ROUNDS = 1000, 20
 PACES = (1000.0, 6000.0)
@@ -122,7 +122,7 @@ def _servers(folder: Path) -> Iterator[World]:
         bus = stack.enter_context(run_redis(folder))
         mosquitto = stack.enter_context(run_mosquitto(folder, {"server": PASSWORD}))
         (folder / "state").mkdir()
-        environment = settings_for(folder / "state", postgres, bus, mosquitto)
+        environment = settings_for(folder / "state", postgres.url, bus.url, mosquitto)
         environment |= {"VIPO_MQTT_TLS": "0", "VIPO_LOG": "WARNING", "VIPO_DEFAULT_SITE": "hall"}
         environment["DJANGO_SETTINGS_MODULE"] = "vipo_site.settings"
         world = World(environment, mosquitto.port, postgres.url, bus.url)

@@ -9,9 +9,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from bench.figures import figure
-from tests.bus import Ear
-from tests.firmware.rig import FIRMWARE, HEAP, ROOT, wait_for
-from tests.servers import run_mosquitto
+from tests.firmware.rig import FIRMWARE, HEAP
+from tests.kit.files import ROOT
+from tests.kit.mqtt import Ear
+from tests.kit.servers import run_mosquitto
+from tests.kit.waiting import wait_for
 from vipo_site.demo.firmware_process import find_micropython
 
 COUNT = 70_000
@@ -29,7 +31,7 @@ def measure() -> Iterator[dict[str, object]]:
         Ear(mosquitto.port, "secret", "vipo/v1/dev/soak/up/ack") as ear,
     ):
         told = run_soak(micropython, mosquitto.device_port)
-        wait_for(lambda: len(ear.heard) >= COUNT, "the broker lost messages", LIMIT_S)
+        wait_for("every message", lambda: len(ear.heard) >= COUNT, LIMIT_S)
         heard = [int(message.payload) for message in ear.heard]
     in_order = heard == list(range(COUNT))
     yield figure("firmware: messages acknowledged", COUNT / told["seconds"], "1/s", in_order=in_order, **told)

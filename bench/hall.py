@@ -14,17 +14,8 @@ from uuid import UUID, uuid4
 from django.db import connection
 
 from editor.language import plan_to_json
-from editor.language.plan.instructions import (
-    Call,
-    Constant,
-    End,
-    Instruction,
-    Operation,
-    PlaceRef,
-    Plan,
-    Reading,
-    WaitUntil,
-)
+from editor.language.expressions.nodes import Constant, Operation, PlaceRef, Reading
+from editor.language.plan.instructions import Call, End, Instruction, Plan, WaitUntil
 from execution import services
 from execution.floor.advance import advance_site
 from execution.models import Command

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from bench.figures import figure, share
-from tests.integration.editor.conftest import Web, prepare
 from tests.integration.editor.node_clients import MODULES
-from tests.servers import find_program
+from tests.kit.servers import find_program
+from tests.kit.web import Web, prepare
 
 CLIENTS, PER_SECOND, SECONDS = 10, 10, 5
 

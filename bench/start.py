@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.e2e.demo import running_demo
+from tests.kit.demo import running_demo
 
 
 def measure() -> Iterator[dict[str, object]]:

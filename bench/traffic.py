@@ -17,7 +17,7 @@ from execution.traffic import floor
 from execution.traffic.layout import Layout, NoSuchSpot, make_layout
 from execution.traffic.routes import plan_path
 from simulation.world import Scene
-from tests.unit.execution import demo_floor
+from tests.kit import demo_floor
 from vipo_device.protocol.description import Description, Pose
 
 MACHINES = tuple(device.id for device in demo_floor.devices() if device.kind == "machine")

@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT))
 
 from scripts.construct_programs import Frame, Picture, pictures  # noqa: E402
 from tests.e2e.conftest import CHROMIUM, FLAGS, sign_in_by_form, wait_for_devices  # noqa: E402
-from tests.e2e.demo import Demo, running_demo  # noqa: E402
+from tests.kit.demo import Demo, running_demo  # noqa: E402
 
 IMAGES = ROOT / "docs" / "language" / "images"
 PIXELS_PER_METRE = 46

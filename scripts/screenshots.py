@@ -19,8 +19,8 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 from tests.e2e.conftest import CHROMIUM, FLAGS, sign_in_by_form, wait_for_devices  # noqa: E402
-from tests.e2e.demo import Demo, running_demo  # noqa: E402
 from tests.e2e.screens import SITE, ask, chip, tell, the_map  # noqa: E402
+from tests.kit.demo import Demo, running_demo  # noqa: E402
 
 IMAGES = ROOT / "docs" / "images"
 SIZES = {"": (1600, 1000), "tablet-": (820, 1180)}

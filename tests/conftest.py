@@ -5,8 +5,12 @@
 
 import os
 
+import pytest
 from hypothesis import settings
 
 settings.register_profile("searching", deadline=None)
 settings.register_profile("steady", deadline=None, derandomize=True)
 settings.load_profile("steady" if os.environ.get("VIPO_STEADY") == "1" else "searching")
+
+pytest.register_assert_rewrite("tests.kit")
+pytest_plugins = ["tests.kit.scheduling", "tests.kit.databases"]

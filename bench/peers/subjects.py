@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.servers import free_port
+from tests.kit.servers import free_port
 
 PEERS = Path(__file__).resolve().parent
 TOPIC = "vipo/v1/dev/+/up/state"

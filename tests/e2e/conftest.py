@@ -14,7 +14,7 @@ from typing import Any, Protocol
 import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, WebError, expect, sync_playwright
 
-from tests.e2e.demo import Demo, running_demo
+from tests.kit.demo import Demo, running_demo
 
 CHROMIUM = "/usr/bin/chromium"
 FLAGS = [

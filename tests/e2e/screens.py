@@ -7,6 +7,8 @@ from typing import Any
 
 from playwright.sync_api import Locator, Page, expect
 
+from tests.kit.files import ROOT
+
 THIN_SPACE = "\u202f"
 SITE = "/api/sites/painting-factory"
 ERRAND = "Pick-and-Drop, 1 \u00d7 box from Item Inventory to Painting Machine"
@@ -126,3 +128,30 @@ def tell(page: Page, path: str, body: dict[str, Any] | None = None) -> Any:
     answer = page.request.post(origin[0] + path, data=body or {}, headers={"X-CSRFToken": token})
     assert answer.ok, f"{path}: {answer.status} {answer.text()}"
     return answer.json()
+
+
+AXE = ROOT / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
+
+
+SERIOUS = {"serious", "critical"}
+
+
+def violations(page: Page) -> list[str]:
+    page.evaluate(AXE.read_text())
+    result: dict[str, Any] = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")
+    return [
+        f"{each['id']} ({each['impact']}): "
+        + "; ".join(str(node["target"]) + node["html"][:120] for node in each["nodes"][:3])
+        for each in result["violations"]
+        if each["impact"] in SERIOUS
+    ]
+
+
+def editor(page: Page) -> Locator:
+    return page.get_by_role("textbox", name="Script")
+
+
+def open_script(page: Page) -> Locator:
+    page.get_by_role("tab", name="Script").click()
+    expect(editor(page)).to_be_visible()
+    return editor(page)

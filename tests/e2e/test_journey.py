@@ -8,7 +8,6 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.e2e.conftest import SignIn, listen
-from tests.e2e.demo import Demo
 from tests.e2e.screens import (
     ERRAND,
     SITE,
@@ -28,6 +27,7 @@ from tests.e2e.screens import (
     steps_in_list,
     the_map,
 )
+from tests.kit.demo import Demo
 
 pytestmark = pytest.mark.browser
 

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ERRAND, SITE, ask, chip, draw_errand, make_program, saved, tell
+from tests.e2e.screens import ERRAND, SITE, ask, chip, draw_errand, make_program, saved, tell, violations
 
 pytestmark = pytest.mark.browser
 
-AXE = Path(__file__).resolve().parents[2] / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
 RAW_KEY = re.compile(r"\b(?:alerts|shell|pages|map|editor|run|simulation)\.[a-z]\w+")
-SERIOUS = {"serious", "critical"}
 
 
 @dataclass(frozen=True)
@@ -150,17 +147,6 @@ def look_over(page: Page, language: str) -> list[str]:
         found.append("does not speak the chosen language")
     found += [f"shows the raw key {key}" for key in RAW_KEY.findall(page.locator("body").inner_text())]
     return found + violations(page)
-
-
-def violations(page: Page) -> list[str]:
-    page.evaluate(AXE.read_text())
-    result: dict[str, Any] = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")
-    return [
-        f"{each['id']} ({each['impact']}): "
-        + "; ".join(str(node["target"]) + node["html"][:120] for node in each["nodes"][:3])
-        for each in result["violations"]
-        if each["impact"] in SERIOUS
-    ]
 
 
 def test_the_sign_in_is_sound_in_both_themes(demo: Any, chromium: Any) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import time
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -13,14 +12,16 @@ from tests.e2e.screens import (
     SITE,
     ask,
     draw_errand,
+    editor,
     make_program,
+    open_script,
     reading,
     run_state,
     saved,
     show_programs,
     start_run,
 )
-from tests.e2e.test_script import editor, open_script
+from tests.kit.waiting import wait_for
 
 pytestmark = pytest.mark.browser
 LONG_MS = 150_000
@@ -75,10 +76,11 @@ def write_program(page: Page, name: str, script: str) -> None:
 
 def wait_until_no_run_is_under_way(page: Page) -> None:
     """Another test's run would take the box too early."""
-    until = time.monotonic() + LONG_MS / 1000
-    while any(run["status"] in {"pending", "running", "paused"} for run in ask(page, f"{SITE}/runs")):
-        assert time.monotonic() < until, "a run of another test does not end"
-        page.wait_for_timeout(500)
+
+    def is_quiet() -> bool:
+        return all(run["status"] not in {"pending", "running", "paused"} for run in ask(page, f"{SITE}/runs"))
+
+    wait_for("the end of another test's run", is_quiet, LONG_MS / 1000, every_s=0.5)
 
 
 def test_a_run_asks_and_somebody_else_answers(sign_in: SignIn) -> None:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 import paho.mqtt.client as mqtt
 from playwright.sync_api import expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import SITE, tell
-from tests.e2e.test_keyboard_and_axe import violations
+from tests.e2e.screens import SITE, tell, violations
+from tests.kit.files import MIXER_TEXT
 
-TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_text().replace("paintMixer03", "mixer-7")
+TEXT = MIXER_TEXT.replace("paintMixer03", "mixer-7")
 LEGACY = "hall/old-mixer/mix"
 ASKING = TEXT.replace("vipo/v1/dev/mixer-7/down/mixPaint", LEGACY)
 

@@ -13,8 +13,9 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.demo import ROOT, Demo
 from tests.e2e.screens import SITE, ask, chip, the_map
+from tests.kit.demo import Demo
+from tests.kit.files import ROOT
 
 pytestmark = pytest.mark.browser
 

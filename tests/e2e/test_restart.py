@@ -9,8 +9,8 @@ import pytest
 from playwright.sync_api import Browser, expect
 
 from tests.e2e.conftest import sign_in_by_form
-from tests.e2e.demo import Demo, running_demo, stop_process_group
 from tests.e2e.screens import ERRAND, chip, draw_errand, open_program, saved
+from tests.kit.demo import Demo, running_demo, stop_process_group
 
 pytestmark = pytest.mark.browser
 

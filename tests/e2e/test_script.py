@@ -12,26 +12,18 @@ from tests.e2e.screens import (
     ask,
     chip,
     draw_errand,
+    editor,
     make_program,
     open_program,
+    open_script,
     script_lines,
     steps_in_list,
     the_map,
+    violations,
 )
-from tests.e2e.test_keyboard_and_axe import violations
 
 pytestmark = pytest.mark.browser
 CURE = "        self.curing_oven.cure_paint("
-
-
-def editor(page: Page) -> Locator:
-    return page.get_by_role("textbox", name="Script")
-
-
-def open_script(page: Page) -> Locator:
-    page.get_by_role("tab", name="Script").click()
-    expect(editor(page)).to_be_visible()
-    return editor(page)
 
 
 def strip(page: Page) -> Locator:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.firmware.rig import ROOT, interpreter_command
+from tests.firmware.rig import interpreter_command
+from tests.kit.files import ROOT
 from vipo_site.demo.firmware_process import find_micropython
 
 

@@ -6,7 +6,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -14,17 +13,18 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from tests.bus import Ear, Heard
-from tests.servers import free_port, run_mosquitto
+from tests.kit.files import ROOT
+from tests.kit.mqtt import Ear, Heard
+from tests.kit.servers import free_port, run_mosquitto
+from tests.kit.waiting import PATIENCE_S, wait_for
 from vipo_site.embedded_broker.server import EmbeddedBroker, start_broker
 
-ROOT = Path(__file__).resolve().parents[2]
 FIRMWARE = ROOT / "firmware"
 SHADOW = Path(__file__).resolve().parent / "shadow"
 DEVICE = "paintMixer02"
 SPEED = 60  # a minute of mixing takes a second
 ACCOUNTS = {"server": "secret", DEVICE: "mixer's word"}
-LIMIT_S = 30
+LIMIT_S = PATIENCE_S
 # A kilobyte of a computer's heap holds half of what one of the chip's holds: its words are twice as long.
 HEAP_BYTES = 100 * 1024
 HEAP = ("-X", f"heapsize={HEAP_BYTES}")
@@ -93,7 +93,7 @@ class Running:
         return f"vipo/v1/dev/{self.device}/down/"
 
     def tell(self, method: str, command_id: str, **values: Any) -> None:
-        self.ear.say(self.down + method, {"id": command_id, "v": values, "ttl_s": 30})
+        self.ear.tell(self.device, method, command_id, **values)
 
     def answer(self, command: str, status: str) -> Heard:
         return self.ear.wait(
@@ -153,7 +153,7 @@ class Chip:
         return (self.folder / "console").read_text()
 
     def wait(self, wanted: Callable[[list[list[Any]]], Any]) -> Any:
-        return wait_for(lambda: wanted(self.record), f"the board: {self.console}")
+        return wait_for("what the board shall do", lambda: wanted(self.record), story=lambda: self.console)
 
 
 def read_record(data: bytes) -> list[list[Any]]:
@@ -208,16 +208,48 @@ def running_chip(
         process.wait()
 
 
-def wait_for(ready: Callable[[], Any], story: str, limit_s: float = LIMIT_S) -> Any:
-    """Return what `ready` gives as soon as it is something."""
-    deadline = time.monotonic() + limit_s
-    while time.monotonic() < deadline:
-        if found := ready():
-            return found
-        time.sleep(0.02)
-    raise AssertionError(f"not within {limit_s} s; {story}")
-
-
 def interpreter_command(micropython: str | None) -> list[str]:
     """Return how to run a file: on MicroPython with the chip's heap, or on this Python."""
     return [micropython, *HEAP] if micropython else [sys.executable]
+
+
+RED, GREEN, BLUE, OUTPUT = 25, 26, 27, 23
+
+
+PINS = {"sda": 21, "scl": 22, "red": RED, "green": GREEN, "blue": BLUE, "output": OUTPUT, "button": 0}
+
+
+def flash(folder: Path, settings: dict[str, Any]) -> None:
+    (folder / "config.json").write_text(json.dumps({"wifi_name": "hall", "wifi_password": "warm paint", **settings}))
+
+
+def levels(record: list[list[Any]], pin: int) -> list[int]:
+    return [entry[3] for entry in record if entry[1:3] == ["pin", pin]]
+
+
+UNREADABLE = {
+    "too long, the id not first": b'{"v": {"time": 1}, "id": "h", "x": "' + b"x" * 6000 + b'"}',
+    "too long, an id with an escape": b'{"id": "\\u0068", "x": "' + b"x" * 6000 + b'"}',
+    "too long, an id without an end": b'{"id": "' + b"h" * 6000,
+    "too long, an id that is a number": b'{"id": 7, "x": "' + b"x" * 6000 + b'"}',
+    "too long, an id that is not ASCII": b'{"id": "h\xe4", "x": "' + b"x" * 6000 + b'"}',
+    "far too long": b"x" * 16000,
+    "not JSON": b'{"id": "h", "v": {"time": 1} nonsense',
+    "cut off": b'{"id": "h", "v": {"time": 1}',
+    "crossed brackets": b'{"id": "h", "v": {"time": 1}]',
+    "deep lists": b"[" * 4000,
+    "deep objects": b'{"id": "h", "v": ' + b'{"a": ' * 400 + b"1" + b"}" * 401,
+    "empty": b"",
+    "a NUL": b'{"id": "h", "v": {"time": 1}}\x00',
+    "a NUL in a text": b'{"id": "h\x00", "v": {}}',
+    "not UTF-8": b'{"id": "\xff\xfe", "v": {}}',
+    "a list": b"[1, 2]",
+    "a number": b"7",
+    "null": b"null",
+    "an id that is an object": b'{"id": {"a": 1}, "v": {}}',
+    "an id that is too long": json.dumps({"id": "h" * 65, "v": {}}).encode(),
+    "an id with half a surrogate pair": b'{"id": "\\ud800", "v": {}}',
+    "an id with control characters": b'{"id": "a\\u0000b", "v": {}}',
+    "keys that are no texts": b'{1: 2, "id": 3}',
+    "many keys": json.dumps({f"k{n}": n for n in range(400)}).encode()[:4000],
+}

@@ -3,28 +3,36 @@
 from __future__ import annotations
 
 import itertools
-import json
 import signal
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from tests.firmware.hd44780 import Hd44780, texts
-from tests.firmware.rig import LIMIT_S, Chip, Running, configuration, listening, running_bus, running_chip, wait_for
+from tests.firmware.rig import (
+    BLUE,
+    GREEN,
+    LIMIT_S,
+    OUTPUT,
+    PINS,
+    RED,
+    Chip,
+    Running,
+    configuration,
+    flash,
+    levels,
+    listening,
+    running_bus,
+    running_chip,
+)
+from tests.kit.waiting import wait_for
 
 LCD = 0x27
-RED, GREEN, BLUE, OUTPUT = 25, 26, 27, 23
-PINS = {"sda": 21, "scl": 22, "red": RED, "green": GREEN, "blue": BLUE, "output": OUTPUT, "button": 0}
 
 
 def line(text: str) -> str:
     return text.ljust(16)
-
-
-def flash(folder: Path, settings: dict[str, Any]) -> None:
-    (folder / "config.json").write_text(json.dumps({"wifi_name": "hall", "wifi_password": "warm paint", **settings}))
 
 
 @pytest.fixture
@@ -35,10 +43,6 @@ def board(micropython: str, tmp_path: Path) -> Iterator[tuple[Chip, Running]]:
             running = Running(ear, bus, chip.process, tmp_path / "console")
             running.state(lambda _state: True)
             yield chip, running
-
-
-def levels(record: list[list[Any]], pin: int) -> list[int]:
-    return [entry[3] for entry in record if entry[1:3] == ["pin", pin]]
 
 
 def test_the_display_says_what_the_paper_says_and_the_light_follows(board: tuple[Chip, Running]) -> None:
@@ -90,7 +94,7 @@ def test_a_machine_without_a_connection_does_not_look_ready(board: tuple[Chip, R
     mixer.answer("c1", "RUNNING")
     mixer.bus.kill()
     chip.wait(lambda record: any(text[0] == line("Mixing Complete") for text in texts(record)))
-    wait_for(lambda: levels(chip.record, BLUE)[-1] == 0, "it still works")
+    wait_for("the end of its work", lambda: levels(chip.record, BLUE)[-1] == 0)
     assert [levels(chip.record, pin)[-1] for pin in (RED, GREEN, BLUE)] == [1, 0, 0]
     mixer.bus.start()
     chip.wait(lambda record: [levels(record, pin)[-1] for pin in (RED, GREEN, BLUE)] == [0, 1, 0])
@@ -164,7 +168,7 @@ def test_a_single_led_blinks_in_rhythms(micropython: str, tmp_path: Path) -> Non
         with running_chip(micropython, tmp_path, {}) as chip:
             mixer = Running(ear, bus, chip.process, tmp_path / "console")
             mixer.state(lambda _state: True)
-            wait_for(lambda: levels(chip.record, 2)[-1] == 0, "ready is steady, and lit is low")
+            wait_for("the steady light of ready, which is lit when low", lambda: levels(chip.record, 2)[-1] == 0)
             mixer.ear.say("vipo/v1/site/hall/stop", {"active": True})
             chip.wait(lambda record: levels(record, 2)[-4:] in ([0, 1, 0, 1], [1, 0, 1, 0]))
 
@@ -210,7 +214,7 @@ def test_the_time_is_asked_for_until_it_comes(micropython: str, tmp_path: Path) 
     with running_bus("mosquitto with TLS", tmp_path) as bus, listening(bus) as ear:
         flash(tmp_path, configuration(bus, tmp_path, pins=PINS, time_server="clock.hall"))
         with running_chip(micropython, tmp_path, {"VIPO_TIME": str(came)}, main=tmp_path / "late.py") as chip:
-            wait_for(lambda: "no time yet" in chip.console, "it did not ask")
+            wait_for("its question for the time", lambda: "no time yet" in chip.console)
             assert "no time from clock.hall: " in chip.console
             assert not ear.heard
             came.touch()

@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 
-from tests.bus import Ear
 from tests.firmware.rig import (
     ACCOUNTS,
     DEVICE,
@@ -21,9 +20,10 @@ from tests.firmware.rig import (
     interpreter_command,
     running_chip,
     start_firmware,
-    wait_for,
 )
-from tests.servers import run_mosquitto, write_mosquitto_files
+from tests.kit.mqtt import Ear
+from tests.kit.servers import run_mosquitto, write_mosquitto_files
+from tests.kit.waiting import wait_for
 from vipo_device.protocol.mqtt_client import tls_context
 
 JOIN_KEY, NEXT_KEY, STRAY_KEY = "j" * 32, "n" * 40, "s" * 40
@@ -80,12 +80,12 @@ def test_a_newcomer_knocks_with_a_key_of_its_own_and_takes_new_ones(newcomer: Ru
     newcomer.answer("k2", "DONE")
     assert kept.read_text() == f"{NEXT_KEY}\n{own}"
     come_back(newcomer, NEXT_KEY)
-    wait_for(lambda: kept.read_text() == NEXT_KEY, "the old key is still kept")
+    wait_for("the new key in its file", lambda: kept.read_text() == NEXT_KEY)
 
     newcomer.tell("credential", "k3", credential=STRAY_KEY)
     newcomer.answer("k3", "DONE")
     come_back(newcomer, NEXT_KEY)
-    wait_for(lambda: kept.read_text() == NEXT_KEY, "a key that the broker refuses is still kept")
+    wait_for("the new key in its file", lambda: kept.read_text() == NEXT_KEY)
 
 
 def come_back(newcomer: Running, key: str) -> None:

@@ -18,15 +18,15 @@ from tests.firmware.rig import (
     ACCOUNTS,
     DEVICE,
     LIMIT_S,
-    ROOT,
     Running,
     interpreter_command,
     listening,
     running_bus,
     start_firmware,
-    wait_for,
 )
-from tests.servers import run_mosquitto
+from tests.kit.files import ROOT
+from tests.kit.servers import run_mosquitto
+from tests.kit.waiting import wait_for
 from vipo_device.descriptions.reader import canonical_hash, read
 from vipo_site.demo.firmware_process import firmware_command
 
@@ -239,7 +239,7 @@ def test_a_broker_with_a_strange_certificate_is_not_trusted(interpreter: list[st
     with run_mosquitto(tmp_path / "broker", ACCOUNTS, tls=True) as mosquitto:
         process = start_firmware(interpreter, tmp_path, mosquitto, ca=str(tmp_path / "strangers" / "ca.crt"))
         log = tmp_path / "panel.log"
-        wait_for(lambda: log.exists() and "No connection" in log.read_text(), "it did not try")
+        wait_for("its attempt", lambda: log.exists() and "No connection" in log.read_text())
         process.kill()
         process.wait()
         with listening(mosquitto) as ear:

@@ -2,41 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from tests.firmware.conftest import find_interpreter
-from tests.firmware.rig import DEVICE, Running, listening, running_bus, start_firmware
+from tests.firmware.rig import DEVICE, UNREADABLE, Running, listening, running_bus, start_firmware
 
-UNREADABLE = {
-    "too long, the id not first": b'{"v": {"time": 1}, "id": "h", "x": "' + b"x" * 6000 + b'"}',
-    "too long, an id with an escape": b'{"id": "\\u0068", "x": "' + b"x" * 6000 + b'"}',
-    "too long, an id without an end": b'{"id": "' + b"h" * 6000,
-    "too long, an id that is a number": b'{"id": 7, "x": "' + b"x" * 6000 + b'"}',
-    "too long, an id that is not ASCII": b'{"id": "h\xe4", "x": "' + b"x" * 6000 + b'"}',
-    "far too long": b"x" * 16000,
-    "not JSON": b'{"id": "h", "v": {"time": 1} nonsense',
-    "cut off": b'{"id": "h", "v": {"time": 1}',
-    "crossed brackets": b'{"id": "h", "v": {"time": 1}]',
-    "deep lists": b"[" * 4000,
-    "deep objects": b'{"id": "h", "v": ' + b'{"a": ' * 400 + b"1" + b"}" * 401,
-    "empty": b"",
-    "a NUL": b'{"id": "h", "v": {"time": 1}}\x00',
-    "a NUL in a text": b'{"id": "h\x00", "v": {}}',
-    "not UTF-8": b'{"id": "\xff\xfe", "v": {}}',
-    "a list": b"[1, 2]",
-    "a number": b"7",
-    "null": b"null",
-    "an id that is an object": b'{"id": {"a": 1}, "v": {}}',
-    "an id that is too long": json.dumps({"id": "h" * 65, "v": {}}).encode(),
-    "an id with half a surrogate pair": b'{"id": "\\ud800", "v": {}}',
-    "an id with control characters": b'{"id": "a\\u0000b", "v": {}}',
-    "keys that are no texts": b'{1: 2, "id": 3}',
-    "many keys": json.dumps({f"k{n}": n for n in range(400)}).encode()[:4000],
-}
 REFUSED: dict[str, tuple[object, str]] = {
     "v1": ({"v": [1, 2]}, "v must be an object with at most 16 arguments"),
     "v2": ({"v": {f"a{n}": n for n in range(17)}}, "v must be an object with at most 16 arguments"),

@@ -18,19 +18,10 @@ from urllib.parse import urlencode
 import pytest
 
 from tests.firmware.hd44780 import texts
-from tests.firmware.rig import (
-    ACCOUNTS,
-    DEVICE,
-    LIMIT_S,
-    ROOT,
-    Chip,
-    Running,
-    listening,
-    running_bus,
-    running_chip,
-    wait_for,
-)
-from tests.servers import free_port
+from tests.firmware.rig import ACCOUNTS, DEVICE, LIMIT_S, Chip, Running, listening, running_bus, running_chip
+from tests.kit.files import ROOT
+from tests.kit.servers import free_port
+from tests.kit.waiting import wait_for
 
 EVIL = "\"><script>alert('1')</script>&"
 SECRET = "a secret that stays"
@@ -107,7 +98,7 @@ def set_up(micropython: str, folder: Path, environment: dict[str, str]) -> Any:
         program.write_text(f"import vipo.chip\n{ports}vipo.chip.run()\n")
         with running_chip(micropython, folder, environment, main=program) as chip:
             page = Page(chip, port, names)
-            wait_for(lambda: _answers(port), "the page: " + chip.console)
+            wait_for("the page", lambda: _answers(port), story=lambda: chip.console)
             yield page
 
     return running()
@@ -289,7 +280,7 @@ def test_the_button_asks_for_the_page_while_the_wifi_is_looked_for(micropython: 
     with running_chip(micropython, tmp_path, environment) as chip:
         chip.wait(lambda record: any(entry[1] == "join" for entry in record))
         pressed.touch()
-        wait_for(lambda: "release button" in chip.console, "the button was not seen")
+        wait_for("the press of the button in the log", lambda: "release button" in chip.console)
         assert chip.process.poll() is None
         pressed.unlink()
         assert chip.process.wait(LIMIT_S) == 7

@@ -7,9 +7,19 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from tests.firmware.rig import Chip, Running, configuration, listening, running_bus, running_chip
-from tests.firmware.test_chip import OUTPUT, PINS, flash, levels
-from tests.firmware.test_hostile import UNREADABLE
+from tests.firmware.rig import (
+    OUTPUT,
+    PINS,
+    UNREADABLE,
+    Chip,
+    Running,
+    configuration,
+    flash,
+    levels,
+    listening,
+    running_bus,
+    running_chip,
+)
 
 CUT = "the power was cut while it was under way; see what it left, then call it again"
 NOT_KEPT = "it could not be kept over a power cut: [Errno 2] ENOENT"

@@ -18,11 +18,11 @@ import pytest
 
 from registry.floorplan.map_message import join_parts, read_grid_part
 from registry.floorplan.plan import Grid
-from tests.bus import Ear
-from tests.integration.connectors.vehicles import Server
+from tests.kit.files import ROOT
+from tests.kit.mqtt import Ear, ServerSide
+from tests.kit.servers import Mosquitto, answers, free_port, run_mosquitto, wait_ready
 from tests.robot_agent.bridge_stand_in import BridgeStandIn
 from tests.robot_agent.pretend_robot import HEIGHT, WIDTH, map_cells
-from tests.servers import ROOT, Mosquitto, answers, free_port, run_mosquitto, wait_until
 from vipo_device.descriptions.reader import read_description
 
 AGENT = ROOT / "firmware" / "robot_agent"
@@ -52,7 +52,7 @@ def ear(broker: Mosquitto) -> Iterator[Ear]:
 
 
 @pytest.fixture(scope="module")
-def ros1(broker: Mosquitto, ear: Ear, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+def ros1(broker: Mosquitto, ear: Ear, tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServerSide]:
     """Run rosmaster, the stand-in for move_base, and the agent."""
     found = subprocess.run([DEBIAN_PYTHON, "-c", f"import {PACKAGES}"], capture_output=True, text=True)
     if found.returncode:
@@ -72,11 +72,11 @@ def ros1(broker: Mosquitto, ear: Ear, tmp_path_factory: pytest.TempPathFactory) 
     with ExitStack() as stack:
         run = stack.enter_context
         master = run(running(["/usr/bin/rosmaster", "--core", "-p", str(port)], environment, folder / "master.log"))
-        wait_until(lambda: answers(port), (folder / "master.log").read_text, master)
+        wait_ready(lambda: answers(port), (folder / "master.log").read_text, master)
         robot = [DEBIAN_PYTHON, str(HERE / "move_base_stand_in.py")]
         log = folder / "robot.log"
         process = run(running(robot, environment, log))
-        wait_until(lambda: "ready" in log.read_text(), log.read_text, process)
+        wait_ready(lambda: "ready" in log.read_text(), log.read_text, process)
         config = write_config(folder, broker, "tb1", ros=1)
         yield run(joined(ear, "tb1", [DEBIAN_PYTHON, "-m", "vipo_agent", config], environment, folder / "agent.log"))
 
@@ -91,7 +91,7 @@ def bridge() -> Iterator[BridgeStandIn]:
 @pytest.fixture(scope="module")
 def ros2(
     broker: Mosquitto, ear: Ear, bridge: BridgeStandIn, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Server]:
+) -> Iterator[ServerSide]:
     """Run the agent with roslibpy against the stand-in for rosbridge."""
     folder = tmp_path_factory.mktemp("ros2")
     config = write_config(folder, broker, "tb2", ros=2, bridge_port=bridge.port, speed_topic="/speed_limit")
@@ -101,8 +101,8 @@ def ros2(
 
 
 @pytest.fixture(params=["ros1", "ros2"])
-def server(request: pytest.FixtureRequest) -> Server:
-    found: Server = request.getfixturevalue(request.param)
+def server(request: pytest.FixtureRequest) -> ServerSide:
+    found: ServerSide = request.getfixturevalue(request.param)
     return found
 
 
@@ -138,8 +138,8 @@ def running(command: list[str], environment: dict[str, str], log: Path) -> Itera
 
 
 @contextmanager
-def joined(ear: Ear, name: str, command: list[str], environment: dict[str, str], log: Path) -> Iterator[Server]:
-    server = Server(ear, name)
+def joined(ear: Ear, name: str, command: list[str], environment: dict[str, str], log: Path) -> Iterator[ServerSide]:
+    server = ServerSide(ear, name)
     with running(command, environment, log) as process:
         try:
             server.wait_state(done=True, loc=[1.0, 2.0, 0.0, 0.0], battery=88)
@@ -167,12 +167,12 @@ def test_a_newcomer_makes_a_key_of_its_own_and_knocks_with_it(
     assert "Traceback" not in (tmp_path / "agent.log").read_text()
 
 
-def go(server: Server, *commands: tuple[str, list[list[float]]], **more: Any) -> None:
+def go(server: ServerSide, *commands: tuple[str, list[list[float]]], **more: Any) -> None:
     for command, path in commands:
         server.tell("move", command, path=path, **more)
 
 
-def test_the_robot_describes_itself_and_sends_its_map(server: Server) -> None:
+def test_the_robot_describes_itself_and_sends_its_map(server: ServerSide) -> None:
     described = server.ear.wait(lambda h: h.topic == server.up("desc")).payload
     found = read_description(described, device_id=server.device)
     assert (found.name, found.kind, found.site, found.capacity) == ('TurtleBot "3"', "robot", "hall", 2)
@@ -185,7 +185,7 @@ def test_the_robot_describes_itself_and_sends_its_map(server: Server) -> None:
     assert grid == Grid(WIDTH, HEIGHT, 0.05, -1.0, -2.0, bytes(cell & 0xFF for cell in map_cells()))
 
 
-def test_pieces_of_way_are_driven_and_each_has_its_end(server: Server) -> None:
+def test_pieces_of_way_are_driven_and_each_has_its_end(server: ServerSide) -> None:
     server.ear.forget()
     server.tell("move", "a", path=[[1.0, 2.0], [2.0, 2.0], [3.0, 2.0]], **{"from": [1.0, 2.0]})
     server.tell("move", "b", path=[[3.0, 3.0]], theta=1.0, **{"from": [3.0, 2.0]})
@@ -200,7 +200,7 @@ def test_pieces_of_way_are_driven_and_each_has_its_end(server: Server) -> None:
     assert server.wait_ack("back")["st"] == "DONE"
 
 
-def test_a_goal_that_cannot_be_reached_fails_with_the_planners_reason(server: Server) -> None:
+def test_a_goal_that_cannot_be_reached_fails_with_the_planners_reason(server: ServerSide) -> None:
     go(server, ("far", [[3.0, 2.0], [95.0, 2.0]]), ("farther", [[96.0, 2.0]]))
     failed = server.wait_ack("far")
     assert failed["st"] == "FAILED"
@@ -209,7 +209,7 @@ def test_a_goal_that_cannot_be_reached_fails_with_the_planners_reason(server: Se
     assert server.wait_ack("farther")["st"] == "CANCELED"
 
 
-def test_pause_resume_stop_and_cancel(server: Server) -> None:
+def test_pause_resume_stop_and_cancel(server: ServerSide) -> None:
     server.ear.forget()
     server.tell("move", "long", path=[[80.0, 2.0]])
     server.wait_ack("long", "RUNNING")
@@ -235,16 +235,16 @@ def test_pause_resume_stop_and_cancel(server: Server) -> None:
     assert server.wait_ack("home")["st"] == "DONE"
 
 
-def stop(server: Server, active: bool) -> None:
+def stop(server: ServerSide, active: bool) -> None:
     server.ear.say(STOP, {"active": active, "by": "Ada", "at": None}, retain=True)
 
 
-def drives(server: Server) -> None:
+def drives(server: ServerSide) -> None:
     server.ear.forget()
     server.ear.wait(lambda h: len({s["loc"][0] for s in server.states()}) > 2, 60)
 
 
-def stands_still(server: Server) -> None:
+def stands_still(server: ServerSide) -> None:
     """Wait until half a second passes in which no state tells of another place."""
     still: Callable[[], bool] = lambda: not server.states()  # noqa: E731 - it is read twice
     for _ in range(100):
@@ -257,7 +257,7 @@ def stands_still(server: Server) -> None:
     raise AssertionError("the robot does not stand still")
 
 
-def test_goods_are_counted_and_the_load_is_shown(server: Server) -> None:
+def test_goods_are_counted_and_the_load_is_shown(server: ServerSide) -> None:
     server.tell("pick", "take", object="box", value=2)
     assert server.wait_ack("take")["st"] == "DONE"
     server.wait_state(load="box:2", done=True)
@@ -267,7 +267,7 @@ def test_goods_are_counted_and_the_load_is_shown(server: Server) -> None:
     assert server.wait_ack("put")["st"] == "DONE"
 
 
-def test_hostile_commands_are_ignored_or_rejected(server: Server) -> None:
+def test_hostile_commands_are_ignored_or_rejected(server: ServerSide) -> None:
     for said in (b"", b"\xff", b"{", b"[" * 10_000, b'{"id":1}', b'{"id":"x","v":[]}', b'{"id":"n","v":{"path":NaN}}'):
         server.ear.say(f"vipo/v1/dev/{server.device}/down/move", said)
     server.tell("fly", "f")
@@ -276,7 +276,9 @@ def test_hostile_commands_are_ignored_or_rejected(server: Server) -> None:
     assert server.wait_ack("odd")["st"] == "REJECTED"
 
 
-def test_nav2_is_told_to_drive_slower_and_move_base_refuses(ros1: Server, ros2: Server, bridge: BridgeStandIn) -> None:
+def test_nav2_is_told_to_drive_slower_and_move_base_refuses(
+    ros1: ServerSide, ros2: ServerSide, bridge: BridgeStandIn
+) -> None:
     ros1.tell("move", "slow", path=[[1.0, 2.0]], speed=0.2)
     assert ros1.wait_ack("slow")["why"] == 'TurtleBot "3" cannot be told to drive slower than 0.5 m/s.'
     bridge.robot.top_m_s = 0.0

@@ -6,15 +6,15 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.e2e.demo import running_demo
-from tests.integration.breaking.site import Factory, complaints, make_state
+from tests.integration.breaking.site import Factory, complaints
+from tests.kit.demo import running_demo
 
 ROBOTS = ("robot01", "robot02", "robot03", "itemInventory01", "paintMachine01", "paintMixer02")
 
 
 @pytest.fixture(scope="package")
 def factory(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Factory]:
-    with running_demo(make_state(tmp_path_factory.mktemp("breaking") / "state"), speed=10) as demo:
+    with running_demo(tmp_path_factory.mktemp("breaking") / "state", speed=10) as demo:
         factory = Factory(demo)
         factory.wait_online(*ROBOTS)
         yield factory

@@ -7,18 +7,18 @@ import re
 import sqlite3
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 from uuid import UUID
 
 import httpx
 
-from tests.e2e.demo import ROOT, Demo
+from tests.kit.demo import Demo
+from tests.kit.files import ROOT
+from tests.kit.sign_in import open_page, sign_in
+from tests.kit.waiting import wait_for
 
 SLUG = "painting-factory"
 OVER = ("finished", "failed", "cancelled")
@@ -32,36 +32,6 @@ print(json.dumps({n: str(services.create_program(site="painting-factory", name=n
 """
 
 
-def wait_for(what: str, ready: Callable[[], Any], timeout_s: float = 60, every_s: float = 0.1) -> Any:
-    """Return the first true answer."""
-    deadline = time.monotonic() + timeout_s
-    while time.monotonic() < deadline:
-        found = ready()
-        if found:
-            return found
-        time.sleep(every_s)
-    raise AssertionError(f"{what} did not come within {timeout_s:g} s")
-
-
-def document(steps: dict[str, Any], **more: Any) -> dict[str, Any]:
-    empty: dict[str, Any] = {"functions": {}, "roles": {}, "parameters": {}, "zones": {}}
-    return {"format": 1, "start_pos": [4.6, -0.95], "steps": steps, **empty, **more}
-
-
-def step(kind: str, parent: tuple[str, str] = ("program", "body"), order: str = "1V", **params: Any) -> dict[str, Any]:
-    return {"kind": kind, "place": [*parent, order], "pos": [2.2, -5.1], "params": params}
-
-
-def operate(device: str, method: str, parent: tuple[str, str] = ("program", "body"), **args: Any) -> dict[str, Any]:
-    return step("operate", parent, device={"device": device}, method=method, args=args)
-
-
-def carry_document() -> dict[str, Any]:
-    params = {"role": "robot", "object": "box", "quantity": 1}
-    ends = {"source": {"device": "itemInventory01"}, "target": {"device": "paintMachine01"}}
-    return document({"carry": step("pick_and_drop", **params, **ends)})
-
-
 @dataclass
 class Factory:
     """One running demo."""
@@ -71,18 +41,14 @@ class Factory:
 
     def stranger(self) -> httpx.Client:
         """A browser that has loaded the page and is not signed in."""
-        client = httpx.Client(base_url=self.demo.url, timeout=30, headers={"Origin": self.demo.url})
+        client = open_page(self.demo.url)
         self.clients.append(client)
-        client.headers["X-CSRFToken"] = client.get("/api/me").json()["csrf"]
         return client
 
     def signed_in(self, role: str) -> httpx.Client:
         """A browser of the demo's admin or author."""
-        client, account = self.stranger(), self.demo.account(role)
-        answer = client.post("/api/sign-in", json={"email": account.email, "password": account.password})
-        assert answer.status_code == 200, answer.text
-        client.headers["X-CSRFToken"] = answer.json()["csrf"]
-        return client
+        account = self.demo.account(role)
+        return sign_in(self.stranger(), account.email, account.password)
 
     @cached_property
     def admin(self) -> httpx.Client:
@@ -156,7 +122,7 @@ class Factory:
             f"{method} {statuses}",
             lambda: any(c["method"] == method and c["status"] in statuses for c in self.commands(run)),
             timeout_s,
-            0.03,
+            every_s=0.03,
         )
 
     def wait_online(self, *devices: str) -> None:
@@ -182,14 +148,6 @@ class Factory:
             if int(parent) == self.demo.process.pid:
                 found["firmware" if "unix_main" in arguments else "twin"] = int(pid)
         return found
-
-
-def make_state(folder: Path) -> Path:
-    """Return a state folder that begins with this machine's MicroPython, if it has one, to save fetching it."""
-    folder.mkdir()
-    if (ROOT / "var" / "micropython").exists():
-        (folder / "micropython").symlink_to(ROOT / "var" / "micropython")
-    return folder
 
 
 def complaints(log: str) -> list[str]:

@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
@@ -18,7 +17,7 @@ from uuid import UUID, uuid4
 import psycopg
 import pytest
 from django.core.management import call_command
-from django.db import connection, connections, transaction
+from django.db import connection, transaction
 from pytest_django import DjangoDbBlocker
 
 from execution import services as execution
@@ -26,16 +25,17 @@ from execution.models import Command
 from registry import services
 from registry.live.fanout import make_live
 from registry.models import Device, DeviceEvent, Site
-from tests.bus import Ear
-from tests.integration.breaking.site import wait_for
-from tests.integration.wire.served import settings_for
-from tests.servers import ROOT, Mosquitto, Postgres, Redis, run_mosquitto, run_postgres, run_redis
+from tests.kit.databases import on_database
+from tests.kit.files import MIXER_TEXT, ROOT
+from tests.kit.mqtt import Ear
+from tests.kit.served import settings_for
+from tests.kit.servers import Mosquitto, Postgres, Redis, run_mosquitto, run_postgres, run_redis
+from tests.kit.waiting import wait_for
 from vipo_site.settings import postgres as described_in
 
 pytestmark = pytest.mark.servers
 SITE, WORD = "painting-factory", "the server's word"
 NAMES = tuple(f"mixer{number:02}" for number in range(1, 6))
-TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_text()
 FLOOD, FLOOD_KB = 4000, 8
 
 
@@ -95,7 +95,7 @@ class Plant:
     def describe(self, *titles: str) -> None:
         for name in NAMES:
             for title in titles:
-                text = TEXT.replace("paintMixer03", name).replace(f'title "{name}"', f'title "{title}"')
+                text = MIXER_TEXT.replace("paintMixer03", name).replace(f'title "{name}"', f'title "{title}"')
                 self.say(name, "desc", text.encode(), retain=True)
 
     def say_states(self, count: int) -> None:
@@ -161,10 +161,10 @@ def plant(tmp_path_factory: pytest.TempPathFactory, django_db_blocker: DjangoDbB
         postgres = stack.enter_context(run_postgres(folder, keep_durable=True))
         redis = stack.enter_context(run_redis(folder))
         mosquitto = stack.enter_context(run_mosquitto(folder, {"server": WORD}))
-        environment = settings_for(folder / "state", postgres, redis, mosquitto)
+        environment = settings_for(folder / "state", postgres.url, redis.url, mosquitto)
         environment |= {"VIPO_MQTT_TLS": "0", "VIPO_LOG": "WARNING", "VIPO_DEFAULT_SITE": SITE}
         stack.enter_context(django_db_blocker.unblock())
-        stack.enter_context(on_database(postgres.url))
+        stack.enter_context(on_database(OPTIONS={}, **described_in(postgres.url)))
         ear = Ear(mosquitto.port, WORD, "vipo/v1/dev/+/down/#")
         ear.client.subscribe("vipo/v1/srv/status", 1, ear._take)
         stack.enter_context(ear)
@@ -177,24 +177,11 @@ def plant(tmp_path_factory: pytest.TempPathFactory, django_db_blocker: DjangoDbB
         yield plant
 
 
-@contextmanager
-def on_database(url: str) -> Iterator[None]:
-    kept, described = connections["default"], connections.databases["default"]
-    connections.databases["default"] = {**described, "OPTIONS": {}, **described_in(url)}
-    del connections["default"]
-    try:
-        yield
-    finally:
-        connections["default"].close()
-        connections.databases["default"] = described
-        connections["default"] = kept
-
-
 def prepare() -> None:
     call_command("migrate", verbosity=0, interactive=False)
     services.create_site(name="Hall", slug=SITE)
     for name in NAMES:
-        text = TEXT.replace("paintMixer03", name)
+        text = MIXER_TEXT.replace("paintMixer03", name)
         services.ingest_description(device_id=name, payload=text.encode(), at=datetime.now(UTC))
     Device.objects.update(lifecycle="approved", site=Site.objects.get(slug=SITE))
 
@@ -255,10 +242,14 @@ def test_a_connection_that_is_cut_is_made_anew(plant: Plant) -> None:
 
 
 def claim_until_none_is_left(ids: set[str], taken: list[str]) -> None:
-    until = time.monotonic() + 60
-    while Command.objects.filter(id__in=ids, tries=0).exists() and time.monotonic() < until:
+    def none_is_left() -> bool:
         taken.extend(command.id for command in execution.claim_commands(limit=3))
-    connection.close()
+        return not Command.objects.filter(id__in=ids, tries=0).exists()
+
+    try:
+        wait_for("the end of the claims", none_is_left, every_s=0)
+    finally:
+        connection.close()
 
 
 def test_each_command_goes_to_one_of_three_that_claim_at_the_same_time(plant: Plant) -> None:

@@ -13,8 +13,10 @@ from pathlib import Path
 import pytest
 import websockets
 
-from tests.e2e.demo import ROOT, free_port
-from tests.integration.breaking.site import Factory, document, step
+from tests.integration.breaking.site import Factory
+from tests.kit.files import ROOT
+from tests.kit.programs import document, step
+from tests.kit.servers import free_port
 
 YAML = b"image: m.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
 BROKEN_MAPS = {

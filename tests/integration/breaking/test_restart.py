@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from tests.e2e.demo import running_demo
-from tests.integration.breaking.site import Factory, carry_document, complaints, make_state, wait_for
+from tests.integration.breaking.site import Factory, complaints
+from tests.kit.demo import running_demo
+from tests.kit.programs import carry_document
+from tests.kit.waiting import wait_for
 
 BEGUN = ("accepted", "running", "done")
 
@@ -26,7 +28,7 @@ def held_by(machine: str, state: Path) -> dict[str, int]:
 
 
 def test_a_run_survives_ctrl_c_and_kill_9_and_does_each_thing_once(tmp_path: Path) -> None:
-    state = make_state(tmp_path / "state")
+    state = tmp_path / "state"
     with running_demo(state, speed=3) as demo:
         first = Factory(demo)
         first.wait_online("robot01", "itemInventory01", "paintMachine01")

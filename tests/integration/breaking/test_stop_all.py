@@ -5,7 +5,9 @@ from __future__ import annotations
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-from tests.integration.breaking.site import SLUG, Factory, carry_document, wait_for
+from tests.integration.breaking.site import SLUG, Factory
+from tests.kit.programs import carry_document
+from tests.kit.waiting import wait_for
 
 
 def test_stop_all_holds_the_robots_and_the_run_goes_on_after_a_reset(factory: Factory) -> None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 import signal
 
-from tests.integration.breaking.site import Factory, document, operate, step, wait_for
+from tests.integration.breaking.site import Factory
+from tests.kit.programs import document, operate, step
+from tests.kit.waiting import wait_for
 
 
 def test_a_machine_that_is_killed_comes_back_and_does_not_begin_its_work_anew(factory: Factory) -> None:

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
-from tests.servers import ROOT, Mosquitto
+from tests.integration.connectors.connector_process import ConnectorProcess
+from tests.kit.servers import Mosquitto
 from tests.unit.connectors import mtconnect_words as words
 
 Misbehaviour = Callable[["Handler"], None]
@@ -123,41 +119,8 @@ class Handler(BaseHTTPRequestHandler):
         """Stay silent."""
 
 
-@dataclass
-class MachineConnector:
-    """The connector's process."""
+class MachineConnector(ConnectorProcess):
+    """The connector of the agent's machines."""
 
-    folder: Path
-    vipo: Mosquitto
-    agent: str
-    more: tuple[str, ...] = ()
-    process: subprocess.Popen[bytes] | None = field(default=None)
-
-    def start(self) -> None:
-        (self.folder / "secrets").mkdir(exist_ok=True)
-        (self.folder / "secrets" / "devices.json").write_text(json.dumps(self.vipo.accounts))
-        environment = {
-            **os.environ,
-            "DJANGO_SETTINGS_MODULE": "vipo_site.settings",
-            "VIPO_MODE": "embedded",
-            "VIPO_STATE_DIR": str(self.folder),
-            "VIPO_MQTT_PORT": str(self.vipo.device_port),
-        }
-        command = [sys.executable, "manage.py", "mtconnect", "--site", "hall", "--interval", "0.1"]
-        command += ["--agent", self.agent, *self.more]
-        with self.log.open("ab") as out:
-            self.process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=out, stderr=out)
-
-    @property
-    def log(self) -> Path:
-        return self.folder / "connector.log"
-
-    def kill(self) -> None:
-        assert self.process is not None
-        self.process.kill()
-        self.process.wait(10)
-
-    def stop(self) -> int:
-        assert self.process is not None
-        self.process.terminate()
-        return self.process.wait(20)
+    def __init__(self, folder: Path, vipo: Mosquitto, agent: str, more: tuple[str, ...] = ()) -> None:
+        super().__init__(folder, vipo, ("mtconnect", "--interval", "0.1", "--agent", agent, *more))

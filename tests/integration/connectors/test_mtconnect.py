@@ -17,10 +17,9 @@ from connectors.mtconnect.connector import Connector, FollowerEnded, Setting
 from connectors.mtconnect.description import Stand
 from connectors.mtconnect.documents import BadDocument, Document
 from connectors.mtconnect.follower import AgentEvent, Follower, MachinesListed, Observed
-from tests.bus import Ear
 from tests.integration.connectors.agents import Handler, MachineConnector, Misbehaviour, ScriptedAgent
-from tests.integration.connectors.vehicles import Server
-from tests.servers import run_mosquitto
+from tests.kit.mqtt import Ear, ServerSide
+from tests.kit.servers import run_mosquitto
 from vipo_device.descriptions.reader import read_description
 from vipo_device.protocol.description import Pose, Size
 
@@ -46,7 +45,7 @@ def test_a_machine_lives_as_its_agent_says(tmp_path: Path) -> None:
         connector = MachineConnector(tmp_path, vipo, f"http://127.0.0.1:{agent.port}/", ("--place", "3,4,0"))
         connector.start()
         try:
-            server = Server(ear, LATHE)
+            server = ServerSide(ear, LATHE)
             _appears(server)
             _tells(server, agent)
             _begins_anew(server, agent)
@@ -68,7 +67,7 @@ def test_a_machine_lives_as_its_agent_says(tmp_path: Path) -> None:
     assert "The agent does not keep what it said since number" in log
 
 
-def _appears(server: Server) -> None:
+def _appears(server: ServerSide) -> None:
     described = server.ear.wait(lambda h: h.topic == server.up("desc"), 60)
     found = read_description(described.payload, device_id=LATHE)
     assert (found.name, found.pose.x, found.pose.y, found.methods) == ("Lathe", 3.0, 4.0, ())
@@ -79,7 +78,7 @@ def _appears(server: Server) -> None:
     assert server.wait_ack("hold") == {"id": "hold", "st": "REJECTED", "why": refused, "result": {}}
 
 
-def _tells(server: Server, agent: ScriptedAgent) -> None:
+def _tells(server: ServerSide, agent: ScriptedAgent) -> None:
     agent.say("exec", "ACTIVE")
     agent.say("xpos", "250.5")
     agent.say("system", "Door open", level="Fault", code="17")
@@ -90,7 +89,7 @@ def _tells(server: Server, agent: ScriptedAgent) -> None:
     server.wait_state(execution="READY", error="", Xact=0.2505)
 
 
-def _begins_anew(server: Server, agent: ScriptedAgent) -> None:
+def _begins_anew(server: ServerSide, agent: ScriptedAgent) -> None:
     """What is known of the old life is forgotten."""
     server.ear.forget()
     agent.restart()
@@ -98,13 +97,13 @@ def _begins_anew(server: Server, agent: ScriptedAgent) -> None:
     assert server.wait_state(execution="INTERRUPTED", done=False)["props"]["Xact"] is None
 
 
-def _misses_something(server: Server, agent: ScriptedAgent) -> None:
+def _misses_something(server: ServerSide, agent: ScriptedAgent) -> None:
     """Between two questions the buffer runs over; so the connector asks how all is."""
     agent.say_at_once(("xpos", "7"), *(("prog", f"O{n}") for n in range(60)))
     server.wait_state(program="O59", Xact=0.007)
 
 
-def _comes_and_goes(server: Server, agent: ScriptedAgent) -> None:
+def _comes_and_goes(server: ServerSide, agent: ScriptedAgent) -> None:
     server.ear.forget()
     agent.say("avail", "UNAVAILABLE")
     server.wait_presence("offline")

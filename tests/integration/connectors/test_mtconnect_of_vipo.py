@@ -9,7 +9,6 @@ from threading import Event, Thread
 from typing import Any
 
 import pytest
-from django.test import Client
 from django.utils import timezone
 
 from connectors.mtconnect.agent import Agent, AgentAway, read_address
@@ -19,8 +18,10 @@ from connectors.mtconnect.follower import AgentEvent, Follower, MachinesListed, 
 from registry import services
 from registry.devices import samples
 from registry.devices.samples import SampleBuffer
-from registry.models import Device, User
-from tests.integration.registry.conftest import MIXER, come, describe, hall, say
+from registry.models import Device
+from tests.integration.registry.conftest import hall
+from tests.kit.sign_in import signed_in
+from tests.kit.sites import MIXER, come, describe, say
 from vipo_device.protocol.description import Pose, PropertySpec, Size
 
 __all__ = ["hall"]
@@ -35,9 +36,7 @@ def told(hall: str, live_server: Any, monkeypatch: pytest.MonkeyPatch) -> Iterat
     Device.objects.update(lifecycle="approved")
     come(at=timezone.now())
     tell(1, width=1.5, lid="shut", error="")
-    client = Client()
-    client.force_login(User.objects.get(email="viewer@vipo.example"))
-    cookie = f"Cookie: sessionid={client.cookies['sessionid'].value}"
+    cookie = f"Cookie: sessionid={signed_in('viewer').cookies['sessionid'].value}"
     queue: Queue[AgentEvent] = Queue()
     stopping = Event()
     address = read_address(f"{live_server.url}/api/sites/hall/mtconnect", headers=cookie)

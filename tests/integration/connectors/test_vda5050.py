@@ -8,16 +8,15 @@ from contextlib import ExitStack
 
 import pytest
 
-from tests.bus import Ear
 from tests.integration.connectors.modern_vehicle import VERSION, ModernVehicle
 from tests.integration.connectors.vehicles import (
     Connector,
-    Server,
     VirtualVehicle,
     install_library,
     run_plain_broker,
 )
-from tests.servers import run_mosquitto
+from tests.kit.mqtt import Ear, ServerSide
+from tests.kit.servers import run_mosquitto
 from vipo_device.descriptions.reader import read_description
 
 SERIALS = ("1", "2", "3", "4", "5", "6", "7", "modern")
@@ -25,7 +24,7 @@ ACCOUNTS = {"server": "secret of the server", "join:hall": "the key of the door"
     f"Acme-{serial}": f"the word of Acme-{serial}" for serial in SERIALS
 }
 STOP = "vipo/v1/site/hall/stop"
-Join = Callable[..., tuple[VirtualVehicle, Server]]
+Join = Callable[..., tuple[VirtualVehicle, ServerSide]]
 
 
 @pytest.fixture(scope="module")
@@ -46,10 +45,10 @@ def join(connector: Connector) -> Iterator[Join]:
     with ExitStack() as stack:
         ear = stack.enter_context(Ear(connector.vipo.port, ACCOUNTS["server"]))
 
-        def come(serial: str, **more: object) -> tuple[VirtualVehicle, Server]:
+        def come(serial: str, **more: object) -> tuple[VirtualVehicle, ServerSide]:
             vehicle = VirtualVehicle(connector.vehicles_port, serial, **more)
             stack.callback(vehicle.kill)
-            server = Server(ear, f"Acme-{serial}")
+            server = ServerSide(ear, f"Acme-{serial}")
             server.wait_presence("online")
             server.wait_state(done=True)
             return vehicle, server
@@ -235,10 +234,10 @@ def test_a_connector_that_is_killed_goes_on_where_it_was(connector: Connector, j
 
 
 @pytest.fixture
-def modern(connector: Connector) -> Iterator[tuple[ModernVehicle, Server]]:
+def modern(connector: Connector) -> Iterator[tuple[ModernVehicle, ServerSide]]:
     """Give a vehicle that speaks 2.1, once it is a device."""
     with Ear(connector.vipo.port, ACCOUNTS["server"]) as ear:
-        vehicle, server = ModernVehicle(connector.vehicles_port, "modern"), Server(ear, "Acme-modern")
+        vehicle, server = ModernVehicle(connector.vehicles_port, "modern"), ServerSide(ear, "Acme-modern")
         vehicle.start()
         try:
             server.wait_presence("online")
@@ -249,7 +248,7 @@ def modern(connector: Connector) -> Iterator[tuple[ModernVehicle, Server]]:
 
 
 def test_a_vehicle_of_2_1_drives_carries_pauses_is_cancelled_and_refuses_with_a_hint(
-    modern: tuple[ModernVehicle, Server],
+    modern: tuple[ModernVehicle, ServerSide],
 ) -> None:
     vehicle, server = modern
     found = read_description(server.ear.wait(lambda h: h.topic == server.up("desc")).payload, device_id="Acme-modern")

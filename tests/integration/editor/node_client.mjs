@@ -34,7 +34,7 @@ function open({ name, session, port }) {
 }
 
 const until = async (what, check) => {
-  const end = Date.now() + 15000;
+  const end = Date.now() + 60000;
   while (!check()) {
     if (Date.now() > end) throw new Error(`gave up waiting: ${what}`);
     await new Promise((done) => setTimeout(done, 10));
@@ -75,7 +75,7 @@ const commands = {
     for (let round = 0; round < steps; round += 1) {
       all.forEach((client, index) => {
         const map = client.doc.getMap("steps");
-        const keys = [...map.keys()].sort();
+        const keys = [...map.keys()].filter((key) => key.startsWith("s")).sort(); // others are not the storm's
         const key = keys[(round * 7 + index) % Math.max(1, keys.length)];
         if (round % 5 === 3 && key) map.delete(key);
         else if (round % 2 && key) map.get(key).set("pos", [round, index]);

@@ -9,8 +9,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from tests.integration.editor.conftest import Web
-from tests.servers import ROOT, find_program
+from tests.kit.files import ROOT
+from tests.kit.servers import find_program
+from tests.kit.web import Web
 
 MODULES = ROOT / "frontend"
 

@@ -6,8 +6,8 @@ from uuid import uuid4
 
 import pytest
 
-from tests.integration.editor.conftest import Web
 from tests.integration.editor.node_clients import node_clients
+from tests.kit.web import Web
 
 EVERYBODY = ("viewer", "operator", "author", "admin")
 

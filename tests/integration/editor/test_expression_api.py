@@ -7,7 +7,7 @@ from uuid import uuid4
 
 import pytest
 
-from tests.integration.editor.conftest import Web
+from tests.kit.web import Web
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ from websockets.exceptions import ConnectionClosed
 
 from editor.documents.shared_document import SharedDocument, empty_document, encode_document
 from editor.rooms import yjs_protocol
-from tests.integration.editor.conftest import Web
+from tests.kit.web import Web
 
 
 def join(web: Web, person: str | None = "author", program: str | None = None) -> connect:

@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
 
 from editor.rooms.stream import BEGINNING, Batch, MemoryStream, Note, RedisStream, RoomStream, StreamLost
-from tests.servers import Redis, run_redis
-
-
-@pytest.fixture(scope="module")
-def redis(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Redis]:
-    with run_redis(tmp_path_factory.mktemp("redis")) as server:
-        yield server
+from tests.kit.servers import Redis, run_redis
 
 
 @pytest.fixture(params=["memory", "redis"])
@@ -23,7 +17,7 @@ async def stream(request: pytest.FixtureRequest) -> AsyncIterator[RoomStream]:
     made: RoomStream = (
         MemoryStream(kept=50)
         if request.param == "memory"
-        else RedisStream(request.getfixturevalue("redis").url, kept=50)
+        else RedisStream(request.getfixturevalue("shared_redis").url, kept=50)
     )
     yield made
     await made.close()
@@ -67,8 +61,8 @@ async def test_rooms_do_not_hear_each_other(stream: RoomStream, request: pytest.
     assert texts(await stream.read(f"{request.node.name}-two", BEGINNING, 0.02)) == []
 
 
-async def test_whoever_was_away_too_long_is_told(redis: Redis) -> None:
-    for stream in (MemoryStream(kept=50), RedisStream(redis.url, kept=50)):
+async def test_whoever_was_away_too_long_is_told(shared_redis: Redis) -> None:
+    for stream in (MemoryStream(kept=50), RedisStream(shared_redis.url, kept=50)):
         await stream.append("gap", "a", notes("first"))
         seen = (await stream.read("gap", BEGINNING, 0.1)).entries[-1].id
         await stream.append("gap", "a", notes(*map(str, range(700))))

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import pytest
 
-from tests.integration.editor.conftest import Web, environment, prepare
 from tests.integration.editor.node_clients import node_clients
-from tests.servers import ROOT, Redis, run_postgres, run_redis
+from tests.kit.files import ROOT
+from tests.kit.served import served_without_broker
+from tests.kit.servers import Redis
+from tests.kit.web import Web, environment, prepare
 
 
 @dataclass(frozen=True)
@@ -25,27 +29,19 @@ class Pair:
 
 
 @pytest.fixture(scope="module")
-def pair(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pair]:
+def pair(tmp_path_factory: pytest.TempPathFactory, module_database_url: str, shared_redis: Redis) -> Iterator[Pair]:
     folder = tmp_path_factory.mktemp("pair")
-    with run_postgres(folder) as postgres, run_redis(folder) as redis:
-        extra = {
-            "VIPO_MODE": "served",
-            "VIPO_SECRET_KEY": "a key for this test alone, long enough to be taken",
-            "VIPO_HOSTS": "127.0.0.1",
-            "VIPO_DATABASE_URL": postgres.url,
-            "VIPO_REDIS_URL": redis.url,
-            "VIPO_MQTT_HOST": "127.0.0.1",
-            "VIPO_MQTT_PASSWORD": "not used here",
-        }
-        made = prepare(folder, extra)
-        one, two = (Web(folder, **made, extra=extra) for _ in range(2))
-        one.start()
-        two.start()
-        try:
-            yield Pair(one, two, redis)
-        finally:
-            one.kill()
-            two.kill()
+    extra = served_without_broker(folder, module_database_url, shared_redis.url)
+    extra = {name: value for name, value in extra.items() if name.startswith("VIPO_")}
+    made = prepare(folder, extra)
+    one, two = (Web(folder, **made, extra=extra) for _ in range(2))
+    one.start()
+    two.start()
+    try:
+        yield Pair(one, two, shared_redis)
+    finally:
+        one.kill()
+        two.kill()
 
 
 @pytest.mark.servers
@@ -84,6 +80,16 @@ def test_a_process_that_dies_leaves_nothing_behind_that_was_saved(pair: Pair) ->
         assert sorted(clients.tell("steps", name="ada")["steps"]) == ["s1", "s2"]
 
 
+@contextmanager
+def frozen(redis: Redis) -> Iterator[None]:
+    """Let Redis answer nobody for a while."""
+    redis.process.send_signal(signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        redis.process.send_signal(signal.SIGCONT)
+
+
 def set_role(pair: Pair, person: str, role: str) -> None:
     command = [sys.executable, "-m", "tests.integration.editor.set_role", person, role]
     subprocess.run(command, cwd=ROOT, env=environment(pair.one.folder, pair.one.extra), check=True)
@@ -113,11 +119,10 @@ def test_without_redis_nobody_edits_and_afterwards_all_is_there(pair: Pair) -> N
         clients.open("bob", "second", pair.two)
         clients.tell("add", name="ada", id="before")
         clients.tell("converged")
-        pair.redis.process.send_signal(19)
-        time.sleep(0.2)
-        clients.tell("add", name="ada", id="meanwhile")
-        time.sleep(1)
-        pair.redis.process.send_signal(18)
+        with frozen(pair.redis):
+            time.sleep(0.2)
+            clients.tell("add", name="ada", id="meanwhile")
+            time.sleep(1)
         clients.tell("add", name="bob", id="after")
         clients.tell("converged")
         clients.tell("saved", name="ada")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tests.integration.editor.conftest import Web
 from tests.integration.editor.node_clients import node_clients
+from tests.kit.web import Web
 
 
 def test_a_step_drawn_by_one_is_seen_by_another_and_kept(web: Web) -> None:

@@ -19,7 +19,7 @@ from registry.models import Device
 from registry.sites.views import PlaceView
 from simulation.services import make_world
 from simulation.world import Ack, PropertyChanged, Scene
-from tests.unit.execution import demo_floor
+from tests.kit import demo_floor
 from vipo_device.protocol.description import description_to_json
 
 SITE = "painting-factory"

@@ -9,46 +9,10 @@ from django.test import Client
 from editor import services as editor
 from execution import services
 from execution.models import Rehearsal, Run
-from registry.models import Membership, User
+from tests.kit.programs import ERRAND, SITE
+from tests.kit.sign_in import ROLES, post_json, sign_in_member
 
 pytestmark = pytest.mark.django_db(transaction=True)
-SITE = "painting-factory"
-ROLES = ("viewer", "operator", "author", "admin")
-ERRAND = {
-    "format": 1,
-    "start_pos": [0, 0],
-    "steps": {
-        "s1": {
-            "kind": "pick_and_drop",
-            "place": ["program", "body", "V"],
-            "pos": [3, -6],
-            "params": {
-                "source": {"device": "itemInventory01"},
-                "target": {"device": "paintMachine01"},
-                "object": "box",
-                "quantity": 1,
-            },
-        }
-    },
-    "functions": {},
-    "roles": {},
-    "parameters": {},
-    "zones": {},
-}
-
-
-def member(role):
-    user = User.objects.create_user(email=f"{role}@x.example", password="a-long-password", display_name=role.title())
-    if role != "stranger":
-        site = registry_site()
-        Membership.objects.create(user=user, site=site, role=role)
-    client = Client()
-    client.force_login(user)
-    return client
-
-
-def registry_site():
-    return Membership._meta.get_field("site").related_model.objects.get(slug=SITE)
 
 
 @pytest.fixture
@@ -56,12 +20,8 @@ def program(factory):
     return editor.create_program(site=SITE, name="Errand", document=ERRAND).id
 
 
-def send(client, path, body=None):
-    return client.post(f"/api{path}", json.dumps(body or {}), content_type="application/json")
-
-
 def post(client, path, body=None):
-    return send(client, path, body).status_code
+    return post_json(client, f"/api{path}", body).status_code
 
 
 def all_calls(program, run, rehearsal):
@@ -88,11 +48,11 @@ def all_calls(program, run, rehearsal):
 
 @pytest.mark.parametrize("role", ["stranger", *ROLES])
 def test_each_call_is_open_to_its_role_and_above(program, role):
-    operator = member("operator") if role != "operator" else None
-    client = member(role)
+    operator = sign_in_member("operator", SITE) if role != "operator" else None
+    client = sign_in_member(role, SITE)
     starter = operator or client
-    run = send(starter, f"/programs/{program}/runs").json()["id"]
-    rehearsal = send(starter, f"/programs/{program}/rehearsals").json()["id"]
+    run = post_json(starter, f"/api/programs/{program}/runs").json()["id"]
+    rehearsal = post_json(starter, f"/api/programs/{program}/rehearsals").json()["id"]
     runs, rehearsals = Run.objects.count(), Rehearsal.objects.count()
     seen = {}
     for call, needed in all_calls(program, run, rehearsal).items():
@@ -115,7 +75,7 @@ def test_nobody_who_is_not_signed_in_gets_an_answer(program):
 
 
 def test_what_does_not_exist_is_not_found(factory):
-    client = member("admin")
+    client = sign_in_member("admin", SITE)
     for path in (f"/runs/{uuid4()}", f"/rehearsals/{uuid4()}", f"/runs/{uuid4()}/events", "/sites/nowhere/runs"):
         assert client.get(f"/api{path}").status_code == 404
     assert post(client, f"/programs/{uuid4()}/runs") == 404
@@ -123,7 +83,7 @@ def test_what_does_not_exist_is_not_found(factory):
 
 def test_a_program_with_errors_is_not_started_and_the_answer_says_why(factory):
     program = editor.create_program(site=SITE, name="Empty").id
-    client = member("operator")
+    client = sign_in_member("operator", SITE)
     answer = client.post(f"/api/programs/{program}/runs", "{}", content_type="application/json")
     assert (answer.status_code, answer.json()["code"]) == (422, "not_ready")
     assert answer.json()["detail"].startswith("The program has one error and cannot be carried out.")
@@ -133,7 +93,7 @@ def test_a_program_with_errors_is_not_started_and_the_answer_says_why(factory):
 
 
 def test_routes_that_do_not_exist_are_null_among_others(factory):
-    client = member("viewer")
+    client = sign_in_member("viewer", SITE)
     pairs = [
         {"from": {"device": "itemInventory01"}, "to": {"device": "paintMachine01"}},
         {"from": [2.3, -8.0], "to": {"device": "nothing"}},
@@ -148,8 +108,8 @@ def test_routes_that_do_not_exist_are_null_among_others(factory):
 
 
 def test_a_run_over_http_reaches_its_end(factory, program):
-    client = member("operator")
-    run = send(client, f"/programs/{program}/runs").json()
+    client = sign_in_member("operator", SITE)
+    run = post_json(client, f"/api/programs/{program}/runs").json()
     assert (run["status"], run["program"]["name"], run["version"]) == ("pending", "Errand", 1)
     factory.go(lambda: client.get(f"/api/runs/{run['id']}").json()["status"] == "finished")
     view = client.get(f"/api/runs/{run['id']}").json()

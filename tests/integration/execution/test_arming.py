@@ -11,7 +11,7 @@ from editor.language.plan.instructions import End, EventEnd, EventEntry, Instruc
 from execution import services
 from execution.models import ArmedProgram, Run, RunEvent
 from execution.runs import triggers
-from registry.models import Device
+from tests.kit.programs import heat_oven
 
 pytestmark = pytest.mark.django_db(transaction=True)
 SITE, OVEN = "painting-factory", "curingOven01"
@@ -33,20 +33,16 @@ def arm(plan=PLAN):
     return services.arm_program(prepared=prepared, by="Ada")
 
 
-def heat(value):
-    Device.objects.filter(id=OVEN).update(properties={"temperature": value})
-
-
 def look():
     return services.start_armed(now=datetime.now(UTC))
 
 
 def test_a_run_starts_at_the_events_body_when_the_condition_becomes_true(factory):
-    heat(20)
+    heat_oven(20)
     armed = arm()
     assert (armed.version, armed.by) == (3, "Ada")
     assert look() == 0
-    heat(90)
+    heat_oven(90)
     assert look() == 1
     factory.go(lambda: Run.objects.get().status == "finished", limit_s=20)
     run = Run.objects.get()
@@ -56,35 +52,35 @@ def test_a_run_starts_at_the_events_body_when_the_condition_becomes_true(factory
 
 
 def test_what_is_true_already_starts_nothing_and_while_a_run_is_under_way_none_is_added(factory):
-    heat(90)
+    heat_oven(90)
     arm()
     assert look() == 0
-    heat(20)
+    heat_oven(20)
     assert look() == 0
-    heat(90)
+    heat_oven(90)
     assert look() == 1
-    heat(20)
+    heat_oven(20)
     look()
-    heat(90)
+    heat_oven(90)
     assert look() == 0
     assert Run.objects.count() == 1
 
 
 def test_two_tickers_that_see_the_same_start_one_run(factory):
-    heat(20)
+    heat_oven(20)
     arm()
     seen = [ArmedProgram.objects.select_related("site").get() for _ in range(3)]
-    heat(90)
+    heat_oven(90)
     assert sum(triggers._look_at(row, datetime.now(UTC)) for row in seen) == 1
     assert Run.objects.count() == 1
 
 
 def test_stop_all_disarms_until_somebody_arms_again(factory):
-    heat(20)
+    heat_oven(20)
     arm()
     services.press_stop(site=SITE, by="Otto")
     assert services.list_armed(site=SITE) == ()
-    heat(90)
+    heat_oven(90)
     assert look() == 0
     with pytest.raises(services.NotPossibleNow, match="The site is stopped"):
         arm()
@@ -99,8 +95,8 @@ def test_a_program_that_nothing_starts_cannot_be_armed(factory):
 
 
 def test_a_disarmed_program_starts_no_more(factory):
-    heat(20)
+    heat_oven(20)
     armed = arm()
     services.disarm_program(program_id=armed.program, site=SITE)
-    heat(90)
+    heat_oven(90)
     assert (look(), services.list_armed(site=SITE)) == (0, ())

@@ -9,7 +9,6 @@ from uuid import uuid4
 
 import pytest
 from django.db import OperationalError
-from django.test import Client
 
 from editor.language.expressions.nodes import Constant, PlaceRef
 from editor.language.plan.instructions import Call, End, Instruction, Move, Plan, RoleBinding
@@ -20,28 +19,18 @@ from execution.floor.advance import advance_site
 from execution.models import Command, InboxEvent
 from registry import services as registry
 from registry.demo.devices import DEVICES
-from registry.models import Device, Membership, User
+from registry.models import Device
+from tests.kit.programs import SITE
+from tests.kit.sign_in import ROLES, post_json, sign_in_member
 from vipo_site.cli.main import main
 
 pytestmark = pytest.mark.django_db(transaction=True)
-SITE = "painting-factory"
 MIXER = f"/api/sites/{SITE}/devices/paintMixer01/call"
 MIX = {"method": "mixPaint", "args": {"time": 2}}
-ROLES = ("viewer", "operator", "author", "admin")
-
-
-def member(role):
-    user = User.objects.create_user(email=f"{role}@x.example", password="a-long-password", display_name=role.title())
-    if role != "stranger":
-        site = Membership._meta.get_field("site").related_model.objects.get(slug=SITE)
-        Membership.objects.create(user=user, site=site, role=role)
-    client = Client()
-    client.force_login(user)
-    return client
 
 
 def ask(client, body=MIX, path=MIXER):
-    return client.post(path, json.dumps(body), content_type="application/json")
+    return post_json(client, path, body)
 
 
 def call(device="paintMixer01", method="mixPaint", **arguments):
@@ -65,7 +54,7 @@ def test_a_call_is_carried_out_and_its_outcome_can_be_read(factory):
 
 @pytest.mark.parametrize("role", [*ROLES, "stranger", "nobody"])
 def test_operators_and_above_may_call_and_every_member_may_follow(factory, role):
-    client = Client() if role == "nobody" else member(role)
+    client = sign_in_member(role, SITE)
     allowed = role in ROLES[1:]
     refused = {"viewer": 403, "stranger": 404, "nobody": 401}.get(role, 200)
     assert ask(client).status_code == refused
@@ -98,19 +87,19 @@ def test_operators_and_above_may_call_and_every_member_may_follow(factory, role)
     ],
 )
 def test_what_the_description_does_not_allow_is_refused_by_name(factory, body, told):
-    answer = ask(member("operator"), body)
+    answer = ask(sign_in_member("operator", SITE), body)
     assert (answer.status_code, answer.json()["code"], answer.json()["detail"]) == (422, "bad_arguments", told)
     assert Command.objects.count() == 0
 
 
 def test_of_many_misfits_the_first_are_named(factory):
-    answer = ask(member("operator"), {"method": "mixPaint", "args": {f"x{n}": n for n in range(5_000)}})
+    answer = ask(sign_in_member("operator", SITE), {"method": "mixPaint", "args": {f"x{n}": n for n in range(5_000)}})
     assert answer.status_code == 422
     assert answer.json()["detail"].count("mixPaint takes no argument") == 5
 
 
 def test_a_device_that_is_not_there_is_not_found(factory):
-    client = member("operator")
+    client = sign_in_member("operator", SITE)
     assert ask(client, path=f"/api/sites/{SITE}/devices/nothing/call").json()["code"] == "no_such_device"
     assert client.get(f"/api/sites/{SITE}/calls/{uuid4()}").status_code == 404
 
@@ -124,7 +113,7 @@ def test_a_device_that_is_not_there_is_not_found(factory):
 )
 def test_a_device_that_cannot_act_now_is_not_asked(factory, changes, told):
     Device.objects.filter(id="paintMixer01").update(**changes)
-    answer = ask(member("operator"))
+    answer = ask(sign_in_member("operator", SITE))
     assert (answer.status_code, answer.json()["code"], answer.json()["detail"]) == (409, "not_possible_now", told)
     assert Command.objects.count() == 0
 
@@ -137,10 +126,10 @@ def test_nothing_is_called_while_the_site_is_stopped_and_a_stop_holds_what_is_un
     factory.work()
     held = Command.objects.get(method="pause")
     assert (held.device, held.arguments) == ("paintMixer01", {"command": str(made.id)})
-    answer = ask(member("operator"), path=f"/api/sites/{SITE}/devices/curingOven01/call")
+    answer = ask(sign_in_member("operator", SITE), path=f"/api/sites/{SITE}/devices/curingOven01/call")
     assert answer.status_code == 422
     body = {"method": "curePaint", "args": {"time": 2}}
-    answer = ask(member("author"), body, f"/api/sites/{SITE}/devices/curingOven01/call")
+    answer = ask(sign_in_member("author", SITE), body, f"/api/sites/{SITE}/devices/curingOven01/call")
     assert (answer.status_code, answer.json()["detail"]) == (409, "The site is stopped. Reset the stop first.")
     services.reset_stop(site=SITE, by="Ada")
     factory.go(lambda: state(made).is_over, dt_s=10.0)
@@ -149,7 +138,7 @@ def test_nothing_is_called_while_the_site_is_stopped_and_a_stop_holds_what_is_un
 
 def test_a_device_does_one_thing_at_a_time(factory):
     call(time=2)
-    answer = ask(member("operator"))
+    answer = ask(sign_in_member("operator", SITE))
     told = "Paint Mixer A still carries out mixPaint. Wait until it is done."
     assert (answer.status_code, answer.json()["detail"]) == (409, told)
 
@@ -167,7 +156,7 @@ CURE = Plan(
 def test_what_a_run_holds_is_not_lent_and_the_answer_says_which_run(factory):
     run = factory.start(CURE)
     factory.go(lambda: Command.objects.filter(method="mixPaint").exists())
-    client = member("operator")
+    client = sign_in_member("operator", SITE)
     answer = ask(client)
     told = "Paint Mixer A is held by run 1 of “Errand”. Wait until it is over, or cancel it."
     assert (answer.status_code, answer.json()["detail"]) == (409, told)
@@ -203,7 +192,7 @@ def test_a_run_whose_device_is_taken_out_ends_and_the_floor_goes_on(factory, met
 def test_a_method_whose_topic_is_not_confirmed_says_so(factory):
     said = (DEVICES / "paintMixer01.ttl").read_text().replace("vipo/v1/dev/paintMixer01/down/mixPaint", "plant/mix")
     registry.ingest_description(device_id="paintMixer01", payload=said.encode(), at=datetime.now(UTC))
-    answer = ask(member("operator"))
+    answer = ask(sign_in_member("operator", SITE))
     assert (answer.status_code, answer.json()["code"]) == (409, "not_possible_now")
     told = "mixPaint waits until an admin confirms its topic plant/mix on Paint Mixer A's page."
     assert answer.json()["detail"] == told
@@ -229,7 +218,7 @@ def test_a_device_that_says_it_fills_the_whole_floor_does_not_end_its_traffic(fa
 
 def test_a_robot_drives_only_in_programs(factory):
     path = f"/api/sites/{SITE}/devices/robot01/call"
-    answer = ask(member("operator"), {"method": "move", "args": {}}, path)
+    answer = ask(sign_in_member("operator", SITE), {"method": "move", "args": {}}, path)
     assert answer.status_code == 409
     assert answer.json()["detail"].startswith("TurtleBot 1 drives only in a program, where its way is kept free")
 

@@ -4,7 +4,6 @@ import json
 import threading
 from collections import Counter
 from datetime import UTC, datetime, timedelta
-from pathlib import Path
 from uuid import uuid4
 
 import pytest
@@ -14,9 +13,10 @@ from execution.gateway.ingest import Ingester
 from execution.gateway.queue import Entry
 from execution.models import Command
 from registry import services as registry
+from tests.kit.files import FIGURE_5
 from vipo_device.protocol.mqtt_client import Message
 
-FIGURE = (Path(__file__).parents[2] / "fixtures" / "figure-5.txt").read_bytes() + b"site: hall\n"
+FIGURE = FIGURE_5 + b"site: hall\n"
 NAME = "paintMixer02"
 
 

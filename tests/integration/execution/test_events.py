@@ -7,16 +7,12 @@ from editor.language.plan.instructions import Call, End, EventEnd, EventEntry, I
 from execution import services
 from execution.models import Run, RunEvent
 from execution.runs.advance import advance_run
-from registry.models import Device
+from tests.kit.programs import heat_oven
 
 pytestmark = pytest.mark.django_db(transaction=True)
 OVEN = "curingOven01"
 HOT = Operation(">", (Reading(Constant(OVEN), "temperature"), Constant(80)))
 LATE = Operation(">=", (Operation("now", ()), Constant(0)))
-
-
-def heat(value):
-    Device.objects.filter(id=OVEN).update(properties={"temperature": value})
 
 
 def told(run):
@@ -36,12 +32,12 @@ def program(condition=HOT, *body):
 
 
 def test_a_reading_that_crosses_its_limit_starts_the_body_each_time(factory):
-    heat(20)
+    heat_oven(20)
     run = factory.start(program())
     factory.work()
     assert Run.objects.get(id=run).watches is True
     for value in (90, 95, 30, 85):
-        heat(value)
+        heat_oven(value)
         advance_run(run)
     assert told(run) == ["It is hot", "It is hot"]
     steps = Run.objects.get(id=run).steps
@@ -57,11 +53,11 @@ def test_the_time_of_day_is_told_to_a_program_that_asks_for_it(factory):
 
 
 def test_what_fails_in_an_events_body_fails_the_run(factory):
-    heat(20)
+    heat_oven(20)
     call = Call(PlaceRef(device=OVEN), "bakeBread", {})
     run = factory.start(program(HOT, Instruction(call, "b")))
     factory.work()
-    heat(90)
+    heat_oven(90)
     advance_run(run)
     factory.work()
     row = Run.objects.get(id=run)
@@ -71,12 +67,12 @@ def test_what_fails_in_an_events_body_fails_the_run(factory):
 
 
 def test_a_paused_run_looks_at_its_events_when_it_goes_on(factory):
-    heat(20)
+    heat_oven(20)
     run = factory.start(program())
     factory.work()
     services.pause_run(run_id=run, by="Ada")
     factory.work()
-    heat(90)
+    heat_oven(90)
     advance_run(run)
     assert told(run) == []
     services.resume_run(run_id=run, by="Ada")

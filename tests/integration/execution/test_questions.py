@@ -1,6 +1,5 @@
 """Questions to people and notices: who may answer, that one answer counts, and that nobody is flooded."""
 
-import json
 from uuid import uuid4
 
 import pytest
@@ -9,20 +8,16 @@ from editor.language.expressions.nodes import AnswerSpec, Constant, Operation, V
 from editor.language.plan.instructions import AskPerson, Assign, Branch, End, Instruction, Jump, Notify, Plan, Wait
 from execution import services
 from execution.models import InboxEvent, Question, Run, RunEvent
-from tests.integration.execution.test_api import member
+from tests.kit.programs import SITE, run_status
+from tests.kit.sign_in import post_json, sign_in_member
 
 pytestmark = pytest.mark.django_db(transaction=True)
-SITE = "painting-factory"
 
 
 def asking(answer, timeout_s=None):
     limit = None if timeout_s is None else Constant(timeout_s)
     ask = AskPerson(Constant("How is it?"), answer, "it", True, limit)
     return Plan((Instruction(ask, "q", 1), Instruction(Branch(Constant(True), 2)), Instruction(End())))
-
-
-def status(run):
-    return Run.objects.get(id=run).status
 
 
 def open_question(factory, answer=None, **more):
@@ -32,9 +27,7 @@ def open_question(factory, answer=None, **more):
 
 
 def send(client, question, value):
-    return client.post(
-        f"/api/questions/{question}/answer", json.dumps({"value": value}), content_type="application/json"
-    )
+    return post_json(client, f"/api/questions/{question}/answer", {"value": value})
 
 
 def test_a_question_is_shown_answered_and_the_run_goes_on(factory):
@@ -47,7 +40,7 @@ def test_a_question_is_shown_answered_and_the_run_goes_on(factory):
     answer = services.answer_question(question_id=question, value=False, by="Ada")
     assert (answer.state, answer.value, answer.answered_by) == ("answered", False, "Ada")
     factory.work()
-    assert status(run) == "finished"
+    assert run_status(run) == "finished"
     assert services.list_questions(site=SITE) == ()
     assert [row.state for row in services.list_questions(site=SITE, run_id=run)] == ["answered"]
     texts = list(RunEvent.objects.filter(run=run, kind="question").values_list("text", flat=True))
@@ -82,16 +75,16 @@ def test_of_many_who_answer_exactly_one_is_first_and_the_run_hears_one_answer(fa
 )
 def test_an_answer_that_does_not_fit_is_refused_and_the_question_stays_open(factory, answer, value, why):
     run, question = open_question(factory, answer)
-    reply = send(member("operator"), question, value)
+    reply = send(sign_in_member("operator", SITE), question, value)
     assert (reply.status_code, reply.json()["code"], reply.json()["detail"]) == (422, "answer_not_fitting", why)
     assert Question.objects.get(id=question).state == "open"
-    assert status(run) == "running"
+    assert run_status(run) == "running"
 
 
 @pytest.mark.parametrize(("role", "code"), [("stranger", 404), ("viewer", 403), ("operator", 200), ("admin", 200)])
 def test_operators_and_above_answer_viewers_only_look(factory, role, code):
     _, question = open_question(factory)
-    client = member(role)
+    client = sign_in_member(role, SITE)
     assert client.get(f"/api/sites/{SITE}/questions").status_code == (404 if role == "stranger" else 200)
     assert send(client, question, True).status_code == code
     assert Question.objects.get(id=question).state == ("answered" if code == 200 else "open")
@@ -100,15 +93,15 @@ def test_operators_and_above_answer_viewers_only_look(factory, role, code):
 def test_a_second_answer_hears_who_was_first(factory):
     _, question = open_question(factory)
     services.answer_question(question_id=question, value=True, by="Ada")
-    reply = send(member("operator"), question, False)
+    reply = send(sign_in_member("operator", SITE), question, False)
     assert (reply.status_code, reply.json()["detail"]) == (409, "Ada has answered already: yes.")
     assert Question.objects.get(id=question).value is True
-    assert send(member("admin"), uuid4(), True).status_code == 404
+    assert send(sign_in_member("admin", SITE), uuid4(), True).status_code == 404
 
 
 def test_a_question_that_nobody_answers_in_time_is_withdrawn_and_the_step_times_out(factory):
     run, question = open_question(factory, timeout_s=20)
-    factory.go(lambda: status(run) == "failed", limit_s=30)
+    factory.go(lambda: run_status(run) == "failed", limit_s=30)
     assert Question.objects.get(id=question).state == "withdrawn"
     with pytest.raises(services.NotPossibleNow):
         services.answer_question(question_id=question, value=True, by="Ada")
@@ -156,6 +149,6 @@ def test_a_step_that_begins_very_often_does_not_fill_the_journal(factory):
         Instruction(End()),
     )
     run = factory.start(Plan(body), n=0)
-    factory.go(lambda: status(run) == "finished")
+    factory.go(lambda: run_status(run) == "finished")
     assert Run.objects.get(id=run).steps["s"]["count"] == 250
     assert RunEvent.objects.filter(run=run, step="s", code="step_entered").count() == 101

@@ -1,7 +1,6 @@
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 from editor.language import plan_to_json
 from editor.language.expressions.nodes import Constant
@@ -9,9 +8,8 @@ from editor.language.plan.instructions import End, Instruction, Plan, Wait
 from execution.rehearsals.child_process import scene_to_json
 from execution.rehearsals.program_file import rehearse_program
 from simulation.world import Scene
-from tests.unit.execution import demo_floor
-
-ROOT = Path(__file__).resolve().parents[3]
+from tests.kit import demo_floor
+from tests.kit.files import ROOT
 
 
 def scene():
@@ -31,7 +29,11 @@ def test_the_example_programs_rehearse_without_errors():
 
 def test_the_child_process_writes_progress_and_the_result():
     plan = Plan((Instruction(Wait(Constant(30)), "w"), Instruction(End())))
-    job = {"plan": plan_to_json(plan), "scene": scene_to_json(scene(), demo_floor.places()), "driver": "kinematic"}
+    job = {
+        "plan": plan_to_json(plan),
+        "scene": scene_to_json(demo_floor.scene(), demo_floor.places()),
+        "driver": "kinematic",
+    }
     child = subprocess.run(
         [sys.executable, "-m", "execution.rehearsals.child_process"],
         input=json.dumps(job), capture_output=True, text=True, cwd=ROOT, timeout=120,

@@ -1,30 +1,13 @@
 import pytest
 
-from editor.language.expressions.nodes import Constant, PlaceRef
-from editor.language.plan.instructions import Call, Drop, End, Instruction, Move, Pick, Plan, RoleBinding, Wait
+from editor.language.expressions.nodes import Constant
+from editor.language.plan.instructions import End, Instruction, Plan, Wait
 from execution import services
 from execution.models import Command, InboxEvent, Run, RunEvent
 from execution.runs.advance import advance_run
+from tests.kit.programs import CARRY, run_status
 
 pytestmark = pytest.mark.django_db(transaction=True)
-SHELF, BOOTH = PlaceRef(device="itemInventory01"), PlaceRef(device="paintMachine01")
-BOX, ONE = Constant("box"), Constant(1)
-ANY = {"robot": RoleBinding("robot", None, ("move", "pick", "drop"))}
-CARRY = Plan(
-    (
-        Instruction(Move("robot", SHELF), "s1", 1),
-        Instruction(Call(SHELF, "dispense", {"object": BOX, "value": ONE}, "robot"), "s1", 2),
-        Instruction(Pick("robot", SHELF, BOX, ONE), "s1", 2),
-        Instruction(Move("robot", BOOTH), "s1", 3),
-        Instruction(Drop("robot", BOOTH, BOX, ONE), "s1", 4),
-        Instruction(End()),
-    ),
-    ANY,
-)
-
-
-def status(run):
-    return Run.objects.get(id=run).status
 
 
 def whole_history(run):
@@ -34,7 +17,7 @@ def whole_history(run):
 
 def test_a_box_is_carried_from_shelf_to_booth(factory):
     run = factory.start(CARRY)
-    factory.go(lambda: status(run) == "finished")
+    factory.go(lambda: run_status(run) == "finished")
     view = services.get_run(run_id=run).run
     assert (view.number, view.reason, view.roles) == (1, "", {"robot": "robot01"})
     assert view.steps["s1"]["status"] == "done"
@@ -49,7 +32,7 @@ def test_a_box_is_carried_from_shelf_to_booth(factory):
 def test_messages_that_come_twice_do_nothing_twice(factory):
     factory.deliveries = 2
     run = factory.start(CARRY)
-    factory.go(lambda: status(run) == "finished")
+    factory.go(lambda: run_status(run) == "finished")
     done = Command.objects.filter(run=run, piece=False).values_list("method", "status")
     assert sorted(done) == [("dispense", "done"), ("drop", "done"), ("pick", "done")]
     assert factory.world.readings()["itemInventory01"].get("stock", 23) == 23
@@ -57,7 +40,7 @@ def test_messages_that_come_twice_do_nothing_twice(factory):
 
 def test_taking_the_same_inbox_in_again_changes_nothing(factory):
     run = factory.start(CARRY)
-    factory.go(lambda: status(run) == "finished")
+    factory.go(lambda: run_status(run) == "finished")
     before = whole_history(run)
     InboxEvent.objects.update(taken_at=None)
     factory.work()
@@ -68,7 +51,7 @@ def test_a_paused_run_asks_for_nothing_until_it_is_resumed(factory):
     run = factory.start(CARRY)
     factory.go(lambda: Command.objects.filter(run=run).count() >= 2)
     services.pause_run(run_id=run, by="Ada")
-    factory.go(lambda: status(run) == "paused")
+    factory.go(lambda: run_status(run) == "paused")
     for _ in range(40):
         factory.work()
         factory.send()
@@ -80,24 +63,24 @@ def test_a_paused_run_asks_for_nothing_until_it_is_resumed(factory):
     factory.work()
     assert Command.objects.filter(run=run).count() == sent
     services.resume_run(run_id=run, by="Ada")
-    factory.go(lambda: status(run) == "finished")
+    factory.go(lambda: run_status(run) == "finished")
 
 
 def test_a_cancelled_run_frees_its_robot_and_its_machines(factory):
     run = factory.start(CARRY)
     factory.go(lambda: Command.objects.filter(run=run, method="dispense").exists())
     services.cancel_run(run_id=run, by="Ada")
-    factory.go(lambda: status(run) == "cancelled")
+    factory.go(lambda: run_status(run) == "cancelled")
     assert Run.objects.get(id=run).reason == "Ada cancelled it"
     assert services.get_run(run_id=run).run.cause == {"code": "cancelled_by", "args": {"by": "Ada"}}
     second = factory.start(CARRY)
-    factory.go(lambda: status(second) == "finished")
+    factory.go(lambda: run_status(second) == "finished")
     assert services.get_run(run_id=second).run.roles == {"robot": "robot01"}
 
 
 def test_two_runs_use_two_robots_and_one_booth_after_the_other(factory):
     runs = [factory.start(CARRY), factory.start(CARRY)]
-    factory.go(lambda: {status(run) for run in runs} == {"finished"})
+    factory.go(lambda: {run_status(run) for run in runs} == {"finished"})
     robots = {services.get_run(run_id=run).run.roles["robot"] for run in runs}
     assert len(robots) == 2
 
@@ -107,7 +90,7 @@ def test_stop_all_holds_everything_until_it_is_reset_and_the_run_resumed(factory
     factory.go(lambda: Command.objects.filter(run=run).count() >= 2)
     stop = services.press_stop(site="painting-factory", by="Otto")
     assert services.list_stops() == (stop,)
-    factory.go(lambda: status(run) == "paused")
+    factory.go(lambda: run_status(run) == "paused")
     assert Run.objects.get(id=run).reason == "Otto stopped all devices of the site"
     methods = {command.topic.rsplit("/", 1)[1] for command in factory.send()}
     assert methods <= {"pause"}
@@ -123,9 +106,9 @@ def test_stop_all_holds_everything_until_it_is_reset_and_the_run_resumed(factory
     services.reset_stop(site="painting-factory", by="Ada")
     factory.work()
     factory.pass_time(5)
-    assert status(run) == "paused"
+    assert run_status(run) == "paused"
     services.resume_run(run_id=run, by="Ada")
-    factory.go(lambda: status(run) == "finished")
+    factory.go(lambda: run_status(run) == "finished")
 
 
 def test_a_robot_that_vanishes_fails_its_step_as_offline(factory, monkeypatch):
@@ -137,13 +120,13 @@ def test_a_robot_that_vanishes_fails_its_step_as_offline(factory, monkeypatch):
     factory.go(lambda: Command.objects.filter(run=run).count() >= 2)
     factory.offline.add("robot01")
     Device.objects.filter(id="robot01").update(online=False)
-    factory.go(lambda: status(run) == "failed")
+    factory.go(lambda: run_status(run) == "failed")
     assert Run.objects.get(id=run).reason == "TurtleBot 1 went offline and did not come back."
 
 
 def test_a_timer_is_a_row_and_fires_once(factory):
     run = factory.start(Plan((Instruction(Wait(Constant(30)), "w", 1), Instruction(End()))))
-    factory.go(lambda: status(run) == "finished", limit_s=40)
+    factory.go(lambda: run_status(run) == "finished", limit_s=40)
     kinds = [event.code for event in services.list_events(run_id=run)]
     assert kinds == ["started", "step_entered", "step_done", "finished"]
 
@@ -164,5 +147,5 @@ def test_an_answer_for_another_devices_command_is_not_taken(factory):
 def test_a_run_that_is_over_is_not_advanced(factory):
     run = factory.start(Plan((Instruction(End()),)))
     factory.work()
-    assert status(run) == "finished"
+    assert run_status(run) == "finished"
     assert advance_run(run) is False

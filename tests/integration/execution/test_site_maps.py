@@ -4,7 +4,6 @@ import json
 from datetime import UTC, datetime, timedelta
 
 import pytest
-from django.test import Client
 
 from editor import services as editor
 from editor.language.expressions.nodes import PlaceRef
@@ -15,9 +14,9 @@ from registry import services as registry
 from registry.floorplan.plan import Grid
 from registry.live import fanout
 from registry.models import Device, SiteMap
-from tests.integration.execution.test_api import ERRAND, ROLES, SITE, member, send
-from tests.integration.execution.test_runs import ANY, CARRY, status
-from tests.unit.execution import demo_floor
+from tests.kit import demo_floor
+from tests.kit.programs import ANY, CARRY, ERRAND, SITE, run_status
+from tests.kit.sign_in import ROLES, post_json, sign_in_member
 from tests.unit.robot_agent.agent import RobotGrid, write_grid
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -44,7 +43,9 @@ def say_map(grid, number=1, robot="robot01"):
 
 
 def use(client, version=1, replaces=1, robot="robot01"):
-    return send(client, f"/sites/{SITE}/map/from-device", {"device": robot, "version": version, "replaces": replaces})
+    return post_json(
+        client, f"/api/sites/{SITE}/map/from-device", {"device": robot, "version": version, "replaces": replaces}
+    )
 
 
 def walled(x1, y1, x2, y2):
@@ -58,7 +59,7 @@ def walled(x1, y1, x2, y2):
 
 def test_a_robots_map_becomes_the_sites_and_the_one_before_can_be_chosen_again(factory):
     say_map(widened())
-    client, news = member("admin"), []
+    client, news = sign_in_member("admin", SITE), []
     before = client.get(f"/api/sites/{SITE}/map").json()
     devices = client.get(f"/api/sites/{SITE}/devices").json()
     stop = fanout.listen(lambda _, message: news.append(message))
@@ -70,27 +71,27 @@ def test_a_robots_map_becomes_the_sites_and_the_one_before_can_be_chosen_again(f
     assert client.get(f"/api/sites/{SITE}/devices").json() == devices
     assert registry.get_map(site=SITE).grid == widened()
     body = {"version": 1, "replaces": 2}
-    assert send(client, f"/sites/{SITE}/map/restore", body).json() == {"version": 3}
+    assert post_json(client, f"/api/sites/{SITE}/map/restore", body).json() == {"version": 3}
     stop()
     assert registry.get_map(site=SITE).grid == PLAN
     assert [m for m in news if m["type"] == "map"] == [{"type": "map", "version": 2}, {"type": "map", "version": 3}]
     listed = client.get(f"/api/sites/{SITE}/map/versions").json()
     assert [(v["version"], v["source"], v["by"]) for v in listed] == [
-        (3, "version:1", "Admin"),
-        (2, "robot:robot01", "Admin"),
+        (3, "version:1", "Admin Person"),
+        (2, "robot:robot01", "Admin Person"),
         (1, "test", ""),
     ]
 
 
 def test_runs_go_on_over_the_new_map(factory):
     first = factory.start(drive_to("itemInventory01"))
-    factory.go(lambda: status(first) == "finished")
+    factory.go(lambda: run_status(first) == "finished")
     factory.go(lambda: not Command.objects.filter(status__in=Command.OPEN).exists())
     commands = set(Command.objects.values_list("id", flat=True))
     say_map(widened())
-    assert use(member("admin")).json() == {"version": 2}
+    assert use(sign_in_member("admin", SITE)).json() == {"version": 2}
     second = factory.start(drive_to("paintInventory01"))
-    factory.go(lambda: status(second) == "finished")
+    factory.go(lambda: run_status(second) == "finished")
     assert Command.objects.exclude(id__in=commands).exists()
 
 
@@ -102,7 +103,7 @@ def test_a_stop_goes_on_over_the_new_map(factory):
     services.press_stop(site=SITE, by="Ada")
     factory.work()
     say_map(widened())
-    assert use(member("admin")).status_code == 200
+    assert use(sign_in_member("admin", SITE)).status_code == 200
     factory.work()
     state = FloorState.objects.get(site__slug=SITE).state
     assert (state["stopped"], services.is_stopped(site=SITE)) == (True, True)
@@ -110,7 +111,7 @@ def test_a_stop_goes_on_over_the_new_map(factory):
 
 def test_nothing_changes_while_a_run_is_open_or_a_device_is_at_work(factory):
     say_map(widened())
-    client = member("admin")
+    client = sign_in_member("admin", SITE)
     run = factory.start(CARRY)
     refused = use(client)
     assert (refused.status_code, refused.json()["code"]) == (409, "not_possible_now")
@@ -118,7 +119,7 @@ def test_nothing_changes_while_a_run_is_open_or_a_device_is_at_work(factory):
     Run.objects.filter(id=run).update(status="cancelled")
     factory.offline.add("paintMixer02")
     call = services.call_method(site=SITE, device_id="paintMixer02", method="mixPaint", arguments={"time": 1}, by="A")
-    refused = send(client, f"/sites/{SITE}/map/restore", {"version": 1, "replaces": 1})
+    refused = post_json(client, f"/api/sites/{SITE}/map/restore", {"version": 1, "replaces": 1})
     assert refused.json()["args"] == {"why": "map_busy", "device": "paintMixer02"}
     assert SiteMap.objects.count() == 1
     Command.objects.filter(id=call.id).update(status="done")
@@ -128,12 +129,12 @@ def test_nothing_changes_while_a_run_is_open_or_a_device_is_at_work(factory):
 def test_what_was_not_looked_at_is_not_taken(factory):
     say_map(widened())
     say_map(widened(), 2)
-    client = member("admin")
+    client = sign_in_member("admin", SITE)
     for answer in (use(client, version=1), use(client, version=2, replaces=0)):
         assert (answer.status_code, answer.json()["code"]) == (409, "map_changed")
     assert use(client, version=2, replaces=7).json()["detail"].startswith("Somebody has changed the site's map")
     assert (use(client, robot="robot02").status_code, use(client, robot="no\0body").status_code) == (404, 404)
-    lost = send(client, f"/sites/{SITE}/map/restore", {"version": 9, "replaces": 1})
+    lost = post_json(client, f"/api/sites/{SITE}/map/restore", {"version": 9, "replaces": 1})
     assert (lost.status_code, lost.json()["code"]) == (404, "no_map")
     assert use(client, version=10**30).status_code == 422
     assert SiteMap.objects.count() == 1
@@ -141,20 +142,20 @@ def test_what_was_not_looked_at_is_not_taken(factory):
 
 def test_a_map_that_is_too_long_for_planning_is_refused(factory):
     say_map(Grid(5000, 2, 0.05, 0.0, 0.0, bytes(10_000)))
-    answer = use(member("admin"))
+    answer = use(sign_in_member("admin", SITE))
     assert (answer.status_code, answer.json()["code"]) == (422, "bad_map")
     assert SiteMap.objects.count() == 1
 
 
 def test_programs_are_checked_anew_on_the_new_map(factory):
     program = editor.create_program(site=SITE, name="Errand", document=ERRAND).id
-    client = member("admin")
+    client = sign_in_member("admin", SITE)
     assert errors(client, program) == 0
     x, y = next((d.pose.x, d.pose.y) for d in demo_floor.devices() if d.id == "paintMachine01")
     say_map(walled(x - 3.0, y - 3.0, x + 3.0, y + 3.0))
     assert use(client).status_code == 200
     assert errors(client, program) > 0
-    assert send(client, f"/sites/{SITE}/map/restore", {"version": 1, "replaces": 2}).status_code == 200
+    assert post_json(client, f"/api/sites/{SITE}/map/restore", {"version": 1, "replaces": 2}).status_code == 200
     assert errors(client, program) == 0
 
 
@@ -166,7 +167,7 @@ def errors(client, program):
 def test_the_difference_says_what_would_change_and_whom_it_would_trouble(factory):
     x, y = next((d.pose.x, d.pose.y) for d in demo_floor.devices() if d.id == "paintMachine01")
     say_map(walled(x - 1.0, y - 1.0, x + 1.0, y + 1.0))
-    told = member("viewer").get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
+    told = sign_in_member("viewer", SITE).get(f"/api/sites/{SITE}/devices/robot01/map/difference").json()
     assert (told["version"], told["replaces"]) == (1, 1)
     assert told["floor_lost_m2"] == told["walls_gained_m2"] > 3
     assert (told["floor_gained_m2"], told["walls_lost_m2"]) == (0, 0)
@@ -178,12 +179,12 @@ def test_the_difference_says_what_would_change_and_whom_it_would_trouble(factory
 @pytest.mark.parametrize("role", ["nobody", "stranger", *ROLES])
 def test_each_call_is_open_to_its_role_and_above(factory, role):
     say_map(PLAN)
-    client = Client() if role == "nobody" else member(role)
+    client = sign_in_member(role, SITE)
     robot = f"/api/sites/{SITE}/devices/robot01/map"
     shown = [robot, f"{robot}/cells", f"{robot}.yaml", f"{robot}.pgm", f"{robot}/difference"]
     seen = [client.get(path).status_code for path in (*shown, f"/api/sites/{SITE}/map/versions")]
     assert set(seen) == {{"nobody": 401, "stranger": 404}.get(role, 200)}
-    changed = [use(client), send(client, f"/sites/{SITE}/map/restore", {"version": 1, "replaces": 2})]
+    changed = [use(client), post_json(client, f"/api/sites/{SITE}/map/restore", {"version": 1, "replaces": 2})]
     wanted = {"nobody": 401, "stranger": 404, "admin": 200}.get(role, 403)
     assert [answer.status_code for answer in changed] == [wanted] * 2
     assert SiteMap.objects.count() == (3 if role == "admin" else 1)
@@ -191,7 +192,7 @@ def test_each_call_is_open_to_its_role_and_above(factory, role):
 
 def test_a_robots_map_is_shown_as_the_sites_is(factory):
     say_map(PLAN)
-    client = member("viewer")
+    client = sign_in_member("viewer", SITE)
     robot = f"/api/sites/{SITE}/devices/robot01/map"
     told = client.get(robot).json()
     assert (told["device"], told["version"], told["width"], told["resolution_m"]) == ("robot01", 1, PLAN.width, 0.05)
@@ -216,7 +217,7 @@ def test_only_the_newest_fifty_versions_are_kept(factory, monkeypatch):
 
 
 def test_the_body_of_a_change_is_checked(factory):
-    client = member("admin")
+    client = sign_in_member("admin", SITE)
     for body in ({}, {"device": 3}, {"device": "x" * 65, "version": 1, "replaces": 0}):
-        assert send(client, f"/sites/{SITE}/map/from-device", body).status_code == 422
+        assert post_json(client, f"/api/sites/{SITE}/map/from-device", body).status_code == 422
     assert json.loads(use(client).content)["code"] == "no_robot_map"

@@ -5,17 +5,8 @@ from datetime import UTC, datetime
 import pytest
 
 from bench.hall import SITE, carry_out_run, fill_hall
-from editor.language.plan.instructions import (
-    Branch,
-    Constant,
-    End,
-    Instruction,
-    Located,
-    Operation,
-    Plan,
-    Reading,
-    Variable,
-)
+from editor.language.expressions.nodes import Constant, Located, Operation, Reading, Variable
+from editor.language.plan.instructions import Branch, End, Instruction, Plan
 from execution.floor.advance import get_layout
 from execution.machine.needs import needs_of
 from execution.machine.places import ROLE

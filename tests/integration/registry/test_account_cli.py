@@ -6,15 +6,9 @@ import pytest
 from django.test import Client
 
 from registry.models import Membership, User
-from vipo_site.cli.main import main
+from tests.kit.command_line import run_vipo
 
 NEW = "reader@vipo.example"
-
-
-def told(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    code = main(["account", *arguments])
-    out, err = capsys.readouterr()
-    return code, out, err
 
 
 def status_of_signing_in(password: str) -> int:
@@ -28,20 +22,24 @@ def role() -> list[str]:
 
 
 def test_an_account_is_made_gets_a_role_and_another_password(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = told(capsys, "Reader@vipo.example", "--name", "Line Display", "--site", "hall")
+    code, out, err = run_vipo(capsys, "account", "Reader@vipo.example", "--name", "Line Display", "--site", "hall")
     first, second, third = out.splitlines()
     assert (code, err, first, third) == (0, "", f"{NEW} may sign in.", f"{NEW} is viewer of hall.")
     password = second.removeprefix("The password, shown this once: ")
     assert status_of_signing_in(password) == 200
     assert (role(), User.objects.get(email=NEW).initials) == (["viewer"], "LD")
-    assert told(capsys, NEW, "--site", "hall", "--role", "author") == (0, f"{NEW} is author of hall.\n", "")
+    assert run_vipo(capsys, "account", NEW, "--site", "hall", "--role", "author") == (
+        0,
+        f"{NEW} is author of hall.\n",
+        "",
+    )
     assert role() == ["author"]
-    _, out, _ = told(capsys, NEW, "--new-password")
+    _, out, _ = run_vipo(capsys, "account", NEW, "--new-password")
     assert status_of_signing_in(password) == 401
     assert status_of_signing_in(out.strip().removeprefix(f"The new password of {NEW}, shown this once: ")) == 200
-    assert told(capsys, NEW, "--site", "hall", "--role", "none")[1] == f"{NEW} is no member of hall.\n"
+    assert run_vipo(capsys, "account", NEW, "--site", "hall", "--role", "none")[1] == f"{NEW} is no member of hall.\n"
     assert role() == []
-    assert told(capsys, NEW)[1].startswith(f"{NEW} may sign in already. Name what to change: ")
+    assert run_vipo(capsys, "account", NEW)[1].startswith(f"{NEW} may sign in already. Name what to change: ")
 
 
 @pytest.mark.parametrize(
@@ -57,5 +55,5 @@ def test_what_cannot_be_changes_nothing(
     hall: str, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], says: str
 ) -> None:
     before = User.objects.count()
-    assert told(capsys, *arguments) == (2, "", f"{says}\n")
+    assert run_vipo(capsys, "account", *arguments) == (2, "", f"{says}\n")
     assert User.objects.count() == before

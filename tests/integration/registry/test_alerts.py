@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import datetime, timedelta
 from typing import Any
@@ -18,13 +18,12 @@ from registry.alerts import buffer as alert_notes
 from registry.alerts import inbox
 from registry.alerts.alerts import Raised
 from registry.alerts.buffer import AGAIN_S, NoteBuffer
-from registry.live import fanout
 from registry.models import Device, DeviceAlert, User
 from registry.services import BadDevice
+from tests.kit.sign_in import ROLES, signed_in
+from tests.kit.sites import MIXER, NOW, ROBOT, come, describe, say
 from vipo_device.descriptions.reader import write_description
 from vipo_site.cli.main import main
-
-from .conftest import MIXER, NOW, ROBOT, ROLES, come, describe, say
 
 LONG_AGO = NOW - timedelta(days=1)
 ALERTS = "/api/sites/hall/alerts"
@@ -38,14 +37,6 @@ def mixer(hall: str, monkeypatch: pytest.MonkeyPatch) -> str:
     services.approve_device(site="hall", device_id="mixer1", by=None, at=NOW)
     come()
     return "mixer1"
-
-
-@pytest.fixture
-def heard(mixer: str) -> Iterator[list[Any]]:
-    messages: list[Any] = []
-    stop = fanout.listen(lambda slug, message: messages.append(message))
-    yield messages
-    stop()
 
 
 def watch(seconds: float = 0, *, at_work: tuple[str, ...] = (), since: datetime = LONG_AGO) -> None:
@@ -178,7 +169,7 @@ def test_a_thousand_alerts_at_once_are_few_statements_and_one_message(
         watch(700)
     assert DeviceAlert.objects.filter(code="offline", over_at=None).count() == 1000
     assert len(statements) < 30
-    assert heard == [{"type": "alerts"}]
+    assert heard == [("hall", {"type": "alerts"})]
 
 
 def _copy(row: Device, key: str) -> Device:
@@ -189,7 +180,7 @@ def test_only_what_changed_is_told_live(mixer: str, heard: list[Any], django_cap
     with django_capture_on_commit_callbacks(execute=True):
         say(props={"error": "Jam"})
         watch(1)
-    (told,) = [m["alert"] for m in heard if m["type"] == "alert"]
+    (told,) = [m["alert"] for _, m in heard if m["type"] == "alert"]
     assert {key: told[key] for key in ("device", "code", "severity", "text", "count", "state", "seen_by")} == {
         "device": "mixer1", "code": "error", "severity": "error", "text": "It reports an error: Jam", "count": 1,
         "state": "open", "seen_by": "",
@@ -219,19 +210,13 @@ def test_what_happens_again_long_after_it_was_seen_is_unseen(mixer: str, person:
     assert alerts("open") == [("command_failed", "", 3)]
 
 
-def client_of(person: Callable[[str], User], role: str) -> Client:
-    client = Client()
-    client.force_login(person(role))
-    return client
-
-
 def test_who_may_look_at_alerts_and_say_that_they_were_seen(mixer: str, person: Callable[[str], User]) -> None:
     services.raise_alert(device_id=mixer, code="error", at=NOW, args={"why": "Jam"})
     key = services.list_alerts(site="hall")[0].id
     one, every = f"/api/alerts/{key}/seen", f"{ALERTS}/seen"
     signed_out = Client()
     assert [signed_out.get(ALERTS).status_code, signed_out.post(one).status_code] == [401, 401]
-    stranger, viewer = client_of(person, "stranger"), client_of(person, "viewer")
+    stranger, viewer = signed_in("stranger"), signed_in("viewer")
     found = [stranger.get(ALERTS), stranger.post(one), stranger.post(every), viewer.post("/api/alerts/999999/seen")]
     assert [answer.status_code for answer in found] == [404] * 4
     assert [viewer.get(ALERTS).status_code, viewer.post(one).status_code, viewer.post(every).status_code] == [
@@ -239,7 +224,7 @@ def test_who_may_look_at_alerts_and_say_that_they_were_seen(mixer: str, person: 
     ]  # fmt: skip
     assert DeviceAlert.objects.filter(seen_at=None).count() == 1
     for role in ROLES[1:]:
-        client = client_of(person, role)
+        client = signed_in(role)
         assert [client.post(one).json()["seen_by"], client.post(every).json()[0]["seen_by"]] == ["Operator Person"] * 2
         assert client.get(f"{ALERTS}?state=open").json() == []
         assert [a["text"] for a in client.get(f"{ALERTS}?state=seen").json()] == ["It reports an error: Jam"]
@@ -250,7 +235,7 @@ def test_what_only_concerns_admins_is_theirs_alone(mixer: str, person: Callable[
     services.raise_alert(device_id=mixer, code="newcomer_waits", at=NOW)
     key = services.list_alerts(site="hall")[0].id
     for role, count, status in (("viewer", 0, 404), ("operator", 0, 404), ("author", 0, 404), ("admin", 1, 200)):
-        client = client_of(person, role)
+        client = signed_in(role)
         assert (len(client.get(ALERTS).json()), client.post(f"/api/alerts/{key}/seen").status_code) == (count, status)
 
 

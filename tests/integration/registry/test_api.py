@@ -12,25 +12,14 @@ from django.test import Client
 
 from registry import services
 from registry.models import Membership, Site, User
+from tests.kit.sign_in import PASSWORD, ROLES, signed_in
+from tests.kit.sites import MIXER, NOW, come, describe, say
 from vipo_device.descriptions.forms import CONTENT_TYPES
 from vipo_device.descriptions.reader import read_description
-
-from .conftest import MIXER, NOW, PASSWORD, ROLES, come, describe, say
 
 YAML = b"image: a.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\n"
 IMAGE = b"P5 2 2 255\n" + bytes([254, 0, 205, 254])
 EVERYBODY = (*ROLES, "stranger", "nobody")
-
-
-@pytest.fixture
-def browser(hall: str) -> Callable[[str], Client]:
-    def make(name: str) -> Client:
-        client = Client()
-        if name != "nobody":
-            client.force_login(User.objects.get(email=f"{name}@vipo.example"))
-        return client
-
-    return make
 
 
 def sign_in(client: Client, email: str, password: str, **headers: str) -> Any:
@@ -95,36 +84,36 @@ READ = (
 
 
 @pytest.mark.parametrize("path", READ)
-def test_every_member_may_look_and_strangers_learn_nothing(browser: Callable[[str], Client], path: str) -> None:
+def test_every_member_may_look_and_strangers_learn_nothing(hall: str, path: str) -> None:
     describe()
-    answers = {name: browser(name).get(f"/api/sites/hall{path}").status_code for name in EVERYBODY}
+    answers = {name: signed_in(name).get(f"/api/sites/hall{path}").status_code for name in EVERYBODY}
     assert answers == {**dict.fromkeys(ROLES, 200), "stranger": 404, "nobody": 401}
-    hidden = browser("stranger").get(f"/api/sites/hall{path}").json()["detail"]
-    assert hidden == browser("stranger").get(f"/api/sites/missing{path}").json()["detail"]
+    hidden = signed_in("stranger").get(f"/api/sites/hall{path}").json()["detail"]
+    assert hidden == signed_in("stranger").get(f"/api/sites/missing{path}").json()["detail"]
 
 
 @pytest.mark.parametrize(("method", "path"), [("post", "/approve"), ("post", "/reject"), ("patch", "")])
-def test_only_admins_decide_about_devices(browser: Callable[[str], Client], method: str, path: str) -> None:
+def test_only_admins_decide_about_devices(hall: str, method: str, path: str) -> None:
     describe()
     address, body = f"/api/sites/hall/devices/mixer1{path}", json.dumps({"name": "Mine"})
     answers = {}
     for name in ("stranger", "nobody", "viewer", "operator", "author"):
-        call = getattr(browser(name), method)
+        call = getattr(signed_in(name), method)
         answers[name] = call(address, body, content_type="application/json").status_code
     assert answers == {"stranger": 404, "nobody": 401, "viewer": 403, "operator": 403, "author": 403}
     device = services.get_device(site="hall", device_id="mixer1")
     assert (device.lifecycle, device.name) == ("pending", "Mixer One")
-    assert getattr(browser("admin"), method)(address, body, content_type="application/json").status_code == 200
+    assert getattr(signed_in("admin"), method)(address, body, content_type="application/json").status_code == 200
 
 
-def test_a_refusal_says_which_role_is_needed(browser: Callable[[str], Client]) -> None:
+def test_a_refusal_says_which_role_is_needed(hall: str) -> None:
     describe()
-    answer = browser("viewer").post("/api/sites/hall/devices/mixer1/approve")
+    answer = signed_in("viewer").post("/api/sites/hall/devices/mixer1/approve")
     assert answer.json()["code"] == "not_allowed"
     assert answer.json()["detail"] == "You are viewer of this site; this needs the role admin. Ask an admin for it."
 
 
-def test_a_member_sees_their_sites_with_counts(browser: Callable[[str], Client]) -> None:
+def test_a_member_sees_their_sites_with_counts(hall: str) -> None:
     describe()
     services.create_site(name="Other")
     expected = {
@@ -139,19 +128,19 @@ def test_a_member_sees_their_sites_with_counts(browser: Callable[[str], Client])
         "stop": {"active": False, "by": "", "at": None},
         "simulated": False,
     }
-    assert browser("author").get("/api/sites").json() == [expected]
-    assert browser("stranger").get("/api/sites").json() == []
+    assert signed_in("author").get("/api/sites").json() == [expected]
+    assert signed_in("stranger").get("/api/sites").json() == []
     services.approve_device(site="hall", device_id="mixer1", by=None, at=NOW)
     come()
     services.set_site_stop(site="hall", active=True, by="Ada", at=NOW)
-    now = browser("author").get("/api/sites/hall").json()
+    now = signed_in("author").get("/api/sites/hall").json()
     assert (now["machines"], now["online"], now["pending"], now["simulated"]) == (1, 1, 0, True)
     assert now["stop"] == {"active": True, "by": "Ada", "at": "2026-11-21T12:00:00+00:00"}
 
 
-def test_the_map_comes_as_facts_cells_and_ros_files(browser: Callable[[str], Client]) -> None:
+def test_the_map_comes_as_facts_cells_and_ros_files(hall: str) -> None:
     services.save_places(site="hall", places=[services.PlaceView("dock1", "Dock 1", "dock", 1.0, 2.0, 0.5)])
-    client = browser("viewer")
+    client = signed_in("viewer")
     assert client.get("/api/sites/hall/map").json() == {
         "version": 1,
         "width": 4,
@@ -173,18 +162,18 @@ def upload(client: Client, **files: Any) -> Any:
     return client.post("/api/sites", {"name": "Second  Hall", **files})
 
 
-def test_a_site_is_made_from_a_ros_map_and_its_maker_is_admin(browser: Callable[[str], Client]) -> None:
-    client = browser("stranger")
+def test_a_site_is_made_from_a_ros_map_and_its_maker_is_admin(hall: str) -> None:
+    client = signed_in("stranger")
     for slug in ("second-hall", "second-hall-2"):
         answer = upload(client, yaml=SimpleUploadedFile("m.yaml", YAML), image=SimpleUploadedFile("a.pgm", IMAGE))
         assert answer.status_code == 201
         assert (answer.json()["slug"], answer.json()["role"], answer.json()["name"]) == (slug, "admin", "Second Hall")
     assert client.get("/api/sites/second-hall/map").json()["width"] == 2
-    assert browser("admin").get("/api/sites/second-hall").status_code == 404
+    assert signed_in("admin").get("/api/sites/second-hall").status_code == 404
 
 
-def test_a_broken_map_makes_no_site(browser: Callable[[str], Client]) -> None:
-    client, before = browser("author"), Site.objects.count()
+def test_a_broken_map_makes_no_site(hall: str) -> None:
+    client, before = signed_in("author"), Site.objects.count()
     bad = upload(client, yaml=SimpleUploadedFile("m.yaml", YAML), image=SimpleUploadedFile("a.pgm", b"P5 9 9 255\n1"))
     assert (bad.status_code, bad.json()["code"]) == (422, "bad_map")
     assert bad.json()["detail"] == "The PGM ends early: 1 of 81 cells. Copy the whole file again."
@@ -205,12 +194,12 @@ def test_nobody_uploads_without_a_session(hall: str) -> None:
     assert Site.objects.count() == 1
 
 
-def test_a_device_is_shown_as_the_contract_says(browser: Callable[[str], Client]) -> None:
+def test_a_device_is_shown_as_the_contract_says(hall: str) -> None:
     describe()
     come()
     say(seq=3, props={"jobStatus": 10})
-    body = browser("viewer").get("/api/sites/hall/devices").json()[0]
-    assert body == browser("viewer").get("/api/sites/hall/devices/mixer1").json()
+    body = signed_in("viewer").get("/api/sites/hall/devices").json()[0]
+    assert body == signed_in("viewer").get("/api/sites/hall/devices/mixer1").json()
     assert body["status"] == "pending"
     assert body["location"] == {"x": 2.0, "y": 2.0, "z": 0.0, "theta": 0.0}
     assert body["properties"][0]["value"] == 10
@@ -224,9 +213,9 @@ def test_a_device_is_shown_as_the_contract_says(browser: Callable[[str], Client]
     assert set(body) == contract
 
 
-def test_a_device_is_renamed_and_moved(browser: Callable[[str], Client]) -> None:
+def test_a_device_is_renamed_and_moved(hall: str) -> None:
     describe()
-    client = browser("admin")
+    client = signed_in("admin")
     body = {"name": "New name", "location": {"x": 1, "y": 2}}
     answer = client.patch("/api/sites/hall/devices/mixer1", json.dumps(body), content_type="application/json")
     assert (answer.json()["name"], answer.json()["location"]["y"]) == ("New name", 2.0)
@@ -241,49 +230,49 @@ def test_a_device_is_renamed_and_moved(browser: Callable[[str], Client]) -> None
     assert far.status_code == 422
 
 
-def test_a_decided_device_is_not_decided_again(browser: Callable[[str], Client]) -> None:
+def test_a_decided_device_is_not_decided_again(hall: str) -> None:
     describe()
-    client = browser("admin")
+    client = signed_in("admin")
     assert client.post("/api/sites/hall/devices/mixer1/approve").json()["lifecycle"] == "approved"
     assert client.post("/api/sites/hall/devices/mixer1/reject").status_code == 409
     assert client.post("/api/sites/hall/devices/nothing/approve").status_code == 404
 
 
 @pytest.mark.parametrize("form", ["turtle", "n-triples", "json-ld", "td", "paper"])
-def test_a_description_can_be_had_in_every_form(browser: Callable[[str], Client], form: str) -> None:
+def test_a_description_can_be_had_in_every_form(hall: str, form: str) -> None:
     describe()
     path = f"/api/sites/hall/devices/mixer1/rdf?format={form}"
-    answer = browser("viewer").get(path)
+    answer = signed_in("viewer").get(path)
     assert read_description(answer.content) == MIXER
     assert answer["Content-Type"] == f"{CONTENT_TYPES[form]}; charset=utf-8"
     assert answer["X-Content-Type-Options"] == "nosniff"
-    codes = {name: browser(name).get(path).status_code for name in EVERYBODY}
+    codes = {name: signed_in(name).get(path).status_code for name in EVERYBODY}
     assert codes == {**dict.fromkeys(ROLES, 200), "stranger": 404, "nobody": 401}
 
 
-def test_a_form_that_there_is_not_is_refused(browser: Callable[[str], Client]) -> None:
+def test_a_form_that_there_is_not_is_refused(hall: str) -> None:
     describe()
-    answer = browser("viewer").get("/api/sites/hall/devices/mixer1/rdf?format=xml")
+    answer = signed_in("viewer").get("/api/sites/hall/devices/mixer1/rdf?format=xml")
     assert (answer.status_code, answer.json()["code"]) == (422, "bad_request")
-    assert browser("stranger").get("/api/sites/hall/devices/mixer1/rdf?format=xml").status_code in (404, 422)
+    assert signed_in("stranger").get("/api/sites/hall/devices/mixer1/rdf?format=xml").status_code in (404, 422)
 
 
-def test_a_thing_links_to_the_broker(browser: Callable[[str], Client], settings: Any) -> None:
+def test_a_thing_links_to_the_broker(hall: str, settings: Any) -> None:
     describe()
     settings.VIPO_BROKER_URL = "mqtts://broker.example:8883/"
-    thing = browser("viewer").get("/api/sites/hall/devices/mixer1/rdf?format=td").json()
+    thing = signed_in("viewer").get("/api/sites/hall/devices/mixer1/rdf?format=td").json()
     assert thing["actions"]["mix"]["forms"][0]["href"] == "mqtts://broker.example:8883/vipo/v1/dev/mixer1/down/mix"
 
 
-def test_a_site_without_a_map_says_so(browser: Callable[[str], Client], person: Callable[[str], User]) -> None:
+def test_a_site_without_a_map_says_so(hall: str, person: Callable[[str], User]) -> None:
     services.create_site(name="Bare", slug="bare", admin=person("author"))
-    answer = browser("author").get("/api/sites/bare/map")
+    answer = signed_in("author").get("/api/sites/bare/map")
     assert (answer.status_code, answer.json()["code"]) == (404, "no_map")
 
 
-def test_characters_that_no_name_has_are_refused(browser: Callable[[str], Client]) -> None:
+def test_characters_that_no_name_has_are_refused(hall: str) -> None:
     describe()
-    client = browser("admin")
+    client = signed_in("admin")
     for path in ("/sites/ha%00ll", "/sites/hall/devices/mixer1%00", "/sites/hall/devices/a%00/events"):
         assert client.get(f"/api{path}").status_code == 404
     assert client.post("/api/sites/hall/devices/mixer%00/approve").status_code == 404
@@ -294,7 +283,7 @@ def test_characters_that_no_name_has_are_refused(browser: Callable[[str], Client
 
 
 @pytest.mark.parametrize("path", ["/api/nothing", "/api/runs/x/events", "/ws/nothing"])
-def test_a_call_that_does_not_exist_is_told_as_a_problem(browser: Callable[[str], Client], path: str) -> None:
-    answer = browser("viewer").get(path)
+def test_a_call_that_does_not_exist_is_told_as_a_problem(hall: str, path: str) -> None:
+    answer = signed_in("viewer").get(path)
     assert (answer.status_code, answer.headers["Content-Type"]) == (404, "application/problem+json")
     assert answer.json()["detail"] == "There is no such call. See docs/api.md."

@@ -3,33 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from datetime import timedelta
 from typing import Any
 
 import pytest
-from django.test import Client
 
 from registry import services
 from registry.devices.authentication import Login
-from registry.models import Device, User
+from registry.models import Device
 from registry.services import BadDevice, NotApproved, NotRetired
+from tests.kit.sign_in import signed_in
+from tests.kit.sites import NOW, approve, come, describe, may_come_in, say
 from vipo_device.protocol.credentials import secret_hash
 from vipo_device.protocol.messages import BadMessage
 
-from .conftest import NOW, come, describe, say
-
 KEY, OTHER, JOIN = "k" * 32, "o" * 32, "j" * 32
 WHO: dict[str, Any] = {"site": "hall", "device_id": "mixer1", "by": None, "at": NOW}
-
-
-def may_come_in(key: str, device_id: str = "mixer1") -> bool:
-    return services.check_device_password(username=device_id, password=key) is not None
-
-
-def approve() -> str:
-    describe()
-    return str(services.approve_device(**WHO).credential)
 
 
 def test_a_newcomer_with_the_join_key_gets_a_key_of_its_own_at_approval(hall: str) -> None:
@@ -177,38 +166,27 @@ def test_an_error_begins_and_ends_in_the_history(hall: str) -> None:
     assert [e.text for e in events[:2]] == ["Reports no error any more", "Reports an error: Nozzle blocked"]
 
 
-@pytest.fixture
-def browser(person: Callable[[str], User]) -> Callable[[str], Client]:
-    def sign_in(name: str) -> Client:
-        client = Client()
-        if name != "nobody":
-            client.force_login(person(name))
-        return client
-
-    return sign_in
-
-
 CALLS = (("post", "/retire"), ("post", "/credential"), ("delete", "/credential"), ("post", "/readmit"))
 
 
 @pytest.mark.parametrize(("method", "path"), CALLS)
-def test_only_admins_decide_about_keys(browser: Callable[[str], Client], method: str, path: str) -> None:
+def test_only_admins_decide_about_keys(hall: str, method: str, path: str) -> None:
     key = approve()
     if path == "/readmit":
         services.retire_device(**WHO)
     address = f"/api/sites/hall/devices/mixer1{path}"
-    answers = {n: getattr(browser(n), method)(address).status_code for n in ("stranger", "nobody", *ROLES_BELOW)}
+    answers = {n: getattr(signed_in(n), method)(address).status_code for n in ("stranger", "nobody", *ROLES_BELOW)}
     assert answers == {"stranger": 404, "nobody": 401, **dict.fromkeys(ROLES_BELOW, 403)}
     assert may_come_in(key) == (path != "/readmit")
-    assert getattr(browser("admin"), method)(address).status_code == 200
+    assert getattr(signed_in("admin"), method)(address).status_code == 200
 
 
 ROLES_BELOW = ("viewer", "operator", "author")
 
 
-def test_a_key_is_told_once_and_not_kept_by_browsers(browser: Callable[[str], Client]) -> None:
+def test_a_key_is_told_once_and_not_kept_by_browsers(hall: str) -> None:
     describe()
-    admin = browser("admin")
+    admin = signed_in("admin")
     answer = admin.post("/api/sites/hall/devices/mixer1/approve")
     assert answer["Cache-Control"] == "no-store"
     assert may_come_in(answer.json()["credential"])

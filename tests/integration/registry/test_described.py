@@ -2,42 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
-from datetime import timedelta
 from typing import Any
 
-import pytest
 from django.db import connection
 from django.test.utils import CaptureQueriesContext
 
 from registry import services
-from registry.live import fanout
 from registry.models import Device, DeviceEvent
 from registry.services import BadDevice, DescriptionMessage, DeviceView
+from tests.kit.sites import LATER, MIXER, NOW, ROBOT, come, describe, describe_later
 from vipo_device.descriptions.forms import BadDescription
-from vipo_device.descriptions.reader import write_description
-from vipo_device.protocol.description import Description
-
-from .conftest import MIXER, NOW, ROBOT, come, describe
-
-LATER = NOW + timedelta(minutes=1)
-
-
-def said(description: Description, device_id: str = "", form: str = "turtle") -> DescriptionMessage:
-    return DescriptionMessage(device_id or description.id, write_description(description, form).encode(), LATER)
 
 
 def many(count: int, name: str) -> list[DescriptionMessage]:
-    return [said(replace(MIXER, id=f"mixer{n:02}", name=f"{name} {n}", methods=())) for n in range(count)]
-
-
-@pytest.fixture
-def heard(hall: str) -> Iterator[list[Any]]:
-    messages: list[Any] = []
-    stop = fanout.listen(lambda slug, message: messages.append((slug, message)))
-    yield messages
-    stop()
+    return [describe_later(replace(MIXER, id=f"mixer{n:02}", name=f"{name} {n}", methods=())) for n in range(count)]
 
 
 def test_each_description_has_its_own_fate(heard: list[Any], django_capture_on_commit_callbacks: Any) -> None:
@@ -47,11 +26,11 @@ def test_each_description_has_its_own_fate(heard: list[Any], django_capture_on_c
     with django_capture_on_commit_callbacks(execute=True):
         fates = services.ingest_descriptions(
             descriptions=[
-                said(newcomer),
+                describe_later(newcomer),
                 DescriptionMessage("robot1", b"not RDF", LATER),
-                said(MIXER, "foreign"),
-                said(replace(MIXER, name="Mixer New"), form="td"),
-                said(replace(MIXER, id="server")),
+                describe_later(MIXER, "foreign"),
+                describe_later(replace(MIXER, name="Mixer New"), form="td"),
+                describe_later(replace(MIXER, id="server")),
             ]
         )
     fresh, broken, foreign, changed, reserved = fates
@@ -91,7 +70,7 @@ def test_one_that_the_registry_refuses_while_it_is_kept_spoils_no_other(hall: st
     settings.VIPO_DEFAULT_SITE = ""
     homeless = replace(MIXER, id="shy", site="nowhere", methods=())
     shy, stranger, fine = services.ingest_descriptions(
-        descriptions=[said(homeless), said(replace(homeless, id="stranger")), said(MIXER)]
+        descriptions=[describe_later(homeless), describe_later(replace(homeless, id="stranger")), describe_later(MIXER)]
     )
     assert isinstance(shy, BadDevice)
     assert isinstance(stranger, BadDevice)
@@ -115,7 +94,7 @@ def test_what_changed_besides_is_not_overwritten(hall: str) -> None:
     describe()
     come()
     Device.objects.filter(pk="mixer1").update(name_override="Ada's mixer", properties={"jobStatus": 3}, dropped=2)
-    (view,) = services.ingest_descriptions(descriptions=[said(replace(MIXER, capacity=4))])
+    (view,) = services.ingest_descriptions(descriptions=[describe_later(replace(MIXER, capacity=4))])
     assert isinstance(view, DeviceView)
     assert (view.name, view.canonical.capacity, view.online, view.dropped) == ("Ada's mixer", 4, True, 2)
     assert dict(view.readings) == {"jobStatus": 3}

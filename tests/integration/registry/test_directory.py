@@ -13,9 +13,9 @@ from django.test import Client
 
 from registry import services
 from registry.models import Device
+from tests.kit.sign_in import PASSWORD, ROLES
+from tests.kit.sites import MIXER, describe
 from vipo_device.descriptions.td_schema import check_thing
-
-from .conftest import MIXER, PASSWORD, ROLES, describe
 
 URN = "urn:vipo:device:"
 PATCH = "application/merge-patch+json"

@@ -8,15 +8,14 @@ from datetime import timedelta
 from typing import Any
 
 import pytest
-from django.test import Client
 
 from registry import services
 from registry.devices import samples
 from registry.devices.samples import Bucket, SampleBuffer
-from registry.models import Device, Sample, User
+from registry.models import Device, Sample
+from tests.kit.sign_in import ROLES, signed_in
+from tests.kit.sites import MIXER, NOW, come, describe, say
 from vipo_device.protocol.description import PropertySpec
-
-from .conftest import MIXER, NOW, ROLES, come, describe, say
 
 OVEN = replace(MIXER, properties=(PropertySpec("heat", "number", "DEG_C"), PropertySpec("lid", "text")))
 HISTORY = "/api/sites/hall/devices/mixer1/history"
@@ -153,9 +152,7 @@ def test_every_member_may_read_what_was(oven: str, role: str) -> None:
     talk = Talk()
     talk(0, heat=20.5)
     services.flush_samples(all_of_it=True)
-    client = Client()
-    if role != "nobody":
-        client.force_login(User.objects.get(email=f"{role}@vipo.example"))
+    client = signed_in(role)
     answer = client.get(HISTORY, {"property": "heat", "since": NOW.isoformat()})
     assert answer.status_code == {"stranger": 404, "nobody": 401}.get(role, 200)
     if role in ROLES:
@@ -163,8 +160,7 @@ def test_every_member_may_read_what_was(oven: str, role: str) -> None:
 
 
 def test_a_property_that_is_not_there_is_refused_by_name(oven: str) -> None:
-    client = Client()
-    client.force_login(User.objects.get(email="viewer@vipo.example"))
+    client = signed_in("viewer")
     answer = client.get(HISTORY, {"property": "smell"})
     told = "Mixer One has no property 'smell'. It has: heat, lid."
     assert (answer.status_code, answer.json()["detail"]) == (422, told)

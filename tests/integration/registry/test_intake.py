@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from dataclasses import replace
 from datetime import timedelta
 from typing import Any
@@ -12,13 +11,11 @@ import pytest
 
 from registry import services
 from registry.devices.views import changed_fields, changed_state
-from registry.live import fanout
 from registry.models import Device, DeviceEvent
 from registry.services import StateMessage
+from tests.kit.sites import MIXER, NOW, ROBOT, come, describe
 from vipo_device.descriptions.reader import write_description
 from vipo_device.protocol.messages import BadMessage
-
-from .conftest import MIXER, NOW, ROBOT, come, describe
 
 
 def state(seq: int, **more: Any) -> bytes:
@@ -27,14 +24,6 @@ def state(seq: int, **more: Any) -> bytes:
 
 def said(device_id: str, payload: bytes, *, retained: bool = False) -> StateMessage:
     return StateMessage(device_id, payload, NOW, retained)
-
-
-@pytest.fixture
-def heard(hall: str) -> Iterator[list[Any]]:
-    messages: list[Any] = []
-    stop = fanout.listen(lambda slug, message: messages.append((slug, message)))
-    yield messages
-    stop()
 
 
 @pytest.fixture

@@ -1,9 +1,8 @@
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import timedelta
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,27 +10,18 @@ import pytest
 from registry import services
 from registry.devices import descriptions
 from registry.devices.enrolment import MOST_PENDING
-from registry.live import fanout
 from registry.models import Device, DeviceEvent, Site, User
 from registry.services import BadDevice, NoSuchDevice, NotPending, Principal
+from tests.kit.files import FIGURE_5
+from tests.kit.sites import MIXER, NOW, ROBOT, come, describe, say
 from vipo_device.descriptions.forms import CONTENT_TYPES, FORMS, BadDescription
 from vipo_device.descriptions.reader import read, write_description
 from vipo_device.protocol.credentials import secret_hash
 from vipo_device.protocol.description import MethodSpec, Pose
 from vipo_device.protocol.messages import BadMessage
 
-from .conftest import MIXER, NOW, ROBOT, come, describe, say
-
 KEY = "k" * 32
 JOIN = "j" * 32
-
-
-@pytest.fixture
-def heard(hall: str) -> Iterator[list[Any]]:
-    messages: list[Any] = []
-    stop = fanout.listen(lambda slug, message: messages.append((slug, message)))
-    yield messages
-    stop()
 
 
 def test_an_unknown_device_becomes_pending_and_is_shown(
@@ -108,7 +98,7 @@ def test_what_was_mended_is_told_once_and_news_of_values_are_no_change(hall: str
 
 
 def test_all_that_was_mended_stands_in_the_history(hall: str) -> None:
-    figure = (Path(__file__).parents[2] / "fixtures" / "figure-5.txt").read_bytes() + b"site: hall\n"
+    figure = FIGURE_5 + b"site: hall\n"
     services.ingest_description(device_id="paintMixer02", payload=figure, at=NOW)
     events = services.list_device_events(site="hall", device_id="paintMixer02")
     assert [e.kind for e in events] == ["mended", "mended", "mended", "described"]

@@ -8,18 +8,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from django.test import Client
 from django.utils import timezone
 from lxml import etree
 
 from registry import services
 from registry.devices import samples
 from registry.devices.samples import SampleBuffer
-from registry.models import Device, User
+from registry.models import Device
 from registry.mtconnect.data_items import MEASURES
+from tests.kit.sign_in import ROLES, signed_in
+from tests.kit.sites import MIXER, ROBOT, come, describe, say
 from vipo_device.protocol.description import PropertySpec
-
-from .conftest import MIXER, ROBOT, ROLES, come, describe, say
 
 SCHEMAS = Path(__file__).parents[2] / "fixtures" / "mtconnect"
 ADDRESS = "/api/sites/hall/mtconnect"
@@ -37,8 +36,7 @@ class Plant:
     """A site with one device, 7.a, that can be made to speak."""
 
     def __init__(self) -> None:
-        self.client = Client()
-        self.client.force_login(User.objects.get(email="viewer@vipo.example"))
+        self.client = signed_in("viewer")
         self.seq = 0
 
     def say(self, seconds: float, *, done: bool = True, **readings: Any) -> None:
@@ -242,9 +240,7 @@ def test_a_site_without_devices_says_so(plant: Plant) -> None:
 
 @pytest.mark.parametrize("role", [*ROLES, "stranger", "nobody"])
 def test_every_member_may_read_and_strangers_learn_nothing(plant: Plant, role: str) -> None:
-    client = Client()
-    if role != "nobody":
-        client.force_login(User.objects.get(email=f"{role}@vipo.example"))
+    client = signed_in(role)
     expected = {"stranger": 404, "nobody": 401}.get(role, 200)
     calls = ("probe", "current", "sample", "7.a/probe", "7.a/current", "7.a/sample", "sample?interval=1000")
     answers = [client.get(f"{ADDRESS}/{call}") for call in calls]

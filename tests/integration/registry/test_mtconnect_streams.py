@@ -10,20 +10,19 @@ from typing import Any
 import pytest
 from asgiref.sync import sync_to_async
 from django.contrib.sessions.models import Session as Kept
-from django.test import Client
 from django.utils import timezone
 from lxml import etree
 
 from registry import services
 from registry.devices import samples
 from registry.devices.samples import SampleBuffer
-from registry.models import Device, Membership, User
+from registry.models import Device, Membership
 from registry.mtconnect import agent, streams
 from registry.mtconnect.agent import Question
 from registry.mtconnect.streams import BOUNDARY, Listener, Rhythm, stream_documents
 from registry.people.sessions import Session
-
-from .conftest import come, describe, say
+from tests.kit.sign_in import find_person, signed_in
+from tests.kit.sites import come, describe, say
 
 pytestmark = pytest.mark.django_db(transaction=True)
 ADDRESS = "/api/sites/hall/mtconnect"
@@ -48,8 +47,7 @@ def tell(progress: float) -> None:
 
 
 def listen(*, is_sample: bool = True, heartbeat_s: float = 30.0, device: str = "") -> AsyncIterator[bytes]:
-    client, question = Client(), Question(device)
-    client.force_login(User.objects.get(email="viewer@vipo.example"))
+    client, question = signed_in("viewer"), Question(device)
     session = Session(client.cookies["sessionid"].value, int(client.session["_auth_user_id"]))
     write = agent.sample_of_site if is_sample else agent.current_of_site
     listener = Listener(session, "hall", write, question, is_sample=is_sample)
@@ -128,10 +126,8 @@ async def test_a_stream_ends_when_it_has_sent_enough(mixer: str, monkeypatch: py
 def test_only_so_many_streams_are_open_at_once(
     mixer: str, monkeypatch: pytest.MonkeyPatch, key: str, most: str, told: str
 ) -> None:
-    user = User.objects.get(email="viewer@vipo.example")
-    client = Client()
-    client.force_login(user)
-    key = f"person {user.pk}" if key == "person" else key
+    client = signed_in("viewer")
+    key = f"person {find_person('viewer').pk}" if key == "person" else key
     monkeypatch.setitem(streams._open, key, getattr(streams, most))
     answer = client.get(f"{ADDRESS}/sample?interval=100")
     error = etree.fromstring(answer.content).find(".//{*}Error")

@@ -8,16 +8,16 @@ from datetime import timedelta
 from typing import Any
 
 import pytest
-from django.test import Client, override_settings
+from django.test import override_settings
 from rdflib import Graph
 
 from registry import services
 from registry.devices.enrolment import FORGOTTEN_AFTER, MOST_PENDING, reserve_device
-from registry.models import Device, User
+from registry.models import Device
 from registry.services import BadDevice
+from tests.kit.sign_in import ROLES, post_json, signed_in
+from tests.kit.sites import MIXER, NOW, ROBOT, come, describe, may_come_in
 from vipo_device.descriptions.reader import read_description, write_description
-
-from .conftest import MIXER, NOW, ROBOT, ROLES, come, describe
 
 SITE = "/api/sites/hall"
 CALLS = {
@@ -27,19 +27,8 @@ CALLS = {
 }
 
 
-def signed_in(name: str) -> Client:
-    client = Client()
-    if name != "nobody":
-        client.force_login(User.objects.get(email=f"{name}@vipo.example"))
-    return client
-
-
 def send(who: str, call: str, body: Any = None) -> Any:
-    return signed_in(who).post(f"{SITE}/{call}", CALLS[call] if body is None else body, content_type="application/json")
-
-
-def may_come_in(device: str, key: str) -> bool:
-    return services.check_device_password(username=device, password=key) is not None
+    return post_json(signed_in(who), f"{SITE}/{call}", CALLS[call] if body is None else body)
 
 
 @pytest.mark.parametrize("who", [*ROLES, "stranger", "nobody"])
@@ -58,7 +47,7 @@ def test_admins_add_devices_and_members_look_at_descriptions(hall: str, who: str
 def test_an_added_device_comes_in_with_its_key_and_waits_for_approval(hall: str) -> None:
     told = send("admin", "newcomers").json()
     assert (told["id"], told["site"], told["broker"]) == ("mixer1", "hall", "mqtts://broker.example:8883/")
-    assert may_come_in("mixer1", told["credential"])
+    assert may_come_in(told["credential"], "mixer1")
     assert services.list_devices(site="hall") == ()
     describe()
     (device,) = services.list_devices(site="hall")
@@ -84,11 +73,11 @@ def test_an_added_device_that_comes_before_it_describes_itself_stays_there_too(h
 
 def test_a_second_key_ends_the_first_until_the_device_has_come(hall: str) -> None:
     first, second = (send("admin", "newcomers").json()["credential"] for _ in range(2))
-    assert (may_come_in("mixer1", first), may_come_in("mixer1", second)) == (False, True)
+    assert (may_come_in(first, "mixer1"), may_come_in(second, "mixer1")) == (False, True)
     describe()
     refused = send("admin", "newcomers")
     assert (refused.status_code, refused.json()["code"]) == (422, "bad_device")
-    assert may_come_in("mixer1", second)
+    assert may_come_in(second, "mixer1")
 
 
 def test_ids_of_other_sites_and_ids_that_cannot_be_are_refused(hall: str) -> None:
@@ -96,7 +85,7 @@ def test_ids_of_other_sites_and_ids_that_cannot_be_are_refused(hall: str) -> Non
     services.expect_device(site="yard", device_id="crane", credential="c" * 32, approved=False)
     for name in ("crane", "server", "a/b", "#", "", "x" * 64 + "y"):
         assert send("admin", "newcomers", {"id": name}).status_code == 422, name
-    assert may_come_in("crane", "c" * 32)
+    assert may_come_in("c" * 32, "crane")
 
 
 def test_who_does_not_come_is_forgotten_and_no_more_than_two_hundred_wait(hall: str, person: Any) -> None:
@@ -114,8 +103,8 @@ def test_who_does_not_come_is_forgotten_and_no_more_than_two_hundred_wait(hall: 
 def test_a_new_join_key_ends_the_old_one(hall: str) -> None:
     services.set_enrolment_key(site="hall", key="j" * 32)
     told = send("admin", "join-key").json()
-    assert may_come_in("join:hall", told["join_key"])
-    assert not may_come_in("join:hall", "j" * 32)
+    assert may_come_in(told["join_key"], "join:hall")
+    assert not may_come_in("j" * 32, "join:hall")
 
 
 def test_a_look_at_a_description_says_what_it_is_and_keeps_nothing(hall: str) -> None:

@@ -5,16 +5,14 @@ from __future__ import annotations
 import pytest
 from django.test import Client
 
-from registry.models import User
+from tests.kit.sign_in import signed_in
 
 PROBLEM = "application/problem+json"
 
 
 @pytest.fixture
 def admin(hall: str) -> Client:
-    client = Client(enforce_csrf_checks=True)
-    client.force_login(User.objects.get(email="admin@vipo.example"))
-    return client
+    return signed_in("admin", enforce_csrf_checks=True)
 
 
 @pytest.mark.parametrize("path", ["/api/sites", "/api/sites/hall/mtconnect/probe", "/.well-known/wot", "/events"])
@@ -29,8 +27,7 @@ def test_a_method_that_an_address_does_not_know(path: str) -> None:
 
 
 def test_who_sends_no_token_learns_which_one(hall: str) -> None:
-    client = Client(enforce_csrf_checks=True)
-    client.force_login(User.objects.get(email="admin@vipo.example"))
+    client = signed_in("admin", enforce_csrf_checks=True)
     for refused in (
         client.post("/api/sites/hall/stop"),
         client.patch("/things/a", {}, content_type="application/json"),

@@ -14,10 +14,9 @@ from registry import services
 from registry.floorplan.plan import Grid
 from registry.maps import robot_map_parts
 from registry.models import Device, DeviceEvent, RobotMap, RobotMapDraft, RobotMapPart
+from tests.kit.sites import MIXER, NOW, ROBOT, come, describe
 from tests.unit.robot_agent.agent import RobotGrid, write_grid
 from vipo_device.protocol.messages import BadMessage
-
-from .conftest import MIXER, NOW, ROBOT, come, describe
 
 pytestmark = pytest.mark.django_db
 NOISE = random.Random(3).choices(range(256), k=60_000)

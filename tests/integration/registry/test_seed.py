@@ -11,8 +11,7 @@ from registry import services
 from registry.demo.devices import DEVICES
 from registry.demo.seed import seed_demo
 from registry.models import Device, Membership, SiteMap, User
-
-from .conftest import NOW
+from tests.kit.sites import NOW
 
 pytestmark = pytest.mark.django_db
 SITE = "painting-factory"

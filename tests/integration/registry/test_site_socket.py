@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from typing import Any
@@ -11,7 +12,6 @@ from channels.routing import URLRouter
 from channels.testing import WebsocketCommunicator
 from django.contrib.auth.models import AnonymousUser
 from django.contrib.sessions.backends.db import SessionStore
-from django.test import Client
 from django.urls import path
 
 from registry import services
@@ -19,8 +19,7 @@ from registry.api import site_socket
 from registry.api.site_socket import SiteSocket
 from registry.live import fanout
 from registry.models import User
-
-from .conftest import ROLES
+from tests.kit.sign_in import ROLES, signed_in
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -72,6 +71,7 @@ async def test_strangers_and_the_signed_out_are_closed_with_a_code(person: Calla
 async def test_a_device_is_sent_at_most_ten_times_a_second_and_the_latest_wins(person: Callable[[str], User]) -> None:
     async with opened(await database_sync_to_async(person)("viewer")) as socket:
         await socket.receive_json_from(5)
+        began = time.monotonic()
         for number in range(200):
             fanout.publish("hall", {"type": "device", "device": {"id": "r1", "location": {"x": number}}})
             if number == 7:
@@ -83,7 +83,7 @@ async def test_a_device_is_sent_at_most_ten_times_a_second_and_the_latest_wins(p
             merged |= (await socket.receive_json_from(5))["device"]
             count += 1
         assert merged == {"id": "r1", "location": {"x": 199}, "status": "busy"}
-        assert count <= 9
+        assert count <= (time.monotonic() - began) / 0.1 + 2, "the first and the last come besides"
 
 
 async def test_a_device_that_was_removed_is_not_heard_of_again(person: Callable[[str], User]) -> None:
@@ -109,9 +109,7 @@ async def test_somebody_who_is_no_member_any_more_is_closed_out(person: Callable
 
 
 async def test_who_signs_out_is_closed_out_everywhere_and_others_stay(person: Callable[[str], User]) -> None:
-    browsers = {role: Client() for role in ("viewer", "author")}
-    for role, browser in browsers.items():
-        await database_sync_to_async(browser.force_login)(await database_sync_to_async(person)(role))
+    browsers = {role: await database_sync_to_async(signed_in)(role) for role in ("viewer", "author")}
     sessions = {role: SessionStore(browser.cookies["sessionid"].value) for role, browser in browsers.items()}
     async with (
         opened(await database_sync_to_async(person)("viewer"), session=sessions["viewer"]) as leaving,

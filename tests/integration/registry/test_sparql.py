@@ -15,12 +15,11 @@ from xml.etree import ElementTree
 import pytest
 from django.test import Client
 
-from registry.models import User
 from registry.sparql import queries
 from registry.sparql.engine import Refused, answer, check_query, graph_of_devices
+from tests.kit.sign_in import ROLES, signed_in
+from tests.kit.sites import MIXER, ROBOT, come, describe, say
 from vipo_device.protocol.description import PropertySpec
-
-from .conftest import MIXER, ROBOT, ROLES, come, describe, say
 
 ADDRESS = "/api/sites/hall/sparql"
 NAMES = "SELECT ?id ?name WHERE { ?d dct:identifier ?id ; dct:title ?name } ORDER BY ?id"
@@ -34,13 +33,6 @@ def asked(hall: str) -> Client:
     come()
     say(props={"heat": 61.5})
     return signed_in("viewer")
-
-
-def signed_in(name: str) -> Client:
-    client = Client()
-    if name != "nobody":
-        client.force_login(User.objects.get(email=f"{name}@vipo.example"))
-    return client
 
 
 def values(answer: Any) -> list[tuple[Any, ...]]:
@@ -136,8 +128,7 @@ def test_every_member_may_ask_and_strangers_learn_nothing(
 
 
 def test_a_post_needs_the_token(asked: Client) -> None:
-    client = Client(enforce_csrf_checks=True)
-    client.force_login(User.objects.get(email="viewer@vipo.example"))
+    client = signed_in("viewer", enforce_csrf_checks=True)
     assert client.post(ADDRESS, NAMES, content_type="application/sparql-query").status_code == 403
 
 
@@ -208,7 +199,8 @@ def test_a_hostile_query_is_ended_and_nothing_is_left_of_it(
 
 
 def test_memory_is_limited(asked: Client, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(queries, "CPU_S", 20)
+    monkeypatch.setattr(queries, "CPU_S", 600)
+    monkeypatch.setattr(queries, "WALL_S", 600)
     monkeypatch.setattr(queries, "MEMORY_BYTES", 300_000_000)
     answer = asked.get(ADDRESS, {"query": HOSTILE["texts that double"]})
     told = "The query needs more memory than it may have. Ask for less at once."

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from typing import Any
 
 import pytest
-from django.test import Client
 
 from registry import services
-from registry.models import Device, DeviceEvent, User
+from registry.models import DeviceEvent
+from tests.kit.sign_in import ROLES, signed_in
+from tests.kit.sites import make_mixers
 from vipo_device.descriptions.td_schema import check_thing
 from vipo_device.protocol.description import Pose
-
-from .conftest import MIXER, ROBOT, ROLES, describe
 
 ADDRESS = "/api/sites/hall/things"
 URN = "urn:vipo:device:"
@@ -22,44 +20,33 @@ URN = "urn:vipo:device:"
 
 @pytest.fixture
 def things(hall: str) -> str:
-    for name in ("c", "a", "b"):
-        topic = f"vipo/v1/dev/{name}/down/mix"
-        describe(replace(MIXER, id=name, name=f"Mixer {name}", methods=(replace(MIXER.methods[0], topic=topic),)))
-    Device.objects.update(lifecycle="approved")
-    describe(replace(ROBOT, id="newcomer"))
+    make_mixers("c", "a", "b")
     return hall
 
 
-def client_of(name: str) -> Client:
-    client = Client()
-    if name != "nobody":
-        client.force_login(User.objects.get(email=f"{name}@vipo.example"))
-    return client
-
-
 def test_approved_devices_are_listed_as_valid_things_a_page_at_a_time(things: str) -> None:
-    answer = client_of("viewer").get(ADDRESS, {"limit": 2})
+    answer = signed_in("viewer").get(ADDRESS, {"limit": 2})
     assert answer["Content-Type"] == "application/ld+json"
     assert [thing["id"] for thing in answer.json()] == [f"{URN}a", f"{URN}b"]
     for thing in answer.json():
         check_thing(thing)
     following, rest = answer["Link"].removeprefix("<").split('>; rel="next", ')
     assert rest.startswith(f'<{ADDRESS}>; rel="canonical"; etag="')
-    last = client_of("viewer").get(following)
+    last = signed_in("viewer").get(following)
     assert [thing["title"] for thing in last.json()] == ["Mixer c"]
     assert last["Link"] == rest
 
 
 def test_a_collection_names_its_total_and_the_next_page(things: str) -> None:
-    body = client_of("viewer").get(ADDRESS, {"format": "collection", "limit": 1, "sort_order": "desc"}).json()
+    body = signed_in("viewer").get(ADDRESS, {"format": "collection", "limit": 1, "sort_order": "desc"}).json()
     assert (body["@type"], body["total"], [t["id"] for t in body["members"]]) == ("ThingCollection", 3, [f"{URN}c"])
-    assert client_of("viewer").get(body["next"]).json()["members"][0]["id"] == f"{URN}b"
-    assert client_of("viewer").get(ADDRESS, {"limit": 101}).status_code == 422
+    assert signed_in("viewer").get(body["next"]).json()["members"][0]["id"] == f"{URN}b"
+    assert signed_in("viewer").get(ADDRESS, {"limit": 101}).status_code == 422
 
 
 @pytest.mark.parametrize("thing", ["a", f"{URN}a"])
 def test_a_thing_is_found_by_either_id(things: str, thing: str) -> None:
-    answer = client_of("viewer").get(f"{ADDRESS}/{thing}")
+    answer = signed_in("viewer").get(f"{ADDRESS}/{thing}")
     assert (answer.status_code, answer["Content-Type"]) == (200, "application/td+json")
     assert answer.json()["title"] == "Mixer a"
     check_thing(answer.json())
@@ -67,7 +54,7 @@ def test_a_thing_is_found_by_either_id(things: str, thing: str) -> None:
 
 @pytest.mark.parametrize("role", [*ROLES, "stranger", "nobody"])
 def test_members_look_and_admins_change(things: str, role: str) -> None:
-    client = client_of(role)
+    client = signed_in(role)
     outside = {"stranger": 404, "nobody": 401}.get(role)
     for path in (ADDRESS, f"{ADDRESS}/a", f"{ADDRESS}/events"):
         answer = client.get(path)
@@ -80,7 +67,7 @@ def test_members_look_and_admins_change(things: str, role: str) -> None:
 
 
 def test_a_patch_moves_and_renames_and_null_gives_back_the_own_name(things: str) -> None:
-    admin = client_of("admin")
+    admin = signed_in("admin")
 
     def patch(body: Any) -> Any:
         return admin.patch(f"{ADDRESS}/{URN}a", json.dumps(body), content_type="application/merge-patch+json")
@@ -110,7 +97,7 @@ def test_a_patch_moves_and_renames_and_null_gives_back_the_own_name(things: str)
 )
 def test_what_is_not_for_people_to_change_is_refused(things: str, body: str, told: str) -> None:
     before = DeviceEvent.objects.count()
-    answer = client_of("admin").patch(f"{ADDRESS}/a", body, content_type="application/merge-patch+json")
+    answer = signed_in("admin").patch(f"{ADDRESS}/a", body, content_type="application/merge-patch+json")
     assert (answer.status_code, answer.json()["code"]) == (400, "bad_thing_patch")
     assert answer.json()["detail"].startswith(told)
     assert DeviceEvent.objects.count() == before

@@ -17,14 +17,14 @@ from django.test import Client
 
 from registry import services
 from registry.devices.things import EVENTS, newest_news
-from registry.models import Device, ThingEvent, User
+from registry.models import ThingEvent, User
 from registry.people.sessions import Session
 from registry.thing_directory import event_stream
 from registry.thing_directory.event_stream import Listener, stream_events
+from tests.kit.sign_in import PASSWORD, find_person, signed_in
+from tests.kit.sites import NOW, ROBOT, come, describe, make_mixers, say
 from vipo_device.descriptions.td_schema import check_thing
 from vipo_device.protocol.description import PropertySpec
-
-from .conftest import MIXER, NOW, PASSWORD, ROBOT, come, describe, say
 
 URN = "urn:vipo:device:"
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -32,11 +32,7 @@ pytestmark = pytest.mark.django_db(transaction=True)
 
 @pytest.fixture
 def things(hall: str) -> str:
-    for name in ("a", "b"):
-        topic = f"vipo/v1/dev/{name}/down/mix"
-        describe(replace(MIXER, id=name, name=f"Mixer {name}", methods=(replace(MIXER.methods[0], topic=topic),)))
-    Device.objects.update(lifecycle="approved")
-    describe(replace(ROBOT, id="newcomer"))
+    make_mixers("a", "b")
     return hall
 
 
@@ -176,9 +172,8 @@ async def test_a_stream_ends_when_it_has_sent_enough_and_goes_on_from_there(
 
 
 async def test_only_so_many_streams_are_open_at_once(things: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    viewer = await sync_to_async(User.objects.get)(email="viewer@vipo.example")
-    client = Client()
-    await sync_to_async(client.force_login)(viewer)
+    viewer = await sync_to_async(find_person)("viewer")
+    client = await sync_to_async(signed_in)("viewer")
     for path, person in (("/events", viewer.pk), ("/api/sites/hall/things/events", 0)):
         monkeypatch.setattr(event_stream, "_open", event_stream.Counter({person: event_stream.MOST_STREAMS}))
         answer = await sync_to_async(client.get)(path)

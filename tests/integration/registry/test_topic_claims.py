@@ -7,14 +7,13 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from django.test import Client
 
 from registry import services
 from registry.models import Device, TopicClaim, User
 from registry.services import TopicNotAsked, TopicTaken
+from tests.kit.sign_in import post_json, signed_in
+from tests.kit.sites import MIXER, NOW, approve, describe
 from vipo_device.protocol.description import Description, MethodSpec
-
-from .conftest import MIXER, NOW, describe
 
 TOPIC = "plant/mixer1/start"
 WHO: dict[str, Any] = {"site": "hall", "device_id": "mixer1", "by": None, "at": NOW}
@@ -25,17 +24,12 @@ def asking(topic: str = TOPIC, device: str = "mixer1", **fields: Any) -> Descrip
     return replace(MIXER, id=device, methods=(MethodSpec("mix", topic),), **fields)
 
 
-def approved() -> None:
-    describe(asking())
-    services.approve_device(**WHO)
-
-
 def may_hear() -> frozenset[str]:
     return frozenset(services.list_granted_topics().get("mixer1", ()))
 
 
 def test_a_method_on_a_legacy_topic_can_be_called_once_an_admin_has_confirmed_it(hall: str) -> None:
-    approved()
+    approve(asking())
     before = services.get_device(site="hall", device_id="mixer1")
     assert (before.canonical.methods, [m.topic for m in before.asks]) == ((), [TOPIC])
     after = services.confirm_topic(topic=TOPIC, **WHO)
@@ -62,7 +56,7 @@ def test_only_what_is_asked_for_can_be_confirmed_and_only_of_devices_that_take_p
 
 
 def test_another_device_cannot_ask_for_the_topic_wherever_it_stands(hall: str) -> None:
-    approved()
+    approve(asking())
     services.create_site(name="Other", slug="other")
     for site in ("hall", "other"):
         with pytest.raises(TopicTaken):
@@ -81,7 +75,7 @@ def test_another_device_cannot_ask_for_the_topic_wherever_it_stands(hall: str) -
     "change", [asking("plant/mixer1/other"), replace(asking(), methods=(MethodSpec("go", TOPIC),))]
 )
 def test_a_description_that_changes_the_topic_loses_the_confirmation(hall: str, change: Description) -> None:
-    approved()
+    approve(asking())
     services.confirm_topic(topic=TOPIC, **WHO)
     describe(replace(asking(), name="Renamed"))
     assert may_hear() == {TOPIC}
@@ -91,7 +85,7 @@ def test_a_description_that_changes_the_topic_loses_the_confirmation(hall: str, 
 
 
 def test_retirement_ends_the_confirmation_and_readmission_does_not_bring_it_back(hall: str) -> None:
-    approved()
+    approve(asking())
     services.confirm_topic(topic=TOPIC, **WHO)
     services.retire_device(**WHO)
     assert (may_hear(), TopicClaim.objects.count()) == (frozenset(), 0)
@@ -101,16 +95,13 @@ def test_retirement_ends_the_confirmation_and_readmission_does_not_bring_it_back
 
 @pytest.mark.parametrize("what", ["confirm", "withdraw"])
 def test_only_admins_decide_about_topics(person: Callable[[str], User], what: str) -> None:
-    approved()
+    approve(asking())
     if what == "withdraw":
         services.confirm_topic(topic=TOPIC, **WHO)
 
     def ask(name: str) -> int:
-        client = Client()
-        if name != "nobody":
-            client.force_login(person(name))
-        address = f"/api/sites/hall/devices/mixer1/topics/{what}"
-        return client.post(address, {"topic": TOPIC}, content_type="application/json").status_code
+        answer = post_json(signed_in(name), f"/api/sites/hall/devices/mixer1/topics/{what}", {"topic": TOPIC})
+        return int(answer.status_code)
 
     answers = {name: ask(name) for name in ("stranger", "nobody", *ROLES_BELOW)}
     assert answers == {"stranger": 404, "nobody": 401, **dict.fromkeys(ROLES_BELOW, 403)}

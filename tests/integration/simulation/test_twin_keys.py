@@ -18,8 +18,9 @@ from registry.models import DeviceEvent
 from simulation.management.commands.twin import connections
 from simulation.site_facts import demo_facts
 from simulation.twin import Twin, TwinPlan
-from tests.integration.wire.bus import JOIN, SITE, Bus, wait
+from tests.integration.wire.bus import JOIN, SITE, Bus
 from tests.integration.wire.conftest import bus, database, empty_database, gateway
+from tests.kit.waiting import wait_for
 
 __all__ = ["bus", "database", "empty_database", "gateway"]
 pytestmark = [pytest.mark.servers, pytest.mark.parametrize("bus", ["amqtt"], indirect=True)]
@@ -40,7 +41,7 @@ def keys(bus: Bus, gateway: Gateway, tmp_path: Path, monkeypatch: pytest.MonkeyP
     thread = threading.Thread(target=twin.run, args=(stopping,))
     thread.start()
     try:
-        wait("the oven", is_here)
+        wait_for("the oven", is_here)
         yield file
     finally:
         stopping.set()
@@ -68,12 +69,12 @@ def kept(file: Path) -> str:
 
 def test_a_device_that_may_come_back_knocks_with_a_fresh_key_and_goes_on(keys: Path) -> None:
     decide(services.retire_device)
-    wait("a knock while it is out", lambda: (keys.parent / "devices-spare.json").exists())
+    wait_for("a knock while it is out", lambda: (keys.parent / "devices-spare.json").exists())
     assert kept(keys) == KEY
     decide(services.readmit_device)
-    wait("the device", is_here, 40)
+    wait_for("the device", is_here, 40)
     assert services.find_device(device_id=OVEN).lifecycle == "pending"  # type: ignore[union-attr]
-    wait("its key", lambda: kept(keys) != KEY)
+    wait_for("its key", lambda: kept(keys) != KEY)
     assert services.check_device_password(username=OVEN, password=KEY) is None
     decided = decide(services.approve_device)
     assert (decided.taken, kept(keys)) == (True, decided.credential)
@@ -83,10 +84,10 @@ def test_a_device_that_may_come_back_knocks_with_a_fresh_key_and_goes_on(keys: P
 def test_a_new_key_is_taken_and_a_revoked_one_waits_for_one_written_by_hand(keys: Path) -> None:
     new = decide(services.rotate_credential)
     assert (new.taken, kept(keys)) == (True, new.credential)
-    wait("the device with its new key", is_here, 40)
+    wait_for("the device with its new key", is_here, 40)
     decide(services.revoke_credential)
-    wait("the end", has_left)
+    wait_for("the end", has_left)
     told = decide(services.rotate_credential)
     assert not told.taken
     keys.write_text(json.dumps({**json.loads(keys.read_text()), OVEN: told.credential}))
-    wait("the device with the key from the file", is_here, 40)
+    wait_for("the device with the key from the file", is_here, 40)

@@ -7,7 +7,6 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from math import hypot, pi
-from pathlib import Path
 
 import pytest
 
@@ -16,10 +15,10 @@ from registry.demo.factory import make_grid, read_plan
 from registry.floorplan.plan import stations
 from simulation.services import DriverName, make_world
 from simulation.world import Ack, Contact, Fault, PropertyChanged, Scene, World, WorldEvent
+from tests.kit.files import ROOT
 from tests.unit.simulation.stage_set import MACHINES, ROBOT, hall, robot, scene
 from vipo_device.protocol.description import Pose
 
-ROOT = Path(__file__).resolve().parents[3]
 AT_SHELF, AT_ROLLERS = [3.0, 6.17], [8.0, 1.83]
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from tests.servers import Mosquitto
+from tests.kit.servers import Mosquitto
+from tests.kit.waiting import wait_for
 from vipo_device.protocol.mqtt_client import MqttClient
 
 SITE, SERVER_WORD, JOIN = "hall", "the server's word", "j" * 32
@@ -29,14 +28,7 @@ class Bus:
         client = self.client(name, key)
         client.start()
         try:
-            wait("an answer", lambda: client.connected or client.refusal)
+            wait_for("an answer", lambda: client.connected or client.refusal)
             return client.connected
         finally:
             client.stop()
-
-
-def wait(what: str, ready: Callable[[], Any], timeout_s: float = 20) -> None:
-    deadline = time.monotonic() + timeout_s
-    while not ready():
-        assert time.monotonic() < deadline, f"{what} did not come within {timeout_s:g} s"
-        time.sleep(0.02)

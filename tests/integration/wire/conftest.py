@@ -5,7 +5,6 @@ from __future__ import annotations
 import shutil
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -17,23 +16,11 @@ from pytest_django import DjangoDbBlocker
 from execution.gateway.gateway import Gateway
 from registry import services
 from registry.broker import accounts
-from tests.bus import Ear
 from tests.integration.wire.bus import JOIN, SERVER_WORD, SITE, Bus
-from tests.servers import run_mosquitto
+from tests.kit.databases import on_database
+from tests.kit.mqtt import Ear
+from tests.kit.servers import run_mosquitto
 from vipo_site.embedded_broker.server import start_broker
-
-
-@contextmanager
-def connected_to(file: Path) -> Iterator[None]:
-    kept, described = connections["default"], connections.databases["default"]
-    connections.databases["default"] = {**described, "NAME": str(file)}
-    del connections["default"]
-    try:
-        yield
-    finally:
-        connections["default"].close()
-        connections.databases["default"] = described
-        connections["default"] = kept
 
 
 @pytest.fixture(scope="session")
@@ -41,7 +28,7 @@ def empty_database(
     tmp_path_factory: pytest.TempPathFactory, django_db_setup: None, django_db_blocker: DjangoDbBlocker
 ) -> Path:
     file = tmp_path_factory.mktemp("database") / "empty.sqlite3"
-    with django_db_blocker.unblock(), connected_to(file):
+    with django_db_blocker.unblock(), on_database(NAME=str(file)):
         call_command("migrate", verbosity=0, interactive=False)
         with connections["default"].cursor() as cursor:
             cursor.execute("PRAGMA wal_checkpoint(TRUNCATE)")
@@ -52,7 +39,7 @@ def empty_database(
 def database(empty_database: Path, tmp_path: Path, django_db_blocker: DjangoDbBlocker) -> Iterator[Path]:
     file = tmp_path / "vipo.sqlite3"
     shutil.copy(empty_database, file)
-    with django_db_blocker.unblock(), connected_to(file):
+    with django_db_blocker.unblock(), on_database(NAME=str(file)):
         yield file
 
 

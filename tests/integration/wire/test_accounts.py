@@ -12,13 +12,14 @@ import pytest
 
 from execution.gateway.gateway import Gateway
 from registry import services
-from tests.integration.wire.bus import JOIN, SITE, Bus, wait
+from tests.integration.wire.bus import JOIN, SITE, Bus
+from tests.kit.files import MIXER_TEXT
+from tests.kit.waiting import wait_for
 from vipo_device.kit.enrolment import take_new_keys
 from vipo_device.kit.keyring import KeyFile
 
 pytestmark = pytest.mark.servers
 KEY = "first-key-of-the-mixer-0001"
-TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_text()
 
 
 def lifecycle(device: str) -> str:
@@ -36,7 +37,7 @@ def test_a_stranger_joins_by_its_description_and_the_join_key_alone(bus: Bus, ga
     door.publish(f"vipo/v1/join/{SITE}/new01", json.dumps({"key": KEY}).encode())
     door.publish("vipo/v1/dev/new01/up/desc", b"forbidden here")
     door.start()
-    wait("the account", lambda: services.list_broker_hashes().get("new01") and bus.lets_in("new01", KEY))
+    wait_for("the account", lambda: services.list_broker_hashes().get("new01") and bus.lets_in("new01", KEY))
     door.stop()
     assert lifecycle("new01") == ""
 
@@ -46,20 +47,20 @@ def test_a_stranger_joins_by_its_description_and_the_join_key_alone(bus: Bus, ga
     device.subscribe("vipo/v1/dev/new01/down/#", 1, lambda *_: None)  # amqtt then says it each command twice
     connections: list[None] = []
     device.on_connected(lambda: connections.append(None))
-    device.publish("vipo/v1/dev/new01/up/desc", TEXT.replace("paintMixer03", "new01").encode(), retain=True)
+    device.publish("vipo/v1/dev/new01/up/desc", MIXER_TEXT.replace("paintMixer03", "new01").encode(), retain=True)
     device.publish("vipo/v1/dev/new01/up/presence", b'{"s": "online", "boot": 1}', retain=True)
     device.start()
-    wait("the newcomer", lambda: lifecycle("new01") == "pending" and services.find_device(device_id="new01").online)
+    wait_for("the newcomer", lambda: lifecycle("new01") == "pending" and services.find_device(device_id="new01").online)
 
     decided = decide(services.approve_device, "new01")
     assert decided.taken
     assert json.loads((tmp_path / "keys.json").read_text()) == {"new01": decided.credential}
-    wait("the device with its new key", lambda: len(connections) > 1 and device.connected)
+    wait_for("the device with its new key", lambda: len(connections) > 1 and device.connected)
     assert not bus.lets_in("new01", KEY)
 
     decide(services.revoke_credential, "new01")
-    wait("the end of the connection", lambda: not device.connected, 10)
-    wait("the refusal", lambda: device.refusal)
+    wait_for("the end of the connection", lambda: not device.connected, 10)
+    wait_for("the refusal", lambda: device.refusal)
     assert not bus.lets_in("new01", decided.credential)
     device.stop()
 
@@ -70,17 +71,17 @@ def test_a_retired_device_is_thrown_out_and_others_stay(bus: Bus, gateway: Gatew
         door = bus.client(f"join:{SITE}", JOIN)
         door.publish(f"vipo/v1/join/{SITE}/{name}", json.dumps({"key": KEY}).encode())
         door.start()
-        wait("the account", lambda n=name: services.list_broker_hashes().get(n) and bus.lets_in(n, KEY))
+        wait_for("the account", lambda n=name: services.list_broker_hashes().get(n) and bus.lets_in(n, KEY))
         door.stop()
         clients[name] = bus.client(name, KEY)
-        description = TEXT.replace("paintMixer03", name).encode()
+        description = MIXER_TEXT.replace("paintMixer03", name).encode()
         clients[name].publish(f"vipo/v1/dev/{name}/up/desc", description, retain=True)
         clients[name].start()
-        wait("the newcomer", lambda n=name: lifecycle(n) == "pending")
+        wait_for("the newcomer", lambda n=name: lifecycle(n) == "pending")
         decide(services.approve_device, name)
     decide(services.retire_device, "mixer01")
-    wait("the end of the connection", lambda: not clients["mixer01"].connected, 10)
-    wait("the refusal", lambda: clients["mixer01"].refusal)
+    wait_for("the end of the connection", lambda: not clients["mixer01"].connected, 10)
+    wait_for("the refusal", lambda: clients["mixer01"].refusal)
     assert clients["mixer02"].connected
     for client in clients.values():
         client.stop()

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import psycopg
 import pytest
 
-from tests.servers import ROOT, Postgres, Redis, run_postgres, run_redis
+from tests.kit.files import ROOT
+from tests.kit.served import served_without_broker
+from tests.kit.servers import Redis
 
 NEWEST = """
     SELECT device.id, device.description->>'name', line.text FROM registry_device AS device, LATERAL (
@@ -23,34 +25,25 @@ DEADLOCKS = "SELECT deadlocks FROM pg_stat_database WHERE datname = current_data
 LINES = "SELECT count(*) FROM registry_deviceevent WHERE kind = 'described'"
 
 
-def served_environment(folder: Path, postgres: Postgres, redis: Redis) -> dict[str, str]:
-    """What a process of the served product is told, without a broker."""
-    return {
-        **{name: value for name, value in os.environ.items() if not name.startswith(("VIPO_", "DJANGO_"))},
-        "DJANGO_SETTINGS_MODULE": "vipo_site.settings",
-        "VIPO_STATE_DIR": str(folder),
-        "VIPO_MODE": "served",
-        "VIPO_SECRET_KEY": "a key for this test alone, long enough to be taken",
-        "VIPO_HOSTS": "127.0.0.1",
-        "VIPO_DATABASE_URL": postgres.url,
-        "VIPO_REDIS_URL": redis.url,
-        "VIPO_MQTT_HOST": "127.0.0.1",
-        "VIPO_MQTT_PASSWORD": "not used here",
-    }
+def run_together(module: str, folder: Path, database_url: str, redis: Redis) -> Any:
+    """Let a module's threads work at once on the database; return what it tells."""
+    environment = served_without_broker(folder, database_url, redis.url)
+    command = [sys.executable, "-m", f"tests.integration.wire.{module}"]
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
+    assert (done.returncode, done.stderr) == (0, "")
+    return json.loads(done.stdout)
 
 
 @pytest.mark.servers
-def test_two_workers_on_the_same_devices_keep_everything_and_never_lock_each_other_out(tmp_path: Path) -> None:
-    with run_postgres(tmp_path) as postgres, run_redis(tmp_path) as redis:
-        environment = served_environment(tmp_path, postgres, redis)
-        command = [sys.executable, "-m", "tests.integration.wire.describers"]
-        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=180)
-        assert (done.returncode, done.stderr) == (0, "")
-        assert json.loads(done.stdout) == {"faults": [], "acknowledged": {"first": 360, "one": 360, "two": 360}}
-        with psycopg.connect(postgres.url) as connection:
-            rows = connection.execute(NEWEST).fetchall()
-            lines = connection.execute(LINES).fetchone()
-            deadlocks = connection.execute(DEADLOCKS).fetchone()
+def test_two_workers_on_the_same_devices_keep_everything_and_never_lock_each_other_out(
+    tmp_path: Path, database_url: str, shared_redis: Redis
+) -> None:
+    told = run_together("describers", tmp_path, database_url, shared_redis)
+    assert told == {"faults": [], "acknowledged": {"first": 360, "one": 360, "two": 360}}
+    with psycopg.connect(database_url) as connection:
+        rows = connection.execute(NEWEST).fetchall()
+        lines = connection.execute(LINES).fetchone()
+        deadlocks = connection.execute(DEADLOCKS).fetchone()
     assert len(rows) == 30
     assert {name for _, name, _ in rows} <= {"one 11", "two 11"}
     assert [text for _, _, text in rows] == [f"Calls itself {name}" for _, name, _ in rows]
@@ -58,10 +51,8 @@ def test_two_workers_on_the_same_devices_keep_everything_and_never_lock_each_oth
 
 
 @pytest.mark.servers
-def test_of_two_admins_who_confirm_a_topic_at_once_exactly_one_does_so(tmp_path: Path) -> None:
-    with run_postgres(tmp_path) as postgres, run_redis(tmp_path) as redis:
-        environment = served_environment(tmp_path, postgres, redis)
-        command = [sys.executable, "-m", "tests.integration.wire.confirmers"]
-        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=180)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert json.loads(done.stdout) == {"came": {"confirmed": 20, "told": 20}, "owned_once": 20, "rows": 20}
+def test_of_two_admins_who_confirm_a_topic_at_once_exactly_one_does_so(
+    tmp_path: Path, database_url: str, shared_redis: Redis
+) -> None:
+    told = run_together("confirmers", tmp_path, database_url, shared_redis)
+    assert told == {"came": {"confirmed": 20, "told": 20}, "owned_once": 20, "rows": 20}

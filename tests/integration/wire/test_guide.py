@@ -15,9 +15,10 @@ import pytest
 
 from execution.gateway.gateway import Gateway
 from registry import services
-from tests.integration.wire.bus import SITE, Bus, wait
+from tests.integration.wire.bus import SITE, Bus
+from tests.kit.files import ROOT
+from tests.kit.waiting import wait_for
 
-ROOT = Path(__file__).resolve().parents[3]
 LIMIT_S = 120
 pytestmark = pytest.mark.servers
 
@@ -76,9 +77,9 @@ def test_the_guide_brings_in_a_lamp(folder: Path, gateway: Gateway) -> None:
     assert "takes part at hall from now on.\nIt keeps the key that it came with." in shell(folder, knock + come_in)
     with running(folder, "sh", "lamp.sh"):
         assert shell(folder, call) == "lamp01: dim is done\n"
-        wait("the level", lambda: level() == 30)
+        wait_for("the level", lambda: level() == 30)
     with running(folder, sys.executable, "lamp.py"):
-        wait("the program's first state", lambda: level() == 0)
+        wait_for("the program's first state", lambda: level() == 0)
         assert shell(folder, call) == "lamp01: dim is done, level 30\n"
-        wait("the level", lambda: level() == 30)
-    wait("its last will", lambda: not services.get_device(site=SITE, device_id="lamp01").online)
+        wait_for("the level", lambda: level() == 30)
+    wait_for("its last will", lambda: not services.get_device(site=SITE, device_id="lamp01").online)

@@ -17,8 +17,9 @@ from execution.gateway.gateway import Gateway
 from registry import services
 from registry.floorplan.plan import Grid
 from registry.models import DeviceEvent, RobotMapPart
-from tests.bus import Ear
-from tests.integration.wire.bus import SERVER_WORD, SITE, Bus, wait
+from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
+from tests.kit.mqtt import Ear
+from tests.kit.waiting import wait_for
 from tests.unit.robot_agent.agent import Agent, Config, Navigation, RobotGrid, write_grid
 
 pytestmark = pytest.mark.servers
@@ -65,7 +66,7 @@ def admit(name: str) -> None:
 
 
 def approve(name: str) -> None:
-    wait(f"the description of {name}", lambda: services.find_device(device_id=name))
+    wait_for(f"the description of {name}", lambda: services.find_device(device_id=name))
     services.approve_device(site=SITE, device_id=name, by=None, at=datetime.now(UTC))
 
 
@@ -83,7 +84,7 @@ def test_the_agents_map_arrives_whole_and_nobody_sends_one_for_another(
     with running(make_agent(bus, tmp_path, "robot1").run):
         approve("robot1")
     with running(make_agent(bus, tmp_path, "robot1").run):
-        wait("the map", lambda: known_map("robot1"), 60)
+        wait_for("the map", lambda: known_map("robot1"), 60)
     assert known_map("robot1") == Grid(500, 500, 0.05, -2.0, -3.0, CELLS)
     admit("stranger")
     stranger = bus.client("stranger", KEY)
@@ -112,14 +113,14 @@ def test_parts_that_come_to_several_gateways_make_one_map(bus: Bus, settings: La
         robot.start()
         for message in said[:3]:
             robot.publish("vipo/v1/dev/robot1/up/map", message)
-        wait("the first parts", lambda: RobotMapPart.objects.count() == 3)
+        wait_for("the first parts", lambda: RobotMapPart.objects.count() == 3)
         robot.publish("vipo/v1/dev/robot1/up/map", said[3].replace(b"[500,500]", b"[500,499]"))
-        wait("the complaint", lambda: DeviceEvent.objects.filter(kind="problem", text__startswith="map: ").exists())
+        wait_for("the complaint", lambda: DeviceEvent.objects.filter(kind="problem", text__startswith="map: ").exists())
     assert known_map("robot1") != wanted
     with gateway_named("one", settings, bus), gateway_named("two", settings, bus):
         for message in said[3:]:
             robot.publish("vipo/v1/dev/robot1/up/map", message)
-        wait("the map", lambda: known_map("robot1") == wanted, 60)
+        wait_for("the map", lambda: known_map("robot1") == wanted, 60)
     robot.stop()
     assert RobotMapPart.objects.count() == 0
 

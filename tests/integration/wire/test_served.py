@@ -8,7 +8,8 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.integration.wire.served import WORKER, Served, running_served
+from tests.kit.served import WORKER, Served, running_served
+from tests.kit.servers import Redis
 from vipo_device.protocol.mqtt_client import MqttClient, tls_context
 
 pytestmark = pytest.mark.servers
@@ -23,8 +24,8 @@ OVER = {"finished", "failed", "cancelled"}
 
 
 @pytest.fixture(scope="module")
-def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
-    with running_served(tmp_path_factory.mktemp("served")) as running:
+def served(tmp_path_factory: pytest.TempPathFactory, module_database_url: str, shared_redis: Redis) -> Iterator[Served]:
+    with running_served(tmp_path_factory.mktemp("served"), module_database_url, shared_redis.url) as running:
         running.manage("shell", "-c", MAKE_ERRAND)
         for number in (0, 1):
             running.wait("a web process", lambda n=number: is_up(running.web_ports[n]), 200)
@@ -33,7 +34,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
 
 def is_up(port: int) -> bool:
     try:
-        return httpx.get(f"http://127.0.0.1:{port}/health", timeout=2).status_code == 200
+        return httpx.get(f"http://127.0.0.1:{port}/health", timeout=10).status_code == 200
     except httpx.HTTPError:
         return False
 

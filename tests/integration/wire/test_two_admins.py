@@ -17,10 +17,12 @@ from registry import services
 from registry.devices.credentials import KeyChanged
 from registry.models import DeviceEvent
 from registry.services import NotPending
-from tests.bus import Ear
-from tests.integration.wire.bus import SERVER_WORD, SITE, Bus, wait
+from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
+from tests.kit.files import MIXER_TEXT
+from tests.kit.mqtt import Ear
+from tests.kit.waiting import wait_for
 
-TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_bytes()
+TEXT = MIXER_TEXT.encode()
 
 
 @pytest.mark.parametrize("other", [services.approve_device, services.reject_device])
@@ -74,7 +76,7 @@ def test_a_key_that_is_revoked_while_the_device_is_told_another_stays_revoked(bu
 
     first = threading.Thread(target=rotate)
     first.start()
-    wait("the new key", lambda: told)
+    wait_for("the new key", lambda: told)
     with pytest.raises(KeyChanged, match="Somebody else is giving paintMixer03 a new key just now"):
         services.rotate_credential(**who)  # the device would keep the later key, the server perhaps the other
     services.revoke_credential(**who)

@@ -16,14 +16,15 @@ from django.conf import LazySettings
 
 from execution import services as execution
 from registry import services
-from tests.bus import Ear
-from tests.integration.wire.bus import SERVER_WORD, SITE, Bus, wait
+from tests.integration.wire.bus import SERVER_WORD, SITE, Bus
+from tests.kit.files import MIXER_TEXT
+from tests.kit.mqtt import Ear
+from tests.kit.waiting import wait_for
 from vipo_device.protocol.mqtt_client import MqttClient
 
 pytestmark = [pytest.mark.servers, pytest.mark.parametrize("bus", ["mosquitto"], indirect=True)]
 NAMES = tuple(f"mixer{number:02}" for number in range(1, 7))
 KEY = "one-key-for-every-mixer-1"
-TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_text()
 ROUNDS = 4
 STATES = 40
 
@@ -78,7 +79,7 @@ class Mixer:
         self.introduce()
 
     def introduce(self) -> None:
-        self.client.publish(self.up("desc"), TEXT.replace("paintMixer03", self.name).encode(), retain=True)
+        self.client.publish(self.up("desc"), MIXER_TEXT.replace("paintMixer03", self.name).encode(), retain=True)
         self.client.publish(self.up("presence"), b'{"s": "online", "boot": 1}', retain=True)
 
     def up(self, kind: str) -> str:
@@ -107,7 +108,7 @@ def gateways(bus: Bus, tmp_path: Path, settings: LazySettings) -> Iterator[Gatew
     with Ear(bus.server_port, SERVER_WORD, "vipo/v1/srv/status") as ear:
         for name in ("one", "two"):
             made.start(name)
-        wait("both gateways", lambda: len([h for h in ear.heard if not h.retained]) == 2, 90)
+        wait_for("both gateways", lambda: len([h for h in ear.heard if not h.retained]) == 2, 90)
     yield made
     made.stop()
 
@@ -128,10 +129,10 @@ def mixers(bus: Bus) -> Iterator[list[Mixer]]:
 def test_the_death_of_one_gateway_loses_no_answer_and_no_description(
     bus: Bus, gateways: Gateways, mixers: list[Mixer]
 ) -> None:
-    wait("every description", lambda: len(services.list_devices(site=SITE)) == len(NAMES))
+    wait_for("every description", lambda: len(services.list_devices(site=SITE)) == len(NAMES))
     for name in NAMES:
         services.approve_device(site=SITE, device_id=name, by=None, at=datetime.now(UTC))
-    wait("everybody", lambda: all(d.online for d in services.list_devices(site=SITE)))
+    wait_for("everybody", lambda: all(d.online for d in services.list_devices(site=SITE)))
     for number in range(ROUNDS):
         calls = [
             execution.call_method(site=SITE, device_id=name, method="mixPaint", arguments={"time": 1}, by="Ada")
@@ -141,13 +142,13 @@ def test_the_death_of_one_gateway_loses_no_answer_and_no_description(
             mixer.say_states()
         if number == ROUNDS // 2:
             gateways.kill("one")
-        wait(
+        wait_for(
             f"the answers of round {number}",
             lambda made=calls: all(execution.get_call(site=SITE, call_id=c.id).status == "done" for c in made),
             60,
         )
     last = dict.fromkeys(NAMES, STATES * ROUNDS)
-    wait(
+    wait_for(
         "the last states",
         lambda: {d.id: d.readings.get("jobStatus") for d in services.list_devices(site=SITE)} == last,
         30,
@@ -157,9 +158,9 @@ def test_the_death_of_one_gateway_loses_no_answer_and_no_description(
     assert bus.mosquitto is not None
     bus.mosquitto.kill()
     bus.mosquitto.start()
-    changed = TEXT.replace("paintMixer03", NAMES[0]).replace(f'title "{NAMES[0]}"', 'title "Changed while away"')
+    changed = MIXER_TEXT.replace("paintMixer03", NAMES[0]).replace(f'title "{NAMES[0]}"', 'title "Changed while away"')
     mixers[0].client.publish(mixers[0].up("desc"), changed.encode(), retain=True)
-    wait(
+    wait_for(
         "the description said around the broker's death",
         lambda: services.get_device(site=SITE, device_id=NAMES[0]).name == "Changed while away",
         60,

@@ -13,8 +13,9 @@ from django.conf import LazySettings
 from django.db import connection
 
 from registry import services
+from tests.kit.files import MIXER_TEXT
 
-TEXT = Path("registry/demo/devices/paintMixer03.ttl").read_bytes()
+TEXT = MIXER_TEXT.encode()
 NOW = datetime.now(UTC)
 
 

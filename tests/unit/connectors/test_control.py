@@ -3,28 +3,10 @@
 from __future__ import annotations
 
 import json
-from typing import Any
 
 from connectors.vda5050.control import VehicleControl
 from connectors.vda5050.coordinates import Frame
-from tests.unit.connectors.vehicle import Bench, ahead, ids, make_vehicle
-
-ORDER = "vipo-n1"
-
-
-def error(kind: str, *, level: str = "WARNING", text: str = "", **references: str) -> dict[str, Any]:
-    named = [{"referenceKey": key, "referenceValue": value} for key, value in references.items()]
-    return {"errorType": kind, "errorLevel": level, "errorDescription": text, "errorReferences": named}
-
-
-def driving() -> Bench:
-    """Return a vehicle that has taken the piece `a`, two nodes long, and has passed the first of them."""
-    bench = Bench()
-    bench.tell("move", "a", path=[[1, 0], [2, 0]])
-    bench.hear(orderId=ORDER, driving=True, **ahead(1, 2, 3, 4))
-    bench.hear(orderId=ORDER, driving=True, lastNodeSequenceId=2, **ahead(3, 4))
-    bench.said(), bench.sent()
-    return bench
+from tests.unit.connectors.vehicle import ORDER, Bench, ahead, driving, error, ids, make_vehicle
 
 
 def test_an_order_begins_where_the_vehicle_stands() -> None:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 
 from connectors.vda5050.control import VehicleControl
-from tests.unit.connectors.test_control import ORDER, driving, error
-from tests.unit.connectors.vehicle import Bench, ahead, ids, make_vehicle
+from tests.unit.connectors.vehicle import ORDER, Bench, ahead, driving, error, ids, make_vehicle
 
 HALFWAY = {"orderId": ORDER, "lastNodeSequenceId": 2, **ahead(3, 4)}
 

@@ -106,3 +106,21 @@ def ahead(*released: int, horizon: tuple[int, ...] = ()) -> dict[str, Any]:
         "nodeStates": [s for s in stretches if s["sequenceId"] % 2 == 0],
         "edgeStates": [s for s in stretches if s["sequenceId"] % 2],
     }
+
+
+ORDER = "vipo-n1"
+
+
+def error(kind: str, *, level: str = "WARNING", text: str = "", **references: str) -> dict[str, Any]:
+    named = [{"referenceKey": key, "referenceValue": value} for key, value in references.items()]
+    return {"errorType": kind, "errorLevel": level, "errorDescription": text, "errorReferences": named}
+
+
+def driving() -> Bench:
+    """Return a vehicle that has taken the piece `a`, two nodes long, and has passed the first of them."""
+    bench = Bench()
+    bench.tell("move", "a", path=[[1, 0], [2, 0]])
+    bench.hear(orderId=ORDER, driving=True, **ahead(1, 2, 3, 4))
+    bench.hear(orderId=ORDER, driving=True, lastNodeSequenceId=2, **ahead(3, 4))
+    bench.said(), bench.sent()
+    return bench

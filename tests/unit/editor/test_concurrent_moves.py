@@ -13,7 +13,7 @@ from pycrdt import Doc, Map
 from editor.documents.shared_document import SharedDocument, encode_document
 from editor.language import compile_document, compiled_to_json, plan_to_json
 from editor.language.document.outline import branches_of, make_outline
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
 FRAMES = ("while", "if", "try", "parallel")

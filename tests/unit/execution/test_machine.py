@@ -1,5 +1,3 @@
-import json
-
 import pytest
 
 from editor.language.expressions.nodes import Constant, Operation, PlaceRef, Reading, Variable
@@ -16,7 +14,6 @@ from editor.language.plan.instructions import (
     Jump,
     Move,
     Pick,
-    Plan,
     Return,
     TryBegin,
     TryEnd,
@@ -26,27 +23,15 @@ from editor.language.plan.instructions import (
 from execution.machine import machine
 from execution.machine import messages as r
 from execution.machine.floor_task import Target, TaskOrder
+from tests.kit.programs import names, plan_of, reload
 
 OVEN = PlaceRef(device="oven")
 SHELF = PlaceRef(device="shelf")
 ONE, BOX = Constant(1), Constant("box")
 
 
-def plan(*instructions, **parameters):
-    return Plan(tuple(i if isinstance(i, Instruction) else Instruction(i) for i in instructions), {}, parameters)
-
-
-def names(actions):
-    return [(type(a).__name__, *(getattr(a, s) for s in ("step", "task", "timer", "status") if hasattr(a, s)))
-            for a in actions]  # fmt: skip
-
-
-def reload(state):
-    return machine.from_json(json.loads(json.dumps(machine.to_json(state))))
-
-
 def test_a_pick_and_drop_is_asked_one_task_at_a_time():
-    program = plan(
+    program = plan_of(
         Instruction(Move("robot", SHELF), "s1", 1),
         Instruction(Pick("robot", SHELF, BOX, ONE), "s1", 2),
         Instruction(Drop("robot", OVEN, BOX, Constant(2)), "s1", 3),
@@ -64,7 +49,7 @@ def test_a_pick_and_drop_is_asked_one_task_at_a_time():
 
 
 def test_an_answer_that_comes_twice_or_to_nobody_changes_nothing():
-    program = plan(Move("robot", SHELF), Move("robot", OVEN), End())
+    program = plan_of(Move("robot", SHELF), Move("robot", OVEN), End())
     state, _ = machine.start(program, {})
     state, _ = machine.step(program, state, r.TaskDone(1))
     assert machine.step(program, state, r.TaskDone(1)) == (state, ())
@@ -73,7 +58,7 @@ def test_an_answer_that_comes_twice_or_to_nobody_changes_nothing():
 
 
 def test_parallel_branches_go_on_by_themselves_and_meet():
-    program = plan(
+    program = plan_of(
         Instruction(Fork((2, 4), 1), enters=("p",), leaves=("p",)),
         End(),
         Instruction(Move("a", SHELF), "a1"),
@@ -96,7 +81,7 @@ def test_parallel_branches_go_on_by_themselves_and_meet():
 
 
 def test_a_failing_branch_calls_the_others_off_and_fails_the_run():
-    program = plan(Fork((2, 4), 1), End(), Instruction(Move("a", SHELF), "a1"), Join(),
+    program = plan_of(Fork((2, 4), 1), End(), Instruction(Move("a", SHELF), "a1"), Join(),
                    Instruction(Wait(Constant(60)), "b1"), Join())  # fmt: skip
     state, _ = machine.start(program, {})
     state, actions = machine.step(program, state, r.TaskFailed(3, "offline", "robot01 is offline."))
@@ -109,7 +94,7 @@ def test_a_failing_branch_calls_the_others_off_and_fails_the_run():
     assert state.threads == {}
 
 
-TRY = plan(
+TRY = plan_of(
     Instruction(TryBegin(4, ("offline", "failed")), enters=("t",)),
     Instruction(Move("robot", OVEN), "m"),
     TryEnd(),
@@ -141,7 +126,7 @@ def test_a_handler_that_fails_is_not_caught_by_its_own_try():
     assert (state.status, state.reason) == ("failed", "Second.")
 
 
-UNTIL = plan(
+UNTIL = plan_of(
     WaitUntil(Operation("<", (Reading(Constant("oven"), "temperature"), Constant(40))), Constant(600)),
     End(),
 )
@@ -164,7 +149,7 @@ def test_waiting_until_past_its_limit_is_timed_out():
 
 def test_a_while_loop_counts_and_leaves_its_step():
     counting = Operation("<", (Variable("n"), Constant(2)))
-    program = plan(
+    program = plan_of(
         Instruction(Branch(counting, 4), enters=("w",)),
         Instruction(Wait(Constant(1)), "body"),
         Assign("n", Operation("+", (Variable("n"), ONE))),
@@ -185,7 +170,7 @@ def test_a_while_loop_counts_and_leaves_its_step():
 
 
 def test_a_loop_without_a_wait_rests_and_does_not_hang():
-    program = plan(Jump(0))
+    program = plan_of(Jump(0))
     state, actions = machine.start(program, {})
     assert actions == (r.SetTimer(1, machine.YIELD_S),)
     state, actions = machine.step(program, state, r.TimerFired(1))
@@ -193,7 +178,7 @@ def test_a_loop_without_a_wait_rests_and_does_not_hang():
 
 
 def test_a_function_has_its_own_variables_and_its_call_is_left_at_its_return():
-    program = plan(
+    program = plan_of(
         Instruction(Invoke(2, "mix", {"minutes": Constant(3)}, "out"), "c", enters=("c",), leaves=("c",)),
         Instruction(Wait(Variable("out")), "after"),
         Instruction(Call(OVEN, "mix", {"time": Variable("minutes")}), "inner"),
@@ -206,14 +191,14 @@ def test_a_function_has_its_own_variables_and_its_call_is_left_at_its_return():
 
 
 def test_endless_recursion_fails_with_a_reason():
-    program = plan(Invoke(0, "again", {}), End())
+    program = plan_of(Invoke(0, "again", {}), End())
     state, _actions = machine.start(program, {})
     assert state.status == "failed"
     assert state.reason == "“again” calls itself more than 100 times deep."
 
 
 def test_while_paused_nothing_new_is_asked_and_resuming_goes_on_at_the_same_place():
-    program = plan(Move("robot", SHELF), Move("robot", OVEN), End())
+    program = plan_of(Move("robot", SHELF), Move("robot", OVEN), End())
     state, _ = machine.start(program, {})
     state, actions = machine.step(program, state, r.PauseAsked("Ada paused it"))
     assert (state.status, actions) == ("paused", ())
@@ -225,7 +210,7 @@ def test_while_paused_nothing_new_is_asked_and_resuming_goes_on_at_the_same_plac
 
 
 def test_cancelling_calls_off_what_is_under_way():
-    program = plan(Instruction(Move("robot", SHELF), "m"), End())
+    program = plan_of(Instruction(Move("robot", SHELF), "m"), End())
     state, _ = machine.start(program, {})
     state, actions = machine.step(program, state, r.CancelAsked("Ada cancelled it"))
     assert actions == (
@@ -247,17 +232,17 @@ def test_cancelling_calls_off_what_is_under_way():
     ],
 )
 def test_a_condition_without_a_value_fails_the_step_with_the_reason(condition, why):
-    state, _ = machine.start(plan(Branch(condition, 1), End()), {})
+    state, _ = machine.start(plan_of(Branch(condition, 1), End()), {})
     assert (state.status, state.reason) == ("failed", why)
 
 
 def test_a_quantity_of_nothing_is_refused():
-    state, _actions = machine.start(plan(Pick("robot", SHELF, BOX, Constant(0)), End()), {})
+    state, _actions = machine.start(plan_of(Pick("robot", SHELF, BOX, Constant(0)), End()), {})
     assert state.reason == "The quantity is 0; it must be more than nothing."
 
 
 def test_and_does_not_look_further_than_it_must():
     unknown = Reading(Constant("oven"), "heat")
     condition = Operation("and", (Constant(False), Operation("<", (unknown, ONE))))
-    state, _actions = machine.start(plan(Branch(condition, 1), End()), {})
+    state, _actions = machine.start(plan_of(Branch(condition, 1), End()), {})
     assert state.status == "finished"

@@ -8,7 +8,6 @@ from editor.language.plan.instructions import (
     Join,
     Jump,
     Move,
-    Plan,
     Rethrow,
     TryBegin,
     TryEnd,
@@ -16,20 +15,12 @@ from editor.language.plan.instructions import (
 )
 from execution.machine import machine
 from execution.machine import messages as r
+from tests.kit.programs import names, plan_of
 
 OVEN, SHELF = PlaceRef(device="oven"), PlaceRef(device="shelf")
 
 
-def plan(*instructions):
-    return Plan(tuple(i if isinstance(i, Instruction) else Instruction(i) for i in instructions))
-
-
-def names(actions):
-    return [(type(a).__name__, *(getattr(a, s) for s in ("step", "task", "timer", "status") if hasattr(a, s)))
-            for a in actions]  # fmt: skip
-
-
-FINALLY = plan(
+FINALLY = plan_of(
     Instruction(TryBegin(5, (), final=True), "t", enters=("t",)),
     Instruction(Move("robot", OVEN), "m"),
     TryEnd(),
@@ -59,14 +50,14 @@ def test_without_a_failure_the_ordinary_way_goes_on_behind_the_handler():
 
 
 def test_a_shared_handler_that_is_walked_into_goes_on_behind_its_rethrow():
-    program = plan(TryBegin(2, (), final=True), TryEnd(), Instruction(Wait(Constant(1)), "f"), Rethrow(), End())
+    program = plan_of(TryBegin(2, (), final=True), TryEnd(), Instruction(Wait(Constant(1)), "f"), Rethrow(), End())
     state, _ = machine.start(program, {})
     state, actions = machine.step(program, state, r.TimerFired(1))
     assert names(actions) == [("StepLeft", "f"), ("Finished", "finished")]
 
 
 def test_an_early_end_carries_out_all_finally_bodies_around_it_and_finishes():
-    program = plan(
+    program = plan_of(
         TryBegin(6, (), final=True),
         TryBegin(4, (), final=True),
         TryBegin(8, ()),
@@ -88,7 +79,7 @@ def test_an_early_end_carries_out_all_finally_bodies_around_it_and_finishes():
 
 
 def test_a_failure_in_a_finally_body_of_an_early_end_fails_the_run_and_no_catch_takes_it():
-    program = plan(
+    program = plan_of(
         TryBegin(5, ()),
         TryBegin(3, (), final=True),
         End(early=True),
@@ -103,7 +94,7 @@ def test_a_failure_in_a_finally_body_of_an_early_end_fails_the_run_and_no_catch_
 
 
 def test_a_failure_that_is_caught_inside_a_finally_body_does_no_harm():
-    program = plan(
+    program = plan_of(
         TryBegin(2, (), final=True),
         End(early=True),
         TryBegin(5, ()),
@@ -119,7 +110,7 @@ def test_a_failure_that_is_caught_inside_a_finally_body_does_no_harm():
     assert names(actions) == [("StepLeft", "f"), ("Finished", "finished")]
 
 
-BRANCHES = plan(
+BRANCHES = plan_of(
     Fork((2, 4), 1),
     End(),
     Instruction(Move("a", SHELF), "a1"),
@@ -151,19 +142,19 @@ def test_a_person_who_cancels_does_not_wait_for_finally():
 
 
 def test_an_early_end_in_a_branch_ends_the_others_and_the_run():
-    program = plan(Fork((2, 3), 1), Instruction(Move("a", SHELF), "never"), End(early=True),
+    program = plan_of(Fork((2, 3), 1), Instruction(Move("a", SHELF), "never"), End(early=True),
                    Instruction(Move("b", OVEN), "b1"))  # fmt: skip
     _, actions = machine.start(program, {})
     assert actions == (r.Finished("finished", ""),)
 
 
 def test_branches_that_are_forked_for_ever_rest_and_do_not_hang():
-    program = plan(Fork((2, 2), 1), Jump(0), Join())
+    program = plan_of(Fork((2, 2), 1), Jump(0), Join())
     state, actions = machine.start(program, {})
     assert (state.status, names(actions)) == ("running", [("SetTimer", 101)])
 
 
 def test_failures_that_are_caught_for_ever_rest_and_do_not_hang():
-    program = plan(TryBegin(0, ()), Wait(Constant(-1)))
+    program = plan_of(TryBegin(0, ()), Wait(Constant(-1)))
     state, actions = machine.start(program, {})
     assert (state.status, names(actions)) == ("running", [("SetTimer", 1)])

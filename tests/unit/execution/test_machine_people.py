@@ -1,7 +1,5 @@
 """Questions, notices, variables, events and stored states of the run machine."""
 
-import json
-
 from editor.language.expressions.nodes import AnswerSpec, Constant, Operation, PlaceRef, Reading, Variable
 from editor.language.plan.instructions import (
     AskPerson,
@@ -15,26 +13,17 @@ from editor.language.plan.instructions import (
     Jump,
     Move,
     Notify,
-    Plan,
     Return,
     TryBegin,
     Wait,
 )
 from execution.machine import machine
 from execution.machine import messages as r
+from tests.kit.programs import plan_of, reload
 
 OVEN = PlaceRef(device="oven")
 HOT = Operation(">", (Reading(Constant("oven"), "temperature"), Constant(80)))
 ONE = Constant(1)
-
-
-def plan(*instructions, events=(), **parameters):
-    whole = tuple(i if isinstance(i, Instruction) else Instruction(i) for i in instructions)
-    return Plan(whole, {}, parameters, events=events)
-
-
-def reload(state):
-    return machine.from_json(json.loads(json.dumps(machine.to_json(state))))
 
 
 def heat(value):
@@ -45,7 +34,7 @@ DRY = AskPerson(Constant("Is it dry?"), AnswerSpec("boolean"), "dry", True, Cons
 
 
 def test_a_question_waits_for_its_answer_and_the_variable_takes_it():
-    program = plan(Instruction(DRY, "q"), Branch(Variable("dry"), 3), Instruction(Wait(ONE), "yes"), End())
+    program = plan_of(Instruction(DRY, "q"), Branch(Variable("dry"), 3), Instruction(Wait(ONE), "yes"), End())
     state, actions = machine.start(program, {})
     assert actions == (
         r.StepEntered("q"),
@@ -59,7 +48,7 @@ def test_a_question_waits_for_its_answer_and_the_variable_takes_it():
 
 
 def test_a_question_that_nobody_answers_is_withdrawn_and_timed_out():
-    program = plan(TryBegin(3, ("timed_out",)), Instruction(DRY, "q"), End(), Instruction(Wait(ONE), "late"), End())
+    program = plan_of(TryBegin(3, ("timed_out",)), Instruction(DRY, "q"), End(), Instruction(Wait(ONE), "late"), End())
     state, _ = machine.start(program, {})
     state, actions = machine.step(program, state, r.TimerFired(1))
     why = "Nobody answered in time."
@@ -69,7 +58,7 @@ def test_a_question_that_nobody_answers_is_withdrawn_and_timed_out():
 
 
 def test_an_answer_while_paused_counts_when_the_run_goes_on():
-    program = plan(DRY, End())
+    program = plan_of(DRY, End())
     state, _ = machine.start(program, {})
     state, _ = machine.step(program, state, r.PauseAsked("Ada paused it"))
     state, actions = machine.step(program, reload(state), r.Answered(1, False))
@@ -79,20 +68,20 @@ def test_an_answer_while_paused_counts_when_the_run_goes_on():
 
 
 def test_a_cancelled_run_withdraws_its_question():
-    state, _ = machine.start(plan(DRY, End()), {})
-    _, actions = machine.step(plan(DRY, End()), state, r.CancelAsked("x"))
+    state, _ = machine.start(plan_of(DRY, End()), {})
+    _, actions = machine.step(plan_of(DRY, End()), state, r.CancelAsked("x"))
     assert actions == (r.CancelQuestion(1), r.CancelTimer(1), r.Finished("cancelled", "x"))
 
 
 def test_people_are_told_and_the_program_goes_on():
-    program = plan(Instruction(Notify(Constant("Box done"), "warning"), "n"), End())
+    program = plan_of(Instruction(Notify(Constant("Box done"), "warning"), "n"), End())
     _, actions = machine.start(program, {})
     told = r.Tell("Box done", "warning", "n")
     assert actions == (r.StepEntered("n"), told, r.StepLeft("n"), r.Finished("finished", ""))
 
 
 def test_shared_variables_are_the_programs_others_are_of_the_call():
-    program = plan(
+    program = plan_of(
         Invoke(2, "mix", {"n": Constant(2)}, "total", shared=True),
         Wait(Operation("+", (Variable("total"), Variable("count")))),
         Assign("count", Constant(10), shared=True),
@@ -106,7 +95,7 @@ def test_shared_variables_are_the_programs_others_are_of_the_call():
 
 
 EVENT = EventEntry("e", 2, HOT)
-WATCH = plan(Instruction(Move("robot", OVEN), "m"), End(), Instruction(Wait(ONE), "w"), EventEnd(), events=(EVENT,))
+WATCH = plan_of(Instruction(Move("robot", OVEN), "m"), End(), Instruction(Wait(ONE), "w"), EventEnd(), events=(EVENT,))
 
 
 def test_an_event_runs_beside_the_program_each_time_its_condition_becomes_true():
@@ -139,7 +128,7 @@ def test_events_end_with_the_program():
 
 
 def test_a_failure_in_an_events_body_fails_the_run():
-    program = plan(Instruction(Move("robot", OVEN), "m"), End(), Wait(Constant(-1)), EventEnd(), events=(EVENT,))
+    program = plan_of(Instruction(Move("robot", OVEN), "m"), End(), Wait(Constant(-1)), EventEnd(), events=(EVENT,))
     state, _ = machine.start(program, {})
     state, actions = machine.step(program, state, heat(90))
     why = "It is told to wait -1 s; a wait cannot be less than nothing."
@@ -151,7 +140,7 @@ def test_a_failure_in_an_events_body_fails_the_run():
 def test_an_event_watches_variables_too_and_two_that_chase_each_other_rest():
     up = Operation("==", (Variable("n"), ONE))
     events = (EventEntry("a", 4, up), EventEntry("b", 6, Operation("not", (up,))))
-    program = plan(Instruction(Wait(ONE), "w"), Assign("n", ONE, shared=True), Instruction(Wait(ONE), "x"), End(),
+    program = plan_of(Instruction(Wait(ONE), "w"), Assign("n", ONE, shared=True), Instruction(Wait(ONE), "x"), End(),
                    Assign("n", Constant(0), shared=True), EventEnd(),
                    Assign("n", ONE, shared=True), EventEnd(), events=events, n=0)  # fmt: skip
     state, _ = machine.start(program, {})
@@ -164,7 +153,7 @@ def test_an_event_watches_variables_too_and_two_that_chase_each_other_rest():
 
 def test_an_event_that_starts_runs_is_not_looked_at_and_a_run_can_begin_there():
     event = EventEntry("e", 2, HOT, "run")
-    program = plan(
+    program = plan_of(
         Instruction(Move("robot", OVEN), "m"), End(), Instruction(Wait(ONE), "w"), EventEnd(), events=(event,)
     )
     state, _ = machine.start(program, {})
@@ -186,7 +175,7 @@ FORMAT_1 = {
 
 
 def test_a_state_that_the_former_version_stored_goes_on():
-    program = plan(Instruction(Invoke(2, "mix", {}), enters=("c",), leaves=("c",)), End(),
+    program = plan_of(Instruction(Invoke(2, "mix", {}), enters=("c",), leaves=("c",)), End(),
                    Instruction(Wait(Variable("minutes")), "w"), Return(Constant(7)))  # fmt: skip
     state = machine.from_json(FORMAT_1)
     assert machine.to_json(state)["format"] == 2
@@ -198,7 +187,7 @@ def test_a_state_that_the_former_version_stored_goes_on():
 def test_recursion_through_branches_is_bounded_too():
     from editor.language.plan.instructions import Fork, Join
 
-    program = plan(Fork((2,), 1), End(), Invoke(0, "again", {}), Join())
+    program = plan_of(Fork((2,), 1), End(), Invoke(0, "again", {}), Join())
     state, _ = machine.start(program, {})
     for timer in range(1, 2000):
         state, _ = machine.step(program, state, r.TimerFired(timer))
@@ -206,4 +195,4 @@ def test_recursion_through_branches_is_bounded_too():
 
 
 def test_a_jump_into_nowhere_ends_the_run():
-    assert machine.start(plan(Jump(77)), {})[0].status == "finished"
+    assert machine.start(plan_of(Jump(77)), {})[0].status == "finished"

@@ -7,15 +7,14 @@ import json
 import re
 from collections.abc import Iterator
 from datetime import UTC, datetime
-from pathlib import Path
 
 import pytest
 
 from execution.models import RunEvent
 from execution.reasons import SAID, SENTENCES, cause_of
 from execution.views import view_event
+from tests.kit.files import ROOT
 
-ROOT = Path(__file__).parents[3]
 SOURCES = sorted((ROOT / "execution").rglob("*.py"))
 GIVERS = {"Failure", "Wake", "EvaluationError", "NoReading", "NoSuchSpot", "finish", "_give_up"}
 OTHERS = {"rehearsal.py"}

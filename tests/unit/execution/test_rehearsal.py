@@ -33,8 +33,8 @@ from editor.language.plan.instructions import (
 )
 from execution.rehearsals.footprint_monitor import FootprintMonitor
 from execution.rehearsals.rehearsal import Conditions, rehearse
-from simulation.world import Fault, Scene
-from tests.unit.execution import demo_floor
+from simulation.world import Fault
+from tests.kit import demo_floor
 
 KINEMATIC = Conditions("kinematic")
 SHELF, MIXER = PlaceRef(device="paintInventory01"), PlaceRef(device="paintMixer02")
@@ -47,13 +47,9 @@ CARRY = (
 ROLES = {"robot": RoleBinding("robot", None, ("move", "pick", "drop"))}
 
 
-def scene(**more):
-    return Scene(demo_floor.grid(), demo_floor.devices(), seed=1, **more)
-
-
 def test_a_can_is_carried_and_everything_is_recorded():
     result = rehearse(
-        Plan((*CARRY, Instruction(End())), ROLES), scene(), places=demo_floor.places(), conditions=KINEMATIC
+        Plan((*CARRY, Instruction(End())), ROLES), demo_floor.scene(), places=demo_floor.places(), conditions=KINEMATIC
     )
     assert (result["ok"], result["errors"], result["collisions"], result["near_misses"]) == (True, [], [], [])
     assert [(s["step"], s["status"], s["robot"], s["device"]) for s in result["steps"]] == [
@@ -69,7 +65,8 @@ def test_a_can_is_carried_and_everything_is_recorded():
 def test_the_same_rehearsal_twice_gives_the_same_bytes():
     plan = Plan((*CARRY, Instruction(End())), ROLES)
     first, second = (
-        json.dumps(rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)) for _ in range(2)
+        json.dumps(rehearse(plan, demo_floor.scene(), places=demo_floor.places(), conditions=KINEMATIC))
+        for _ in range(2)
     )
     assert first == second
 
@@ -89,14 +86,14 @@ def test_two_robots_to_one_machine_wait_for_each_other_and_do_not_touch():
         ),
         roles,
     )
-    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    result = rehearse(plan, demo_floor.scene(), places=demo_floor.places(), conditions=KINEMATIC)
     assert (result["ok"], result["errors"], result["collisions"], result["near_misses"]) == (True, [], [], [])
     assert any("Paint Inventory serves" in wait["reason"] for wait in result["waits"])
 
 
 def test_an_error_of_the_real_run_is_met_in_rehearsal():
     plan = Plan((Instruction(Pick("robot", PlaceRef(device="curingOven01"), CAN, ONE), "p"), Instruction(End())), ROLES)
-    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    result = rehearse(plan, demo_floor.scene(), places=demo_floor.places(), conditions=KINEMATIC)
     assert result["ok"] is False
     assert [(e["step"], e["kind"]) for e in result["errors"]] == [("p", "refused")]
     assert result["steps"][0]["status"] == "failed"
@@ -107,14 +104,16 @@ def test_a_robot_that_stops_on_purpose_is_noticed():
         (Instruction(Move("robot", SHELF), "m"), Instruction(End())), {"robot": RoleBinding("robot", "robot01")}
     )
     faults = (Fault("robot01", "stop", 5.0),)
-    result = rehearse(plan, scene(faults=faults), places=demo_floor.places(), conditions=KINEMATIC)
+    result = rehearse(plan, demo_floor.scene(faults=faults), places=demo_floor.places(), conditions=KINEMATIC)
     assert [(e["step"], e["kind"]) for e in result["errors"]] == [("m", "timed_out")]
 
 
 @pytest.mark.parametrize("body", [Jump(0), Wait(Constant(1))])
 def test_a_program_that_never_ends_is_stopped_with_a_reason(body):
     plan = Plan((Instruction(body), Instruction(Jump(0))))
-    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=Conditions("kinematic", limit_s=360))
+    result = rehearse(
+        plan, demo_floor.scene(), places=demo_floor.places(), conditions=Conditions("kinematic", limit_s=360)
+    )
     assert result["ok"] is False
     assert result["errors"][0]["message"] == (
         "The program was stopped after 0.1 h of simulated time; it may never end."
@@ -124,7 +123,7 @@ def test_a_program_that_never_ends_is_stopped_with_a_reason(body):
 def test_a_condition_looks_at_the_readings_of_the_pretend_devices():
     hot = Operation(">", (Reading(Constant("curingOven01"), "temperature"), Constant(1000)))
     plan = Plan((Instruction(Branch(hot, 2)), Instruction(Jump(0)), Instruction(End())))
-    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    result = rehearse(plan, demo_floor.scene(), places=demo_floor.places(), conditions=KINEMATIC)
     assert (result["ok"], result["duration_s"]) == (True, 0.0)
 
 
@@ -140,7 +139,7 @@ def test_questions_are_answered_by_the_rehearsal_which_says_so():
             Instruction(End()),
         )
     )
-    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    result = rehearse(plan, demo_floor.scene(), places=demo_floor.places(), conditions=KINEMATIC)
     assert (result["ok"], result["duration_s"]) == (True, 32.0)
     assert [line["text"] for line in result["log"]] == [
         "Asked: Dry?", "The rehearsal answers by itself: yes", "Asked: How many?",
@@ -154,7 +153,9 @@ def test_questions_are_answered_by_the_rehearsal_which_says_so():
 
 def test_a_program_that_asks_for_ever_is_stopped():
     plan = Plan((Instruction(AskPerson(Constant("Go on?"), AnswerSpec())), Instruction(Jump(0))))
-    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=Conditions("kinematic", limit_s=60))
+    result = rehearse(
+        plan, demo_floor.scene(), places=demo_floor.places(), conditions=Conditions("kinematic", limit_s=60)
+    )
     assert result["ok"] is False
     assert [(error["code"], error["args"]) for error in result["errors"]] == [("too_long", {"hours": 0.017})]
 
@@ -172,7 +173,7 @@ def test_a_rehearsal_begins_at_eight_and_knows_where_robots_are():
         ),
         ROLES,
     )
-    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    result = rehearse(plan, demo_floor.scene(), places=demo_floor.places(), conditions=KINEMATIC)
     assert (result["ok"], result["errors"]) == (True, [])
     assert [step["ended_s"] for step in result["steps"] if step["step"] == "late"] == [20.0]
     assert len(result["steps"]) == 2
@@ -183,7 +184,7 @@ def test_robots_drive_slowly_in_a_slow_zone():
     zones = (Zone("z", "Everywhere", "slow", points, 0.2),)
     body = (Instruction(Move("robot", SHELF), "m"), Instruction(End()))
     quick, slow = (
-        rehearse(Plan(body, ROLES, zones=z), scene(), places=demo_floor.places(), conditions=KINEMATIC)
+        rehearse(Plan(body, ROLES, zones=z), demo_floor.scene(), places=demo_floor.places(), conditions=KINEMATIC)
         for z in ((), zones)
     )
     distance_m = slow["robots"]["robot01"]["distance_m"]
@@ -202,7 +203,7 @@ def test_an_event_of_the_program_happens_in_a_rehearsal_too():
         ),
         events=(EventEntry("e", 2, late),),
     )
-    result = rehearse(plan, scene(), places=demo_floor.places(), conditions=KINEMATIC)
+    result = rehearse(plan, demo_floor.scene(), places=demo_floor.places(), conditions=KINEMATIC)
     assert [(line["t"], line["text"]) for line in result["log"]] == [(5.0, "Told: Five seconds past")]
 
 

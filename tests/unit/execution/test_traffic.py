@@ -10,7 +10,7 @@ from execution.traffic import floor
 from execution.traffic import messages as m
 from execution.traffic.layout import NoSuchSpot, make_layout
 from execution.traffic.routes import drawn, length_m, plan_path
-from tests.unit.execution import demo_floor
+from tests.kit import demo_floor
 from tests.unit.execution.pretend import PretendFloor
 
 LAYOUT = demo_floor.layout()

@@ -5,7 +5,7 @@ from editor.language.site.surroundings import DeviceFacts, Surroundings
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from registry.floorplan.plan import FloorPlan
 from simulation.world import Scene
-from tests.unit.execution import demo_floor
+from tests.kit import demo_floor
 
 SCRIPT = """class Task(object):
     def new_task(self):

@@ -8,7 +8,7 @@ import pytest
 from execution.machine.floor_task import Target, TaskOrder
 from execution.machine.places import lies_in
 from execution.traffic import messages as m
-from tests.unit.execution import demo_floor
+from tests.kit import demo_floor
 from tests.unit.execution.pretend import PretendFloor
 
 ROOM = ((6.0, -9.0), (10.0, -9.0), (10.0, -5.0), (6.0, -5.0))

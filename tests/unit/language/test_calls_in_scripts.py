@@ -11,7 +11,7 @@ import pytest
 from editor.language import parse_script
 from editor.language.allocation import paused_collector
 from editor.language.parsing.expressions import calls_in
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 
 MODULES = sorted((Path(__file__).resolve().parents[3] / "editor" / "language").rglob("*.py"))
 ODD = """

@@ -17,7 +17,8 @@ from editor.language import (
     plan_to_json,
     tree_to_document,
 )
-from tests.unit.language.site import ROOT, factory
+from tests.kit.demo_site import factory
+from tests.kit.files import ROOT
 
 FOLDERS = (ROOT / "tests" / "fixtures" / "programs", ROOT / "tests" / "cases" / "constructs")
 NAMES = ("lines", "numbers", "added_moves", "order", "depth")

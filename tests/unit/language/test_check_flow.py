@@ -35,7 +35,7 @@ from editor.language.tree.nodes import (
     WaitUntil,
     While,
 )
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 
 HOT = Operation(">", (Reading(Constant("curingOven01"), "temperature"), Constant(60)))
 TRUE, FALSE, ONE = Constant(True), Constant(False), Constant(1)

@@ -3,9 +3,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from editor.language import PlaceFacts, Surroundings, compile_document, parse_script
+from editor.language import PlaceFacts, compile_document, parse_script
 from editor.language.plan.instructions import Call, Drop, Fork, Invoke, Jump, Move, Pick
-from tests.unit.language.site import factory
+from tests.kit.demo_site import codes, factory
 
 
 class WallInTheMiddle:
@@ -33,10 +33,6 @@ def moves(*places: dict[str, Any]) -> dict[str, Any]:
         for i, place in enumerate(places)
     }
     return {"format": 1, "steps": steps}
-
-
-def codes(document: dict[str, Any], site: Surroundings) -> list[tuple[str, str]]:
-    return [(d.step, d.code) for d in compile_document(document, site).diagnostics]
 
 
 def test_places_are_checked_against_the_floor() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.unit.language.site import ROOT
+from tests.kit.files import ROOT
 from vipo_site.cli.main import main
 
 EXAMPLES = ROOT / "examples"

@@ -13,7 +13,7 @@ from editor.language import compile_document, parse_script, tree_to_document
 from editor.language.document.format_migrations import migrate
 from editor.language.document.fractional_index import keep_orders, order_between
 from editor.language.drawing.alignment import common_row
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 from tests.unit.language.strategies import broken_documents, documents, json_values
 
 ERRAND = {

@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from editor.language import Surroundings, compile_document, parse_script, tree_to_document
+from editor.language import compile_document, parse_script, tree_to_document
 from editor.language.expressions.nodes import MISSING, Constant, Operation, Reading
 from editor.language.expressions.ranges import ANY, Range, range_of
 from editor.language.expressions.units import conversion, convert
 from editor.language.expressions.values import LARGEST, is_number, read_value
 from editor.language.parsing.script import LONGEST_SCRIPT
-from tests.unit.language.site import factory, with_device
+from tests.kit.demo_site import codes, factory, with_device
 from vipo_device.protocol.description import ParameterSpec
 
 EMPTY = "class Task(object):\n    def new_task(self):\n        pass\n"
@@ -27,10 +27,6 @@ def program(*steps: tuple[str, dict[str, Any]]) -> dict[str, Any]:
         for i, (kind, params) in enumerate(steps)
     }
     return {"format": 2, "steps": body}
-
-
-def codes(document: dict[str, Any], site: Surroundings | None = None) -> list[tuple[str, str]]:
-    return [(d.step, d.code) for d in compile_document(document, site or factory()).diagnostics]
 
 
 def refused(text: str) -> str:

@@ -14,7 +14,7 @@ from editor.language.document.outline import BRANCHES
 from execution.rehearsals.program_file import read_site, rehearse_program
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from simulation.world import Fault
-from tests.unit.language.site import ROOT
+from tests.kit.files import ROOT
 from vipo_site.cli.main import main
 from vipo_site.cli.program_file import read_program_file
 

@@ -11,7 +11,7 @@ from editor.language import Surroundings, compile_document
 from editor.language.compiler import EditedProgram
 from editor.language.document.incremental_outline import LastOutline
 from editor.language.document.outline import make_outline
-from tests.unit.language.site import factory, with_device
+from tests.kit.demo_site import factory, with_device
 from tests.unit.language.sound_programs import sound_documents
 from tests.unit.language.strategies import BRANCHES, PARAMS, documents
 

@@ -7,7 +7,8 @@ import pytest
 
 from editor.language import compile_document
 from editor.language.document.format_migrations import FORMAT, format_of, migrate
-from tests.unit.language.site import ROOT, factory
+from tests.kit.demo_site import factory
+from tests.kit.files import ROOT
 
 OLD = sorted((ROOT / "tests" / "cases" / "old").glob("*.json"))
 

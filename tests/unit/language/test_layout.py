@@ -12,7 +12,8 @@ from editor.language import compile_document, parse_script, tree_to_document
 from editor.language.drawing.layout import GAP_M, Area, Layout, Room, letters, room_of
 from editor.language.site.surroundings import Surroundings
 from execution.rehearsals.program_file import read_site
-from tests.unit.language.site import ROOT, factory
+from tests.kit.demo_site import factory
+from tests.kit.files import ROOT
 from vipo_site.cli.program_file import read_program_file
 
 PROGRAMS = sorted(set((ROOT / "examples").glob("*.json")) - {ROOT / "examples" / "painting-factory.json"})

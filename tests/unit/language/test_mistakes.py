@@ -9,8 +9,7 @@ import pytest
 from editor.language import parse_script
 from editor.language.messages import syntax_errors
 from editor.language.messages.phrases import refused_in_german
-from tests.unit.language.site import factory
-from tests.unit.language.test_parsing import script
+from tests.kit.demo_site import factory, script
 
 BEGIN = 9
 """Where the lines of new_task begin."""

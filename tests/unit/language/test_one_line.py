@@ -13,7 +13,7 @@ from editor.language.expressions.value_types import ValueType
 from editor.language.expressions.values import FUNCTIONS
 from editor.language.one_line.scope import LineScope, make_line_scope
 from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 
 DOCUMENT: dict[str, Any] = {
     "format": 2,

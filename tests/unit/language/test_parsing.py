@@ -3,21 +3,7 @@ from __future__ import annotations
 import pytest
 
 from editor.language import compile_document, parse_script, tree_to_document
-from tests.unit.language.site import factory
-
-RUN = """
-    def run(self, ctx):
-        self.robot = ctx.get("robot01")
-        self.item_inventory = ctx.get("itemInventory01")
-        self.painting_machine = ctx.get("paintMachine01")
-        self.curing_oven = ctx.get("curingOven01")
-        self.new_task()
-"""
-
-
-def script(*lines: str) -> str:
-    body = "\n".join(f"        {line}" for line in lines)
-    return f"class Task(object):\n    def new_task(self):\n{body}\n{RUN}"
+from tests.kit.demo_site import factory, script
 
 
 def refusal(*lines: str) -> tuple[int | None, str]:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from editor.language import compile_document, parse_script
 from editor.language.parsing.lines import parse_lines
 from editor.language.parsing.script import parse_whole
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 from tests.unit.language.strategies import documents
 
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))

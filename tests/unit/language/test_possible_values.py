@@ -16,7 +16,7 @@ from editor.language.one_line.scope import make_line_scope
 from editor.language.one_line.values import parse_line
 from editor.language.site.surroundings import Surroundings
 from execution.machine.evaluation import EvaluationError, is_true
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 from vipo_device.protocol.description import PropertySpec
 
 PROPERTIES = (

@@ -14,7 +14,7 @@ from editor.language import (
     plan_to_json,
     tree_to_document,
 )
-from tests.unit.language.site import factory, with_device
+from tests.kit.demo_site import factory, with_device
 from tests.unit.language.strategies import broken_documents, documents, json_values
 
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))

@@ -10,7 +10,8 @@ from editor.language import compile_document
 from editor.language.plan.instructions import Plan
 from execution.machine import machine
 from execution.machine import messages as m
-from tests.unit.language.site import ROOT, factory
+from tests.kit.demo_site import factory
+from tests.kit.files import ROOT
 
 HOT = {("curingOven01", "temperature"): 80}
 

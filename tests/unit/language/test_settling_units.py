@@ -12,7 +12,7 @@ from editor.language.expressions.value_types import TypeChecker, ValueType
 from editor.language.expressions.values import parts_of, read_value, write_value
 from editor.language.one_line.scope import make_line_scope
 from editor.language.one_line.values import parse_line
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 
 DOCUMENT = {"parameters": {"p": {"name": "minutes", "type": "number", "unit": "MIN"}, "n": {"name": "n"}}, "steps": {}}
 TYPING = TypeChecker(factory(), {"minutes": ValueType("number", "MIN")}, [])

@@ -12,7 +12,7 @@ from editor.language import compile_document, parse_script, plan_from_json, plan
 from editor.language.plan.instructions import Plan
 from execution.machine import machine
 from execution.machine import messages as m
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 from tests.unit.language.sound_programs import sound_documents
 
 quick = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))

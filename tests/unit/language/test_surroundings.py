@@ -8,7 +8,7 @@ import pytest
 from editor.language import UnreadableSite, surroundings_from_json, surroundings_to_json
 from editor.language.site.surroundings import LibraryFacts
 from editor.language.tree.zones import area_m2, is_in, read_zones
-from tests.unit.language.site import factory
+from tests.kit.demo_site import factory
 
 SQUARE = [[0, 0], [2, 0], [2, 2], [0, 2]]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 from hypothesis import strategies as st
@@ -86,3 +87,29 @@ def descriptions(draw: st.DrawFn) -> Description:
     )
     assert find_faults(found) == ()
     return found
+
+
+PREFIXES = """@prefix vipo: <urn:vipo:ns#> . @prefix td: <https://www.w3.org/2019/wot/td#> .
+@prefix dct: <http://purl.org/dc/terms/> . @prefix schema: <https://schema.org/> .
+"""
+
+
+DEVICE = ' <urn:vipo:device:m1> a vipo:Machine ; dct:identifier "m1" ; vipo:location ( 1 2 ) ; vipo:size ( 1 1 1 )'
+
+
+LINKED: dict[str, Any] = {
+    "@context": "urn:vipo:context",
+    "@id": "urn:vipo:device:m1",
+    "@type": "vipo:Machine",
+    "dct:identifier": "m1",
+    "vipo:location": {"@list": [1, 2]},
+    "vipo:size": {"@list": [1, 1, 1]},
+}
+
+
+def turtle(more: str = "") -> bytes:
+    return f"{PREFIXES}{DEVICE} {more} .".encode()
+
+
+def linked(**more: Any) -> bytes:
+    return json.dumps({**LINKED, **more}).encode()

@@ -10,14 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from registry.demo.devices import describe_devices
+from tests.kit.files import FIGURE_5
 from tests.unit.registry.descriptions import THING, descriptions
 from vipo_device.descriptions.forms import FORMS, BadDescription, form_of
 from vipo_device.descriptions.reader import canonical_hash, read, write_description
 from vipo_device.descriptions.td_schema import check_thing
 from vipo_device.descriptions.thing_description import thing_of
 from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
-
-FIGURE_5 = (Path(__file__).parents[2] / "fixtures" / "figure-5.txt").read_bytes()
 
 
 @settings(max_examples=40, deadline=None)

@@ -6,18 +6,17 @@ import ast
 import json
 import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
 
+from tests.kit.files import ROOT
 from tests.unit.registry.descriptions import THING
 from vipo_device.descriptions.forms import BadDescription
 from vipo_device.descriptions.reader import read
 from vipo_device.protocol.fault_texts import SENTENCES
 from vipo_device.protocol.faults import Fault, facts_of, fault, note
 
-ROOT = Path(__file__).parents[3]
 SPEAKERS = (
     "execution/gateway/gateway.py",
     "vipo_site/embedded_broker/connection.py",

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from registry.floorplan.map_message import join_parts, plain_grid, read_grid_part
 from registry.floorplan.plan import Grid
-from tests.servers import ROOT
+from tests.kit.files import ROOT
 from vipo_device.protocol.messages import BadMessage
 
 CELLS = bytes([0, 100, 255, 7, 0, 100])

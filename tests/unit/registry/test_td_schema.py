@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from registry.demo.devices import describe_devices
+from tests.kit.programs import paths_in
 from vipo_device.descriptions import td_schema
 from vipo_device.descriptions.forms import BadDescription
 from vipo_device.descriptions.reader import write_description
@@ -44,17 +45,12 @@ KEYS = st.sampled_from(
 )
 
 
-def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    return [path, *(inner for key, each in items for inner in places(each, (*path, key)))]
-
-
 @settings(max_examples=200, deadline=None)
 @given(thing=st.sampled_from(THINGS), data=st.data())
 def test_a_thing_is_taken_or_told_what_is_wrong_and_where(thing: Any, data: st.DataObject) -> None:
     body = json.loads(json.dumps(thing))
     for _ in range(data.draw(st.integers(1, 2))):
-        *path, last = data.draw(st.sampled_from(places(body)[1:]))
+        *path, last = data.draw(st.sampled_from(paths_in(body)[1:]))
         inside: Any = body
         for key in path:
             inside = inside[key]
@@ -68,7 +64,7 @@ def test_a_thing_is_taken_or_told_what_is_wrong_and_where(thing: Any, data: st.D
     faults = faults_of(body)
     assert (faults == ()) is td_schema._validator().is_valid(body)
     assert len(faults) <= td_schema.MOST_FAULTS
-    assert {fault.path for fault in faults} <= {pointer(path) for path in places(body)}
+    assert {fault.path for fault in faults} <= {pointer(path) for path in paths_in(body)}
 
 
 def faults_of(thing: Any) -> tuple[Fault, ...]:

@@ -2,7 +2,7 @@
 
 import sys
 
-from tests.servers import ROOT
+from tests.kit.files import ROOT
 
 sys.path.insert(0, str(ROOT / "firmware" / "robot_agent"))
 

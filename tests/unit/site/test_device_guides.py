@@ -8,10 +8,10 @@ import shlex
 from pathlib import Path
 
 from connectors.management.commands.vda5050 import Command
+from tests.kit.files import ROOT
 from tests.unit.robot_agent.agent import make_config
 from vipo_device.protocol import messages
 
-ROOT = Path(__file__).resolve().parents[3]
 DOCS = ROOT / "docs"
 MESSAGE = re.compile(r"^(vipo/v1/\S+) {2,}(\{.*\})$", re.MULTILINE)
 PARSERS = {"presence": messages.parse_presence, "state": messages.parse_state, "ack": messages.parse_ack}

@@ -2,7 +2,6 @@
 
 import json
 from collections import Counter
-from pathlib import Path
 
 import pytest
 from ninja import Schema
@@ -17,11 +16,10 @@ from editor.language.document.outline import BRANCHES, COMMENT
 from editor.shapes import CompiledShape, DocumentShape, StepKind
 from execution.rehearsals.program_file import rehearse_program
 from execution.shapes import RehearsalResultShape
+from tests.kit.files import ROOT
 from vipo_site.cli.program_file import read_program_file
 from vipo_site.http.api import api
 from vipo_site.http.openapi import describe
-
-ROOT = Path(__file__).resolve().parents[3]
 
 
 def program(name):

@@ -1,0 +1,92 @@
+"""One PostgreSQL and one Redis for all tests of a process: databases of their own, copied from a migrated one.
+
+A test that kills, stops, restarts or sets up a server starts its own, with tests.kit.servers.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import psycopg
+import pytest
+import redis
+from django.db import connections
+from psycopg import sql
+
+from tests.kit.files import ROOT
+from tests.kit.served import served_without_broker
+from tests.kit.servers import Postgres, Redis, run_postgres, run_redis
+
+_NUMBERS = count(1)
+
+
+@pytest.fixture(scope="session")
+def _postgres(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Postgres]:
+    with run_postgres(tmp_path_factory.mktemp("postgres")) as server:
+        migrate(server.url, tmp_path_factory.mktemp("migrated"))
+        yield server
+
+
+@pytest.fixture(scope="session")
+def _redis(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Redis]:
+    with run_redis(tmp_path_factory.mktemp("redis")) as server:
+        yield server
+
+
+def migrate(url: str, folder: Path) -> None:
+    """Bring a database to the product's tables, which later ones are copied from."""
+    command = [sys.executable, "manage.py", "migrate", "-v0", "--skip-checks"]
+    environment = served_without_broker(folder, url, "redis://127.0.0.1:1/0")
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.fixture(scope="session")
+def new_database(_postgres: Postgres) -> Callable[[], str]:
+    """Make an empty database with the product's tables; returns its URL."""
+
+    def make() -> str:
+        name = f"copy{next(_NUMBERS)}"
+        with psycopg.connect(_postgres.url.removesuffix("vipo") + "postgres", autocommit=True) as connection:
+            connection.execute(sql.SQL("CREATE DATABASE {} TEMPLATE vipo").format(sql.Identifier(name)))
+        return _postgres.url.removesuffix("vipo") + name
+
+    return make
+
+
+@pytest.fixture
+def database_url(new_database: Callable[[], str]) -> str:
+    return new_database()
+
+
+@pytest.fixture(scope="module")
+def module_database_url(new_database: Callable[[], str]) -> str:
+    return new_database()
+
+
+@pytest.fixture(scope="module")
+def shared_redis(_redis: Redis) -> Redis:
+    """Give the Redis of this process, emptied for this file."""
+    with redis.Redis.from_url(_redis.url) as connection:
+        connection.flushall()
+    return _redis
+
+
+@contextmanager
+def on_database(**changes: Any) -> Iterator[None]:
+    """Use a database that differs in these settings, and afterwards the one from before."""
+    kept, described = connections["default"], connections.databases["default"]
+    connections.databases["default"] = {**described, **changes}
+    del connections["default"]
+    try:
+        yield
+    finally:
+        connections["default"].close()
+        connections.databases["default"] = described
+        connections["default"] = kept

@@ -1,0 +1,118 @@
+"""The server's side of an MQTT bus for tests: what is heard and how it is waited for, and talks with one device."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from tests.kit.waiting import PATIENCE_S
+from vipo_device.protocol.mqtt_client import MqttClient
+
+
+@dataclass(frozen=True)
+class Heard:
+    """One message."""
+
+    topic: str
+    payload: bytes
+    retained: bool
+    at: float
+
+    @property
+    def json(self) -> Any:
+        return json.loads(self.payload)
+
+
+class Ear:
+    """The server's account on a bus: hears a topic filter, says what it is told, waits for what shall come."""
+
+    def __init__(self, port: int, password: str, topic: str = "vipo/v1/dev/+/up/#", **more: Any) -> None:
+        self.heard: list[Heard] = []
+        self._changed = threading.Condition()
+        self.client = MqttClient(
+            host="127.0.0.1", port=port, username="server", password=password, client_id="ear", **more
+        )
+        self.client.subscribe(topic, 1, self._take)
+
+    def __enter__(self) -> Ear:
+        self.client.start()
+        assert self.client.wait_connected(20), f"the ear did not connect: {self.client.refusal}"
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.client.stop()
+
+    def _take(self, topic: str, payload: bytes, retained: bool) -> None:
+        with self._changed:
+            self.heard.append(Heard(topic, payload, retained, time.monotonic()))
+            self._changed.notify_all()
+
+    def say(self, topic: str, body: Any, **more: Any) -> None:
+        self.client.publish(topic, body if isinstance(body, bytes) else json.dumps(body).encode(), **more)
+
+    def tell(self, device: str, method: str, command: str, /, **values: Any) -> None:
+        """Tell a device to do something, as the server does."""
+        self.say(f"vipo/v1/dev/{device}/down/{method}", {"id": command, "v": values, "ttl_s": 30})
+
+    def wait(self, wanted: Callable[[Heard], bool], timeout_s: float = PATIENCE_S) -> Heard:
+        """Return the first message heard so far or from now on that is wanted."""
+        with self._changed:
+            found = self._changed.wait_for(lambda: next((h for h in self.heard if wanted(h)), None), timeout_s)
+        assert found, f"not heard within {timeout_s} s; heard were {[(h.topic, h.payload[:120]) for h in self.heard]}"
+        return found
+
+    def forget(self) -> None:
+        with self._changed:
+            self.heard.clear()
+
+    def all(self, kind: str) -> list[Heard]:
+        """Return what was heard on topics that end so."""
+        with self._changed:
+            return [h for h in self.heard if h.topic.endswith(kind)]
+
+
+@dataclass
+class ServerSide:
+    """The server's side of one device: tells commands, waits for answers and states."""
+
+    ear: Ear
+    device: str
+
+    def tell(self, method: str, command: str, /, **values: Any) -> None:
+        self.ear.tell(self.device, method, command, **values)
+
+    def up(self, kind: str) -> str:
+        return f"vipo/v1/dev/{self.device}/up/{kind}"
+
+    def wait_ack(self, command: str, *status: str) -> dict[str, Any]:
+        def fits(heard: Heard) -> bool:
+            if heard.topic != self.up("ack") or heard.json["id"] != command:
+                return False
+            return heard.json["st"] in (status or ("DONE", "FAILED", "REJECTED", "CANCELED"))
+
+        found: dict[str, Any] = self.ear.wait(fits, PATIENCE_S).json
+        return found
+
+    def wait_presence(self, said: str) -> None:
+        self.ear.wait(lambda h: h.topic == self.up("presence") and h.json["s"] == said, PATIENCE_S)
+
+    def wait_state(self, **wanted: Any) -> dict[str, Any]:
+        def fits(heard: Heard) -> bool:
+            if heard.topic != self.up("state"):
+                return False
+            body = {**heard.json["props"], **heard.json}
+            return all(body.get(key) == value for key, value in wanted.items())
+
+        found: dict[str, Any] = self.ear.wait(fits, PATIENCE_S).json
+        return found
+
+    def states(self) -> list[dict[str, Any]]:
+        return [h.json for h in self.ear.all("/state") if h.topic == self.up("state")]
+
+    def acks(self, command: str) -> list[str]:
+        said = [h.json for h in self.ear.all("/ack") if h.topic == self.up("ack")]
+        return [body["st"] for body in said if body["id"] == command]
