@@ -46,7 +46,7 @@ def plan_of(*instructions: Any, events: tuple[Any, ...] = (), **parameters: Any)
 
 def names(actions: Any) -> list[tuple[Any, ...]]:
     """Return each action's name with the step, mission, timer and status that it is about."""
-    facts = ("step", "mission", "timer", "status")
+    facts = ("step", "task", "timer", "status")
     return [(type(a).__name__, *(getattr(a, fact) for fact in facts if hasattr(a, fact))) for a in actions]
 
 

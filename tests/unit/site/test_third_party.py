@@ -29,7 +29,6 @@ NOT_IMPORTED = {
     "import-linter": "a command",
     "mypy": "a command",
     "pytest-asyncio": "pytest loads it by itself",
-    "pytest-xdist": "pytest loads it by itself",
     "ruff": "a command",
     "types-pyyaml": "mypy finds it by itself",
 }
