@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.servers import ROOT
+from tests.kit.files import ROOT
 from tests.unit.robot_agent.agent import Ack, Answers
 from vipo_device.kit.answers import REMEMBERED, AnswerLedger
 from vipo_device.protocol.messages import AckMessage, AckStatus, is_final
