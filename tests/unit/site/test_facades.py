@@ -93,7 +93,7 @@ def crowded(modules: Iterable[Path]) -> dict[str, int]:
 
 @pytest.mark.parametrize(
     "package",
-    [*PACKAGES[:-1], pytest.param("tests", marks=pytest.mark.skip(reason="tests do not stand in their rooms yet"))],
+    PACKAGES,
 )
 def test_no_folder_has_more_modules_than_one_looks_through(package: str) -> None:
     modules = [path for path in (ROOT / package).rglob("*.py") if path.name != "__init__.py"]

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 
 from registry.demo.devices import describe_devices
 from tests.kit.files import FIGURE_5
-from tests.unit.registry.descriptions import descriptions, linked, turtle
+from tests.unit.vipo_device.descriptions.examples import descriptions, linked, turtle
 from vipo_device.descriptions.forms import BadDescription
 from vipo_device.descriptions.reader import read, write_description
 from vipo_device.descriptions.shacl import check_rdf, check_reading

@@ -11,7 +11,7 @@ from execution.traffic import messages as m
 from execution.traffic.layout import NoSuchSpot, make_layout
 from execution.traffic.routes import drawn, length_m, plan_path
 from tests.kit import demo_floor
-from tests.unit.execution.pretend import PretendFloor
+from tests.unit.execution.traffic.simulated_floor import PretendFloor
 
 LAYOUT = demo_floor.layout()
 ROBOTS = ("robot01", "robot02", "robot03")

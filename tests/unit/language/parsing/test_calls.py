@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import gc
-from pathlib import Path
 
 import pytest
 
@@ -12,8 +11,9 @@ from editor.language import parse_script
 from editor.language.allocation import paused_collector
 from editor.language.parsing.expressions import calls_in
 from tests.kit.demo_site import factory
+from tests.kit.files import ROOT
 
-MODULES = sorted((Path(__file__).resolve().parents[3] / "editor" / "language").rglob("*.py"))
+MODULES = sorted((ROOT / "editor" / "language").rglob("*.py"))
 ODD = """
 match f(1):
     case g(a=h.i) if j():

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from tests.kit.files import ROOT
-from tests.unit.registry.descriptions import THING
+from tests.unit.vipo_device.descriptions.examples import THING
 from vipo_device.descriptions.forms import BadDescription
 from vipo_device.descriptions.reader import read
 from vipo_device.protocol.fault_texts import SENTENCES

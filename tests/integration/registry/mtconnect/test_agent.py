@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import timedelta
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -16,11 +15,12 @@ from registry.devices import samples
 from registry.devices.samples import SampleBuffer
 from registry.models import Device
 from registry.mtconnect.data_items import MEASURES
+from tests.kit.files import ROOT
 from tests.kit.sign_in import ROLES, signed_in
 from tests.kit.sites import MIXER, ROBOT, come, describe, say
 from vipo_device.protocol.description import PropertySpec
 
-SCHEMAS = Path(__file__).parents[2] / "fixtures" / "mtconnect"
+SCHEMAS = ROOT / "tests" / "fixtures" / "mtconnect"
 ADDRESS = "/api/sites/hall/mtconnect"
 PROPERTIES = (
     *(PropertySpec(f"in_{unit.replace('-', '_')}", "number", unit) for unit in MEASURES),

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from tests.kit.work import within_processor_time
-from tests.unit.registry.descriptions import THING, linked, turtle
+from tests.unit.vipo_device.descriptions.examples import THING, linked, turtle
 from vipo_device.descriptions.forms import BadDescription
 from vipo_device.descriptions.reader import read
 

@@ -9,7 +9,7 @@ from execution.machine.floor_task import Target, TaskOrder
 from execution.machine.places import lies_in
 from execution.traffic import messages as m
 from tests.kit import demo_floor
-from tests.unit.execution.pretend import PretendFloor
+from tests.unit.execution.traffic.simulated_floor import PretendFloor
 
 ROOM = ((6.0, -9.0), (10.0, -9.0), (10.0, -5.0), (6.0, -5.0))
 

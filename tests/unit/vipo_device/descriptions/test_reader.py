@@ -3,15 +3,14 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from registry.demo.devices import describe_devices
-from tests.kit.files import FIGURE_5
-from tests.unit.registry.descriptions import THING, descriptions
+from tests.kit.files import FIGURE_5, ROOT
+from tests.unit.vipo_device.descriptions.examples import THING, descriptions
 from vipo_device.descriptions.forms import FORMS, BadDescription, form_of
 from vipo_device.descriptions.reader import canonical_hash, read, write_description
 from vipo_device.descriptions.td_schema import check_thing
@@ -268,7 +267,7 @@ def test_a_damaged_message_brings_no_more_than_a_refusal(data: st.DataObject) ->
 
 
 def test_the_examples_of_the_protocol_are_read() -> None:
-    page = (Path(__file__).parents[3] / "docs" / "protocol.md").read_text()
+    page = (ROOT / "docs" / "protocol.md").read_text()
     section = page[page.index("## Descriptions") :]
     examples = re.findall(r"```(json|text)\n((?:\{|id:).*?)```", section, re.DOTALL)
     found = [read(text.encode()) for _, text in examples]

@@ -1,13 +1,13 @@
 """A site file made into what a program is checked against and rehearsed in."""
 
 import json
-from pathlib import Path
 
 from editor.language import compile_document
 from editor.language.site.surroundings import LibraryFacts
 from execution.rehearsals.program_file import read_site
+from tests.kit.files import ROOT
 
-SITE = Path(__file__).resolve().parents[3] / "examples" / "painting-factory.json"
+SITE = ROOT / "examples" / "painting-factory.json"
 CALLS_AN_OLD_FUNCTION = {
     "format": 2,
     "steps": {
