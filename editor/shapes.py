@@ -165,7 +165,7 @@ class ResultShape(Schema):
 
 
 class DocumentShape(Schema):
-    """A program's document, format 2; see docs/architecture.md."""
+    """A program's document, format 2; see docs/shapes/document.md."""
 
     format: Literal[2]
     start_pos: Position | None = None

@@ -98,7 +98,7 @@ class SharedDocument:
         return len(self._document.get("steps", type=Map))
 
     def to_json(self) -> dict[str, Any]:
-        """Return the plain form (docs/architecture.md, "The document"); not to be changed in place.
+        """Return the plain form (docs/shapes/document.md); not to be changed in place.
 
         A step that has not changed since the last call is the same object.
         """

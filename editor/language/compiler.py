@@ -127,7 +127,7 @@ def _in_words(
 
 
 def compiled_to_json(compiled: Compiled, revision: int = 0) -> dict[str, object]:
-    """Return the form that goes to browsers, sockets and `vipo … --json`, as docs/architecture.md has it."""
+    """Return the form that goes to browsers, sockets and `vipo … --json`, as docs/shapes/compiled.md has it."""
     return {
         "revision": revision,
         "script": compiled.script,

@@ -71,7 +71,7 @@ def new_revision() -> int:
 
 
 def compiled_json(compiled: Compiled, revision: int) -> dict[str, Any]:
-    """Return a compiled program as docs/architecture.md shows it; a higher revision is a later look."""
+    """Return a compiled program as docs/shapes/compiled.md shows it; a higher revision is a later look."""
     return {**compiled_to_json(compiled), "revision": revision}
 
 

@@ -17,7 +17,7 @@ SPEED_M_S = 0.5
 def plan_routes(*, site: str, pairs: Sequence[tuple[Any, Any]]) -> tuple[RouteView | None, ...]:
     """Return for each (from, to) the path as a drawn line, or None where there is none.
 
-    An end is a Place of docs/architecture.md (`{"device": id}`, `{"place": id}`, `{"point": [x, y]}`) or `[x, y]`.
+    An end is a Place of docs/shapes/document.md (`{"device": id}`, `{"place": id}`, `{"point": [x, y]}`) or `[x, y]`.
     """
     layout = get_layout(site)
     speed = min((d.speed_m_s for d in layout.devices.values() if d.speed_m_s > 0), default=SPEED_M_S)

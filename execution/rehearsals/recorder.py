@@ -1,4 +1,4 @@
-"""What a rehearsal leaves behind: the trajectory and the figures, in the shape of docs/architecture.md."""
+"""What a rehearsal leaves behind: the trajectory and the figures, in the shape of `RehearsalResultShape`."""
 
 from __future__ import annotations
 

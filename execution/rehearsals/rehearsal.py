@@ -61,7 +61,7 @@ def rehearse(
     conditions: Conditions | None = None,
     on_progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Carry the plan out in a world made from the scene; returns the result of docs/architecture.md.
+    """Carry the plan out in a world made from the scene; returns the result (`RehearsalResultShape`).
 
     The scene's seed decides all chance. What goes wrong is in `errors`; a program that does not end is stopped after
     `conditions.limit_s` of virtual time.

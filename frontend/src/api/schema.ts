@@ -1879,7 +1879,7 @@ export interface components {
              */
             when: "now" | "ever";
         };
-        /** @description A program's document, format 2; see docs/architecture.md. */
+        /** @description A program's document, format 2; see docs/shapes/document.md. */
         DocumentShape: {
             /** @constant */
             format: 2;

@@ -21,6 +21,8 @@ from editor.language.tree.variables import VALUES
 from editor.shapes import StepKind
 from scripts.checks_page import read_site
 from scripts.construct_programs import pictures
+from vipo_device.descriptions.forms import FORMS
+from vipo_site.cli.describe import _NAMES as FORM_NAMES
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs" / "changing.md"
@@ -94,11 +96,13 @@ def test_every_instruction_has_its_json_and_a_place_in_the_run_machine():
 def test_every_kind_has_a_case_a_section_and_a_picture():
     cases = "".join(path.read_text() for path in sorted((ROOT / "tests" / "cases").rglob("*.json")))
     manual = (ROOT / "docs" / "language" / "README.md").read_text()
+    shape = (ROOT / "docs" / "shapes" / "document.md").read_text()
     images = {path.stem for path in (ROOT / "docs" / "language" / "images").glob("*.png")}
     assert [
         *lacking("tests/cases", KINDS, re.findall(r'"kind": ?"(\w+)"', cases)),
         *lacking("docs/language/README.md", DRAWN, re.findall(r"\(images/(\w+)\.png\)", manual)),
         *lacking("docs/language/images", DRAWN, images),
+        *lacking("docs/shapes/document.md", DRAWN, re.findall(r"`(\w+)`", shape[: shape.index("`role` defaults")])),
     ] == []
 
 
@@ -123,3 +127,13 @@ def test_every_kind_stands_in_every_table_of_the_browser():
     missing = [sentence for table, found in tables.items() for sentence in lacking(table, DRAWN, found)]
     icons = names_in("program/kinds.ts", "LOOKS:", "};", r'icon: "(\w+)"')
     assert [*missing, *lacking("icons", icons, (path.stem for path in (FRONTEND / "icons").glob("*.svg")))] == []
+
+
+def test_every_form_of_a_description_has_its_names():
+    catalogues = {
+        language: json.loads((FRONTEND / "i18n" / language / "pages.json").read_text())["devices"]["form"]
+        for language in ("en", "de")
+    }
+    tables = {"_NAMES in vipo_site/cli/describe.py": FORM_NAMES}
+    tables |= {f"devices.form in i18n/{language}/pages.json": words for language, words in catalogues.items()}
+    assert [sentence for table, found in tables.items() for sentence in lacking(table, FORMS, found)] == []
