@@ -7,7 +7,7 @@ FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.htm
 .PHONY: demo test check check-static check-frontend check-units bench mutation checks-page openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
-	@exec $(BIN)/python -m vipo_site.demo.main
+	@exec $(BIN)/python -m vipo_site.demo
 
 setup: .venv/.runtime
 setup-dev: .venv/.dev frontend/node_modules/.stamp

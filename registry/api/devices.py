@@ -112,7 +112,7 @@ def retire_device(request: HttpRequest, slug: str, device_id: str) -> dict[str, 
 
 @router.post("/sites/{slug}/devices/{device_id}/readmit", response=DeviceShape)
 def readmit_device(request: HttpRequest, slug: str, device_id: str) -> dict[str, Any]:
-    """Let a retired or rejected device's id come back as a newcomer."""
+    """Let a retired or rejected device's id come back as a pending device."""
     user = signed_in(request)
     require(user, slug, "admin")
     return device_to_json(services.readmit_device(site=slug, device_id=device_id, by=user, at=timezone.now()))

@@ -96,7 +96,7 @@ def running_demo(state: Path, speed: float = 10) -> Iterator[Demo]:
     link_micropython(state)
     with log.open("wb") as output:
         process = subprocess.Popen(
-            [sys.executable, "-m", "vipo_site.demo.main"],
+            [sys.executable, "-m", "vipo_site.demo"],
             cwd=ROOT,
             env=environment,
             stdout=output,

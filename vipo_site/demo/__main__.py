@@ -1,4 +1,4 @@
-"""`python -m vipo_site.demo.main`: run everything on this machine."""
+"""`python -m vipo_site.demo`: run everything on this machine."""
 
 from vipo_site.demo.main import main
 

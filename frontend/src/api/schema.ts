@@ -1059,7 +1059,7 @@ export interface paths {
         put?: never;
         /**
          * Readmit Device
-         * @description Let a retired or rejected device's id come back as a newcomer.
+         * @description Let a retired or rejected device's id come back as a pending device.
          */
         post: operations["readmit_device"];
         delete?: never;
@@ -1158,10 +1158,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Renew Join Key
-         * @description Make a new join key for a site's newcomers, and tell it this once; the old one ends.
+         * Renew Enrolment Key
+         * @description Make a new enrolment key for devices that come to a site, and tell it this once; the old one ends.
          */
-        post: operations["renew_join_key"];
+        post: operations["renew_enrolment_key"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1458,10 +1458,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Add Newcomer
+         * Reserve Device
          * @description Reserve an id for a device that will come, and tell its key this once; it still waits for approval then.
          */
-        post: operations["add_newcomer"];
+        post: operations["reserve_device"];
         delete?: never;
         options?: never;
         head?: never;
@@ -4741,7 +4741,7 @@ export interface operations {
             };
         };
     };
-    renew_join_key: {
+    renew_enrolment_key: {
         parameters: {
             query?: never;
             header?: never;
@@ -5245,7 +5245,7 @@ export interface operations {
             };
         };
     };
-    add_newcomer: {
+    reserve_device: {
         parameters: {
             query?: never;
             header?: never;

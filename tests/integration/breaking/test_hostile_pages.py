@@ -98,7 +98,7 @@ def start_demo(state: Path, **more: str) -> subprocess.CompletedProcess[str]:
     environment = {**os.environ, "VIPO_STATE_DIR": str(state), "VIPO_MQTT_PORT": str(free_port()), **more}
     environment.pop("DJANGO_SETTINGS_MODULE", None)
     return subprocess.run(
-        [sys.executable, "-m", "vipo_site.demo.main"],
+        [sys.executable, "-m", "vipo_site.demo"],
         cwd=ROOT,
         env=environment,
         capture_output=True,

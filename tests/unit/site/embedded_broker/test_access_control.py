@@ -66,7 +66,7 @@ def test_a_kept_key_is_what_mosquitto_checks() -> None:
         ("vipo/v1/dev/join:hall/up/state", False),
     ],
 )
-def test_whoever_has_the_join_key_may_knock_and_nothing_else(topic: str, allowed: bool) -> None:
+def test_whoever_has_the_enrolment_key_may_ask_to_enrol_and_nothing_else(topic: str, allowed: bool) -> None:
     assert may_publish("join:hall", topic) is allowed
     assert not may_subscribe("join:hall", topic)
     assert not may_subscribe("join:hall", "vipo/v1/srv/status")
