@@ -8,9 +8,10 @@ from bench.hall import SITE, carry_out_run, fill_hall
 from editor.language.expressions.nodes import Constant, Located, Operation, Reading, Variable
 from editor.language.plan.instructions import Branch, End, Instruction, Plan
 from execution.floor.advance import get_layout
+from execution.floor_protocol import RoleFilled
 from execution.machine.needs import needs_of
 from execution.machine.places import ROLE
-from execution.models import InboxEvent, Run
+from execution.models import Run
 from execution.runs.facts import facts_of, site_facts
 from registry import services as registry
 from registry.models import Device, Site
@@ -82,7 +83,7 @@ def test_a_role_that_is_bound_in_a_step_has_its_readings_in_the_same_step():
     battery = Operation(">", (Reading(Located(role="carrier"), "battery"), Constant(20)))
     needs = needs_of(Plan((Instruction(Branch(battery, 1)), Instruction(End()))))
     run = Run(site=Site.objects.get(slug=SITE), roles={})
-    bound = InboxEvent(payload={"type": "role_bound", "role": "carrier", "robot": "robot001"})
+    bound = RoleFilled("carrier", "robot001")
     now = datetime.now(UTC)
     assert facts_of(needs, run, [], now) == {}
     assert facts_of(needs, run, [bound], now) == {("robot001", "battery"): 40}
