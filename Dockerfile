@@ -12,6 +12,7 @@ ENV PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECODE=1 VIPO_MODE=served VIPO_STATE_DIR
 WORKDIR /vipo
 # PyBullet's wheel is made for manylinux; nothing is compiled here.
 COPY pyproject.toml constraints.txt manage.py ./
+COPY vipo_device vipo_device
 COPY vipo_site vipo_site
 COPY registry registry
 COPY editor editor

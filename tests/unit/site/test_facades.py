@@ -104,3 +104,8 @@ def test_no_folder_has_more_modules_than_one_looks_through(package: str) -> None
 def test_no_folder_of_the_pages_has_more_modules_than_one_looks_through() -> None:
     modules = [path for kind in ("ts", "tsx") for path in (ROOT / "frontend" / "src").rglob(f"*.{kind}")]
     assert crowded(path for path in modules if ".test." not in path.name) == {}
+
+
+def test_the_image_has_every_package_of_the_product() -> None:
+    copied = [line.split()[1] for line in (ROOT / "Dockerfile").read_text().splitlines() if line.startswith("COPY ")]
+    assert {*APPS, "connectors", "vipo_device", "vipo_site"} <= set(copied)
