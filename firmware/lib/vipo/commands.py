@@ -23,7 +23,7 @@ class BadCommand(Exception):
 def read_command(payload, whole=True):
     """Return (id, arguments, ttl_s) of a message; one that is not whole was too long. Raises BadCommand."""
     if not whole:
-        raise BadCommand("the message is too long for this device", first_id(payload))
+        raise BadCommand("the message is too long for this device", first_id(bytes(payload)))
     message = read_object(payload)
     command, values, ttl_s = message.get("id"), message.get("v"), message.get("ttl_s", 1)
     if not is_plain(command):
@@ -62,7 +62,7 @@ def read_object(payload):
     check_outside(payload)
     try:
         # First to text: MicroPython's JSON takes bytes as they come, also where they are not UTF-8.
-        message = json.loads(payload.decode())
+        message = json.loads(str(payload, "utf-8"))
     except (ValueError, MemoryError):
         raise BadCommand("the message is not JSON")
     if not isinstance(message, dict):

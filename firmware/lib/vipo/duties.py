@@ -32,7 +32,7 @@ class Duties:
     def stop(self, site, payload):
         """Hold or release everything for a site; a stop that cannot be read holds, one that was taken away does not."""
         try:
-            active = payload != b"" and read_object(payload).get("active") is not False
+            active = (payload is None or len(payload) > 0) and read_object(payload).get("active") is not False
         except BadCommand:
             active = True
         self._stops = [known for known in self._stops if known != site] + ([site] if active else [])

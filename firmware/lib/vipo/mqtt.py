@@ -164,7 +164,7 @@ class Client:
                     self._was_served = True
                     self._news.set()
             elif kind >> 4 == SUBACK:
-                self._codes = body[2:]
+                self._codes = bytes(body[2:])
                 self._subscribed.set()
 
     async def _received(self, kind, body, whole):

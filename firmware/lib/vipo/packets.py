@@ -5,6 +5,7 @@ WRONG_KEY = (4, 5)
 REFUSALS = {1: "protocol", 2: "client id", 3: "not ready", 4: "the key", 5: "the key"}
 MOST_BYTES = 4096
 HEAD_BYTES = 512
+READ_BYTES = 256
 SUBSCRIBE_FAILED = 0x80
 
 
@@ -17,16 +18,29 @@ class Refused(MqttFailure):
 
 
 async def read_packet(reader):
-    """Return (first byte, body, whole); of a body over MOST_BYTES only the first HEAD_BYTES, and `whole` is False."""
+    """Return (first byte, body, whole).
+
+    Of a body over MOST_BYTES, or one that the heap has no block for, only the first HEAD_BYTES are there, and `whole`
+    is False. It is read in pieces: a stream that reads more at once copies what it has with each piece that comes.
+    """
     kind = (await reader.readexactly(1))[0]
     length = await read_length(reader)
+    body = room_for(length)
+    for start in range(0, length, READ_BYTES):
+        piece = await reader.readexactly(min(READ_BYTES, length - start))
+        if start < len(body):
+            body[start : start + len(piece)] = piece
+    return kind, memoryview(body), len(body) == length
+
+
+def room_for(length):
+    """Return a bytearray for a body, or for its beginning."""
     if length <= MOST_BYTES:
-        return kind, await reader.readexactly(length), True
-    head = await reader.readexactly(HEAD_BYTES)
-    length -= HEAD_BYTES
-    while length:
-        length -= len(await reader.readexactly(min(length, HEAD_BYTES)))
-    return kind, head, False
+        try:
+            return bytearray(length)
+        except MemoryError:
+            pass
+    return bytearray(min(length, HEAD_BYTES))
 
 
 async def read_length(reader):
@@ -41,15 +55,15 @@ async def read_length(reader):
 
 
 def split_publish(kind, body):
-    """Return (topic, payload, packet id or 0) of a PUBLISH."""
+    """Return (topic, payload, packet id or 0) of a PUBLISH; the payload is a part of the body, not a copy."""
     end = 2 + int.from_bytes(body[:2], "big")
     topic = bytes(body[2:end]).decode()
     if not kind & 0x06:
-        return topic, bytes(body[end:]), 0
+        return topic, body[end:], 0
     number = int.from_bytes(body[end : end + 2], "big")
     if not number:
         raise MqttFailure("the broker sent nonsense")
-    return topic, bytes(body[end + 2 :]), number
+    return topic, body[end + 2 :], number
 
 
 def connect_packet(client_id, user, password, keepalive_s, will):
