@@ -129,7 +129,7 @@ def carry_out(plan, happened):
     return history
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=4 * settings.default.max_examples, deadline=None)
 @given(plans, st.lists(happenings, max_size=25))
 def test_random_plans_against_random_events_stay_legal_and_replay_the_same(plan, happened):
     first = carry_out(plan, happened)
@@ -140,7 +140,7 @@ def test_random_plans_against_random_events_stay_legal_and_replay_the_same(plan,
     assert not finished or actions[-1] == finished[0]
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=2 * settings.default.max_examples, deadline=None)
 @given(plans)
 def test_what_is_called_off_was_asked_for_and_everything_is_once(plan):
     actions = [action for _, done in carry_out(plan, ["answer"] * 30 + [r.CancelAsked("over")]) for action in done]
