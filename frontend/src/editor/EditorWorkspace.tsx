@@ -22,7 +22,7 @@ import { useOpenProgram } from "./state/context";
 import { resetGestures } from "./state/gestures";
 import { useShortcuts } from "./state/shortcuts";
 import { useUi } from "./state/ui";
-import { useZoneKeys } from "./zones/drawing";
+import { useZoneKeys } from "./zones/zoneTool";
 import { ZoneForm } from "./zones/ZoneForm";
 
 const FITTED: Insets = { left: 100, right: 336, top: 34, bottom: 300 };

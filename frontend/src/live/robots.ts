@@ -14,7 +14,7 @@ export const liveRobots: RobotSource = (now) => {
     if (device.kind !== "robot") continue;
     const pair = poseOf(device.id);
     const pose = pair ? interpolatePose(pair.previous, pair.current, now) : device.location;
-    const way = traffic[device.id];
+    const path = traffic[device.id];
     views.push({
       id: device.id,
       name: device.name,
@@ -24,9 +24,9 @@ export const liveRobots: RobotSource = (now) => {
       x: pose.x,
       y: pose.y,
       theta: pose.theta,
-      route: way?.route,
-      reserved: way?.reserved,
-      wait: waitWords(way?.why, (id) => deviceById[id]?.name ?? id) ?? way?.wait ?? null,
+      route: path?.route,
+      reserved: path?.reserved,
+      wait: waitWords(path?.why, (id) => deviceById[id]?.name ?? id) ?? path?.wait ?? null,
     });
   }
   return views;

@@ -20,11 +20,11 @@ test("corners are pushed, added and taken away one at a time", () => {
   ]);
 });
 
-test("a way that is dragged bends on the leg under the pointer", () => {
-  const way = [
+test("a path that is dragged bends on the leg under the pointer", () => {
+  const path = [
     { x: 0, y: 0 },
     { x: 100, y: 0 },
     { x: 100, y: 100 },
   ];
-  expect([nearestLeg(way, { x: 40, y: 5 }), nearestLeg(way, { x: 95, y: 60 })]).toEqual([0, 1]);
+  expect([nearestLeg(path, { x: 40, y: 5 }), nearestLeg(path, { x: 95, y: 60 })]).toEqual([0, 1]);
 });

@@ -34,8 +34,8 @@ export function CornerHandles(props: CornerHandlesProps) {
   const { held, hold } = useHeldCorner(onChange);
   const shown = held?.points ?? points;
   const press = (event: KeyboardEvent, at: number) => {
-    const way = NUDGES[event.key];
-    if (way) onChange(pushed(points, at, way));
+    const direction = NUDGES[event.key];
+    if (direction) onChange(pushed(points, at, direction));
     else if ((event.key === "Delete" || event.key === "Backspace") && points.length > fewest)
       onChange(withoutCorner(points, at));
     else return;
@@ -190,8 +190,8 @@ export function withoutCorner(points: readonly Position[], at: number): Position
   return points.filter((_, index) => index !== at);
 }
 
-/** Which leg of a way a point lies nearest to; 0 is the first. */
-export function nearestLeg(way: readonly PixelPoint[], to: PixelPoint): number {
-  const far = way.slice(1).map((end, index) => nearestOn([way[index] ?? end, end], to)?.off ?? Infinity);
+/** Which leg of a path a point lies nearest to; 0 is the first. */
+export function nearestLeg(path: readonly PixelPoint[], to: PixelPoint): number {
+  const far = path.slice(1).map((end, index) => nearestOn([path[index] ?? end, end], to)?.off ?? Infinity);
   return Math.max(0, far.indexOf(Math.min(...far)));
 }

@@ -1,10 +1,10 @@
-/** A chip that was set down before its way was known comes onto it once it is, unless somebody has moved it. */
+/** A chip that was set down before its path was known comes onto it once it is, unless somebody has moved it. */
 import { useCallback, useEffect, useRef } from "react";
 import { isRobot } from "@/map/devices/device";
 import type { Point } from "@/map/plane/projection";
 import type { ProgramDocument } from "@/program/document/document";
 import { spotOnRoute } from "../state/placement";
-import type { RouteLookup, Way } from "@/program/scene/stepPaths";
+import type { RouteLookup, StepPath } from "@/program/scene/stepPaths";
 import { routePoints } from "@/program/scene/scene";
 import { deviceBox } from "@/program/surroundings";
 import type { OpenProgram } from "../state/context";
@@ -14,7 +14,7 @@ export interface Landing {
   /** Where it was set down. */
   readonly pos: Point;
   readonly key: string;
-  readonly ends: Pick<Way, "from" | "to">;
+  readonly ends: Pick<StepPath, "from" | "to">;
 }
 
 export function useLanding(open: OpenProgram, routes: RouteLookup): (landing: Landing) => void {

@@ -2,7 +2,7 @@
 import { useStore, type ConnectionLineComponentProps } from "@xyflow/react";
 import { use } from "react";
 import { joinTarget } from "@/program/canvas/snapping";
-import { decideJoin } from "./joining";
+import { decideJoin } from "./connection";
 import classes from "../canvas/gestures.module.css";
 import { START_ID } from "@/program/canvas/buildNodes";
 import { ProgramContext } from "../state/context";

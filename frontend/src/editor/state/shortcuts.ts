@@ -5,7 +5,7 @@ import type { Position } from "@/program/document/document";
 import { undoLast, duplicateSelected, nudgeSelected, removeSelected } from "./actions";
 import { TOOLS } from "./tools";
 import { useOpenProgram, type OpenProgram } from "./context";
-import { createOnFloor } from "./creating";
+import { createOnFloor } from "./newStep";
 import { freeSpot } from "./freeSpot";
 import { askOf, RESTING, stepBack, takeTool } from "./tool";
 import { say, select, showTab, useUi } from "./ui";
@@ -145,23 +145,23 @@ const NUDGES: Readonly<Record<string, Position>> = {
 };
 
 function moveKey(open: OpenProgram, event: KeyboardEvent): boolean {
-  const way = NUDGES[event.key];
-  if (!way || !open.canEdit) return false;
+  const direction = NUDGES[event.key];
+  if (!direction || !open.canEdit) return false;
   const step = event.shiftKey ? 0.5 : 0.1;
-  nudgeSelected(open.document, open.apply, [way[0] * step, way[1] * step]);
+  nudgeSelected(open.document, open.apply, [direction[0] * step, direction[1] * step]);
   return true;
 }
 
 /** The nearest step in the direction of the arrow. */
 function neighbour({ scene }: OpenProgram, key: string): boolean {
   const from = scene.chips.get(useUi.getState().selected.at(-1) ?? "");
-  const way = NUDGES[key];
-  if (!from || !way) return false;
+  const direction = NUDGES[key];
+  if (!from || !direction) return false;
   let best: { id: string; far: number } | null = null;
   for (const chip of scene.chips.values()) {
     const [dx, dy] = [chip.at.x - from.at.x, from.at.y - chip.at.y];
-    const ahead = dx * way[0] + dy * way[1];
-    const aside = Math.abs(dx * way[1]) + Math.abs(dy * way[0]);
+    const ahead = dx * direction[0] + dy * direction[1];
+    const aside = Math.abs(dx * direction[1]) + Math.abs(dy * direction[0]);
     const far = ahead + aside * 2;
     if (ahead > 4 && (!best || far < best.far)) best = { id: chip.id, far };
   }

@@ -10,7 +10,7 @@ import type { Zone } from "@/program/document/document";
 import { soundZones } from "@/program/canvas/Zones";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
-import { changeZone, removeZone } from "./drawing";
+import { changeZone, removeZone } from "./zoneTool";
 import { areaOf, ZONE_RULES } from "./shape";
 
 export function ZoneForm() {

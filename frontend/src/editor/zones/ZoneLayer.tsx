@@ -8,7 +8,7 @@ import { useGestures, selectZone } from "../state/gestures";
 import type { Position } from "@/program/document/document";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
-import { changeZone } from "./drawing";
+import { changeZone } from "./zoneTool";
 import { FEWEST_CORNERS, placed, soundZones, Zones } from "@/program/canvas/Zones";
 import classes from "./zones.module.css";
 

@@ -97,9 +97,9 @@ function fingerprint(
   const view = viewport.get();
   const moving = robots.some((robot) => robot.status === "busy");
   const parts = robots.map((robot) => {
-    const way = `${robot.route?.length ?? 0},${robot.reserved?.[0]?.join() ?? ""}`;
+    const path = `${robot.route?.length ?? 0},${robot.reserved?.[0]?.join() ?? ""}`;
     const pose = `${robot.x.toFixed(3)},${robot.y.toFixed(3)},${robot.theta.toFixed(2)}`;
-    return `${robot.id},${pose},${robot.status},${robot.note ?? ""},${robot.wait ?? ""},${robot.carrying},${way}`;
+    return `${robot.id},${pose},${robot.status},${robot.note ?? ""},${robot.wait ?? ""},${robot.carrying},${path}`;
   });
   const time = moving ? now : fading ? Math.floor(now / 500) : 0;
   return `${view.x},${view.y},${view.zoom},${element.clientWidth},${element.clientHeight},${time};${parts.join(";")}`;

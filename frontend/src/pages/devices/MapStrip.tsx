@@ -8,7 +8,7 @@ import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { useLiveStore } from "@/live/store";
 import { StaticMap } from "@/map/StaticMap";
-import { newcomerOf } from "./filter";
+import { pendingOf } from "./filter";
 import { PendingDevice } from "./PendingDevice";
 import styles from "./devices.module.css";
 
@@ -40,7 +40,7 @@ function Floor({ site, devices, chosen }: StripProps) {
 export function MapStrip({ site, devices, chosen }: StripProps) {
   const { t } = useTranslation();
   const live = useLiveStore((state) => state.connection === "live");
-  const newcomer = newcomerOf(devices, chosen);
+  const pending = pendingOf(devices, chosen);
   return (
     <Panel className={styles.strip}>
       <div className={styles.stripMap}>
@@ -49,7 +49,7 @@ export function MapStrip({ site, devices, chosen }: StripProps) {
           <StatusBadge status={live ? "done" : "offline"}>{t(live ? "pages.live" : "pages.notLive")}</StatusBadge>
         </span>
       </div>
-      {newcomer ? <PendingDevice key={newcomer.id} device={newcomer} site={site} /> : null}
+      {pending ? <PendingDevice key={pending.id} device={pending} site={site} /> : null}
     </Panel>
   );
 }

@@ -39,12 +39,12 @@ export function PendingDevice({ device, site }: { device: Device; site: Site }) 
   const decide = useDecide(site.slug);
   useFocusInList(device.id);
   return (
-    <section className={styles.newcomer} aria-labelledby="newcomer">
-      <h2 id="newcomer">
+    <section className={styles.pending} aria-labelledby="pending">
+      <h2 id="pending">
         <StatusGlyph status="pending" size={16} />
         {t("pages.devices.wantsToJoin")}
       </h2>
-      <div className={styles.newcomerName}>
+      <div className={styles.pendingName}>
         <span className={styles.disc} data-status="pending">
           <DeviceIcon deviceClass={device.device_class} size={19} />
         </span>

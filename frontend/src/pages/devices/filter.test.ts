@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { Device } from "@/api/types";
-import { batteryOf, filterDevices, isOnline, jobOf, methodNames, newcomerOf, NO_FILTER } from "./filter";
+import { batteryOf, filterDevices, isOnline, jobOf, methodNames, pendingOf, NO_FILTER } from "./filter";
 
 function device(id: string, more: Partial<Device> = {}): Device {
   const base = { id, name: id, kind: "machine", lifecycle: "approved", status: "idle", doing: "" };
@@ -25,9 +25,9 @@ const robot = device("robot01", {
   kind: "robot",
   methods: [method("move", "Drive"), method("cure", "")],
 });
-const newcomer = device("mixer03", { lifecycle: "pending", status: "pending" });
+const pending = device("mixer03", { lifecycle: "pending", status: "pending" });
 const retired = device("old", { lifecycle: "retired" });
-const ALL = [oven, mixer, robot, retired, newcomer];
+const ALL = [oven, mixer, robot, retired, pending];
 const ids = (found: readonly Device[]) => found.map((each) => each.id);
 
 test("those that wait for approval come first, retired ones not at all", () => {
@@ -64,21 +64,21 @@ test("a job is a share of one, and only while busy", () => {
   expect(jobOf(job(75, "idle"))).toBeNull();
 });
 
-test("an admin is asked about the newcomer that is looked at, else about the first", () => {
+test("an admin is asked about the pending device that is looked at, else about the first", () => {
   const second = device("mixer04", { lifecycle: "pending", status: "pending" });
   const all = [...ALL, second];
-  expect(newcomerOf(all, "mixer04")).toBe(second);
-  expect(newcomerOf(all, "mixer01")).toBe(newcomer);
-  expect(newcomerOf(all, undefined)).toBe(newcomer);
-  expect(newcomerOf([oven], "oven01")).toBeUndefined();
+  expect(pendingOf(all, "mixer04")).toBe(second);
+  expect(pendingOf(all, "mixer01")).toBe(pending);
+  expect(pendingOf(all, undefined)).toBe(pending);
+  expect(pendingOf([oven], "oven01")).toBeUndefined();
 });
 
-test("a newcomer that has long said nothing is not online", () => {
+test("a pending device that has long said nothing is not online", () => {
   const at = Date.parse("2026-11-22T08:00:00Z");
-  const seen = { ...newcomer, last_seen_at: "2026-11-22T07:59:30Z" };
+  const seen = { ...pending, last_seen_at: "2026-11-22T07:59:30Z" };
   expect(isOnline(seen, at)).toBe(true);
   expect(isOnline(seen, at + 20_000)).toBe(false);
-  expect(isOnline({ ...newcomer, last_seen_at: null }, at)).toBe(false);
+  expect(isOnline({ ...pending, last_seen_at: null }, at)).toBe(false);
   expect(isOnline(oven, at)).toBe(true);
   expect(isOnline(device("gone", { status: "offline" }), at)).toBe(false);
 });

@@ -33,7 +33,7 @@ export function isOnline(device: Device, now: number): boolean {
 }
 
 /** Whose approval is asked for: the one that is looked at if it waits for it, the first one otherwise. */
-export function newcomerOf(devices: readonly Device[], chosen: string | undefined): Device | undefined {
+export function pendingOf(devices: readonly Device[], chosen: string | undefined): Device | undefined {
   const waiting = devices.filter((device) => device.lifecycle === "pending");
   return waiting.find((device) => device.id === chosen) ?? waiting[0];
 }

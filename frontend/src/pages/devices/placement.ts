@@ -11,12 +11,12 @@ const WAYS: Readonly<Record<string, Point>> = {
   ArrowDown: [0, -1],
 };
 
-/** The point one step further in the key's way (metres, y up); null for any other key. */
+/** The point one step further in the key's direction (metres, y up); null for any other key. */
 export function nudge([x, y]: Point, key: string, leap: boolean): Point | null {
-  const way = WAYS[key];
-  if (!way) return null;
+  const direction = WAYS[key];
+  if (!direction) return null;
   const step = leap ? LEAP_M : STEP_M;
-  return [x + way[0] * step, y + way[1] * step];
+  return [x + direction[0] * step, y + direction[1] * step];
 }
 
 export const isSame = (a: Point, b: Point): boolean => a[0] === b[0] && a[1] === b[1];

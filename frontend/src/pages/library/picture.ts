@@ -1,10 +1,10 @@
-/** What a function's picture shows: the machines it touches and the ways between them. Pure. */
+/** What a function's picture shows: the machines it touches and the paths between them. Pure. */
 import type { Device, LibraryFunction, Place, Point, Step } from "@/api/types";
 import { boxAround, toPixels, type Box } from "@/map/plane/projection";
 
 const MARGIN_M = 1.6;
 
-export interface WayWanted {
+export interface PathWanted {
   readonly from: Place;
   readonly to: Place;
 }
@@ -26,18 +26,18 @@ export function devicesIn(definition: LibraryFunction["definition"]): string[] {
   return [...new Set(named.filter((id) => id !== null))];
 }
 
-/** The ways its Pick-and-Drops take, where both ends are known. */
-export function waysIn(definition: LibraryFunction["definition"]): WayWanted[] {
+/** The paths its Pick-and-Drops take, where both ends are known. */
+export function pathsIn(definition: LibraryFunction["definition"]): PathWanted[] {
   const steps: Step[] = Object.values(definition?.steps ?? {});
   return steps
     .filter((step) => step.kind === "pick_and_drop")
     .map((step) => ({ from: step.params.source, to: step.params.target }))
-    .filter((way): way is WayWanted => deviceOf(way.from) !== null && deviceOf(way.to) !== null);
+    .filter((path): path is PathWanted => deviceOf(path.from) !== null && deviceOf(path.to) !== null);
 }
 
-/** The part of the map around the devices and ways (drawing pixels); undefined when there are none. */
-export function focusOn(devices: readonly Device[], ways: readonly (readonly Point[])[]): Box | undefined {
-  const corners = [...devices.map(({ location }) => [location.x, location.y] as const), ...ways.flat()];
+/** The part of the map around the devices and paths (drawing pixels); undefined when there are none. */
+export function focusOn(devices: readonly Device[], paths: readonly (readonly Point[])[]): Box | undefined {
+  const corners = [...devices.map(({ location }) => [location.x, location.y] as const), ...paths.flat()];
   const grown = corners.flatMap(([x, y]) => [
     toPixels([x - MARGIN_M, y - MARGIN_M]),
     toPixels([x + MARGIN_M, y + MARGIN_M]),

@@ -35,7 +35,7 @@ export function MapControls({
             onGo={(point) => void flow.setCenter(point.x, point.y, { zoom: viewport.get().zoom })}
           >
             {scene.routes.map((route) => (
-              <path key={route.step} d={roundedPath(route.points)} className={classes.way} />
+              <path key={route.step} d={roundedPath(route.points)} className={classes.path} />
             ))}
           </MiniMap>
         </div>

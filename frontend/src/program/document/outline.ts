@@ -70,16 +70,16 @@ function circleBreakers(places: ReadonlyMap<string, GoodPlace>): string[] {
   const settled = new Set<string>();
   const breakers: string[] = [];
   for (const id of places.keys()) {
-    const way: string[] = [];
+    const walk: string[] = [];
     let here = id;
     for (let place = places.get(here); place && !settled.has(here); place = places.get(here)) {
-      if (way.includes(here)) break;
-      way.push(here);
+      if (walk.includes(here)) break;
+      walk.push(here);
       here = place[0];
     }
-    const circle = way.slice(way.indexOf(here)).sort(compareBytes);
-    if (way.includes(here) && circle[0] !== undefined) breakers.push(circle[0]);
-    for (const step of way) settled.add(step);
+    const circle = walk.slice(walk.indexOf(here)).sort(compareBytes);
+    if (walk.includes(here) && circle[0] !== undefined) breakers.push(circle[0]);
+    for (const step of walk) settled.add(step);
   }
   return breakers;
 }

@@ -3,16 +3,16 @@ import { boxAt, elbow, gap, nearestOn } from "./geometry";
 import { separateLanes } from "./lanes";
 
 test("boxes above each other are joined by a straight line", () => {
-  const way = elbow(boxAt({ x: 0, y: 0 }, 40, 20), boxAt({ x: 10, y: 100 }, 40, 20));
-  expect(way).toEqual([
+  const path = elbow(boxAt({ x: 0, y: 0 }, 40, 20), boxAt({ x: 10, y: 100 }, 40, 20));
+  expect(path).toEqual([
     { x: 5, y: 10 },
     { x: 5, y: 90 },
   ]);
 });
 
 test("boxes in different rows and columns are joined by a corner", () => {
-  const way = elbow(boxAt({ x: 0, y: 0 }, 40, 20), boxAt({ x: 200, y: 100 }, 40, 20));
-  expect(way).toEqual([
+  const path = elbow(boxAt({ x: 0, y: 0 }, 40, 20), boxAt({ x: 200, y: 100 }, 40, 20));
+  expect(path).toEqual([
     { x: 0, y: 10 },
     { x: 0, y: 100 },
     { x: 180, y: 100 },

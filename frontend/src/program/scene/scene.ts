@@ -11,7 +11,7 @@ import { hullsOf, type Hull } from "./hulls";
 import { isFramed } from "../kinds";
 import { separateLanes } from "./lanes";
 import { linksOf, type Link, wordBox } from "./links";
-import { functionOf, pathsOf, type RouteLookup, type RouteShape, type Way } from "./stepPaths";
+import { functionOf, pathsOf, type RouteLookup, type RouteShape, type StepPath } from "./stepPaths";
 import { deviceBox, type Surroundings } from "../surroundings";
 import type { Speaker, Translate } from "../words/stepWords";
 
@@ -46,8 +46,8 @@ export function buildScene(input: SceneInput): Scene {
   const tree = readTree(document);
   const speaker: Speaker = { document, surroundings, t };
   const shown = [...tree.reading, ...tree.loose, ...commentsOf(document)].filter((id) => isShown(input, id));
-  const ways = pathsOf(document, tree, surroundings).filter((way) => shown.includes(way.step));
-  const routes = shapeRoutes(ways, input.routes);
+  const stepPaths = pathsOf(document, tree, surroundings).filter((stepPath) => shown.includes(stepPath.step));
+  const routes = shapeRoutes(stepPaths, input.routes);
   const chips = new Map<string, Chip>();
   const chipInput = { ...input, drafts: new Set(tree.drafts) };
   for (const id of shown) {
@@ -125,37 +125,37 @@ function isShown(input: SceneInput, id: string): boolean {
   return scope === null || !input.collapsed.has(scope);
 }
 
-/** Steps that drive the same way share its line. */
-function shapeRoutes(ways: readonly Way[], lookup: RouteLookup): Map<string, RouteShape> {
-  const lineOf = (way: Way) => way.key + (way.drawn ? JSON.stringify(way.drawn) : "");
-  const pathOf = (way: Way) => way.drawn ?? lookup(way.key);
-  const different = [...new Map(ways.map((way) => [lineOf(way), way])).values()];
+/** Steps that drive the same path share its line. */
+function shapeRoutes(stepPaths: readonly StepPath[], lookup: RouteLookup): Map<string, RouteShape> {
+  const lineOf = (stepPath: StepPath) => stepPath.key + (stepPath.drawn ? JSON.stringify(stepPath.drawn) : "");
+  const pathOf = (stepPath: StepPath) => stepPath.drawn ?? lookup(stepPath.key);
+  const different = [...new Map(stepPaths.map((stepPath) => [lineOf(stepPath), stepPath])).values()];
   const lanes = separateLanes(
-    different.map((way) => routePoints(way, pathOf(way))),
-    different.map((way) => ({ start: way.from.box !== null, end: way.to.box !== null })),
+    different.map((stepPath) => routePoints(stepPath, pathOf(stepPath))),
+    different.map((stepPath) => ({ start: stepPath.from.box !== null, end: stepPath.to.box !== null })),
   );
-  const lines = new Map(different.map((way, index) => [lineOf(way), lanes[index] ?? []]));
+  const lines = new Map(different.map((stepPath, index) => [lineOf(stepPath), lanes[index] ?? []]));
   return new Map(
-    ways.map((way) => {
-      const points = lines.get(lineOf(way)) ?? [];
-      return [way.step, { step: way.step, points, guessed: !pathOf(way) }];
+    stepPaths.map((stepPath) => {
+      const points = lines.get(lineOf(stepPath)) ?? [];
+      return [stepPath.step, { step: stepPath.step, points, guessed: !pathOf(stepPath) }];
     }),
   );
 }
 
-/** From edge to edge: the planned way between the outlines of what it joins. */
+/** From edge to edge: the planned path between the outlines of what it joins. */
 export function routePoints(
-  way: Pick<Way, "from" | "to">,
+  stepPath: Pick<StepPath, "from" | "to">,
   path: readonly (readonly [number, number])[] | null | undefined,
 ): PixelPoint[] {
-  const around = (spot: Way["from"]) =>
+  const around = (spot: StepPath["from"]) =>
     spot.box ?? { left: spot.at.x - 4, right: spot.at.x + 4, top: spot.at.y - 4, bottom: spot.at.y + 4 };
-  if (!path || path.length === 0) return elbow(around(way.from), around(way.to));
+  if (!path || path.length === 0) return elbow(around(stepPath.from), around(stepPath.to));
   const middle = path.map((point) => toPixels(point));
   const [first, last] = [middle[0], middle.at(-1)];
   if (!first || !last) return [];
-  const head = way.from.box ? [edgeTowards(way.from.box, first)] : [];
-  const tail = way.to.box ? [edgeTowards(way.to.box, last)] : [];
+  const head = stepPath.from.box ? [edgeTowards(stepPath.from.box, first)] : [];
+  const tail = stepPath.to.box ? [edgeTowards(stepPath.to.box, last)] : [];
   return simplified([...head, ...middle, ...tail]);
 }
 

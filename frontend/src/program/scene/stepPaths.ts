@@ -1,4 +1,4 @@
-/** Which ways a program drives, so that their routes can be asked for and drawn. */
+/** Which paths a program drives, so that their routes can be asked for and drawn. */
 import { type Position, type Place, type ProgramDocument, type Step, textOf } from "../document/document";
 import { isRobot } from "@/map/devices/device";
 import { type PixelPoint, simplified } from "@/map/plane/paths";
@@ -6,13 +6,13 @@ import { type Point, toMetres } from "@/map/plane/projection";
 import { ancestors, type ProgramTree } from "../document/tree";
 import { type Spot, spotOf, type Surroundings } from "../surroundings";
 
-export interface Way {
+export interface StepPath {
   readonly step: string;
   readonly from: Spot;
   readonly to: Spot;
-  /** Equal for ways that have the same route. */
+  /** Equal for paths that have the same route. */
   readonly key: string;
-  /** The bends that somebody drew, metres; null where the server finds the way. */
+  /** The bends that somebody drew, metres; null where the server finds the path. */
   readonly drawn: readonly Point[] | null;
 }
 
@@ -23,12 +23,12 @@ export interface RouteShape {
   readonly guessed: boolean;
 }
 
-/** A way's answer in metres; undefined while it is not known, null where there is none. */
+/** A path's answer in metres; undefined while it is not known, null where there is none. */
 export type RouteLookup = (key: string) => readonly (readonly [number, number])[] | null | undefined;
 
-/** One way for each Pick-and-Drop and each Move whose ends are known, in reading order. */
-export function pathsOf(document: ProgramDocument, tree: ProgramTree, surroundings: Surroundings): Way[] {
-  const ways: Way[] = [];
+/** One path for each Pick-and-Drop and each Move whose ends are known, in reading order. */
+export function pathsOf(document: ProgramDocument, tree: ProgramTree, surroundings: Surroundings): StepPath[] {
+  const stepPaths: StepPath[] = [];
   const standing = new Map<string, Spot>();
   for (const id of tree.reading) {
     const step = document.steps[id];
@@ -39,13 +39,13 @@ export function pathsOf(document: ProgramDocument, tree: ProgramTree, surroundin
       startOf(step, document, surroundings, scope) ?? standing.get(role) ?? homeOf(step, document, surroundings);
     const to = endOf(step, document, surroundings, scope);
     if (from && to && (step.kind === "pick_and_drop" || step.kind === "move"))
-      ways.push({ step: id, from, to, key: keyOfPath(from, to), drawn: drawnRoute(step) });
+      stepPaths.push({ step: id, from, to, key: keyOfPath(from, to), drawn: drawnRoute(step) });
     if (to && !isInCatch(document, id)) standing.set(role, to);
   }
-  return ways;
+  return stepPaths;
 }
 
-/** What is done when something fails is no part of the usual way. */
+/** What is done when something fails is no part of the usual path. */
 function isInCatch(document: ProgramDocument, id: string): boolean {
   return [id, ...ancestors(document, id)].some((each) => document.steps[each]?.place?.[1] === "catch");
 }
@@ -89,18 +89,18 @@ function homeOf(step: Step, document: ProgramDocument, surroundings: Surrounding
   return spotOf({ point }, surroundings, document, null);
 }
 
-/** Equal for ways between the same places as they stand now. */
+/** Equal for paths between the same places as they stand now. */
 export function keyOfPath(from: Spot, to: Spot): string {
   return JSON.stringify([from.place, toMetres(from.at), to.place, toMetres(to.at)]);
 }
 
-/** The two ends of a way as the server takes them. */
+/** The two ends of a path as the server takes them. */
 export function endsOfWay(key: string): { from: Place; to: Place } {
   const [from, , to] = JSON.parse(key) as [Place, unknown, Place, unknown];
   return { from, to };
 }
 
-/** The bends that somebody drew; null for the automatic way. */
+/** The bends that somebody drew; null for the automatic path. */
 export function drawnRoute(step: Step | undefined): readonly Position[] | null {
   const route = step?.params.route;
   if (!Array.isArray(route) || route.length === 0) return null;
@@ -108,7 +108,7 @@ export function drawnRoute(step: Step | undefined): readonly Position[] | null {
   return sound ? (route as Position[]) : null;
 }
 
-/** The bends of a way as it is planned; the middle of a straight one, so that there is one to drag. */
+/** The bends of a path as it is planned; the middle of a straight one, so that there is one to drag. */
 export function plannedBends(points: readonly PixelPoint[]): Position[] {
   const bends = simplified(points).slice(1, -1).map(toMetres);
   const [first, last] = [points[0], points.at(-1)];

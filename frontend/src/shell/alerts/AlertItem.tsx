@@ -12,7 +12,7 @@ import { alertWords, ownWords, signOf } from "./alertWords";
 interface AlertItemProps {
   slug: string;
   alert: Alert;
-  /** The device as it is known; a newcomer that VIPO does not understand is none yet. */
+  /** The device as it is known; a pending device that VIPO does not understand is none yet. */
   device: Device | undefined;
   now: number;
   /** Left out where the device is the page's own. */

@@ -69,7 +69,7 @@ function Load({ kind, palette }: { kind: string; palette: Palette }) {
   );
 }
 
-/** The last half minute of a robot's way, renewed four times a second of the recording. */
+/** The last half minute of a robot's path, renewed four times a second of the recording. */
 function Trail({ device, recording, moment, palette }: RobotProps) {
   const [points, setPoints] = useState<[number, number][]>([]);
   const shown = useRef(-1);
@@ -83,8 +83,8 @@ function Trail({ device, recording, moment, palette }: RobotProps) {
   return line.length > 1 ? <Line points={line} color={palette.busy} lineWidth={5} transparent opacity={0.75} /> : null;
 }
 
-/** The way that the robot is on at the moment. */
-function Way({ device, recording, moment, palette }: RobotProps) {
+/** The path that the robot is on at the moment. */
+function PlannedPath({ device, recording, moment, palette }: RobotProps) {
   const routes = useMemo(
     () =>
       recording.routes
@@ -103,7 +103,7 @@ function Way({ device, recording, moment, palette }: RobotProps) {
   ) : null;
 }
 
-/** A robot where the recording has it, with its load, its trail and its way. */
+/** A robot where the recording has it, with its load, its trail and its path. */
 export function Robot(props: RobotProps) {
   const { device, recording, moment, palette } = props;
   const body = useRef<THREE.Group>(null);
@@ -124,7 +124,7 @@ export function Robot(props: RobotProps) {
         </group>
       </group>
       <Trail {...props} />
-      <Way {...props} />
+      <PlannedPath {...props} />
     </>
   );
 }

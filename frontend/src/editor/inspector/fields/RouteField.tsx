@@ -12,9 +12,9 @@ import { useStepEditor } from "./stepEditor";
 export function RouteField() {
   const { t, document, scene, surroundings, site, plan, compiled } = useOpenProgram();
   const { id } = useStepEditor();
-  const way = pathsOf(document, scene.tree, surroundings).find((each) => each.step === id);
-  const route = way ? knownRoute(site.slug, plan?.version, way.key) : null;
-  if (!way) return null;
+  const path = pathsOf(document, scene.tree, surroundings).find((each) => each.step === id);
+  const route = path ? knownRoute(site.slug, plan?.version, path.key) : null;
+  if (!path) return null;
   const length = route ? `${route.length_m.toFixed(1)}\u202fm` : "";
   const added = compiled?.added_moves.includes(id) || document.steps[id]?.kind === "pick_and_drop";
   if (drawnRoute(document.steps[id])) return <RouteChoice />;

@@ -1,4 +1,4 @@
-/** A join key, with which any number of newcomers bring keys of their own. */
+/** A join key, with which any number of devices bring keys of their own. */
 import { Button, TextInput } from "@mantine/core";
 import { useMutation } from "@tanstack/react-query";
 import { useTranslation } from "react-i18next";

@@ -11,7 +11,7 @@ import { routePoints } from "@/program/scene/scene";
 import { deviceBox, spotOf, type SiteDevice, type Spot } from "@/program/surroundings";
 import { createStep } from "../state/actions";
 import type { OpenProgram } from "../state/context";
-import { createAtDevice, createOnFloor } from "../state/creating";
+import { createAtDevice, createOnFloor } from "../state/newStep";
 import { useLanding } from "./landing";
 import { askOf, suggestedLoads, suits, withDevice, type Gesture } from "../state/tool";
 import { say, useUi } from "../state/ui";
@@ -34,8 +34,8 @@ export interface Drawing {
 export function useDrawing(open: OpenProgram, gesture: Gesture): Drawing {
   const { surroundings, devices } = open;
   const [pointer] = useState(() => new ViewportCell());
-  const way = usePath(open, gesture);
-  const takeLoad = useTakeLoad(open, gesture, way);
+  const path = usePath(open, gesture);
+  const takeLoad = useTakeLoad(open, gesture, path);
   const takeDevice = (id: string) => takeDeviceFor(open, gesture, id);
   const drags = useDrags(open, gesture, takeDevice);
   const device = (id: string | null) => (id ? surroundings.devices.get(id) : undefined);
@@ -52,7 +52,7 @@ export function useDrawing(open: OpenProgram, gesture: Gesture): Drawing {
     askAt: asked ? below(asked) : null,
     loads: suggestedLoads(source, target, mostCarried(devices)),
     from: askOf(gesture) === "target" ? (spotOfDevice(open, gesture.source)?.at ?? null) : null,
-    preview: asked ? way.preview : null,
+    preview: asked ? path.preview : null,
     pointer,
   };
 }
@@ -65,7 +65,7 @@ interface DrawnPath {
   readonly preview: PixelPoint[] | null;
 }
 
-/** The way of a Pick-and-Drop as far as its ends are chosen. */
+/** The path of a Pick-and-Drop as far as its ends are chosen. */
 function usePath(open: OpenProgram, gesture: Gesture): DrawnPath {
   const ends = endsOf(open, gesture);
   const key = ends ? keyOfPath(ends.from, ends.to) : "";
@@ -101,19 +101,19 @@ function takeDeviceFor(open: OpenProgram, gesture: Gesture, id: string): void {
   else say(t(`unsuitable.${askOf(gesture)}`, { device: found.name }));
 }
 
-/** The answer to what is carried makes the step; on a way that is not known yet it is moved when the way comes. */
-function useTakeLoad(open: OpenProgram, gesture: Gesture, way: DrawnPath) {
+/** The answer to what is carried makes the step; on a path that is not known yet it is moved when the path comes. */
+function useTakeLoad(open: OpenProgram, gesture: Gesture, path: DrawnPath) {
   const { document, apply, surroundings, devices, t } = open;
-  const land = useLanding(open, way.routes);
+  const land = useLanding(open, path.routes);
   return (load: Load) => {
     const common = { role: "robot", ...presentOnly(load) };
     const taken = chipBoxes(open);
-    if (way.ends && way.preview) {
+    if (path.ends && path.preview) {
       const machines = devices.filter((device) => device.kind !== "robot").map(deviceBox);
-      const pos = spotOnRoute(way.preview, [...taken, ...machines]);
-      const params = { ...common, source: way.ends.from.place, target: way.ends.to.place };
+      const pos = spotOnRoute(path.preview, [...taken, ...machines]);
+      const params = { ...common, source: path.ends.from.place, target: path.ends.to.place };
       const id = createStep(document, apply, { kind: "pick_and_drop", pos, params });
-      if (way.routes(way.key) === undefined) land({ id, pos, key: way.key, ends: way.ends });
+      if (path.routes(path.key) === undefined) land({ id, pos, key: path.key, ends: path.ends });
     }
     const at = gesture.tool === "pick" ? gesture.source : gesture.tool === "drop" ? gesture.target : null;
     const place = at === null ? undefined : surroundings.devices.get(at);

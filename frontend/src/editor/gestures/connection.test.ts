@@ -4,7 +4,7 @@ import { EMPTY_DOCUMENT, type ProgramDocument } from "@/program/document/documen
 import type { Chip } from "@/program/scene/chips";
 import { boxAt } from "@/program/scene/geometry";
 import { joinTarget } from "@/program/canvas/snapping";
-import { decideJoin } from "./joining";
+import { decideJoin } from "./connection";
 
 const chip = (id: string, x: number) =>
   [id, { id, at: { x, y: 0 }, box: boxAt({ x, y: 0 }, 100, 28) } as Chip] as const;
