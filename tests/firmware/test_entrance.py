@@ -1,4 +1,4 @@
-"""Keys on the real MicroPython: a newcomer knocks, a new key is kept and believed only once the broker takes it."""
+"""Keys on the real MicroPython: a new device enrols, a new key is kept and believed only once the broker takes it."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ from tests.kit.waiting import wait_for
 from vipo_device.protocol.mqtt_client import tls_context
 
 JOIN_KEY, NEXT_KEY, STRAY_KEY = "j" * 32, "n" * 40, "s" * 40
-DOOR = {"server": ACCOUNTS["server"], "join:hall": JOIN_KEY}
+ACCOUNTS_FOR_ENROLMENT = {"server": ACCOUNTS["server"], "join:hall": JOIN_KEY}
 
 
 @contextmanager
-def door(kind: str, folder: Path) -> Iterator[Any]:
-    """A broker that knows nobody but the server and the site's door."""
+def open_bus(kind: str, folder: Path) -> Iterator[Any]:
+    """A broker that knows nobody but the server and the site's account for enrolment."""
     if kind == "amqtt":
         embedded = EmbeddedBus()
-        embedded.accounts = dict(DOOR)
+        embedded.accounts = dict(ACCOUNTS_FOR_ENROLMENT)
         embedded.start()
         yield embedded
         embedded.stop()
     else:
-        with run_mosquitto(folder, DOOR) as mosquitto:
+        with run_mosquitto(folder, ACCOUNTS_FOR_ENROLMENT) as mosquitto:
             yield mosquitto
 
 
@@ -55,7 +55,7 @@ def restart_with(bus: Any, key: str) -> None:
 
 @pytest.fixture(params=["amqtt", "mosquitto"])
 def newcomer(request: pytest.FixtureRequest, micropython: str, tmp_path: Path) -> Iterator[Running]:
-    with door(request.param, tmp_path) as bus, Ear(bus.port, ACCOUNTS["server"], "vipo/v1/#") as ear:
+    with open_bus(request.param, tmp_path) as bus, Ear(bus.port, ACCOUNTS["server"], "vipo/v1/#") as ear:
         command = interpreter_command(micropython)
         process = start_firmware(command, tmp_path, bus, password="", join_key=JOIN_KEY)
         running = Running(ear, bus, process, tmp_path / "panel.log")
@@ -65,11 +65,11 @@ def newcomer(request: pytest.FixtureRequest, micropython: str, tmp_path: Path) -
             running.end()
 
 
-def test_a_newcomer_knocks_with_a_key_of_its_own_and_takes_new_ones(newcomer: Running, tmp_path: Path) -> None:
+def test_a_new_device_enrols_with_a_key_of_its_own_and_takes_new_ones(newcomer: Running, tmp_path: Path) -> None:
     kept = tmp_path / "key"
-    knock = newcomer.ear.wait(lambda h: h.topic == f"vipo/v1/join/hall/{DEVICE}", LIMIT_S)
-    own = knock.json["key"]
-    assert (list(knock.json), len(own), kept.read_text()) == (["key"], 48, own)
+    enrolled = newcomer.ear.wait(lambda h: h.topic == f"vipo/v1/join/hall/{DEVICE}", LIMIT_S)
+    own = enrolled.json["key"]
+    assert (list(enrolled.json), len(own), kept.read_text()) == (["key"], 48, own)
     assert JOIN_KEY not in own
     restart_with(newcomer.bus, own)
     newcomer.state(lambda _state: True)
@@ -95,8 +95,8 @@ def come_back(newcomer: Running, key: str) -> None:
     newcomer.state(lambda state: state["seq"] > told)
 
 
-def test_a_board_knocks_over_tls(micropython: str, tmp_path: Path) -> None:
-    with run_mosquitto(tmp_path, DOOR, tls=True) as bus:
+def test_a_board_enrols_over_tls(micropython: str, tmp_path: Path) -> None:
+    with run_mosquitto(tmp_path, ACCOUNTS_FOR_ENROLMENT, tls=True) as bus:
         authority = tls_context(bus.authority)
         settings = configuration(bus, tmp_path, password="", join_key=JOIN_KEY, wifi_name="hall")
         (tmp_path / "config.json").write_text(json.dumps(settings))
@@ -105,7 +105,7 @@ def test_a_board_knocks_over_tls(micropython: str, tmp_path: Path) -> None:
             running_chip(micropython, tmp_path, {}) as chip,
         ):
             board = Running(ear, bus, chip.process, tmp_path / "console")
-            knock = ear.wait(lambda h: h.topic == f"vipo/v1/join/hall/{DEVICE}", LIMIT_S)
-            restart_with(bus, knock.json["key"])
+            enrolled = ear.wait(lambda h: h.topic == f"vipo/v1/join/hall/{DEVICE}", LIMIT_S)
+            restart_with(bus, enrolled.json["key"])
             board.state(lambda _state: True)
             assert chip.process.poll() is None

@@ -32,7 +32,7 @@ ACCOUNTS = {
     "server": "secret of the server",
     "tb1": "the word of tb1",
     "tb2": "the word of tb2",
-    "join:hall": "the key of the door",
+    "join:hall": "the key for enrolment",
 }
 STOP = "vipo/v1/site/hall/stop"
 JOIN = {"join_key": ACCOUNTS["join:hall"]}
@@ -152,17 +152,17 @@ def joined(ear: Ear, name: str, command: list[str], environment: dict[str, str],
     assert "Traceback" not in log.read_text()
 
 
-def test_a_newcomer_makes_a_key_of_its_own_and_knocks_with_it(
+def test_a_new_device_makes_a_key_of_its_own_and_enrols_with_it(
     broker: Mosquitto, ear: Ear, bridge: BridgeStandIn, tmp_path: Path
 ) -> None:
     config = write_config(tmp_path, broker, "tb2", id="new", ros=2, bridge_port=bridge.port, password="", **JOIN)
     environment = {**os.environ, "PYTHONPATH": str(AGENT)}
     command = [sys.executable, "-m", "vipo_agent", config]
     with running(command, environment, tmp_path / "agent.log"):
-        knock = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/new", 60)
-        assert len(knock.json["key"]) == 32
+        enrolled = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/new", 60)
+        assert len(enrolled.json["key"]) == 32
         kept = tmp_path / "state.json"
-        assert json.loads(kept.read_text())["key"] == knock.json["key"]
+        assert json.loads(kept.read_text())["key"] == enrolled.json["key"]
         assert kept.stat().st_mode & 0o777 == 0o600
     assert "Traceback" not in (tmp_path / "agent.log").read_text()
 

@@ -1,4 +1,4 @@
-"""How a device comes in: with the key that it keeps, with the one it was given, or by knocking as a newcomer.
+"""How a device comes in: with the key that it keeps, with the one it was given, or by enrolment.
 
 The newest two keys are kept: a new one is believed only once the broker has let the device in with it.
 """
@@ -11,32 +11,32 @@ from binascii import hexlify
 from vipo.portable import forget, write_file
 
 KEY_BYTES, KEPT = 24, 2
-ATTEMPTS_AFTER_KNOCK = 3
+ATTEMPTS_AFTER_ENROLMENT = 3
 PAUSE_S = (5, 30)
 
 
 class Entrance:
-    """The keys of a client; `given` is the configuration's key, `door` (site, join key) or None."""
+    """The keys of a client; `given` is the configuration's key, `enrolment` (site, join key) or None."""
 
-    def __init__(self, client, path, given="", door=None):
-        self.client, self.path, self.door = client, path, door
+    def __init__(self, client, path, given="", enrolment=None):
+        self.client, self.path, self.enrolment = client, path, enrolment
         self.known = self._read()
         if given and given not in self.known:
             self.known.append(given)
         self._left = len(self.known)
-        self._knocks = 0
+        self._enrolments = 0
         client.prepare, client.on_refused = self.prepare, self.refused
 
     async def prepare(self):
-        """Before each connection: knock where it is time to, and hold the likeliest key ready."""
-        if self._left <= 0 and self.door:
+        """Before each connection: enrol where it is time to, and hold the likeliest key ready."""
+        if self._left <= 0 and self.enrolment:
             if not self.known:
                 self.take(hexlify(os.urandom(KEY_BYTES)).decode())
-            if self._knocks:
+            if self._enrolments:
                 await asyncio.sleep(PAUSE_S[0] + (PAUSE_S[1] - PAUSE_S[0]) * random.random())
-            self._knocks += 1
-            await self._knock()
-            self._left = ATTEMPTS_AFTER_KNOCK
+            self._enrolments += 1
+            await self._enrol()
+            self._left = ATTEMPTS_AFTER_ENROLMENT
         self.client.password = self.known[0]
 
     def refused(self):
@@ -49,7 +49,7 @@ class Entrance:
         if len(self.known) > 1:
             self.known = self.known[:1]
             self._keep()
-        self._left, self._knocks = 1, 0
+        self._left, self._enrolments = 1, 0
 
     def take(self, key):
         """Keep a new key, and for a while the one before. Raises OSError."""
@@ -57,13 +57,13 @@ class Entrance:
         self._left = len(self.known)
         self._keep()
 
-    async def _knock(self):
-        from vipo.knock import knock
+    async def _enrol(self):
+        from vipo.enrolment import enrol
 
         try:
-            await knock(self.client, self.door[0], self.door[1], self.known[0])
+            await enrol(self.client, self.enrolment[0], self.enrolment[1], self.known[0])
         finally:
-            forget("knock")
+            forget("enrolment")
 
     def _read(self):
         try:

@@ -15,7 +15,7 @@ from typing import Any, Callable
 from vipo_agent.config import Config
 from vipo_agent.core import OPEN, Ack, Core, Facts, Go, Halt, Pose
 from vipo_agent.description import describe
-from vipo_agent.door import Door, make_key
+from vipo_agent.enrolment import Enrolment, make_key
 from vipo_agent.link import Link
 from vipo_agent.messages import Grid, is_number, write, write_grid
 
@@ -73,7 +73,7 @@ class Agent:
         self._own_key = str(kept.get("key", ""))
         if not config.password:
             self._own_key = config.password = self._own_key or make_key()
-        self._door = Door(config)
+        self._enrolment = Enrolment(config)
         self._link = Link(config, self._boot)
         self._seq = self._map_number = 0
         self._last: dict[str, Any] = {}
@@ -98,7 +98,7 @@ class Agent:
                 self._speak()
                 self._link.watch(time.monotonic())
                 if self._link.is_refused and self._config.join_key:
-                    self._door.knock_again()
+                    self._enrolment.try_again()
         finally:
             self._navigation.halt()
             self._link.stop()

@@ -73,16 +73,16 @@ def test_a_vehicle_appears_with_what_its_factsheet_says(join: Join) -> None:
     assert (state["props"]["mode"], state["props"]["error"], state["cmd"]) == ("AUTOMATIC", "", "")
 
 
-def test_a_newcomer_makes_a_key_of_its_own_and_knocks_with_it(connector: Connector) -> None:
+def test_a_new_device_makes_a_key_of_its_own_and_enrols_with_it(connector: Connector) -> None:
     with Ear(connector.vipo.port, ACCOUNTS["server"], "vipo/v1/join/#") as ear:
         vehicle = VirtualVehicle(connector.vehicles_port, "new")
         try:
-            knock = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/Acme-new", 60)
+            enrolled = ear.wait(lambda h: h.topic == "vipo/v1/join/hall/Acme-new", 60)
         finally:
             vehicle.kill()
     kept = connector.folder / "secrets" / "vda5050-hall.json"
-    assert json.loads(kept.read_text()) == {"Acme-new": knock.json["key"]}
-    assert len(knock.json["key"]) == 32
+    assert json.loads(kept.read_text()) == {"Acme-new": enrolled.json["key"]}
+    assert len(enrolled.json["key"]) == 32
     assert kept.stat().st_mode & 0o777 == 0o600
 
 

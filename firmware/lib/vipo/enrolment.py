@@ -1,4 +1,4 @@
-"""A newcomer's knock: its key, said at the site's door to the server alone."""
+"""Enrolment: a device that nobody knows says its own key at its site, to the server alone."""
 
 import asyncio
 import json
@@ -10,12 +10,12 @@ from vipo.portable import close_stream
 ANSWER_TIMEOUT_S, KEEPALIVE_S = 10, 15
 
 
-async def knock(client, site, join_key, key):
-    """Say a client's key at the door of its site. Raises MqttFailure, OSError and the like."""
-    door = "join:" + site
+async def enrol(client, site, join_key, key):
+    """Say a client's key as its site's account for enrolment. Raises MqttFailure, OSError and the like."""
+    account = "join:" + site
     reader, writer = await asyncio.wait_for(open_stream(client), ANSWER_TIMEOUT_S)
     try:
-        hello = connect_packet(door, door, join_key, KEEPALIVE_S, None)
+        hello = connect_packet(account, account, join_key, KEEPALIVE_S, None)
         await asyncio.wait_for(shake_hands(reader, writer, hello), ANSWER_TIMEOUT_S)
         topic = "vipo/v1/join/%s/%s" % (site, client.client_id)
         payload = json.dumps({"key": key}).encode()
@@ -23,7 +23,7 @@ async def knock(client, site, join_key, key):
         await writer.drain()
         kind, _, _ = await asyncio.wait_for(read_packet(reader), ANSWER_TIMEOUT_S)
         if kind >> 4 != PUBACK:
-            raise MqttFailure("the door did not answer")
+            raise MqttFailure("the enrolment was not answered")
         writer.write(bytes((DISCONNECT << 4, 0)))
         await writer.drain()
     finally:
