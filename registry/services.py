@@ -85,6 +85,15 @@ from registry.maps.site_maps import (
 from registry.people.access import Access, NotAMember, find_access, require
 from registry.people.sessions import Session, has_ended, session_of_socket
 from registry.people.sign_in import change_password, check_sign_in, create_user, is_known
+from registry.people.tokens import (
+    TokenView,
+    create_token,
+    find_bearer,
+    find_member,
+    list_tokens,
+    prune_tokens,
+    revoke_token,
+)
 from registry.sites.sites import (
     create_site,
     get_site,
@@ -141,6 +150,7 @@ __all__ = [
     "SiteView",
     "StateMessage",
     "StopView",
+    "TokenView",
     "TopicNotAsked",
     "TopicTaken",
     "account_file",
@@ -154,6 +164,7 @@ __all__ = [
     "count_dropped",
     "create_site",
     "create_site_from_map",
+    "create_token",
     "create_user",
     "device_to_json",
     "end_alert",
@@ -162,8 +173,10 @@ __all__ = [
     "expect_device",
     "find_access",
     "find_alert",
+    "find_bearer",
     "find_device",
     "find_ended",
+    "find_member",
     "find_out",
     "find_unchanged",
     "flush_alerts",
@@ -201,6 +214,7 @@ __all__ = [
     "list_positions",
     "list_sites",
     "list_slugs",
+    "list_tokens",
     "listen",
     "mark_alert_seen",
     "mark_all_seen",
@@ -210,6 +224,7 @@ __all__ = [
     "note_samples",
     "prune_alerts",
     "prune_samples",
+    "prune_tokens",
     "publish",
     "publish_all",
     "raise_alert",
@@ -227,6 +242,7 @@ __all__ = [
     "restore_map",
     "retire_device",
     "revoke_credential",
+    "revoke_token",
     "rotate_credential",
     "run_query",
     "save_map",

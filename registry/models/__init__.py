@@ -17,3 +17,4 @@ from registry.models.people import User as User
 from registry.models.people import UserManager as UserManager
 from registry.models.sites import Membership as Membership
 from registry.models.sites import Site as Site
+from registry.models.tokens import ApiToken as ApiToken

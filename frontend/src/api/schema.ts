@@ -671,7 +671,7 @@ export interface paths {
         put?: never;
         /**
          * Press Stop
-         * @description Stop all devices of the site; anybody who may look may do this.
+         * @description Stop all devices of the site; anybody who may look may do this, but no token that is for reading only.
          */
         post: operations["press_stop"];
         delete?: never;
@@ -1580,6 +1580,50 @@ export interface paths {
         patch: operations["patch_thing"];
         trace?: never;
     };
+    "/api/sites/{slug}/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tokens
+         * @description List the asker's tokens at a site, to its admins those of all members; the newest first.
+         */
+        get: operations["list_tokens"];
+        put?: never;
+        /**
+         * Create Token
+         * @description Make a token by which a program asks as the asker at this site, and tell it this once.
+         */
+        post: operations["create_token"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/tokens/{token_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Revoke Token
+         * @description End one of the asker's tokens at once, as an admin of the site anybody's.
+         */
+        delete: operations["revoke_token"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -2076,6 +2120,21 @@ export interface components {
         MachineFigures: {
             busy_s: number;
         };
+        /** @description A new token; `token` is its text, told this once. */
+        MadeToken: {
+            /** Format: date-time */
+            created_at: string;
+            expired: boolean;
+            /** Format: date-time */
+            expires_at: string;
+            id: string;
+            last_used_at: string | null;
+            mine: boolean;
+            name: string;
+            person: string;
+            scopes: ("read" | "operate" | "run" | "admin")[];
+            token: string;
+        };
         /** @description What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres. */
         MapDifferenceShape: {
             floor_gained_m2: number;
@@ -2146,6 +2205,13 @@ export interface components {
         /** @description The id of a device that will come. */
         NewDevice: {
             id: string;
+        };
+        /** @description What a token is for, what it may do, and how long. */
+        NewToken: {
+            /** @default 90 */
+            days: number;
+            name: string;
+            scopes: ("read" | "operate" | "run" | "admin")[];
         };
         /** @description An operator with what it is applied to. */
         Operation: {
@@ -2641,6 +2707,20 @@ export interface components {
             active: boolean;
             at: string | null;
             by: string;
+        };
+        /** @description A token without its secret; `mine` says whether it is the asker's own. */
+        TokenShape: {
+            /** Format: date-time */
+            created_at: string;
+            expired: boolean;
+            /** Format: date-time */
+            expires_at: string;
+            id: string;
+            last_used_at: string | null;
+            mine: boolean;
+            name: string;
+            person: string;
+            scopes: ("read" | "operate" | "run" | "admin")[];
         };
         /** @description A topic that a device asks for, exactly as it names it. */
         Topic: {
@@ -5533,6 +5613,102 @@ export interface operations {
             path: {
                 slug: string;
                 thing: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_tokens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenShape"][];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    create_token: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewToken"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MadeToken"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    revoke_token: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                token_id: string;
             };
             cookie?: never;
         };
