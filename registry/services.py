@@ -83,6 +83,7 @@ from registry.maps.site_maps import (
     use_robot_map,
 )
 from registry.people.access import Access, NotAMember, find_access, require
+from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.sessions import Session, has_ended, session_of_socket
 from registry.people.sign_in import change_password, check_sign_in, create_user, is_known
 from registry.people.tokens import (
@@ -223,6 +224,7 @@ __all__ = [
     "note_mended",
     "note_samples",
     "prune_alerts",
+    "prune_keyed_requests",
     "prune_samples",
     "prune_tokens",
     "publish",

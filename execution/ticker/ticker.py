@@ -60,6 +60,7 @@ class Ticker:
             registry.prune_samples(now=now)
             registry.prune_alerts(now=now)
             registry.prune_tokens(now=now)
+            registry.prune_keyed_requests(now=now)
         return True
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:

@@ -16,6 +16,7 @@ from registry.api.devices import router as devices_router
 from registry.api.maps import router as maps_router
 from registry.api.mtconnect import router as mtconnect_router
 from registry.api.onboarding import router as onboarding_router
+from registry.api.once import begin_once, watch_request
 from registry.api.people import router as people_router
 from registry.api.sites import router as sites_router
 from registry.api.sparql import router as sparql_router
@@ -55,6 +56,8 @@ def on_refusal(request: HttpRequest, error: VipoError, status: int = 0) -> HttpR
     """Turn an app's refusal into an answer, with its own status unless another is given."""
     more = {"args": dict(error.facts)} if error.facts else {}
     response = problem(status or error.status, error.code, error.detail, **more)
+    if error.code == "under_way":
+        response["Retry-After"] = "1"
     if error.code in _OF_TOKENS:
         response["WWW-Authenticate"] = f'Bearer error="{error.code}"'
     return response
@@ -78,6 +81,8 @@ def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
     return response
 
 
+api.add_decorator(begin_once, mode="operation")
+api.add_decorator(watch_request, mode="view")
 api.add_router("", people_router)
 api.add_router("", sites_router)
 api.add_router("", tokens_router)

@@ -10,12 +10,15 @@ from ninja.errors import HttpError, ValidationError
 
 from registry.api.authentication import token_or_session
 from registry.api.directory import router
+from registry.api.once import begin_once, watch_request
 from vipo_device.protocol.errors import VipoError
 from vipo_site.http.api import on_bad_request, on_http_error, on_refusal, problem
 
 directory = NinjaAPI(
     title="VIPO's things", auth=token_or_session, docs_url=None, openapi_url=None, urls_namespace="things"
 )
+directory.add_decorator(begin_once, mode="operation")
+directory.add_decorator(watch_request, mode="view")
 directory.add_router("", router)
 
 

@@ -2800,7 +2800,10 @@ export interface operations {
     mark_seen: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 alert_id: number;
             };
@@ -2986,7 +2989,10 @@ export interface operations {
     delete_program: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3015,7 +3021,10 @@ export interface operations {
     rename_program: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3050,7 +3059,10 @@ export interface operations {
     arm_program: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3147,7 +3159,10 @@ export interface operations {
     read_expression: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3182,7 +3197,10 @@ export interface operations {
     start_rehearsal: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3217,7 +3235,10 @@ export interface operations {
     start_run: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3252,7 +3273,10 @@ export interface operations {
     draw_script: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3318,7 +3342,10 @@ export interface operations {
     pin_version: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3353,7 +3380,10 @@ export interface operations {
     answer_question: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 question: string;
             };
@@ -3450,7 +3480,10 @@ export interface operations {
     cancel_run: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 run: string;
             };
@@ -3514,7 +3547,10 @@ export interface operations {
     pause_run: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 run: string;
             };
@@ -3545,7 +3581,10 @@ export interface operations {
     resume_run: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 run: string;
             };
@@ -3609,7 +3648,10 @@ export interface operations {
     sign_out: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path?: never;
             cookie?: never;
         };
@@ -3667,7 +3709,10 @@ export interface operations {
     upload_site: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path?: never;
             cookie?: never;
         };
@@ -3768,7 +3813,10 @@ export interface operations {
     cancel_call: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
                 call: string;
@@ -3800,7 +3848,10 @@ export interface operations {
     call_method: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
                 device_id: string;
@@ -3869,7 +3920,10 @@ export interface operations {
     plan_route: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
             };
@@ -3904,7 +3958,10 @@ export interface operations {
     plan_routes: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
             };
@@ -3970,7 +4027,10 @@ export interface operations {
     press_stop: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
             };
@@ -4001,7 +4061,10 @@ export interface operations {
     reset_stop: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
             };
@@ -4096,7 +4159,10 @@ export interface operations {
     mark_all_seen: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -4127,7 +4193,10 @@ export interface operations {
     look_at_description: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -4258,7 +4327,10 @@ export interface operations {
     edit_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4294,7 +4366,10 @@ export interface operations {
     approve_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4326,7 +4401,10 @@ export interface operations {
     rotate_credential: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4358,7 +4436,10 @@ export interface operations {
     revoke_credential: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4656,7 +4737,10 @@ export interface operations {
     readmit_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4688,7 +4772,10 @@ export interface operations {
     reject_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4720,7 +4807,10 @@ export interface operations {
     retire_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4752,7 +4842,10 @@ export interface operations {
     confirm_topic: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4788,7 +4881,10 @@ export interface operations {
     withdraw_topic: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4824,7 +4920,10 @@ export interface operations {
     renew_enrolment_key: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -4855,7 +4954,10 @@ export interface operations {
     save_function: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5014,7 +5116,10 @@ export interface operations {
     use_robot_map: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5049,7 +5154,10 @@ export interface operations {
     restore_map: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5328,7 +5436,10 @@ export interface operations {
     reserve_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5394,7 +5505,10 @@ export interface operations {
     create_program: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5470,7 +5584,10 @@ export interface operations {
             query?: {
                 format?: ("json" | "xml" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
             };
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5609,7 +5726,10 @@ export interface operations {
     patch_thing: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 thing: string;
@@ -5670,7 +5790,10 @@ export interface operations {
     create_token: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5705,7 +5828,10 @@ export interface operations {
     revoke_token: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 token_id: string;
