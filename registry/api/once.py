@@ -92,11 +92,12 @@ def _fingerprint(request: HttpRequest) -> str:
     if request.content_type == "multipart/form-data":
         for name, values in sorted(request.POST.lists()):
             said.update(repr((name, values)).encode())
-        for name, file in sorted(request.FILES.items()):
-            said.update(f"{name} {file.size}\n".encode())
-            for chunk in file.chunks():
-                said.update(chunk)
-            file.seek(0)
+        for name, files in sorted(request.FILES.lists()):
+            for file in files:
+                said.update(f"{name} {file.size}\n".encode())
+                for chunk in file.chunks():
+                    said.update(chunk)
+                file.seek(0)
     else:
         said.update(request.body)
     return said.hexdigest()

@@ -122,7 +122,7 @@ def _make_room(owner: str) -> None:
 
 
 def end_request(*, owner: str, key: str, answer: KeptAnswer, is_secret: bool) -> None:
-    """Keep the answer of a request that was carried out, or its failure; a refusal has changed nothing: its key is free."""
+    """Keep the answer of a request that was carried out, or its failure; a refusal has changed nothing and frees it."""
     mine = KeyedRequest.objects.filter(owner=owner, key=key, status=0)
     if 400 <= answer.status < 600 and answer.status != 500:
         mine.delete()
