@@ -8,6 +8,7 @@ from uuid import UUID
 
 from django.http import HttpRequest
 from ninja import Field, Router, Schema
+from ninja.responses import Status
 
 from editor import services
 from editor.programs.views import LibraryView, ProgramView, VersionView
@@ -130,10 +131,10 @@ def list_programs(request: HttpRequest, slug: str) -> list[ProgramView]:
 
 
 @router.post("/sites/{slug}/programs", response={201: ProgramShape})
-def create_program(request: HttpRequest, slug: str, body: ProgramName) -> tuple[int, ProgramView]:
+def create_program(request: HttpRequest, slug: str, body: ProgramName) -> Status[ProgramView]:
     """Make an empty program."""
     require(request.user, slug, "author")
-    return 201, services.create_program(site=slug, name=body.name, user=request.user)
+    return Status(201, services.create_program(site=slug, name=body.name, user=request.user))
 
 
 @router.get("/programs/{program}", response=ProgramShape)
@@ -150,11 +151,11 @@ def rename_program(request: HttpRequest, program: UUID, body: ProgramName) -> Pr
 
 
 @router.delete("/programs/{program}", response={204: None})
-def delete_program(request: HttpRequest, program: UUID) -> tuple[int, None]:
+def delete_program(request: HttpRequest, program: UUID) -> Status[None]:
     """Delete a program with its versions."""
     _program(request, program, "author")
     services.delete_program(program_id=program)
-    return 204, None
+    return Status(204, None)
 
 
 @router.get("/programs/{program}/document", response=Document)
@@ -196,10 +197,10 @@ def list_versions(request: HttpRequest, program: UUID) -> list[VersionView]:
 
 
 @router.post("/programs/{program}/versions", response={201: VersionShape})
-def pin_version(request: HttpRequest, program: UUID, body: VersionMessage) -> tuple[int, VersionView]:
+def pin_version(request: HttpRequest, program: UUID, body: VersionMessage) -> Status[VersionView]:
     """Make the program as it is now a version."""
     _program(request, program, "author")
-    return 201, services.pin_version(program_id=program, user=request.user, message=body.message)
+    return Status(201, services.pin_version(program_id=program, user=request.user, message=body.message))
 
 
 @router.get("/library", response=list[LibraryShape])
@@ -214,16 +215,19 @@ def search_library(request: HttpRequest, q: str = "", site: str = "") -> list[Li
 
 
 @router.post("/sites/{slug}/library", response={201: LibraryShape})
-def save_function(request: HttpRequest, slug: str, body: FunctionToSave) -> tuple[int, LibraryView]:
+def save_function(request: HttpRequest, slug: str, body: FunctionToSave) -> Status[LibraryView]:
     """Save a program's function into the library."""
     require(request.user, slug, "author")
-    return 201, services.save_function(
-        site=slug,
-        program_id=body.program,
-        function=body.function,
-        name=body.name,
-        description=body.description,
-        user=request.user,
+    return Status(
+        201,
+        services.save_function(
+            site=slug,
+            program_id=body.program,
+            function=body.function,
+            name=body.name,
+            description=body.description,
+            user=request.user,
+        ),
     )
 
 

@@ -48,14 +48,14 @@ from registry.shapes import Stop, signed_in
 router = Router(tags=["execution"])
 
 
-def _require(request: HttpRequest, site: str, role: str) -> None:
-    require(request.user, site, role)
+def _require(request: HttpRequest, site: str, role: str, scope: str = "") -> None:
+    require(request.user, site, role, scope)
 
 
 def _require_here(request: HttpRequest, site: str, role: str, what: str) -> None:
-    """Let members through who may; a stranger does not learn that the thing exists."""
+    """Let members through who may; a stranger does not learn that the thing exists. Tokens do this by `run`."""
     try:
-        _require(request, site, role)
+        _require(request, site, role, "read" if role == "viewer" else "run")
     except NotAMember as error:
         raise NotFound(f"There is no such {what}.") from error
 
@@ -192,8 +192,8 @@ def arm_program(request: HttpRequest, program: UUID, body: ArmProgram) -> list[d
 
 @router.post("/sites/{slug:site}/stop", response=Stop)
 def press_stop(request: HttpRequest, site: str) -> dict[str, Any]:
-    """Stop all devices of the site; anybody who may look may do this."""
-    _require(request, site, "viewer")
+    """Stop all devices of the site; anybody who may look may do this, but no token that is for reading only."""
+    _require(request, site, "viewer", "operate")
     return _stop_to_json(services.press_stop(site=site, by=_who(request)))
 
 

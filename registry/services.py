@@ -83,8 +83,18 @@ from registry.maps.site_maps import (
     use_robot_map,
 )
 from registry.people.access import Access, NotAMember, find_access, require
+from registry.people.keyed_requests import prune_keyed_requests
 from registry.people.sessions import Session, has_ended, session_of_socket
 from registry.people.sign_in import change_password, check_sign_in, create_user, is_known
+from registry.people.tokens import (
+    TokenView,
+    create_token,
+    find_bearer,
+    find_member,
+    list_tokens,
+    prune_tokens,
+    revoke_token,
+)
 from registry.sites.sites import (
     create_site,
     get_site,
@@ -141,6 +151,7 @@ __all__ = [
     "SiteView",
     "StateMessage",
     "StopView",
+    "TokenView",
     "TopicNotAsked",
     "TopicTaken",
     "account_file",
@@ -154,6 +165,7 @@ __all__ = [
     "count_dropped",
     "create_site",
     "create_site_from_map",
+    "create_token",
     "create_user",
     "device_to_json",
     "end_alert",
@@ -162,8 +174,10 @@ __all__ = [
     "expect_device",
     "find_access",
     "find_alert",
+    "find_bearer",
     "find_device",
     "find_ended",
+    "find_member",
     "find_out",
     "find_unchanged",
     "flush_alerts",
@@ -201,6 +215,7 @@ __all__ = [
     "list_positions",
     "list_sites",
     "list_slugs",
+    "list_tokens",
     "listen",
     "mark_alert_seen",
     "mark_all_seen",
@@ -209,7 +224,9 @@ __all__ = [
     "note_mended",
     "note_samples",
     "prune_alerts",
+    "prune_keyed_requests",
     "prune_samples",
+    "prune_tokens",
     "publish",
     "publish_all",
     "raise_alert",
@@ -227,6 +244,7 @@ __all__ = [
     "restore_map",
     "retire_device",
     "revoke_credential",
+    "revoke_token",
     "rotate_credential",
     "run_query",
     "save_map",

@@ -59,6 +59,8 @@ class Ticker:
             mailbox.forget_taken(now - KEPT_FOR)
             registry.prune_samples(now=now)
             registry.prune_alerts(now=now)
+            registry.prune_tokens(now=now)
+            registry.prune_keyed_requests(now=now)
         return True
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:

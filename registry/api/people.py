@@ -15,6 +15,7 @@ from ninja import Router
 from ninja.errors import HttpError
 from ninja.utils import check_csrf
 
+from registry.api.authentication import session_only
 from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import User
@@ -56,7 +57,7 @@ def sign_in(request: HttpRequest, body: SignIn) -> dict[str, Any]:
     return show_me(request)
 
 
-@router.post("/sign-out", response=Me)
+@router.post("/sign-out", response=Me, auth=session_only)
 def sign_out(request: HttpRequest) -> dict[str, Any]:
     """End the session."""
     logout(request)

@@ -9,6 +9,7 @@ from ninja import File, Form, Router
 from ninja.files import UploadedFile
 
 from registry import services
+from registry.api.authentication import session_only
 from registry.floorplan.map_server import MAX_IMAGE_BYTES, MAX_YAML_BYTES, BadMap
 from registry.people.access import require
 from registry.shapes import (
@@ -26,7 +27,7 @@ def list_sites(request: HttpRequest) -> list[dict[str, Any]]:
     return [site_to_json(site) for site in services.list_sites(user=signed_in(request))]
 
 
-@router.post("/sites", response={201: SiteShape})
+@router.post("/sites", response={201: SiteShape}, auth=session_only)
 def upload_site(
     request: HttpRequest,
     name: Form[str],

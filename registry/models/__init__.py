@@ -15,5 +15,7 @@ from registry.models.maps import SiteMap as SiteMap
 from registry.models.people import SignInFailure as SignInFailure
 from registry.models.people import User as User
 from registry.models.people import UserManager as UserManager
+from registry.models.requests import KeyedRequest as KeyedRequest
 from registry.models.sites import Membership as Membership
 from registry.models.sites import Site as Site
+from registry.models.tokens import ApiToken as ApiToken

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import ClassVar
 
 from django.contrib.auth.base_user import AbstractBaseUser, BaseUserManager
 from django.db import models
 from django.db.models.functions import Lower
+
+
+@dataclass(frozen=True, slots=True)
+class Grant:
+    """What a token lets its bearer do of what its person may: at one site, and only within its scopes."""
+
+    token_id: int
+    site_id: int
+    scopes: frozenset[str]
 
 
 class UserManager(BaseUserManager["User"]):
@@ -32,6 +42,9 @@ class User(AbstractBaseUser):
     initials = models.CharField(max_length=4)
     is_active = models.BooleanField(default=True)
     created_at = models.DateTimeField(auto_now_add=True)
+
+    grant: Grant | None = None
+    """Set where a program asks with one of the person's tokens; None where they have signed in themselves."""
 
     objects: ClassVar[UserManager] = UserManager()
     USERNAME_FIELD = "email"

@@ -1,4 +1,4 @@
-"""Who may do what at a site."""
+"""Who may do what at a site, signed in themselves or by a token."""
 
 from __future__ import annotations
 
@@ -6,13 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from registry.errors import RegistryError
-from registry.models import Membership, Site
+from registry.models import Membership, Site, User
 
 if TYPE_CHECKING:
     from django.contrib.auth.base_user import AbstractBaseUser
     from django.contrib.auth.models import AnonymousUser
+    from django.db.models import QuerySet
 
 ROLES = ("viewer", "operator", "author", "admin")
+SCOPES = ("read", "operate", "run", "admin")
+"""What a token may be for. Each stretches to the role at the same place of ROLES; `read` is part of all others, and
+`admin` has all others in it, but `operate` (devices, stop, alerts) and `run` (programs and runs) stand side by side."""
 
 
 class NotAMember(RegistryError):
@@ -29,42 +33,78 @@ class NotAllowed(RegistryError):
     status = 403
 
 
+class OutOfScope(NotAllowed):
+    """The person may do this, but has not given the token that right (RFC 6750)."""
+
+    code = "insufficient_scope"
+
+
 @dataclass(frozen=True, slots=True)
 class Access:
-    """A user's standing at a site."""
+    """A user's standing at a site; `scopes` are those of the token that was shown, None without one."""
 
     site_id: int
     site: str
     role: str
+    scopes: frozenset[str] | None = None
 
-    def allows(self, role: str) -> bool:
-        """Tell whether this standing includes that role."""
-        return ROLES.index(self.role) >= ROLES.index(role)
+    def allows(self, role: str, scope: str = "") -> bool:
+        """Tell whether this standing includes that role, and a token that scope (unless named, the role's own)."""
+        return ROLES.index(self.role) >= ROLES.index(role) and self.has_scope(scope or scope_of(role))
+
+    def has_scope(self, scope: str) -> bool:
+        """Tell whether this is in the token's scopes; without a token everything is."""
+        return self.scopes is None or scope == "read" or not self.scopes.isdisjoint({scope, "admin"})
+
+
+def scope_of(role: str) -> str:
+    """Return the scope that what a role may do needs, where nothing else is said."""
+    return SCOPES[ROLES.index(role)]
+
+
+def list_memberships(user: AbstractBaseUser | AnonymousUser) -> QuerySet[Membership]:
+    """Return where the user belongs to; a token belongs to one site alone."""
+    if not user.is_authenticated or not isinstance(user, User):
+        return Membership.objects.none()
+    memberships = Membership.objects.filter(user_id=user.pk, user__is_active=True).select_related("site")
+    return memberships.filter(site_id=user.grant.site_id) if user.grant else memberships
+
+
+def access_of(user: User, member: Membership) -> Access:
+    """Return the standing of a member: the lesser of their role and of what their token's scopes stretch to."""
+    if user.grant is None:
+        return Access(member.site_id, member.site.slug, member.role)
+    widest = max(SCOPES.index(scope) for scope in user.grant.scopes | {"read"})
+    role = ROLES[min(widest, ROLES.index(member.role))]
+    return Access(member.site_id, member.site.slug, role, user.grant.scopes)
 
 
 def find_access(user: AbstractBaseUser | AnonymousUser, site: str | Site) -> Access | None:
     """Return the user's standing at a site (a slug or the Site), or None for strangers."""
-    if not user.is_authenticated or (isinstance(site, str) and "\0" in site):
+    if not isinstance(user, User) or (isinstance(site, str) and "\0" in site):
         return None
-    memberships = Membership.objects.filter(user_id=user.pk, user__is_active=True)
+    memberships = list_memberships(user)
     found = memberships.filter(site=site) if isinstance(site, Site) else memberships.filter(site__slug=site)
-    member = found.select_related("site").first()
-    return Access(member.site_id, member.site.slug, member.role) if member else None
+    member = found.first()
+    return access_of(user, member) if member else None
 
 
-def require(user: AbstractBaseUser | AnonymousUser, site: str | Site, role: str) -> Access:
-    """Return the user's standing, or raise NotAMember (404) or NotAllowed (403)."""
+def require(user: AbstractBaseUser | AnonymousUser, site: str | Site, role: str, scope: str = "") -> Access:
+    """Return the user's standing, or raise NotAMember (404), NotAllowed or OutOfScope (403).
+
+    `scope` is what a token must be for, where that is not what the role stands for.
+    """
     access = find_access(user, site)
     if access is None:
         raise NotAMember("There is no such site, or you are not one of its members. Ask its admin to add you.")
-    if not access.allows(role):
+    wanted = scope or scope_of(role)
+    if not access.has_scope(wanted):
+        raise OutOfScope(f"This token is not for this; make one with the scope {wanted} (docs/api.md, Tokens).")
+    if not access.allows(role, wanted):
         raise NotAllowed(f"You are {access.role} of this site; this needs the role {role}. Ask an admin for it.")
     return access
 
 
 def list_visible(user: AbstractBaseUser | AnonymousUser) -> frozenset[str]:
     """Return the slugs of the sites of which the user is a member."""
-    if not user.is_authenticated:
-        return frozenset()
-    memberships = Membership.objects.filter(user_id=user.pk, user__is_active=True)
-    return frozenset(memberships.values_list("site__slug", flat=True))
+    return frozenset(list_memberships(user).values_list("site__slug", flat=True))

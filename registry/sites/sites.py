@@ -11,7 +11,7 @@ from django.utils.text import slugify
 from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Device, Membership, Place, Site, SiteMap, User
-from registry.people.access import ROLES, NotAMember
+from registry.people.access import ROLES, NotAMember, access_of, list_memberships
 from registry.sites.views import PlaceView, SiteView, StopView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
 
@@ -45,8 +45,8 @@ def get_site_id(*, site: str) -> int:
 
 def list_sites(*, user: User) -> tuple[SiteView, ...]:
     """Return the sites where the user is a member, by name."""
-    members = Membership.objects.filter(user=user).select_related("site").order_by("site__name", "site__slug")
-    return tuple(_site_view(m.site, m.role) for m in members)
+    members = list_memberships(user).order_by("site__name", "site__slug")
+    return tuple(_site_view(m.site, access_of(user, m).role) for m in members)
 
 
 def list_slugs() -> tuple[str, ...]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from asgiref.sync import sync_to_async
+from django.utils import timezone
 
 from registry.devices.things import THINGS, ThingNews, is_kept_since, newest_news, read_news
 from registry.errors import RegistryError
@@ -84,7 +85,7 @@ async def stream_events(listener: Listener, last_id: str) -> AsyncIterator[bytes
 
     A stream that ends is opened anew by its listener, who names the last event it heard and misses nothing.
     """
-    until, left = time.monotonic() + MOST_SECONDS, MOST_BYTES
+    until, left = time.monotonic() + min(MOST_SECONDS, _lasts_s(listener.session)), MOST_BYTES
     with suppress(TooManyStreams), _counted(listener.session.person):
         async with _bell() as rung:
             heard = await _begin(listener, last_id)
@@ -95,7 +96,7 @@ async def stream_events(listener: Listener, last_id: str) -> AsyncIterator[bytes
                 for told in _in_words(listener, heard):
                     left -= len(told)
                     yield told
-                if heard is not None and not heard.news and not await _wait(rung):
+                if heard is not None and not heard.news and not await _wait(rung, until - time.monotonic()):
                     yield b":\n\n"
 
 
@@ -116,10 +117,15 @@ async def _bell() -> AsyncIterator[asyncio.Event]:
         stop()
 
 
-async def _wait(rung: asyncio.Event) -> bool:
+def _lasts_s(session: Session) -> float:
+    """Return how long a token lasts from now on; a session has no end that is known beforehand."""
+    return (session.until - timezone.now()).total_seconds() if session.until else MOST_SECONDS
+
+
+async def _wait(rung: asyncio.Event, most_s: float) -> bool:
     """Wait for the bell; tell whether it rang within a while."""
     with suppress(TimeoutError):
-        await asyncio.wait_for(rung.wait(), HEARTBEAT_S)
+        await asyncio.wait_for(rung.wait(), max(0.0, min(HEARTBEAT_S, most_s)))
     was_rung = rung.is_set()
     rung.clear()
     return was_rung

@@ -18,6 +18,13 @@ PAGES = {
     "sort_order": {"type": "string", "enum": ["asc", "desc"], "default": "asc"},
 }
 SECURITY = {
+    "token": {
+        "scheme": "bearer",
+        "in": "header",
+        "name": "Authorization",
+        "format": "opaque",
+        "description": "A token that a member has made for a program, on VIPO's pages.",
+    },
     "session": {
         "scheme": "apikey",
         "in": "cookie",
@@ -30,6 +37,9 @@ SECURITY = {
         "name": "X-CSRFToken",
         "description": "For changes: the value of the cookie csrftoken, which goes along.",
     },
+    "both": {"scheme": "combo", "allOf": ["session", "csrf"]},
+    "either": {"scheme": "combo", "oneOf": ["token", "session"]},
+    "token_or_both": {"scheme": "combo", "oneOf": ["token", "both"]},
 }
 
 
@@ -42,7 +52,7 @@ def directory_thing(base: str) -> dict[str, Any]:
         "description": "The robots and machines of all sites of which the caller is a member.",
         "base": base,
         "securityDefinitions": SECURITY,
-        "security": ["session"],
+        "security": ["either"],
         "links": [{"rel": "service-desc", "href": "/api/openapi.json", "type": "application/json"}],
         "properties": {"things": _things()},
         "actions": {"retrieveThing": _retrieve(), "partiallyUpdateThing": _patch()},
@@ -79,7 +89,7 @@ def _retrieve() -> dict[str, Any]:
 
 
 def _patch() -> dict[str, Any]:
-    media_type, security = "application/merge-patch+json", ["session", "csrf"]
+    media_type, security = "application/merge-patch+json", ["token_or_both"]
     form = _form("PATCH", "/things/{id}", "invokeaction", media_type, 400, 401, 403, 404, 412, 415, security=security)
     changes = {
         "title": {"type": "string", "description": "A name that people give it; null: its own again."},

@@ -7,31 +7,35 @@ from typing import Any
 
 from django.http import HttpRequest, HttpResponse, JsonResponse
 from ninja.errors import HttpError, ValidationError
-from ninja.security import django_auth
 
 from editor.api import router as editor_router
 from execution.api import router as execution_router
 from registry.api.alerts import router as alerts_router
+from registry.api.authentication import token_or_session
 from registry.api.devices import router as devices_router
 from registry.api.maps import router as maps_router
 from registry.api.mtconnect import router as mtconnect_router
 from registry.api.onboarding import router as onboarding_router
+from registry.api.once import begin_once, watch_request
 from registry.api.people import router as people_router
 from registry.api.sites import router as sites_router
 from registry.api.sparql import router as sparql_router
 from registry.api.things import router as things_router
+from registry.api.tokens import router as tokens_router
 from vipo_device.protocol.errors import VipoError
 from vipo_site.http.openapi import DescribedAPI
 
 _FRAMEWORK_SAYS = {
-    "Unauthorized": "You are signed out. Sign in again; a program does so with POST /api/sign-in and sends its cookie "
-    "along (docs/api.md).",
+    "Unauthorized": "You are signed out. Sign in again; a program shows a token in the header Authorization, or "
+    "signs in with POST /api/sign-in and sends its cookie along (docs/api.md).",
     "CSRF check Failed": "The page is out of date: reload it. A program sends the value of the cookie csrftoken as the "
     "header X-CSRFToken, too; it changes at signing in (docs/api.md).",
     "Cannot parse request body": "The body of the request cannot be read. Send JSON, or what docs/openapi.json names.",
 }
 """What is said instead of the framework's own refusals: how to mend it."""
-api = DescribedAPI(title="VIPO", version="1", auth=django_auth, docs_url=None, urls_namespace="api")
+_OF_TOKENS = ("invalid_token", "insufficient_scope")
+"""Refusals that RFC 6750 wants named in a header, too."""
+api = DescribedAPI(title="VIPO", version="1", auth=token_or_session, docs_url=None, urls_namespace="api")
 
 
 def problem(status: int, code: str, detail: str, **more: Any) -> JsonResponse:
@@ -51,7 +55,12 @@ def problem(status: int, code: str, detail: str, **more: Any) -> JsonResponse:
 def on_refusal(request: HttpRequest, error: VipoError, status: int = 0) -> HttpResponse:
     """Turn an app's refusal into an answer, with its own status unless another is given."""
     more = {"args": dict(error.facts)} if error.facts else {}
-    return problem(status or error.status, error.code, error.detail, **more)
+    response = problem(status or error.status, error.code, error.detail, **more)
+    if error.code == "under_way":
+        response["Retry-After"] = "1"
+    if error.code in _OF_TOKENS:
+        response["WWW-Authenticate"] = f'Bearer error="{error.code}"'
+    return response
 
 
 @api.exception_handler(ValidationError)
@@ -66,11 +75,17 @@ def on_bad_request(request: HttpRequest, error: ValidationError, status: int = 4
 def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
     """Turn the framework's own refusals (no session, bad CSRF) into an answer."""
     code = {401: "signed_out", 403: "not_allowed", 404: "not_found"}.get(error.status_code, "refused")
-    return problem(error.status_code, code, _FRAMEWORK_SAYS.get(str(error), str(error)))
+    response = problem(error.status_code, code, _FRAMEWORK_SAYS.get(str(error), str(error)))
+    if error.status_code == 401:
+        response["WWW-Authenticate"] = "Bearer"
+    return response
 
 
+api.add_decorator(begin_once, mode="operation")
+api.add_decorator(watch_request, mode="view")
 api.add_router("", people_router)
 api.add_router("", sites_router)
+api.add_router("", tokens_router)
 api.add_router("", devices_router)
 api.add_router("", alerts_router)
 api.add_router("", onboarding_router)

@@ -30,6 +30,15 @@ class Problem(Schema):
     args: dict[str, Any] = {}
 
 
+_KEY = {
+    "name": "Idempotency-Key",
+    "in": "header",
+    "required": False,
+    "description": "Of requests with the same key one is carried out; the others are given its answer.",
+    "schema": {"type": "string", "minLength": 1, "maxLength": 257},
+}
+
+
 class DescribedAPI(NinjaAPI):
     """An API whose description also says what refusals look like, and names calls whatever module they stand in."""
 
@@ -48,8 +57,10 @@ class DescribedAPI(NinjaAPI):
             "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}},
         }
         for methods in schema["paths"].values():
-            for call in methods.values():
+            for method, call in methods.items():
                 call["responses"]["default"] = refusal
+                if method != "get" and "security" in call:
+                    call["parameters"] = [*call.get("parameters", []), _KEY]
         return schema
 
 

@@ -7,13 +7,18 @@ from typing import Any
 from django.http import HttpRequest, HttpResponse
 from ninja import NinjaAPI
 from ninja.errors import HttpError, ValidationError
-from ninja.security import django_auth
 
+from registry.api.authentication import token_or_session
 from registry.api.directory import router
+from registry.api.once import begin_once, watch_request
 from vipo_device.protocol.errors import VipoError
 from vipo_site.http.api import on_bad_request, on_http_error, on_refusal, problem
 
-directory = NinjaAPI(title="VIPO's things", auth=django_auth, docs_url=None, openapi_url=None, urls_namespace="things")
+directory = NinjaAPI(
+    title="VIPO's things", auth=token_or_session, docs_url=None, openapi_url=None, urls_namespace="things"
+)
+directory.add_decorator(begin_once, mode="operation")
+directory.add_decorator(watch_request, mode="view")
 directory.add_router("", router)
 
 
@@ -36,8 +41,10 @@ def tell_bad_request(request: HttpRequest, error: ValidationError) -> HttpRespon
 def tell_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
     """Tell the framework's own refusals; who is not signed in learns how to."""
     if error.status_code == 401:
-        how = "Sign in with POST /api/sign-in and send its cookie along (docs/api.md); /.well-known/wot describes it."
-        return problem(401, "signed_out", how)
+        how = "Show a token in the header Authorization, or sign in with POST /api/sign-in and send its cookie along "
+        response = problem(401, "signed_out", how + "(docs/api.md); /.well-known/wot describes it.")
+        response["WWW-Authenticate"] = "Bearer"
+        return response
     return on_http_error(request, error)
 
 

@@ -671,7 +671,7 @@ export interface paths {
         put?: never;
         /**
          * Press Stop
-         * @description Stop all devices of the site; anybody who may look may do this.
+         * @description Stop all devices of the site; anybody who may look may do this, but no token that is for reading only.
          */
         post: operations["press_stop"];
         delete?: never;
@@ -1580,6 +1580,50 @@ export interface paths {
         patch: operations["patch_thing"];
         trace?: never;
     };
+    "/api/sites/{slug}/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tokens
+         * @description List the asker's tokens at a site, to its admins those of all members; the newest first.
+         */
+        get: operations["list_tokens"];
+        put?: never;
+        /**
+         * Create Token
+         * @description Make a token by which a program asks as the asker at this site, and tell it this once.
+         */
+        post: operations["create_token"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/tokens/{token_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Revoke Token
+         * @description End one of the asker's tokens at once, as an admin of the site anybody's.
+         */
+        delete: operations["revoke_token"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -2076,6 +2120,21 @@ export interface components {
         MachineFigures: {
             busy_s: number;
         };
+        /** @description A new token; `token` is its text, told this once. */
+        MadeToken: {
+            /** Format: date-time */
+            created_at: string;
+            expired: boolean;
+            /** Format: date-time */
+            expires_at: string;
+            id: string;
+            last_used_at: string | null;
+            mine: boolean;
+            name: string;
+            person: string;
+            scopes: ("read" | "operate" | "run" | "admin")[];
+            token: string;
+        };
         /** @description What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres. */
         MapDifferenceShape: {
             floor_gained_m2: number;
@@ -2146,6 +2205,13 @@ export interface components {
         /** @description The id of a device that will come. */
         NewDevice: {
             id: string;
+        };
+        /** @description What a token is for, what it may do, and how long. */
+        NewToken: {
+            /** @default 90 */
+            days: number;
+            name: string;
+            scopes: ("read" | "operate" | "run" | "admin")[];
         };
         /** @description An operator with what it is applied to. */
         Operation: {
@@ -2642,6 +2708,20 @@ export interface components {
             at: string | null;
             by: string;
         };
+        /** @description A token without its secret; `mine` says whether it is the asker's own. */
+        TokenShape: {
+            /** Format: date-time */
+            created_at: string;
+            expired: boolean;
+            /** Format: date-time */
+            expires_at: string;
+            id: string;
+            last_used_at: string | null;
+            mine: boolean;
+            name: string;
+            person: string;
+            scopes: ("read" | "operate" | "run" | "admin")[];
+        };
         /** @description A topic that a device asks for, exactly as it names it. */
         Topic: {
             topic: string;
@@ -2720,7 +2800,10 @@ export interface operations {
     mark_seen: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 alert_id: number;
             };
@@ -2906,7 +2989,10 @@ export interface operations {
     delete_program: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -2935,7 +3021,10 @@ export interface operations {
     rename_program: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -2970,7 +3059,10 @@ export interface operations {
     arm_program: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3067,7 +3159,10 @@ export interface operations {
     read_expression: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3102,7 +3197,10 @@ export interface operations {
     start_rehearsal: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3137,7 +3235,10 @@ export interface operations {
     start_run: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3172,7 +3273,10 @@ export interface operations {
     draw_script: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3238,7 +3342,10 @@ export interface operations {
     pin_version: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 program: string;
             };
@@ -3273,7 +3380,10 @@ export interface operations {
     answer_question: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 question: string;
             };
@@ -3370,7 +3480,10 @@ export interface operations {
     cancel_run: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 run: string;
             };
@@ -3434,7 +3547,10 @@ export interface operations {
     pause_run: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 run: string;
             };
@@ -3465,7 +3581,10 @@ export interface operations {
     resume_run: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 run: string;
             };
@@ -3529,7 +3648,10 @@ export interface operations {
     sign_out: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path?: never;
             cookie?: never;
         };
@@ -3587,7 +3709,10 @@ export interface operations {
     upload_site: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path?: never;
             cookie?: never;
         };
@@ -3688,7 +3813,10 @@ export interface operations {
     cancel_call: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
                 call: string;
@@ -3720,7 +3848,10 @@ export interface operations {
     call_method: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
                 device_id: string;
@@ -3789,7 +3920,10 @@ export interface operations {
     plan_route: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
             };
@@ -3824,7 +3958,10 @@ export interface operations {
     plan_routes: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
             };
@@ -3890,7 +4027,10 @@ export interface operations {
     press_stop: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
             };
@@ -3921,7 +4061,10 @@ export interface operations {
     reset_stop: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 site: string;
             };
@@ -4016,7 +4159,10 @@ export interface operations {
     mark_all_seen: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -4047,7 +4193,10 @@ export interface operations {
     look_at_description: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -4178,7 +4327,10 @@ export interface operations {
     edit_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4214,7 +4366,10 @@ export interface operations {
     approve_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4246,7 +4401,10 @@ export interface operations {
     rotate_credential: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4278,7 +4436,10 @@ export interface operations {
     revoke_credential: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4576,7 +4737,10 @@ export interface operations {
     readmit_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4608,7 +4772,10 @@ export interface operations {
     reject_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4640,7 +4807,10 @@ export interface operations {
     retire_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4672,7 +4842,10 @@ export interface operations {
     confirm_topic: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4708,7 +4881,10 @@ export interface operations {
     withdraw_topic: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 device_id: string;
@@ -4744,7 +4920,10 @@ export interface operations {
     renew_enrolment_key: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -4775,7 +4954,10 @@ export interface operations {
     save_function: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -4934,7 +5116,10 @@ export interface operations {
     use_robot_map: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -4969,7 +5154,10 @@ export interface operations {
     restore_map: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5248,7 +5436,10 @@ export interface operations {
     reserve_device: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5314,7 +5505,10 @@ export interface operations {
     create_program: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5390,7 +5584,10 @@ export interface operations {
             query?: {
                 format?: ("json" | "xml" | "csv" | "turtle" | "n-triples" | "json-ld") | null;
             };
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
             };
@@ -5529,10 +5726,115 @@ export interface operations {
     patch_thing: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
             path: {
                 slug: string;
                 thing: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_tokens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenShape"][];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    create_token: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewToken"];
+            };
+        };
+        responses: {
+            /** @description Created */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MadeToken"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    revoke_token: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                slug: string;
+                token_id: string;
             };
             cookie?: never;
         };

@@ -45,6 +45,11 @@ export type ExpectedDevice = Schemas["ExpectedDevice"];
 export type Enrolment = Schemas["Door"];
 export type DescriptionLook = Schemas["LookShape"];
 
+export type Token = Schemas["TokenShape"];
+export type TokenScope = Token["scopes"][number];
+export type NewToken = Schemas["NewToken"];
+export type MadeToken = Schemas["MadeToken"];
+
 export type Alert = Schemas["AlertShape"];
 export type AlertSeverity = Alert["severity"];
 

@@ -22,6 +22,7 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/library/:id?", "pages/library/LibraryPage"],
   ["/sites/:slug/runs", "pages/runs/RunsPage"],
   ["/sites/:slug/map", "pages/map/MapPage"],
+  ["/sites/:slug/tokens", "pages/tokens/TokensPage"],
   ["/programs/:id", "editor/EditorScreen"],
   ["/programs/:id/simulate/:rehearsal?", "simulation/SimulationScreen"],
   ["/runs/:id", "run/RunScreen"],

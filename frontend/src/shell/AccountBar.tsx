@@ -1,9 +1,9 @@
 /** Who is signed in, what they may do here, and how the screen looks to them. */
 import { Menu } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Check, Languages, LogOut, Monitor, Moon, Sun, type LucideIcon } from "lucide-react";
+import { Check, KeyRound, Languages, LogOut, Monitor, Moon, Sun, type LucideIcon } from "lucide-react";
 import { useTranslation } from "react-i18next";
-import { useNavigate } from "react-router-dom";
+import { Link, useNavigate } from "react-router-dom";
 import { api } from "@/api/client";
 import { useMe } from "@/api/queries";
 import type { Role, User } from "@/api/types";
@@ -58,7 +58,7 @@ function useSignOut() {
   });
 }
 
-function AccountMenu({ user, role }: { user: User; role: Role | undefined }) {
+function AccountMenu({ user, role, slug }: { user: User; role: Role | undefined; slug: string | undefined }) {
   const { t, i18n } = useTranslation();
   const signOut = useSignOut();
   return (
@@ -86,6 +86,11 @@ function AccountMenu({ user, role }: { user: User; role: Role | undefined }) {
           </Menu.Item>
         ))}
         <Menu.Divider />
+        {slug ? (
+          <Menu.Item component={Link} to={`/sites/${slug}/tokens`} leftSection={<KeyRound size={15} />}>
+            {t("tokens.menu")}
+          </Menu.Item>
+        ) : null}
         <Menu.Item leftSection={<LogOut size={15} />} onClick={() => signOut.mutate()}>
           {t("shell.account.signOut")}
         </Menu.Item>
@@ -94,11 +99,11 @@ function AccountMenu({ user, role }: { user: User; role: Role | undefined }) {
   );
 }
 
-export function AccountBar({ role }: { role: Role | undefined }) {
+export function AccountBar({ role, slug }: { role: Role | undefined; slug: string | undefined }) {
   const user = useMe().data?.user;
   return (
     <div className={styles.foot}>
-      {user ? <AccountMenu user={user} role={role} /> : null}
+      {user ? <AccountMenu user={user} role={role} slug={slug} /> : null}
       <ThemeMenu />
     </div>
   );

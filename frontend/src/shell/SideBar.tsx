@@ -70,7 +70,7 @@ export function SideBar() {
           {slug ? <SiteEntries slug={slug} pending={site?.pending ?? 0} /> : null}
         </ul>
       </nav>
-      <AccountBar role={site?.role} />
+      <AccountBar role={site?.role} slug={slug} />
     </aside>
   );
 }

@@ -33,16 +33,20 @@ class ThingsClient:
         form = self.thing[kind][name]["forms"][0]
         address = urlsplit(self.thing["base"].rstrip("/") + self._filled(form["href"], values))
         method = getattr(self.http, form["htv:methodName"].lower())
-        secrets = dict(self._secret(each) for each in form.get("security", self.thing["security"]))
+        secrets = dict(each for name in form.get("security", self.thing["security"]) for each in self._secrets(name))
         data = {"data": json.dumps(body), "content_type": form["contentType"]} if body is not None else {}
         return method(f"{address.path}?{address.query}", **data, headers={**secrets, **(headers or {})})
 
-    def _secret(self, name: str) -> tuple[str, str]:
+    def _secrets(self, name: str) -> list[tuple[str, str]]:
+        """Return the headers that a scheme asks for; of schemes that may be chosen the last one, which is a session."""
         scheme = self.thing["securityDefinitions"][name]
+        if scheme["scheme"] == "combo":
+            chosen = scheme["allOf"] if "allOf" in scheme else scheme["oneOf"][-1:]
+            return [each for name in chosen for each in self._secrets(name)]
         if scheme["in"] == "cookie":
             assert scheme["name"] in self.http.cookies
-            return "X-Unused", ""
-        return scheme["name"], self.http.cookies["csrftoken"].value
+            return []
+        return [(scheme["name"], self.http.cookies["csrftoken"].value)]
 
     @staticmethod
     def _filled(template: str, values: dict[str, Any]) -> str:

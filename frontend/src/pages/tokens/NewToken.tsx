@@ -1,0 +1,119 @@
+/** The form for a new token, and the token itself, shown this one time. */
+import { Button, Checkbox, CopyButton, Modal, NativeSelect, TextInput } from "@mantine/core";
+import { Check, Copy } from "lucide-react";
+import { useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { MadeToken, Site, TokenScope } from "@/api/types";
+import { useReturnFocus } from "@/design/useReturnFocus";
+import { problemText } from "@/shell/LoadProblem";
+import pages from "../pages.module.css";
+import styles from "./tokens.module.css";
+import { scopesOf, useMakeToken } from "./tokens";
+
+const DAYS = [7, 30, 90, 365];
+
+interface Props {
+  site: Site;
+  onMade: (token: MadeToken) => void;
+  onClose: () => void;
+}
+
+export function NewToken({ site, onMade, onClose }: Props) {
+  const { t } = useTranslation();
+  useReturnFocus();
+  const [name, setName] = useState("");
+  const [days, setDays] = useState(90);
+  const [scopes, setScopes] = useState<TokenScope[]>(["read"]);
+  const make = useMakeToken(site.slug);
+  const chosen = scopesOf(site.role).filter((scope) => scope === "read" || scopes.includes(scope));
+  const send = () => make.mutate({ name: name.trim(), scopes: chosen, days }, { onSuccess: onMade });
+  return (
+    <Modal opened onClose={onClose} title={t("tokens.new")} size={480}>
+      <form
+        className={pages.form}
+        onSubmit={(event) => {
+          event.preventDefault();
+          send();
+        }}
+      >
+        <TextInput
+          label={t("tokens.name")}
+          placeholder={t("tokens.namePlaceholder")}
+          maxLength={100}
+          required
+          data-autofocus
+          value={name}
+          onChange={(event) => setName(event.currentTarget.value)}
+        />
+        <Checkbox.Group label={t("tokens.scopesLabel")} value={chosen} onChange={(values) => setScopes(values)}>
+          <div className={styles.scopes}>
+            {scopesOf(site.role).map((scope) => (
+              <Checkbox
+                key={scope}
+                value={scope}
+                disabled={scope === "read"}
+                label={t(`tokens.scope.${scope}`)}
+                description={t(`tokens.about.${scope}`)}
+              />
+            ))}
+          </div>
+        </Checkbox.Group>
+        <NativeSelect
+          label={t("tokens.days")}
+          value={String(days)}
+          data={DAYS.map((count) => ({ value: String(count), label: t("tokens.daysOf", { count }) }))}
+          onChange={(event) => setDays(Number(event.currentTarget.value))}
+        />
+        {make.error ? <p role="alert">{problemText(make.error, t("shell.problem.screen"))}</p> : null}
+        <div className={pages.buttons}>
+          <Button variant="default" onClick={onClose}>
+            {t("tokens.cancel")}
+          </Button>
+          <Button type="submit" loading={make.isPending} disabled={!name.trim()}>
+            {t("tokens.make")}
+          </Button>
+        </div>
+      </form>
+    </Modal>
+  );
+}
+
+export function TokenShown({ token, onClose }: { token: MadeToken; onClose: () => void }) {
+  const { t } = useTranslation();
+  return (
+    <Modal
+      opened
+      onClose={onClose}
+      closeOnClickOutside={false}
+      closeOnEscape={false}
+      title={t("tokens.shownTitle", { name: token.name })}
+      size={560}
+    >
+      <div className={pages.form}>
+        <p>{t("tokens.shownOnce")}</p>
+        <div className={styles.shown}>
+          <TextInput
+            classNames={{ input: styles.mono }}
+            label={t("tokens.field")}
+            readOnly
+            data-autofocus
+            value={token.token}
+            onFocus={(event) => event.currentTarget.select()}
+          />
+          <CopyButton value={token.token} timeout={4000}>
+            {({ copied, copy }) => (
+              <Button
+                variant="default"
+                onClick={copy}
+                leftSection={copied ? <Check size={16} aria-hidden="true" /> : <Copy size={16} aria-hidden="true" />}
+              >
+                {t(copied ? "tokens.copied" : "tokens.copy")}
+              </Button>
+            )}
+          </CopyButton>
+        </div>
+        <Button onClick={onClose}>{t("tokens.close")}</Button>
+      </div>
+    </Modal>
+  );
+}

@@ -1,0 +1,220 @@
+"""Tokens by which programs ask as a person at one site: made, told once, kept as hashes, listed, revoked."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+import secrets
+from collections.abc import Collection
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+
+from django.db import transaction
+from django.db.models import Q, QuerySet
+
+from registry.errors import RegistryError
+from registry.live.fanout import publish
+from registry.models import ApiToken, Membership, User
+from registry.models.people import Grant
+from registry.people.access import ROLES, SCOPES, NotAllowed, NotAMember
+
+MARK = "vipo"
+MOST_OF_MEMBER = 20
+MOST_LISTED = 1000
+MOST_DAYS = 366
+MOST_NAME = 100
+USE_NOTED_EVERY = timedelta(minutes=1)
+KEPT_EXPIRED = timedelta(days=30)
+_LEAST_ROLE = {"read": "viewer", "operate": "viewer", "run": "operator", "admin": "admin"}
+"""Who may give a token which scope; viewers operate nothing but the stop, which everybody may press."""
+
+
+class InvalidToken(RegistryError):
+    """A token that is none, or none any more; which of these is not said (RFC 6750)."""
+
+    code = "invalid_token"
+    status = 401
+
+
+class BadToken(RegistryError):
+    """A token that cannot be made so."""
+
+    code = "bad_token"
+    status = 422
+
+
+class TooManyTokens(RegistryError):
+    """The person has as many tokens at the site as they may."""
+
+    code = "too_many_tokens"
+    status = 409
+
+
+class NoSuchToken(RegistryError):
+    """There is no such token, or it is another person's."""
+
+    code = "not_found"
+    status = 404
+
+
+@dataclass(frozen=True, slots=True)
+class TokenView:
+    """A token without its secret; `id` is the public part of it."""
+
+    id: str
+    site: str
+    name: str
+    scopes: tuple[str, ...]
+    person_id: int
+    person: str
+    email: str
+    created_at: datetime
+    expires_at: datetime
+    last_used_at: datetime | None
+
+
+def create_token(
+    *, user: User, site: str, name: str, scopes: Collection[str], days: int, now: datetime
+) -> tuple[TokenView, str]:
+    """Make a token of a member; return it, and its text, which nobody can be told again.
+
+    Raises NotAMember, NotAllowed, BadToken, TooManyTokens.
+    """
+    name = " ".join(name.split())
+    if not 0 < len(name) <= MOST_NAME or not name.isprintable():
+        raise BadToken(f"A token needs a name of 1 to {MOST_NAME} characters that says what it is for.")
+    if not 1 <= days <= MOST_DAYS:
+        raise BadToken(f"A token lasts 1 to {MOST_DAYS} days, not {days}.")
+    public_id, secret = secrets.token_hex(8), secrets.token_urlsafe(32)
+    with transaction.atomic():
+        member = _lock_member(user, site)
+        _check_scopes(scopes, member.role)
+        if member.tokens.count() >= MOST_OF_MEMBER:
+            raise TooManyTokens(f"You have {MOST_OF_MEMBER} tokens at this site. Revoke one that is no longer used.")
+        row = ApiToken.objects.create(
+            membership=member,
+            public_id=public_id,
+            secret_hash=_hash(secret),
+            name=name,
+            scopes=" ".join(scope for scope in SCOPES if scope in scopes),
+            created_at=now,
+            expires_at=now + timedelta(days=days),
+        )
+    return _view(row), f"{MARK}_{public_id}_{secret}"
+
+
+def _lock_member(user: User, site: str) -> Membership:
+    rows = Membership.objects.select_for_update(of=("self",)).select_related("site", "user")
+    member = rows.filter(user_id=user.pk, user__is_active=True, site__slug=site).first()
+    if member is None:
+        raise NotAMember("There is no such site, or you are not one of its members. Ask its admin to add you.")
+    return member
+
+
+def _check_scopes(scopes: Collection[str], role: str) -> None:
+    if not scopes or not set(scopes) <= set(SCOPES):
+        raise BadToken(f"A token has one or more of the scopes {', '.join(SCOPES)}.")
+    for scope in scopes:
+        if ROLES.index(role) < ROLES.index(_LEAST_ROLE[scope]):
+            raise NotAllowed(f"You are {role} of this site; a token for {scope} needs the role {_LEAST_ROLE[scope]}.")
+
+
+def find_member(*, site: str, email: str) -> User:
+    """Return a member of a site by their address. Raises NotAMember."""
+    members = Membership.objects.filter(site__slug=site, user__email=email.strip().lower()).select_related("user")
+    member = members.first()
+    if member is None:
+        raise NotAMember(
+            f"{email[:100]} is no member of {site[:64]!r}. Try: vipo account EMAIL --site SITE --role ROLE"
+        )
+    return member.user
+
+
+def list_tokens(*, site: str, user: User | None = None) -> tuple[TokenView, ...]:
+    """Return the tokens of a site, or of one of its members, the newest first; also those that have expired."""
+    rows = _rows().filter(membership__site__slug=site)
+    if user is not None:
+        rows = rows.filter(membership__user_id=user.pk)
+    return tuple(_view(row) for row in rows.order_by("-created_at", "-id")[:MOST_LISTED])
+
+
+def revoke_token(*, token_id: str, site: str = "", user: User | None = None) -> TokenView:
+    """End a token at once, with the streams opened by it; of one site or person only, if named. Raises NoSuchToken."""
+    rows = _rows().filter(public_id=token_id.replace("\0", ""))
+    if site:
+        rows = rows.filter(membership__site__slug=site)
+    row = (rows if user is None else rows.filter(membership__user_id=user.pk)).first()
+    if row is None or not ApiToken.objects.filter(pk=row.pk).delete()[0]:
+        raise NoSuchToken("There is no such token here. It may have been revoked already.")
+    view = _view(row)
+    transaction.on_commit(lambda: publish(view.site, {"type": "members"}))
+    return view
+
+
+def find_bearer(*, token: str, now: datetime) -> User:
+    """Return the person whose token this is, who has no more rights than it grants. Raises InvalidToken."""
+    mark, _, rest = token.partition("_")
+    public_id, _, secret = rest.partition("_")
+    looks_like_one = mark == MARK and len(token) < 100 and token.isascii() and token.isprintable()
+    row = _standing(now).filter(public_id=public_id).first() if looks_like_one else None
+    if not hmac.compare_digest(_hash(secret), row.secret_hash if row else _hash("")) or row is None:
+        raise InvalidToken("This token is not valid: it has ended, was revoked, or never was one. Make another one.")
+    _note_use(row, now)
+    return _person(row)
+
+
+def find_person_of_token(*, token_id: int, now: datetime) -> User | None:
+    """Return who a token that was shown before stands for; None once it has ended."""
+    row = _standing(now).filter(pk=token_id).first()
+    return _person(row) if row else None
+
+
+def expiry_of_token(*, token_id: int) -> datetime | None:
+    """Return when a token ends if nobody revokes it; None when it has gone."""
+    return ApiToken.objects.filter(pk=token_id).values_list("expires_at", flat=True).first()
+
+
+def prune_tokens(*, now: datetime) -> int:
+    """Forget those that ended long ago; returns how many."""
+    return ApiToken.objects.filter(expires_at__lt=now - KEPT_EXPIRED).delete()[0]
+
+
+def _rows() -> QuerySet[ApiToken]:
+    return ApiToken.objects.select_related("membership__user", "membership__site")
+
+
+def _standing(now: datetime) -> QuerySet[ApiToken]:
+    return _rows().filter(expires_at__gt=now, membership__user__is_active=True)
+
+
+def _note_use(row: ApiToken, now: datetime) -> None:
+    """Keep when a token was used, to the minute: a program that asks often costs no write each time."""
+    noted = Q(last_used_at=None) | Q(last_used_at__lt=now - USE_NOTED_EVERY)
+    if row.last_used_at is None or row.last_used_at < now - USE_NOTED_EVERY:
+        ApiToken.objects.filter(noted, pk=row.pk).update(last_used_at=now)
+
+
+def _person(row: ApiToken) -> User:
+    person = row.membership.user
+    person.grant = Grant(row.pk, row.membership.site_id, frozenset(row.scopes.split()))
+    return person
+
+
+def _hash(secret: str) -> str:
+    return hashlib.sha256(secret.encode()).hexdigest()
+
+
+def _view(row: ApiToken) -> TokenView:
+    member = row.membership
+    return TokenView(
+        id=row.public_id,
+        site=member.site.slug,
+        name=row.name,
+        scopes=tuple(row.scopes.split()),
+        person_id=member.user_id,
+        person=member.user.display_name,
+        email=member.user.email,
+        created_at=row.created_at,
+        expires_at=row.expires_at,
+        last_used_at=row.last_used_at,
+    )

@@ -1,0 +1,53 @@
+"""Tokens on their page: made, copied this once, shown to VIPO by a program, revoked."""
+
+from __future__ import annotations
+
+import httpx
+import pytest
+from playwright.sync_api import expect
+
+from tests.e2e.conftest import SignIn
+from tests.e2e.screens import violations
+from tests.kit.demo import Demo
+
+pytestmark = pytest.mark.browser
+PAGE = "/sites/painting-factory/tokens"
+
+
+def test_a_token_is_made_shown_once_used_and_revoked_by_keyboard(demo: Demo, sign_in: SignIn) -> None:
+    page = sign_in("author", PAGE)
+    expect(page.get_by_role("heading", level=1, name="Tokens")).to_be_visible()
+    page.get_by_role("button", name="New token").focus()
+    page.keyboard.press("Enter")
+    page.keyboard.type("Line display")
+    expect(page.get_by_role("checkbox", name="Look")).to_be_disabled()
+    expect(page.get_by_role("checkbox", name="Everything")).to_have_count(0)
+    page.get_by_role("checkbox", name="Operate").press("Space")
+    assert violations(page) == []
+    page.get_by_label("What it is for").press("Enter")
+    token = page.get_by_role("dialog", name="Token for Line display").get_by_label("Token").input_value()
+    assert violations(page) == []
+    asked = {"Authorization": f"Bearer {token}"}
+    sites = httpx.get(f"{demo.url}/api/sites", headers=asked).json()
+    assert [(site["slug"], site["role"]) for site in sites] == [("painting-factory", "operator")]
+    page.get_by_role("button", name="I have it").press("Enter")
+    row = page.get_by_role("row", name="Line display")
+    expect(row).to_contain_text("Operate")
+    assert token.split("_", 2)[2] not in page.content()
+    row.get_by_role("button", name="Revoke Line display").press("Enter")
+    page.get_by_role("dialog").get_by_role("button", name="Revoke").press("Enter")
+    expect(page.get_by_text("No tokens yet")).to_be_visible()
+    assert httpx.get(f"{demo.url}/api/sites", headers=asked).status_code == 401
+
+
+@pytest.mark.parametrize(
+    ("language", "dark", "width", "height"),
+    [("en", False, 1600, 1000), ("de", True, 1600, 1000), ("de", False, 820, 1180), ("en", True, 820, 1180)],
+)
+def test_the_page_passes_axe_and_fits(sign_in: SignIn, language: str, dark: bool, width: int, height: int) -> None:
+    page = sign_in("admin", PAGE, width=width, height=height, dark=dark, language=language)
+    title = {"en": "Tokens", "de": "Zugangsmarken"}[language]
+    expect(page.get_by_role("heading", level=1, name=title)).to_be_visible()
+    expect(page.get_by_role("button", name={"en": "New token", "de": "Neue Zugangsmarke"}[language])).to_be_visible()
+    assert violations(page) == []
+    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")

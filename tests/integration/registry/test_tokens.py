@@ -1,0 +1,241 @@
+"""Tokens: how people make, see and end them, what is kept of them, and how programs show them."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from collections.abc import AsyncIterator
+from contextlib import aclosing
+from datetime import UTC, datetime, timedelta
+from typing import Any
+
+import pytest
+from asgiref.sync import sync_to_async
+from django.db import connection
+from django.test import Client
+
+from registry import services
+from registry.models import ApiToken
+from registry.people import tokens
+from registry.people.sessions import Session
+from registry.thing_directory.event_stream import Listener, stream_events
+from tests.kit.command_line import run_vipo
+from tests.kit.sign_in import find_person, post_json, signed_in
+from tests.kit.sites import make_mixers
+
+TOKENS = "/api/sites/hall/tokens"
+
+
+def make(person: str = "operator", *scopes: str, **more: Any) -> dict[str, Any]:
+    body = {"name": "Line display", "scopes": scopes or ["read"], **more}
+    answer = post_json(signed_in(person), TOKENS, body)
+    assert answer.status_code == 201, answer.content
+    told: dict[str, Any] = answer.json()
+    return told
+
+
+def bearer(token: str, **more: Any) -> Client:
+    return Client(enforce_csrf_checks=True, headers={"Authorization": f"Bearer {token}", **more})
+
+
+def kept_of_everything() -> str:
+    """Return all that the database holds, as text."""
+    with connection.cursor() as cursor:
+        names = connection.introspection.table_names(cursor)
+        rows = [cursor.execute(f'SELECT * FROM "{name}"').fetchall() for name in names]
+    return repr(rows)
+
+
+def test_a_token_is_told_once_and_kept_as_a_hash(hall: str, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.DEBUG)
+    answer = post_json(signed_in("operator"), TOKENS, {"name": " Line  display ", "scopes": ["run", "read"]})
+    made = answer.json()
+    assert (answer.status_code, answer["Cache-Control"], made["scopes"]) == (201, "no-store", ["read", "run"])
+    mark, public_id, secret = made["token"].split("_", 2)
+    assert (mark, public_id, len(secret), made["name"]) == ("vipo", made["id"], 43, "Line display")
+    assert bearer(made["token"]).get("/api/sites/hall").json()["role"] == "operator"
+    assert bearer(made["token"] + "x").get("/api/sites/hall").status_code == 401
+    listed = signed_in("operator").get(TOKENS)
+    assert [(row["id"], row["mine"], row["expired"]) for row in listed.json()] == [(public_id, True, False)]
+    assert "token" not in listed.json()[0]
+    everything = kept_of_everything() + listed.content.decode() + caplog.text
+    assert (secret in everything, public_id in everything) == (False, True)
+
+
+def test_a_token_needs_no_csrf_and_goes_before_the_cookie(hall: str) -> None:
+    operate = make("operator", "operate")["token"]
+    assert bearer(operate).post("/api/sites/hall/stop/reset").json() == {"active": False, "by": "", "at": None}
+    both = signed_in("admin", headers={"Authorization": f"Bearer {make('viewer')['token']}"})
+    assert both.get("/api/sites/hall").json()["role"] == "viewer"
+    assert both.post("/api/sites/hall/stop/reset").json()["code"] == "insufficient_scope"
+    broken = signed_in("admin", headers={"Authorization": "Bearer vipo_0_0"})
+    assert broken.get("/api/sites/hall").status_code == 401
+    basic = signed_in("admin", headers={"Authorization": "Basic YTpi"})
+    assert basic.get("/api/sites/hall").json()["role"] == "admin"
+    assert "sessionid" not in bearer(operate).get("/api/sites").cookies
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "vipo_", "vipo__", "vipo", "_", "a" * 5000, "vipo_\0_a", "vipo_ä_ö", "' OR 1=1", "vipo_" + "0" * 16 + "_x"],
+)
+def test_what_is_no_token_is_refused_alike(hall: str, text: str) -> None:
+    answer = bearer(text).get("/api/sites/hall")
+    told = answer.json()
+    assert (answer.status_code, told["code"], answer["WWW-Authenticate"]) == (
+        401,
+        "invalid_token",
+        'Bearer error="invalid_token"',
+    )
+    assert told["detail"] == tokens.InvalidToken(told["detail"]).detail
+    assert Client().get("/api/sites")["WWW-Authenticate"] == "Bearer"
+
+
+def test_the_secret_is_compared_in_constant_time_also_where_there_is_no_such_token(
+    hall: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made, compared = make()["token"], []
+    plain = tokens.hmac.compare_digest
+    monkeypatch.setattr(tokens.hmac, "compare_digest", lambda a, b: compared.append((len(a), len(b))) or plain(a, b))
+    for text in (made, made[:-1] + "-", "vipo_0123456789abcdef_" + "a" * 43, "nonsense"):
+        bearer(text).get("/api/sites")
+    assert compared == [(64, 64)] * 4
+
+
+def test_people_see_and_end_their_own_and_admins_all_of_their_site(hall: str) -> None:
+    services.create_site(name="Shed", slug="shed")
+    services.set_member(site="shed", email="stranger@vipo.example", role="admin")
+    made = {person: make(person) for person in ("viewer", "operator", "admin")}
+    assert [row["person"] for row in signed_in("viewer").get(TOKENS).json()] == ["Viewer Person"]
+    assert [row["person"] for row in signed_in("admin").get(TOKENS).json()] == [
+        "Admin Person",
+        "Operator Person",
+        "Viewer Person",
+    ]
+    assert signed_in("stranger").get(TOKENS).status_code == 404
+    one = f"{TOKENS}/{made['operator']['id']}"
+    foreign = f"/api/sites/shed/tokens/{made['operator']['id']}"
+    absent = [signed_in("viewer").delete(one), signed_in("stranger").delete(foreign)]
+    assert [(a.status_code, a.json()["detail"]) for a in absent] == [
+        (404, "There is no such token here. It may have been revoked already.")
+    ] * 2
+    assert bearer(made["operator"]["token"]).get("/api/sites/hall").status_code == 200
+    assert [signed_in("admin").delete(one).status_code for _ in range(2)] == [204, 404]
+    assert bearer(made["operator"]["token"]).get("/api/sites/hall").status_code == 401
+    assert bearer(made["viewer"]["token"]).get("/api/sites/hall").status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("person", "body", "status", "code"),
+    [
+        ("viewer", {"name": "a", "scopes": ["run"]}, 403, "not_allowed"),
+        ("author", {"name": "a", "scopes": ["admin"]}, 403, "not_allowed"),
+        ("viewer", {"name": "a", "scopes": ["operate"]}, 201, None),
+        ("admin", {"name": "a", "scopes": []}, 422, "bad_request"),
+        ("admin", {"name": "a", "scopes": ["everything"]}, 422, "bad_request"),
+        ("admin", {"name": " ", "scopes": ["read"]}, 422, "bad_token"),
+        ("admin", {"name": "a\0", "scopes": ["read"]}, 422, "bad_token"),
+        ("admin", {"name": "a" * 101, "scopes": ["read"]}, 422, "bad_request"),
+        ("admin", {"name": "a", "scopes": ["read"], "days": 0}, 422, "bad_request"),
+        ("admin", {"name": "a", "scopes": ["read"], "days": 367}, 422, "bad_request"),
+        ("stranger", {"name": "a", "scopes": ["read"]}, 404, "not_found"),
+        ("nobody", {"name": "a", "scopes": ["read"]}, 401, "signed_out"),
+    ],
+)
+def test_which_tokens_can_be_made(hall: str, person: str, body: dict[str, Any], status: int, code: str | None) -> None:
+    answer = post_json(signed_in(person), TOKENS, body)
+    assert (answer.status_code, answer.json().get("code")) == (status, code)
+    assert ApiToken.objects.count() == (1 if status == 201 else 0)
+
+
+def test_a_member_has_so_many_tokens_at_most(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tokens, "MOST_OF_MEMBER", 2)
+    first = make()
+    make()
+    refused = post_json(signed_in("operator"), TOKENS, {"name": "a", "scopes": ["read"]})
+    assert (refused.status_code, refused.json()["code"]) == (409, "too_many_tokens")
+    make("viewer")
+    signed_in("operator").delete(f"{TOKENS}/{first['id']}")
+    make()
+
+
+def test_use_is_noted_to_the_minute_and_what_ended_long_ago_is_forgotten(hall: str) -> None:
+    token, now = make()["token"], datetime.now(UTC)
+    for later, noted in ((1, 1), (30, 1), (62, 62)):
+        services.find_bearer(token=token, now=now + timedelta(seconds=later))
+        assert ApiToken.objects.get().last_used_at == now + timedelta(seconds=noted)
+    assert services.prune_tokens(now=now + timedelta(days=119)) == 0
+    assert signed_in("operator").get(TOKENS).json()[0]["last_used_at"] is not None
+    assert services.prune_tokens(now=now + timedelta(days=121)) == 1
+
+
+def test_vipo_token(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    wanted = ("operator@vipo.example", "--site", "hall", "--name", "Press")
+    code, out, err = run_vipo(capsys, "token", "create", *wanted, "--scope", "run", "--scope", "operate")
+    first, second = out.splitlines()
+    token = second.removeprefix("The token, shown this once: ")
+    public_id = token.split("_")[1]
+    assert (code, err, first.split(" until ")[0]) == (0, "", "Press asks as operator@vipo.example at hall")
+    assert first.endswith(": operate run.")
+    assert bearer(token).get("/api/sites").json()[0]["role"] == "operator"
+    code, out, _ = run_vipo(capsys, "token", "list", "--site", "hall")
+    assert (code, out.splitlines()[1].split()[:5]) == (
+        0,
+        [public_id, "Press", "hall", "operator@vipo.example", "operate"],
+    )
+    assert token.split("_", 2)[2] not in out
+    assert run_vipo(capsys, "token", "revoke", public_id)[:2] == (
+        0,
+        "Press of operator@vipo.example at hall has ended.\n",
+    )
+    assert bearer(token).get("/api/sites").status_code == 401
+    assert run_vipo(capsys, "token", "revoke", public_id)[0] == 2
+    assert run_vipo(capsys, "token", "create", "stranger@vipo.example", *wanted[1:])[0] == 2
+    assert run_vipo(capsys, "token", "list", "--site", "nowhere")[0] == 2
+    assert run_vipo(capsys, "token", "create", *wanted, "--scope", "admin")[0] == 2
+
+
+@sync_to_async
+def open_stream(days_left: float = 1.0) -> tuple[str, AsyncIterator[bytes]]:
+    """Open a stream of events with a token; return the token's id, too."""
+    made = make("viewer")
+    until = datetime.now(UTC) + timedelta(days=days_left)
+    ApiToken.objects.update(expires_at=until)
+    row = ApiToken.objects.get(public_id=made["id"])
+    session = Session("", find_person("viewer").pk, row.pk, until)
+    return made["id"], stream_events(Listener(session, "hall", ("thing_updated",), diff=False), "")
+
+
+async def seconds_until_end(events: AsyncIterator[bytes]) -> float:
+    begun = time.monotonic()
+    async with asyncio.timeout(30):
+        async for _ in events:
+            pass
+    return time.monotonic() - begun
+
+
+@pytest.mark.django_db(transaction=True)
+async def test_a_stream_ends_when_its_token_is_revoked_or_expires(hall: str) -> None:
+    await sync_to_async(make_mixers)("a")
+    token_id, events = await open_stream()
+    async with aclosing(events):
+        await anext(events)
+        await sync_to_async(services.revoke_token)(token_id=token_id)
+        assert await seconds_until_end(events) < 3
+    _, events = await open_stream(days_left=2 / 86_400)
+    async with aclosing(events):
+        await anext(events)
+        assert await seconds_until_end(events) < 5
+
+
+@pytest.mark.django_db(transaction=True)
+async def test_a_stream_opens_with_a_token_alone(hall: str) -> None:
+    token = (await sync_to_async(make)("viewer"))["token"]
+    client = await sync_to_async(bearer)(token)
+    answer = await sync_to_async(client.get)("/api/sites/hall/things/events")
+    assert answer.status_code == 200
+    stream = aiter(answer.streaming_content) if answer.is_async else iter(answer.streaming_content)
+    assert b"retry" in (await anext(stream) if answer.is_async else next(stream))
+    if answer.is_async:
+        await stream.aclose()
