@@ -13,7 +13,7 @@ from pydantic import Field
 
 from registry import services
 from registry.people.access import require
-from registry.shapes import Unchecked, signed_in
+from registry.shapes import Asked, Line, ReadLater, Unchecked, signed_in
 from vipo_device.descriptions.forms import BadDescription, DescriptionForm
 from vipo_device.descriptions.reader import read, write_description
 from vipo_device.protocol.description import description_to_json
@@ -24,10 +24,10 @@ MOST_CHARACTERS = 65_536
 """More than a description may have, so that the reader says itself what is too long."""
 
 
-class NewDevice(Schema):
+class NewDevice(Asked):
     """The id of a device that will come."""
 
-    id: str = Field(max_length=64)
+    id: Line = Field(max_length=64)
 
 
 class ExpectedDevice(Schema):
@@ -47,10 +47,10 @@ class Door(Schema):
     broker: str
 
 
-class DescriptionText(Schema):
+class DescriptionText(Asked):
     """A description in any form."""
 
-    text: str = Field(max_length=MOST_CHARACTERS)
+    text: Annotated[str, ReadLater()] = Field(max_length=MOST_CHARACTERS)
 
 
 class FaultShape(Schema):

@@ -14,6 +14,7 @@ from registry.models import Device, Membership, Place, Site, SiteMap, User
 from registry.people.access import ROLES, NotAMember
 from registry.sites.views import PlaceView, SiteView, StopView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
+from vipo_device.protocol.texts import find_unfit, normal
 
 
 class BadName(RegistryError):
@@ -80,8 +81,8 @@ def _site_view(site: Site, role: str) -> SiteView:
 
 def create_site(*, name: str, admin: User | None = None, slug: str = "") -> SiteView:
     """Make an empty site; `admin` becomes its first member. Raises BadName."""
-    name = " ".join(name.split())
-    if not 1 <= len(name) <= 100 or not name.isprintable():
+    name = normal(" ".join(name.split()))
+    if not 1 <= len(name) <= 100 or find_unfit(name, is_line=True):
         raise BadName("A site needs a name of 1 to 100 characters that can be printed.")
     with transaction.atomic():
         site = _new_site(name, slug or slugify(name)[:50] or "site", exact=bool(slug))
