@@ -110,7 +110,7 @@ def _mend(spec: ParameterSpec, value: Any, known: Mapping[str, Collection[str]])
             is_known = spec.type not in known or value in known[spec.type]
             return "" if is_known else f"this site has no {spec.type} {value[:64]!r}. Give the id of one that it has."
         case "number":
-            return "give a number."
+            return f"give a number{f' in {spec.unit}' if spec.unit else ''}."
         case "boolean":
             return "give true or false."
         case "option":
