@@ -87,6 +87,7 @@ from registry.people.sessions import Session, has_ended, session_of_socket
 from registry.people.sign_in import change_password, check_sign_in, create_user, is_known
 from registry.sites.sites import (
     create_site,
+    get_enrolment_key,
     get_site,
     get_site_id,
     list_places,
@@ -171,6 +172,7 @@ __all__ = [
     "get_demo_grid",
     "get_device",
     "get_device_names",
+    "get_enrolment_key",
     "get_floor_plan",
     "get_map",
     "get_readings",

@@ -97,17 +97,19 @@ class LookShape(Schema):
 
 
 @router.post("/sites/{slug}/newcomers", response={201: ExpectedDevice})
-def reserve_device(request: HttpRequest, slug: str, body: NewDevice) -> dict[str, Any]:
+def reserve_device(request: HttpRequest, response: HttpResponse, slug: str, body: NewDevice) -> dict[str, Any]:
     """Reserve an id for a device that will come, and tell its key this once; it still waits for approval then."""
     user = signed_in(request)
     require(user, slug, "admin")
+    response["Cache-Control"] = "no-store"
     return asdict(services.reserve_device(site=slug, device_id=body.id.strip(), by=user, at=timezone.now()))
 
 
 @router.post("/sites/{slug}/join-key", response=Door)
-def renew_enrolment_key(request: HttpRequest, slug: str) -> dict[str, Any]:
+def renew_enrolment_key(request: HttpRequest, response: HttpResponse, slug: str) -> dict[str, Any]:
     """Make a new enrolment key for devices that come to a site, and tell it this once; the old one ends."""
     require(signed_in(request), slug, "admin")
+    response["Cache-Control"] = "no-store"
     return {"site": slug, "join_key": services.renew_enrolment_key(site=slug), "broker": str(settings.VIPO_BROKER_URL)}
 
 
