@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Any
+from typing import Annotated, Any
 from uuid import UUID
 
 from django.http import HttpRequest
@@ -24,6 +24,7 @@ from editor.shapes import (
 )
 from registry import services as registry
 from registry.services import NotAMember, require
+from registry.shapes import Asked, Line, Repaired
 
 router = Router(tags=["editor"])
 
@@ -50,10 +51,10 @@ class ProgramShape(Schema):
     warnings: int
 
 
-class ProgramName(Schema):
+class ProgramName(Asked):
     """A name for a program."""
 
-    name: str = Field(max_length=200)
+    name: Line = Field(max_length=200)
 
 
 class VersionShape(Schema):
@@ -67,28 +68,28 @@ class VersionShape(Schema):
     script: str
 
 
-class VersionMessage(Schema):
+class VersionMessage(Asked):
     """What a version is about."""
 
     message: str = Field("", max_length=300)
 
 
-class ScriptText(Schema):
+class ScriptText(Asked):
     """A script as somebody edited it."""
 
-    text: str
-    base: dict[str, Any] | None = Field(
+    text: Annotated[str, Repaired()]
+    base: Annotated[dict[str, Any] | None, Repaired()] = Field(
         None, description="The document that it is drawn over; the current one if none."
     )
-    shown: str | None = Field(None, description="The script from which the text was edited.")
+    shown: Annotated[str | None, Repaired()] = Field(None, description="The script from which the text was edited.")
 
 
-class FunctionToSave(Schema):
+class FunctionToSave(Asked):
     """A function of a program that shall go into the library."""
 
     program: UUID
-    function: str = Field(max_length=100)
-    name: str = Field(max_length=200)
+    function: Line = Field(max_length=100)
+    name: Line = Field(max_length=200)
     description: str = Field("", max_length=500)
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from ninja import Field, Schema
 from typing_extensions import TypeAliasType
 
-from registry.shapes import Unchecked
+from registry.shapes import Asked, Flag, Line, Repaired, Unchecked
 
 Position = tuple[float, float]
 StepKind = TypeAliasType(
@@ -270,13 +270,13 @@ Definition = Annotated[dict[str, Any], Unchecked(DefinitionShape)]
 Parameters = Annotated[list[dict[str, Any]], Unchecked(list[ParameterDefinition])]
 
 
-class ExpressionToRead(Schema):
+class ExpressionToRead(Asked):
     """A line that shall be read (`text`), or a Value that shall be printed as one; the names are those of a step."""
 
-    text: str | None = Field(None, max_length=10_000)
-    value: Any = None
-    step: str = Field("", max_length=100)
-    names: bool = False
+    text: Annotated[str | None, Repaired()] = Field(None, max_length=10_000)
+    value: Annotated[Any, Repaired()] = None
+    step: Line = Field("", max_length=100)
+    names: Flag = False
 
 
 class LineProblem(Schema):

@@ -5,41 +5,44 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from ninja import Field, Schema
+from pydantic import Strict
 
 from editor.shapes import Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
-from registry.shapes import Unchecked
+from registry.shapes import Asked, Flag, Line, Unchecked
 
 RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cancelled"]
 StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]
 Scalar = bool | int | float | str
-MapVersion = Annotated[int, Field(ge=0, lt=2**31)]
+Driver = Literal["physics", "kinematic"]
+Seed = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
+MapVersion = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
 
 
-class StartRun(Schema):
+class StartRun(Asked):
     """Parameters of a run; what is left out has its default."""
 
     parameters: dict[str, Any] = {}
 
 
-class StartRehearsal(Schema):
+class StartRehearsal(Asked):
     """How a rehearsal is done: with `physics`, or `kinematic` and quicker."""
 
     parameters: dict[str, Any] = {}
-    seed: int = 0
-    driver: str = "physics"
+    seed: Seed = 0
+    driver: Driver = "physics"
 
 
 End = Annotated[Any, Unchecked(Position | DevicePlace | NamedPlace | PointPlace)]
 
 
-class AskRoute(Schema):
+class AskRoute(Asked):
     """Two ends of a way: `[x, y]` or a Place; in JSON the first is called `from`."""
 
     start: End = Field(alias="from")
     to: End
 
 
-class AskRoutes(Schema):
+class AskRoutes(Asked):
     """Many ways at once."""
 
     pairs: list[AskRoute] = Field(max_length=500)
@@ -156,16 +159,16 @@ class QuestionShape(Schema):
     answered_at: str | None
 
 
-class AnswerQuestion(Schema):
+class AnswerQuestion(Asked):
     """The answer: yes or no, a number, a text, or one of the options."""
 
     value: Annotated[Any, Unchecked(Scalar)]
 
 
-class ArmProgram(Schema):
+class ArmProgram(Asked):
     """Whether the program shall start by itself."""
 
-    on: bool
+    on: Flag
 
 
 class ArmedShape(Schema):
@@ -177,10 +180,10 @@ class ArmedShape(Schema):
     at: str
 
 
-class CallMethod(Schema):
+class CallMethod(Asked):
     """A method of a device, and its arguments by name."""
 
-    method: str = Field(max_length=64)
+    method: Line = Field(max_length=64)
     args: dict[str, Any] = {}
 
 
@@ -325,15 +328,15 @@ class RehearsalShape(Schema):
     created_at: str
 
 
-class UseRobotMap(Schema):
+class UseRobotMap(Asked):
     """Which robot's map, and the versions that were looked at: of the robot's map, and of the site's (0: none)."""
 
-    device: str = Field(max_length=64)
+    device: Line = Field(max_length=64)
     version: MapVersion
     replaces: MapVersion
 
 
-class RestoreMap(Schema):
+class RestoreMap(Asked):
     """Which version of the site's map is to hold again, and which one held when that was decided."""
 
     version: MapVersion

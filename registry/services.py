@@ -97,6 +97,7 @@ from registry.people.tokens import (
 )
 from registry.sites.sites import (
     create_site,
+    get_enrolment_key,
     get_site,
     get_site_id,
     list_places,
@@ -185,6 +186,7 @@ __all__ = [
     "get_demo_grid",
     "get_device",
     "get_device_names",
+    "get_enrolment_key",
     "get_floor_plan",
     "get_map",
     "get_readings",

@@ -5,15 +5,18 @@ The frontend's types are made from the shapes.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from django.http import HttpRequest
 from ninja import Field, Schema
-from pydantic import GetCoreSchemaHandler
-from pydantic_core import CoreSchema, core_schema
+from ninja.schema import DjangoGetter
+from pydantic import AfterValidator, ConfigDict, GetCoreSchemaHandler, Strict, ValidationError, model_validator
+from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError, core_schema
 
 from registry.devices.views import Status
 from registry.models import User
+from vipo_device.protocol.texts import cleaned_json, normal, normal_json, refusal_of, unfit_texts
 
 
 def sends(*content_types: str) -> dict[str, Any]:
@@ -49,6 +52,61 @@ def _as_it_is(value: Any) -> Any:
     return value
 
 
+class Repaired:
+    """`Annotated[…, Repaired()]` in what is asked: texts are cleaned and not refused, as in a document on reading."""
+
+
+class AsTyped:
+    """`Annotated[str, AsTyped()]` in what is asked: a fit text stays as it came, as a password has to."""
+
+
+class ReadLater:
+    """`Annotated[str, ReadLater()]` in what is asked: what reads the text says itself what it cannot take."""
+
+
+def _one_line(text: str) -> str:
+    if refusal := refusal_of(text, is_line=True):
+        raise PydanticCustomError("line", "This text {refusal}", {"refusal": refusal})
+    return normal(text)
+
+
+Line = Annotated[str, AfterValidator(_one_line)]
+"""A text of one line, as names are; `Field(max_length=…)` says how long."""
+Flag = Annotated[bool, Strict()]
+"""True or false, and nothing that could be meant so."""
+Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
+"""A number, and no text or truth value that could be meant so."""
+
+
+class Asked(Schema):
+    """What a request says, the base of all of them: no field that is not named here, and texts by the one rule."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read_texts(cls, values: Any) -> Any:
+        """Refuse texts that are none, and bring the others to their normal form."""
+        said = values._obj if isinstance(values, DjangoGetter) else values
+        if not isinstance(said, Mapping):
+            return said
+        marks = {field.alias or name: field.metadata for name, field in cls.model_fields.items()}
+        return {name: _read_field(name, value, marks.get(name, [])) for name, value in said.items()}
+
+
+def _read_field(name: str, value: Any, marks: list[Any]) -> Any:
+    kinds = {type(mark) for mark in marks}
+    if ReadLater in kinds:
+        return value
+    if Repaired in kinds:
+        return cleaned_json(value)
+    read = value if AsTyped in kinds else normal_json(value)
+    for where, text in unfit_texts({name: read}):
+        why = PydanticCustomError("text", "This text {refusal}", {"refusal": refusal_of(text)})
+        raise ValidationError.from_exception_data("text", [InitErrorDetails(type=why, loc=where, input=None)])
+    return read
+
+
 Role = Literal["viewer", "operator", "author", "admin"]
 Kind = Literal["robot", "machine"]
 Lifecycle = Literal["pending", "approved", "retired"]
@@ -80,11 +138,11 @@ class Me(Schema):
     demo_accounts: list[DemoAccount]
 
 
-class SignIn(Schema):
+class SignIn(Asked):
     """What somebody signs in with."""
 
-    email: str = Field(max_length=254)
-    password: str = Field(max_length=1000)
+    email: Line = Field(max_length=254)
+    password: Annotated[str, AsTyped()] = Field(max_length=1000)
 
 
 class Stop(Schema):
@@ -266,14 +324,23 @@ class DeviceEventShape(Schema):
     changes: list[ChangeShape]
 
 
-class Topic(Schema):
+class Topic(Asked):
     """A topic that a device asks for, exactly as it names it."""
 
-    topic: str = Field(max_length=200)
+    topic: Line = Field(max_length=200)
 
 
-class DeviceEdit(Schema):
+class StandsAt(Asked):
+    """Where a device stands: metres and radians in the map frame."""
+
+    x: Number
+    y: Number
+    z: Number = 0.0
+    theta: Number = 0.0
+
+
+class DeviceEdit(Asked):
     """What people may say of a device; fields that are left out stay."""
 
-    name: str | None = None
-    location: PoseShape | None = None
+    name: Line | None = Field(None, max_length=100)
+    location: StandsAt | None = None

@@ -68,6 +68,7 @@ MIDDLEWARE = [
     "django.middleware.security.SecurityMiddleware",
     "vipo_site.http.middleware.SecurityHeaders",
     "vipo_site.http.middleware.TellMethods",
+    "vipo_site.http.middleware.FitTexts",
     "django.contrib.sessions.middleware.SessionMiddleware",
     "django.middleware.common.CommonMiddleware",
     "django.middleware.csrf.CsrfViewMiddleware",

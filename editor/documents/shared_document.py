@@ -16,6 +16,7 @@ from pycrdt import Array, Doc, Map, Text, TransactionEvent, merge_updates
 from pycrdt import get_state as state_of_update
 
 from editor.language.document.format_migrations import FIRST_FORMAT, FORMAT, format_of, migrate
+from vipo_device.protocol.texts import cleaned, cleaned_json, find_unfit, normal
 
 ROOTS = ("meta", "steps", "functions", "roles", "parameters", "zones")
 _CONTENT = ROOTS[1:]
@@ -100,6 +101,7 @@ class SharedDocument:
     def to_json(self) -> dict[str, Any]:
         """Return the plain form (docs/shapes/document.md); not to be changed in place.
 
+        What no text may hold is read as if it were not there; what is named so is not read.
         A step that has not changed since the last call is the same object.
         """
         plain = {name: _plain(self._document.get(name, type=Map).to_py() or {}) for name in ROOTS if name != "steps"}
@@ -110,7 +112,7 @@ class SharedDocument:
     def _plain_steps(self) -> dict[str, Any]:
         shared = self._document.get("steps", type=Map)
         for name in tuple(self._changed):
-            if name in shared:
+            if name in shared and not find_unfit(name):
                 value = shared[name]
                 self._steps[name] = _plain(value.to_py() if isinstance(value, _SHARED) else value)
             else:
@@ -206,10 +208,10 @@ def empty_document() -> dict[str, Any]:
 
 
 def migrate_document(plain: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a plain document, or a library function's definition, in today's format."""
+    """Return a plain document, or a library function's definition, in today's format, with its texts cleaned."""
     migrated = migrate(plain)
     assert isinstance(migrated, Mapping)
-    return dict(migrated)
+    return dict(cleaned_json(migrated))
 
 
 def encode_document(plain: Mapping[str, Any]) -> bytes:
@@ -230,13 +232,15 @@ def encode_document(plain: Mapping[str, Any]) -> bytes:
 
 def _plain(value: Any) -> Any:
     """Return JSON with whole numbers as integers, as they were typed: Yjs knows only one kind of number."""
+    if isinstance(value, str):
+        return cleaned(value)
     if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
+        return {normal(key): _plain(item) for key, item in value.items() if not find_unfit(key)}
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
     if isinstance(value, float):
         return _number(value)
-    if value is None or isinstance(value, str | bool | int):
+    if value is None or isinstance(value, bool | int):
         return value
     return None  # bytes and the like are not JSON: a value that is still to be entered
 

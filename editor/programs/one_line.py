@@ -14,6 +14,7 @@ from editor.language.one_line.scope import LineScope, make_line_scope
 from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
 from editor.programs.checking import build_surroundings
 from editor.programs.programs import get_program
+from vipo_device.protocol.texts import cleaned_json
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +64,7 @@ def read_expression(*, program_id: UUID | str, text: str, step: str = "", names:
     """
     line = _scope(program_id, step)
     try:
-        value = parse_line(text, line)
+        value = cleaned_json(parse_line(text, line))
     except NotUnderstood as error:
         problem = LineProblemView(str(error), {**error.messages}, error.column)
         return ExpressionView(None, text, "", "", problem, _line_names(line) if names else ())

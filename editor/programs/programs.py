@@ -27,6 +27,7 @@ from editor.programs.checking import build_surroundings, check_program, compiled
 from editor.programs.views import ProgramView, VersionView, view_author
 from registry import services as registry
 from registry.services import publish
+from vipo_device.protocol.texts import find_unfit, normal
 
 MOST_NAME = 120
 MOST_CHECKED_AT_ONCE = 100
@@ -151,8 +152,8 @@ def _find(program_id: UUID | str) -> Program:
 
 
 def _checked_name(name: str) -> str:
-    name = " ".join(name.split())
-    if not 1 <= len(name) <= MOST_NAME:
+    name = normal(" ".join(name.split()))
+    if not 1 <= len(name) <= MOST_NAME or find_unfit(name, is_line=True):
         raise BadRequest(f"A program's name has 1 to {MOST_NAME} characters. Enter one.")
     return name
 

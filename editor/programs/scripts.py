@@ -13,6 +13,7 @@ from editor.language import Diagnostic, compile_document, parse_script, tree_to_
 from editor.language.messages.phrases import LANGUAGES, Refusal
 from editor.programs.checking import build_surroundings
 from editor.programs.programs import get_program
+from vipo_device.protocol.texts import cleaned_json
 
 LONGEST_SCRIPT = 400_000
 _POSITION_ARGUMENTS = ("end_line", "end_column", "found", "instead")
@@ -61,7 +62,7 @@ def draw_script(
     if parsed.tree is None:
         found = tuple(diagnostic_shape(diagnostic) for diagnostic in parsed.diagnostics)
         return DrawnScript(False, False, None, before.script, before.lines, found)
-    drawn = tree_to_document(parsed.tree, surroundings, document)
+    drawn = cleaned_json(tree_to_document(parsed.tree, surroundings, document))
     after = compile_document(drawn, surroundings)
     return DrawnScript(True, False, drawn, after.script, after.lines)
 

@@ -180,5 +180,7 @@ def mark_commands_sent(*, ids: Iterable[str]) -> None:
     """Say that these commands have gone out."""
     keys = [UUID(key).hex if connection.vendor == "sqlite" else UUID(key) for key in ids]
     sent_at = connection.ops.adapt_datetimefield_value(datetime.now(UTC))
+    if not keys:  # PostgreSQL knows no empty list
+        return
     with connection.cursor() as cursor:
         cursor.execute(_MARK.replace("<ids>", ", ".join(["%s"] * len(keys))), [sent_at, *keys])

@@ -9,7 +9,10 @@ from uuid import UUID
 
 from editor import services as editor
 from editor.language import Diagnostic, compiled_to_json, plan_to_json
+from editor.language.reading.names import by_id, read_parameters
 from execution.errors import NotReady
+from execution.runs.parameters import Surrounding, fit_parameters
+from registry import services as registry
 from vipo_device.protocol.description import Scalar
 
 
@@ -36,17 +39,15 @@ def prepare(*, program_id: UUID, user: Any, parameters: Mapping[str, Any]) -> Pr
     """Pin the program as it is drawn now, and compile it for the site as it is now.
 
     Raises:
-        NotReady: the program has errors, or a parameter does not exist.
+        NotReady: the program has errors, or a parameter does not exist, is missing or does not fit.
     """
     program = editor.get_program(program_id=program_id)
     version = editor.pin_version(program_id=program_id, user=user)
     compiled = editor.compile_version(version=version)
     if compiled.plan is None:
         raise _not_ready([d for d in compiled.diagnostics if d.severity == "error"])
-    unknown = sorted(set(parameters) - set(compiled.plan.parameters))
-    if unknown:
-        name = unknown[0]
-        raise NotReady(f"The program has no parameter called “{name}”.", {"why": "parameter", "name": name})
+    _, names = read_parameters(by_id(version.document.get("parameters")).items())
+    fitting = fit_parameters(compiled.tree.parameters, names, parameters, _around(program.site))
     return Prepared(
         program=program_id,
         site=program.site,
@@ -55,8 +56,13 @@ def prepare(*, program_id: UUID, user: Any, parameters: Mapping[str, Any]) -> Pr
         document=version.document,
         compiled=compiled_to_json(compiled),
         plan=plan_to_json(compiled.plan),
-        parameters=parameters,
+        parameters=fitting,
     )
+
+
+def _around(site: str) -> Surrounding:
+    places = frozenset(place.id for place in registry.list_places(site=site))
+    return Surrounding(registry.list_device_ids(site=site, lifecycle="approved"), places)
 
 
 def _not_ready(errors: Sequence[Diagnostic]) -> NotReady:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import asdict
 from datetime import UTC, datetime
@@ -19,6 +18,7 @@ from execution.models import Question, Run
 from execution.views import QuestionView, question_to_json, view_question
 from registry import services as registry
 from vipo_device.protocol.description import Scalar
+from vipo_device.protocol.texts import find_unfit
 
 LONGEST_ANSWER = 500
 
@@ -82,13 +82,13 @@ def fit_answer(answer: Mapping[str, Any], value: Any) -> Scalar:
             if isinstance(value, str) and value in answer["options"]:
                 return value
             raise AnswerNotFitting(f"Choose one of: {', '.join(answer['options'])}.")
-    if isinstance(value, str) and "\x00" not in value and len(value.strip()) <= LONGEST_ANSWER:
+    if isinstance(value, str) and not find_unfit(value) and len(value.strip()) <= LONGEST_ANSWER:
         return value.strip()
     raise AnswerNotFitting(f"Answer with a text of at most {LONGEST_ANSWER} characters.")
 
 
 def _fit_number(answer: Mapping[str, Any], value: Any) -> Scalar:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or abs(value) > 1e15:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= 1e15:
         raise AnswerNotFitting("Answer with a number.")
     lowest, highest = answer["minimum"], answer["maximum"]
     if lowest is not None and value < lowest:

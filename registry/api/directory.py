@@ -114,7 +114,7 @@ def refuse_search(request: HttpRequest, kind: str) -> HttpResponse:
 
 def _find(request: HttpRequest, thing: str) -> DeviceView:
     """Return a listed device that the asker may see. Raises NoSuchDevice, whatever keeps it from being seen."""
-    view = services.find_device(device_id=device_id_of(thing).replace("\0", ""))
+    view = services.find_device(device_id=device_id_of(thing))
     user = signed_in(request)
     if view is None or view.lifecycle == "retired" or find_access(user, view.site) is None:
         raise NoSuchDevice(f"There is no Thing {thing[:80]!r} that you may see.")

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from registry import services
 from registry.people.access import require
-from registry.shapes import Unchecked, signed_in
+from registry.shapes import Asked, Line, ReadLater, Unchecked, signed_in
 from vipo_device.descriptions.forms import BadDescription, DescriptionForm
 from vipo_device.descriptions.reader import read, write_description
 from vipo_device.protocol.description import description_to_json
@@ -24,10 +24,10 @@ MOST_CHARACTERS = 65_536
 """More than a description may have, so that the reader says itself what is too long."""
 
 
-class NewDevice(Schema):
+class NewDevice(Asked):
     """The id of a device that will come."""
 
-    id: str = Field(max_length=64)
+    id: Line = Field(max_length=64)
 
 
 class ExpectedDevice(Schema):
@@ -47,10 +47,10 @@ class Door(Schema):
     broker: str
 
 
-class DescriptionText(Schema):
+class DescriptionText(Asked):
     """A description in any form."""
 
-    text: str = Field(max_length=MOST_CHARACTERS)
+    text: Annotated[str, ReadLater()] = Field(max_length=MOST_CHARACTERS)
 
 
 class FaultShape(Schema):
@@ -97,17 +97,19 @@ class LookShape(Schema):
 
 
 @router.post("/sites/{slug}/newcomers", response={201: ExpectedDevice})
-def reserve_device(request: HttpRequest, slug: str, body: NewDevice) -> dict[str, Any]:
+def reserve_device(request: HttpRequest, response: HttpResponse, slug: str, body: NewDevice) -> dict[str, Any]:
     """Reserve an id for a device that will come, and tell its key this once; it still waits for approval then."""
     user = signed_in(request)
     require(user, slug, "admin")
+    response["Cache-Control"] = "no-store"
     return asdict(services.reserve_device(site=slug, device_id=body.id.strip(), by=user, at=timezone.now()))
 
 
 @router.post("/sites/{slug}/join-key", response=Door)
-def renew_enrolment_key(request: HttpRequest, slug: str) -> dict[str, Any]:
+def renew_enrolment_key(request: HttpRequest, response: HttpResponse, slug: str) -> dict[str, Any]:
     """Make a new enrolment key for devices that come to a site, and tell it this once; the old one ends."""
     require(signed_in(request), slug, "admin")
+    response["Cache-Control"] = "no-store"
     return {"site": slug, "join_key": services.renew_enrolment_key(site=slug), "broker": str(settings.VIPO_BROKER_URL)}
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from django.conf import settings
 from django.contrib.auth import login, logout
-from django.http import HttpRequest
+from django.http import HttpRequest, HttpResponse
 from django.middleware.csrf import get_token
 from django.utils import timezone
 from ninja import Router
@@ -29,8 +29,13 @@ router = Router(tags=["registry"])
 
 
 @router.get("/me", response=Me, auth=None)
-def show_me(request: HttpRequest) -> dict[str, Any]:
+def show_me(request: HttpRequest, response: HttpResponse) -> dict[str, Any]:
     """Say who is signed in; strangers get the token that signing in needs."""
+    response["Cache-Control"] = "no-store"
+    return _me(request)
+
+
+def _me(request: HttpRequest) -> dict[str, Any]:
     user = request.user
     person = None
     if isinstance(user, User):
@@ -54,7 +59,7 @@ def sign_in(request: HttpRequest, body: SignIn) -> dict[str, Any]:
     address = request.META.get("REMOTE_ADDR", "")
     user = check_sign_in(email=body.email, password=body.password, address=address, now=timezone.now())
     login(request, user)
-    return show_me(request)
+    return _me(request)
 
 
 @router.post("/sign-out", response=Me, auth=session_only)
@@ -63,4 +68,4 @@ def sign_out(request: HttpRequest) -> dict[str, Any]:
     logout(request)
     call_listeners()
     publish(EVERY_SITE, {"type": "members"})
-    return show_me(request)
+    return _me(request)

@@ -15,7 +15,7 @@ from registry.models import User
 from registry.people import tokens
 from registry.people.access import require
 from registry.people.tokens import MOST_DAYS, MOST_NAME, TokenView
-from registry.shapes import signed_in
+from registry.shapes import Asked, Line, signed_in
 
 router = Router(tags=["registry"])
 Scope = Literal["read", "operate", "run", "admin"]
@@ -35,10 +35,10 @@ class TokenShape(Schema):
     expired: bool
 
 
-class NewToken(Schema):
+class NewToken(Asked):
     """What a token is for, what it may do, and how long."""
 
-    name: str = Field(min_length=1, max_length=MOST_NAME)
+    name: Line = Field(min_length=1, max_length=MOST_NAME)
     scopes: list[Scope] = Field(min_length=1, max_length=4)
     days: int = Field(90, ge=1, le=MOST_DAYS)
 

@@ -25,7 +25,7 @@ from registry.devices.rows import STARTS, announce, forget_starts, lock_device
 from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.models import Device, User
-from registry.sites.sites import set_enrolment_key
+from registry.sites.sites import replace_enrolment_key
 from vipo_device.protocol.credentials import broker_hash, make_credential, secret_hash
 from vipo_device.protocol.messages import BadMessage, down_topic, parse_ack, up_topic
 from vipo_device.protocol.mqtt_client import MqttClient, MqttError
@@ -70,6 +70,10 @@ def deliver_key(*, device_id: str, credential: str) -> bool:
 
 DELIVERY_LIMIT = timedelta(seconds=CONNECT_LIMIT_S + ANSWER_LIMIT_S + 5)
 """Whoever tells a device a key and has not come back after so long has died over it."""
+
+
+JUST_NOW = timedelta(seconds=10)
+"""So long after a key was given nobody else gives another: whoever was told the first would hold one that has ended."""
 
 
 class KeyChanged(RegistryError):
@@ -124,10 +128,12 @@ def revoke_credential(*, site: str, device_id: str, by: User | None, at: datetim
 
 
 def renew_enrolment_key(*, site: str) -> str:
-    """Give a site a new enrolment key and return it this once; the old one ends. Raises NotAMember, BrokerAway."""
-    key = make_credential()
+    """Give a site a new enrolment key and return it; the old one ends. Raises NotAMember, BrokerAway.
+
+    People who do so within seconds of each other are told the same key.
+    """
     with transaction.atomic():
-        set_enrolment_key(site=site, key=key)
+        key = replace_enrolment_key(site=site, key=make_credential())
         accounts().put(Account(ENROLMENT + site, key))
     return key
 
@@ -163,6 +169,9 @@ def _begin_delivery(device: Device, at: datetime) -> None:
         raise KeyChanged(
             f"Somebody else is giving {device.id} a new key just now. Look at it again in half a minute, then decide."
         )
+    is_new = device.ends_before is not None and timedelta(0) < at - device.ends_before < JUST_NOW
+    if is_new and device.credential_hash:
+        raise KeyChanged(f"Somebody else has just given {device.id} a new key. Ask them for it, or wait half a minute.")
     device.key_told_at = at
     device.save(update_fields=["key_told_at"])
 

@@ -23,6 +23,7 @@ from registry.live.fanout import publish
 from registry.models import Device, User
 from vipo_device.protocol.credentials import make_credential
 from vipo_device.protocol.description import Pose
+from vipo_device.protocol.texts import find_unfit, normal
 
 Lifecycle = Device.Lifecycle
 
@@ -122,7 +123,7 @@ def update_device(
     *, site: str, device_id: str, name: str | None = None, pose: Pose | None = None, by: User | None, at: datetime
 ) -> DeviceView:
     """Give a device another name (empty: its own again) or place. Raises NoSuchDevice, BadDevice."""
-    if name is not None and (len(name.strip()) > 100 or not name.isprintable()):
+    if name is not None and (len(name.strip()) > 100 or find_unfit(name, is_line=True)):
         raise BadDevice("A device's name has at most 100 characters, all of which can be printed.")
     if pose is not None and not all(abs(v) <= 1e6 for v in (pose.x, pose.y, pose.z, pose.theta)):
         raise BadDevice("A device's place must lie within a million metres.")
@@ -130,7 +131,7 @@ def update_device(
         device = lock_device(site, device_id)
         before = view_of(device, site)
         if name is not None:
-            device.name_override = name.strip()
+            device.name_override = normal(name.strip())
         if pose is not None:
             device.pose_override = asdict(pose)
         device.save(update_fields=["name_override", "pose_override"])

@@ -22,6 +22,7 @@ from registry.live.fanout import publish
 from registry.models import Site, ThingEvent
 from vipo_device.descriptions.thing_description import DEVICE_URN, thing_of
 from vipo_device.protocol.description import Description, Pose
+from vipo_device.protocol.messages import BadMessage, parse_json
 
 EventName = Literal["thing_created", "thing_updated", "thing_deleted"]
 EVENTS: tuple[EventName, ...] = ("thing_created", "thing_updated", "thing_deleted")
@@ -70,9 +71,10 @@ def device_id_of(thing: str) -> str:
 def read_patch(body: bytes) -> ThingPatch:
     """Read a JSON merge patch (RFC 7396) of `title` and `vipo:location`. Raises BadThingPatch."""
     try:
-        patch = json.loads(body)
-    except (ValueError, RecursionError) as error:
-        raise BadThingPatch('The patch is not JSON. Send a JSON object, such as {"title": "Oven"}.') from error
+        patch = parse_json(body)
+    except BadMessage as error:
+        said = error.fault.about("The patch").sentence
+        raise BadThingPatch(f'{said} Send a JSON object, such as {{"title": "Oven"}}.') from error
     if not isinstance(patch, dict) or not patch:
         raise BadThingPatch("A merge patch is a JSON object with at least one field.")
     if strange := [name for name in patch if name not in PATCHABLE]:

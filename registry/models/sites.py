@@ -14,6 +14,8 @@ class Site(models.Model):
     name = models.CharField(max_length=100)
     join_key_hash = models.CharField(max_length=64, blank=True)
     join_broker_hash = models.CharField(max_length=160, blank=True)
+    join_key_sealed = models.CharField(max_length=500, blank=True)
+    join_key_at = models.DateTimeField(null=True)
     stop_active = models.BooleanField(default=False)
     stop_by = models.CharField(max_length=100, blank=True)
     stop_at = models.DateTimeField(null=True)

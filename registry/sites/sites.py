@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from base64 import urlsafe_b64encode
 from collections.abc import Sequence
-from datetime import datetime
+from datetime import datetime, timedelta
+from hashlib import sha256
 
+from cryptography.fernet import Fernet, InvalidToken
+from django.conf import settings
 from django.db import IntegrityError, transaction
+from django.utils import timezone
 from django.utils.text import slugify
 
 from registry.errors import RegistryError
@@ -14,6 +19,10 @@ from registry.models import Device, Membership, Place, Site, SiteMap, User
 from registry.people.access import ROLES, NotAMember, access_of, list_memberships
 from registry.sites.views import PlaceView, SiteView, StopView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
+from vipo_device.protocol.texts import find_unfit, normal
+
+AT_ONCE = timedelta(seconds=10)
+"""Who presses "new key" within this time after somebody else is told the same key."""
 
 
 class BadName(RegistryError):
@@ -21,6 +30,13 @@ class BadName(RegistryError):
 
     code = "bad_name"
     status = 422
+
+
+class NoEnrolmentKey(RegistryError):
+    """A site's join key that cannot be shown."""
+
+    code = "no_join_key"
+    status = 404
 
 
 class UnknownPerson(RegistryError):
@@ -80,8 +96,8 @@ def _site_view(site: Site, role: str) -> SiteView:
 
 def create_site(*, name: str, admin: User | None = None, slug: str = "") -> SiteView:
     """Make an empty site; `admin` becomes its first member. Raises BadName."""
-    name = " ".join(name.split())
-    if not 1 <= len(name) <= 100 or not name.isprintable():
+    name = normal(" ".join(name.split()))
+    if not 1 <= len(name) <= 100 or find_unfit(name, is_line=True):
         raise BadName("A site needs a name of 1 to 100 characters that can be printed.")
     with transaction.atomic():
         site = _new_site(name, slug or slugify(name)[:50] or "site", exact=bool(slug))
@@ -157,6 +173,38 @@ def set_enrolment_key(*, site: str, key: str) -> None:
         raise BadName("A join key needs at least 20 characters; make it at random.")
     with transaction.atomic():
         row = Site.objects.select_for_update().get(pk=find_site(site).pk)
-        if row.join_key_hash != secret_hash(key) or not row.join_broker_hash:
+        if row.join_key_hash != secret_hash(key) or not row.join_broker_hash or not _unsealed(row):
             row.join_key_hash, row.join_broker_hash = secret_hash(key), broker_hash(key)
-            row.save(update_fields=["join_key_hash", "join_broker_hash"])
+            row.join_key_sealed, row.join_key_at = _seal().encrypt(key.encode()).decode(), timezone.now()
+            row.save(update_fields=["join_key_hash", "join_broker_hash", "join_key_sealed", "join_key_at"])
+
+
+def get_enrolment_key(*, site: str) -> str:
+    """Return the key with which devices may enrol at the site. Raises NoEnrolmentKey, NotAMember."""
+    key = _unsealed(find_site(site))
+    if not key:
+        raise NoEnrolmentKey(f"No join key of {site} can be shown: none was made, or VIPO_SECRET_KEY was another then.")
+    return key
+
+
+def replace_enrolment_key(*, site: str, key: str) -> str:
+    """Set the enrolment key, and return which one holds: of several people at once all are told the same."""
+    row = Site.objects.select_for_update().get(pk=find_site(site).pk)
+    just_made = row.join_key_at is not None and timezone.now() - row.join_key_at < AT_ONCE
+    if just_made and (known := _unsealed(row)):
+        return known
+    set_enrolment_key(site=site, key=key)
+    return key
+
+
+def _seal() -> Fernet:
+    """Return what seals a key with the secret of this VIPO, so that the database alone does not tell it."""
+    return Fernet(urlsafe_b64encode(sha256(b"join-key:" + settings.SECRET_KEY.encode()).digest()))
+
+
+def _unsealed(row: Site) -> str:
+    """Return a site's key; empty where there is none, or it was sealed with another secret."""
+    try:
+        return _seal().decrypt(row.join_key_sealed.encode()).decode() if row.join_key_sealed else ""
+    except InvalidToken:
+        return ""

@@ -1,10 +1,14 @@
 """One PostgreSQL and one Redis for all tests of a process: databases of their own, copied from a migrated one.
 
 A test that kills, stops, restarts or sets up a server starts its own, with tests.kit.servers.
+
+With VIPO_TEST_DATABASE=postgres all tests that touch the database do so on PostgreSQL instead of SQLite; what they
+start as processes of its own keeps to what it is told.
 """
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -22,6 +26,7 @@ from psycopg import sql
 from tests.kit.files import ROOT
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Postgres, Redis, run_postgres, run_redis
+from vipo_site.settings import postgres
 
 _NUMBERS = count(1)
 
@@ -31,6 +36,19 @@ def _postgres(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Postgres]:
     with run_postgres(tmp_path_factory.mktemp("postgres")) as server:
         migrate(server.url, tmp_path_factory.mktemp("migrated"))
         yield server
+
+
+@pytest.fixture(scope="session")
+def django_db_modify_db_settings(request: pytest.FixtureRequest) -> None:
+    """Choose the database on which pytest-django makes the one of the tests."""
+    if os.environ.get("VIPO_TEST_DATABASE") != "postgres":
+        request.getfixturevalue("django_db_modify_db_settings_parallel_suffix")
+        return
+    url = request.getfixturevalue("_postgres").url
+    described = connections.databases["default"]
+    test = {**described["TEST"], "NAME": None, "TEMPLATE": "vipo"}
+    connections.databases["default"] = {**described, **postgres(url), "OPTIONS": {}, "TEST": test}
+    del connections["default"]
 
 
 @pytest.fixture(scope="session")

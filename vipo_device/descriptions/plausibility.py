@@ -19,9 +19,9 @@ from vipo_device.protocol.description import (
     ValueType,
 )
 from vipo_device.protocol.faults import Fault, fault
+from vipo_device.protocol.texts import find_unfit
 from vipo_device.protocol.topics import find_duplicate, find_topic_fault, list_legacy_methods
 
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]")
 _IMAGE = re.compile(r"https?://[^\s<>\"{}|\\^`]+")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 _WORD = re.compile(r"[A-Za-z0-9_.-]{0,64}")
@@ -61,7 +61,7 @@ def _faults_of_words(d: Description) -> Iterator[Fault]:
         yield fault("description_length")
     if len(d.image) > 500:
         yield fault("image_length")
-    if "\n" in d.name or "\t" in d.name or any(_CONTROL.search(text) for text in (d.name, d.description, *_titles(d))):
+    if find_unfit(d.name, is_line=True) or any(find_unfit(text) for text in (d.description, *_titles(d))):
         yield fault("control_characters")
     if d.image and not _IMAGE.fullmatch(d.image):
         yield fault("image_address")
@@ -131,5 +131,5 @@ def _faults_of_value(spec: PropertySpec | ParameterSpec, name: str) -> Iterator[
         yield fault("limits_order", name=name)
     if len(spec.options) > 64 or any(len(o) > 64 for o in spec.options):
         yield fault("many_options", name=name)
-    if len(set(spec.options)) != len(spec.options) or any(not o or _CONTROL.search(o) for o in spec.options):
+    if len(set(spec.options)) != len(spec.options) or any(not o or find_unfit(o) for o in spec.options):
         yield fault("odd_option", name=name)

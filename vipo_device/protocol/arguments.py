@@ -7,15 +7,20 @@ from math import isfinite
 from typing import Any, Literal, TypeGuard
 
 from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec
+from vipo_device.protocol.texts import find_unfit
 
 MOST_CHARACTERS = 256
 MOST_METRES = 1e6
+MOST_WHOLE = 2**53
+"""Whole numbers beyond are not the same to every reader of JSON."""
 Misfit = Literal["", "number", "low", "high", "boolean", "text", "option"]
 
 
 def is_number(value: object) -> TypeGuard[int | float]:
-    """Tell whether the value is a finite number and not a truth value."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
+    """Tell whether the value is a finite number, no whole one that is too large for JSON, and no truth value."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    return isfinite(value) if isinstance(value, float) else abs(value) <= MOST_WHOLE
 
 
 def refusal_of_arguments(method: MethodSpec, arguments: Mapping[str, object]) -> str:
@@ -105,7 +110,7 @@ def _mend(spec: ParameterSpec, value: Any, known: Mapping[str, Collection[str]])
             is_known = spec.type not in known or value in known[spec.type]
             return "" if is_known else f"this site has no {spec.type} {value[:64]!r}. Give the id of one that it has."
         case "number":
-            return "give a number."
+            return f"give a number{f' in {spec.unit}' if spec.unit else ''}."
         case "boolean":
             return "give true or false."
         case "option":
@@ -123,7 +128,7 @@ def _range(spec: ParameterSpec) -> str:
 
 
 def _is_line(value: object) -> bool:
-    return isinstance(value, str) and 0 < len(value) <= MOST_CHARACTERS and value.isprintable()
+    return isinstance(value, str) and 0 < len(value) <= MOST_CHARACTERS and not find_unfit(value, is_line=True)
 
 
 def _is_location(value: object) -> bool:

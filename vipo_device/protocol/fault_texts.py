@@ -45,7 +45,7 @@ _JSON: Mapping[str, str] = {
     "json_twice": "{it} names the key {key!r} twice. Remove one.",
     "json_constant": "{it} holds {value}, which is not a number of JSON.",
     "json_large": "{it} holds a number that is too large: {value}.",
-    "json_no_text": "{it} holds a character that is not text (NUL or half of a surrogate pair).",
+    "json_no_text": "{it} holds a character that is not text (a control character or half of a surrogate pair).",
     "no_object": "{it} is not a JSON object.",
 }
 _RDF: Mapping[str, str] = {

@@ -14,6 +14,7 @@ from typing import Any, Literal, cast, get_args
 from vipo_device.protocol.description import DeviceState, Pose, Scalar
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import JSON_SYNTAX, Fault, bare, facts_of, fault
+from vipo_device.protocol.texts import normal_json, unfit_texts
 
 AckStatus = Literal["ACCEPTED", "RUNNING", "DONE", "FAILED", "REJECTED", "CANCELED"]
 CONTROLS = frozenset({"pause", "resume", "cancel"})
@@ -28,7 +29,6 @@ MESSAGE = "The message"
 _ID = re.compile(r"[A-Za-z0-9_.-]{1,64}")
 _UNFIT = re.compile(r"[^A-Za-z0-9_.-]")
 _JOIN = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]{1,64})/([A-Za-z0-9_.-]{1,64})")
-_NO_TEXT = re.compile("[\0\ud800-\udfff]")
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]|[^\s,:"\[\]{}]+', re.DOTALL)
 _COLON = re.compile(r"\s*:")
 _UP = re.compile(r"vipo/v1/dev/([A-Za-z0-9_.-]{1,64})/up/([a-z]+)")
@@ -108,15 +108,26 @@ def read_join_topic(topic: str) -> tuple[str, str] | None:
     return (found.group(1), found.group(2)) if found else None
 
 
-def parse_json(payload: bytes, *, max_bytes: int = MAX_BYTES) -> Any:
-    """Return the JSON value of a payload; raises BadMessage for all that two readers could understand differently."""
+def parse_json(payload: bytes, *, max_bytes: int = MAX_BYTES, max_depth: int = MAX_DEPTH) -> Any:
+    """Return the JSON value of a payload, its texts by the one rule and in their normal form.
+
+    Raises BadMessage for what no text may hold, and for all that two readers could understand differently.
+    """
+    value = parse_plain_json(payload, max_bytes=max_bytes, max_depth=max_depth)
+    if next(unfit_texts(read := normal_json(value)), None):
+        raise BadMessage(fault("json_no_text", it=MESSAGE))
+    return read
+
+
+def parse_plain_json(payload: bytes, *, max_bytes: int, max_depth: int) -> Any:
+    """Return the JSON value of a payload with its texts as they came. Raises BadMessage."""
     if len(payload) > max_bytes:
         raise BadMessage(fault("too_many_bytes", it=MESSAGE, bytes=len(payload), most=max_bytes))
     try:
         text = payload.decode("utf-8")
     except UnicodeDecodeError as error:
         raise BadMessage(fault("not_utf8", it=MESSAGE)) from error
-    _check_depth(text)
+    _check_depth(text, max_depth)
     try:
         value = json.loads(
             text, object_pairs_hook=_unique, parse_constant=_no_constant, parse_float=_finite, parse_int=_whole
@@ -126,7 +137,6 @@ def parse_json(payload: bytes, *, max_bytes: int = MAX_BYTES) -> Any:
         raise BadMessage(fault(code, error.lineno, error.colno, it=MESSAGE, reason=error.msg.lower())) from error
     except _Refused as error:
         raise BadMessage(_with_place(text, error.code, error.said)) from error
-    _check_text(value)
     return value
 
 
@@ -165,13 +175,13 @@ def _second_key(text: str, key: str) -> int:
     return -1
 
 
-def _check_depth(text: str) -> None:
+def _check_depth(text: str, most: int) -> None:
     depth = 0
     for found in re.finditer(r'"(?:[^"\\]|\\.)*"|[\[{]|[\]}]', text, re.DOTALL):
         mark = found.group()[0]
         depth += (mark in "[{") - (mark in "]}")
-        if depth > MAX_DEPTH:
-            raise BadMessage(fault("json_deep", it=MESSAGE, most=MAX_DEPTH))
+        if depth > most:
+            raise BadMessage(fault("json_deep", it=MESSAGE, most=most))
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -196,20 +206,6 @@ def _whole(text: str) -> int:
     if len(text) > 17 or abs(int(text)) > MAX_WHOLE:
         raise _Refused("json_large", text)
     return int(text)
-
-
-def _check_text(value: Any) -> None:
-    """Refuse NUL, which PostgreSQL cannot keep, and lone surrogates, which UTF-8 cannot say."""
-    if isinstance(value, str):
-        if _NO_TEXT.search(value):
-            raise BadMessage(fault("json_no_text", it=MESSAGE))
-    elif isinstance(value, dict):
-        for key, inner in value.items():
-            _check_text(key)
-            _check_text(inner)
-    elif isinstance(value, list):
-        for inner in value:
-            _check_text(inner)
 
 
 def parse_presence(payload: bytes) -> Presence:

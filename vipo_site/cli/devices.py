@@ -1,4 +1,4 @@
-"""`vipo devices`, `vipo alerts`, `vipo approve`, `vipo enrolment-key`: devices for whoever may read the database."""
+"""`vipo devices`, `vipo alerts`, `vipo approve`, `vipo join-key`: devices for whoever may read the database."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 DEVICES = "List the devices of a site, or of all sites, with their state."
 ALERTS = "List the alerts of a site, or of all sites, that are not over."
 APPROVE = "Let a pending device take part, and print its new key this once."
-ENROLMENT_KEY = "Make a new key with which unknown devices enrol at a site, and print it this once; the old one ends."
+ENROLMENT_KEY = "Print the key with which unknown devices enrol at a site; with --new make another one."
 ALERT_COLUMNS = ("severity", "site", "device", "state", "times", "since", "what")
 COLUMNS = ("id", "name", "site", "kind", "life", "state", "last seen")
 
@@ -48,9 +48,10 @@ def add_approve_arguments(sub: argparse.ArgumentParser) -> None:
 
 
 def add_enrolment_key_arguments(sub: argparse.ArgumentParser) -> None:
-    """Describe what stands behind `vipo enrolment-key`, which was called `vipo join-key`."""
+    """Describe what stands behind `vipo join-key`, which is also called `vipo enrolment-key`."""
     sub.add_argument("site", help="the site's short name")
-    sub.set_defaults(run=renew_enrolment_key)
+    sub.add_argument("--new", action="store_true", help="make a new key; the old one ends")
+    sub.set_defaults(run=tell_enrolment_key)
 
 
 def list_devices(options: argparse.Namespace) -> int:
@@ -150,14 +151,15 @@ def _decide_topic(device: DeviceView, options: argparse.Namespace) -> int:
     return CLEAN
 
 
-def renew_enrolment_key(options: argparse.Namespace) -> int:
-    """Give a site a new enrolment key and print it; return 0, or 2 when that cannot be."""
+def tell_enrolment_key(options: argparse.Namespace) -> int:
+    """Print a site's enrolment key, a new one if that is asked for; return 0, or 2 when that cannot be."""
     set_up()
     from registry import services
     from vipo_device.protocol.errors import VipoError
 
     try:
-        write(services.renew_enrolment_key(site=options.site))
+        tell = services.renew_enrolment_key if options.new else services.get_enrolment_key
+        write(tell(site=options.site))
     except VipoError as error:
         return complain(error.detail)
     return CLEAN

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from http import HTTPStatus
-from typing import Any
+from typing import Any, cast
 
 from django.http import HttpRequest, HttpResponse, JsonResponse
 from ninja.errors import HttpError, ValidationError
+from ninja.parser import Parser
+from ninja.types import DictStrAny
 
 from editor.api import router as editor_router
 from execution.api import router as execution_router
@@ -23,19 +25,35 @@ from registry.api.sparql import router as sparql_router
 from registry.api.things import router as things_router
 from registry.api.tokens import router as tokens_router
 from vipo_device.protocol.errors import VipoError
+from vipo_device.protocol.messages import BadMessage, parse_plain_json
 from vipo_site.http.openapi import DescribedAPI
 
+_SEND_JSON = "Send JSON, or what docs/openapi.json names."
 _FRAMEWORK_SAYS = {
     "Unauthorized": "You are signed out. Sign in again; a program shows a token in the header Authorization, or "
     "signs in with POST /api/sign-in and sends its cookie along (docs/api.md).",
     "CSRF check Failed": "The page is out of date: reload it. A program sends the value of the cookie csrftoken as the "
     "header X-CSRFToken, too; it changes at signing in (docs/api.md).",
-    "Cannot parse request body": "The body of the request cannot be read. Send JSON, or what docs/openapi.json names.",
+    "Cannot parse request body": f"The body of the request cannot be read. {_SEND_JSON}",
 }
 """What is said instead of the framework's own refusals: how to mend it."""
 _OF_TOKENS = ("invalid_token", "insufficient_scope")
 """Refusals that RFC 6750 wants named in a header, too."""
-api = DescribedAPI(title="VIPO", version="1", auth=token_or_session, docs_url=None, urls_namespace="api")
+MOST_BYTES, DEEPEST = 16 * 1024 * 1024, 100
+"""Of a body that is JSON; Django refuses larger ones before (settings.DATA_UPLOAD_MAX_MEMORY_SIZE)."""
+
+
+class SuspiciousParser(Parser):
+    """Reads JSON as devices' is read: no key twice, no NaN or Infinity, no number too large; `Asked` reads texts."""
+
+    def parse_body(self, request: HttpRequest) -> DictStrAny:
+        """Return the body. Raises BadMessage, which the framework makes a HttpError's cause."""
+        return cast("DictStrAny", parse_plain_json(request.body, max_bytes=MOST_BYTES, max_depth=DEEPEST))
+
+
+api = DescribedAPI(
+    title="VIPO", version="1", auth=token_or_session, docs_url=None, urls_namespace="api", parser=SuspiciousParser()
+)
 
 
 def problem(status: int, code: str, detail: str, **more: Any) -> JsonResponse:
@@ -74,6 +92,9 @@ def on_bad_request(request: HttpRequest, error: ValidationError, status: int = 4
 @api.exception_handler(HttpError)
 def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
     """Turn the framework's own refusals (no session, bad CSRF) into an answer."""
+    if isinstance(error.__cause__, BadMessage):
+        said = error.__cause__.fault.about("The body").sentence
+        return problem(400, "bad_request", f"{said} {_SEND_JSON}")
     code = {401: "signed_out", 403: "not_allowed", 404: "not_found"}.get(error.status_code, "refused")
     response = problem(error.status_code, code, _FRAMEWORK_SAYS.get(str(error), str(error)))
     if error.status_code == 401:

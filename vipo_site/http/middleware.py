@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from django.http import HttpRequest, HttpResponse, HttpResponseNotAllowed
 
+from vipo_device.protocol.texts import find_unfit, refusal_of
 from vipo_site.http.api import problem
 
 # Mantine sets styles from scripts; device pictures may come from any https address.
@@ -39,6 +40,30 @@ class SecurityHeaders:
         response = self.get_response(request)
         response.headers.setdefault("Content-Security-Policy", POLICY)
         return response
+
+
+class FitTexts:
+    """Refuses an address with what no text may hold (vipo_device/protocol/texts.py); such a cookie is none."""
+
+    def __init__(self, get_response: Callable[[HttpRequest], HttpResponse]) -> None:
+        self.get_response = get_response
+
+    def __call__(self, request: HttpRequest) -> HttpResponse:
+        """Answer what can be read."""
+        for name in [name for name, value in request.COOKIES.items() if find_unfit(value, is_line=True)]:
+            del request.COOKIES[name]
+        if refusal := refusal_of(request.path_info, is_line=True):
+            return problem(404, "not_found", f"There is nothing of this address: it {refusal}.")
+        if refusal := next(filter(None, map(refusal_of, _query_of(request))), ""):
+            return problem(400, "bad_request", f"The query of the address {refusal}.")
+        return self.get_response(request)
+
+
+def _query_of(request: HttpRequest) -> Iterator[str]:
+    """Yield the names and values of an address's query, as they are read."""
+    for name, values in request.GET.lists():
+        yield name
+        yield from values
 
 
 class TellMethods:

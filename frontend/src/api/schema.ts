@@ -1850,7 +1850,7 @@ export interface components {
         };
         /** @description What people may say of a device; fields that are left out stay. */
         DeviceEdit: {
-            location?: components["schemas"]["PoseShape"] | null;
+            location?: components["schemas"]["StandsAt"] | null;
             name?: string | null;
         };
         /** @description One line of a device's history; `code` and `args` are what it is said from in another language. */
@@ -2666,10 +2666,22 @@ export interface components {
             y: number;
             z: number;
         };
+        /** @description Where a device stands: metres and radians in the map frame. */
+        StandsAt: {
+            /** @default 0 */
+            theta: number;
+            x: number;
+            y: number;
+            /** @default 0 */
+            z: number;
+        };
         /** @description How a rehearsal is done: with `physics`, or `kinematic` and quicker. */
         StartRehearsal: {
-            /** @default physics */
-            driver: string;
+            /**
+             * @default physics
+             * @enum {string}
+             */
+            driver: "physics" | "kinematic";
             /** @default {} */
             parameters: {
                 [key: string]: unknown;

@@ -74,8 +74,8 @@ def test_operators_and_above_may_call_and_every_member_may_follow(factory, role)
         ({"method": "mixPaint", "args": {}}, "time: give a value, mixPaint needs it."),
         ({"method": "mixPaint", "args": {"time": None}}, "time: give a value, mixPaint needs it."),
         ({"method": "mixPaint", "args": {"time": 61}}, "time: give a number from 1 to 60 MIN, not 61."),
-        ({"method": "mixPaint", "args": {"time": "2"}}, "time: give a number."),
-        ({"method": "mixPaint", "args": {"time": True}}, "time: give a number."),
+        ({"method": "mixPaint", "args": {"time": "2"}}, "time: give a number in MIN."),
+        ({"method": "mixPaint", "args": {"time": True}}, "time: give a number in MIN."),
         (
             {"method": "mixPaint", "args": {"time": 2, "shade": "red"}},
             "mixPaint takes no argument 'shade'. It takes: time.",

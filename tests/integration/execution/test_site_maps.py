@@ -133,7 +133,7 @@ def test_what_was_not_looked_at_is_not_taken(factory):
     for answer in (use(client, version=1), use(client, version=2, replaces=0)):
         assert (answer.status_code, answer.json()["code"]) == (409, "map_changed")
     assert use(client, version=2, replaces=7).json()["detail"].startswith("Somebody has changed the site's map")
-    assert (use(client, robot="robot02").status_code, use(client, robot="no\0body").status_code) == (404, 404)
+    assert (use(client, robot="robot02").status_code, use(client, robot="no\0body").status_code) == (404, 422)
     lost = post_json(client, f"/api/sites/{SITE}/map/restore", {"version": 9, "replaces": 1})
     assert (lost.status_code, lost.json()["code"]) == (404, "no_map")
     assert use(client, version=10**30).status_code == 422

@@ -9,6 +9,7 @@ from datetime import timedelta
 import pytest
 
 from registry import services
+from registry.models import Site
 from tests.kit.command_line import run_vipo
 from tests.kit.sites import MIXER, NOW, ROBOT, come, describe
 from vipo_device.protocol.description import MethodSpec
@@ -64,9 +65,17 @@ def test_one_with_a_key_of_its_own_keeps_it(hall: str, capsys: pytest.CaptureFix
 
 
 @pytest.mark.parametrize("command", ["enrolment-key", "join-key"])
-def test_a_new_enrolment_key_ends_the_old_one(command: str, hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_enrolment_key_is_shown_and_only_a_new_one_ends_it(
+    command: str, hall: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    told = run_vipo(capsys, command, "hall")
+    assert told[0] == 2
+    assert told[2].startswith("No join key of hall can be shown")
     services.set_enrolment_key(site="hall", key="j" * 32)
-    code, out, err = run_vipo(capsys, command, "hall")
+    assert [run_vipo(capsys, command, "hall") for _ in range(2)] == [(0, "j" * 32 + "\n", "")] * 2
+    assert services.check_device_password(username="join:hall", password="j" * 32)
+    Site.objects.update(join_key_at=NOW)
+    code, out, err = run_vipo(capsys, command, "hall", "--new")
     assert (code, err) == (0, "")
     assert services.check_device_password(username="join:hall", password=out.strip())
     assert services.check_device_password(username="join:hall", password="j" * 32) is None

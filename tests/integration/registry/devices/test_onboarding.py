@@ -13,7 +13,7 @@ from rdflib import Graph
 
 from registry import services
 from registry.devices.enrolment import FORGOTTEN_AFTER, MOST_PENDING, reserve_device
-from registry.models import Device
+from registry.models import Device, Site
 from registry.services import BadDevice
 from tests.kit.sign_in import ROLES, post_json, signed_in
 from tests.kit.sites import MIXER, NOW, ROBOT, come, describe, may_come_in
@@ -102,7 +102,11 @@ def test_who_does_not_come_is_forgotten_and_no_more_than_two_hundred_wait(hall: 
 
 def test_a_new_join_key_ends_the_old_one(hall: str) -> None:
     services.set_enrolment_key(site="hall", key="j" * 32)
-    told = send("admin", "join-key").json()
+    Site.objects.update(join_key_at=NOW)
+    answer = send("admin", "join-key")
+    told = answer.json()
+    assert answer["Cache-Control"] == "no-store"
+    assert send("admin", "join-key").json()["join_key"] == told["join_key"]
     assert may_come_in(told["join_key"], "join:hall")
     assert not may_come_in("j" * 32, "join:hall")
 

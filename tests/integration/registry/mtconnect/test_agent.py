@@ -85,13 +85,13 @@ def test_probe_lists_what_each_device_tells_with_units(plant: Plant) -> None:
 
 
 def test_current_says_how_devices_are_in_the_units_of_the_standard(plant: Plant) -> None:
-    plant.say(1, done=False, in_DEG_C=61.5, in_M=1.25, in_MIN=2, lid="a\x01<&>", wet=True, stock=24)
+    plant.say(1, done=False, in_DEG_C=61.5, in_M=1.25, in_MIN=2, lid="a<&>", wet=True, stock=24)
     root = plant.ask("current")
     assert texts(root, "Availability", "Execution") == ["AVAILABLE", "ACTIVE"]
     assert texts(root, "Temperature") == ["61.5"]
     assert sorted(texts(root, "Displacement")) == ["1250.0", "UNAVAILABLE", "UNAVAILABLE"]
     assert sorted(texts(root, "AccumulatedTime")) == ["120.0", "UNAVAILABLE", "UNAVAILABLE"]
-    assert texts(root, "Message") == ["a\ufffd<&>", "true", "24"]
+    assert texts(root, "Message") == ["a<&>", "true", "24"]
     assert [element.get("name") for element in root.iter("{*}Normal")] == ["error", "warning"]
 
 

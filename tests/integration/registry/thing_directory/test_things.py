@@ -85,14 +85,15 @@ def test_a_patch_moves_and_renames_and_null_gives_back_the_own_name(things: str)
 @pytest.mark.parametrize(
     ("body", "told"),
     [
-        ("{", "The patch is not JSON."),
-        ("[" * 100_000, "The patch is not JSON."),
+        ("{", "The patch is not JSON: a key in double quotes is expected here."),
+        ("[" * 10_000, "The patch is nested more than 16 levels deep."),
         ("[]", "A merge patch is a JSON object with at least one field."),
         ("{}", "A merge patch is a JSON object with at least one field."),
         ('{"actions": {}}', "'actions' cannot be changed here: the device says it itself."),
+        ('{"title": "\\u0000"}', "The patch holds a character that is not text"),
         ('{"title": 3}', "`title` must be a text, or null for the device's own."),
         ('{"vipo:location": null}', "`vipo:location` must be [x, y, z, theta]"),
-        ('{"vipo:location": [1, NaN]}', "`vipo:location` must be [x, y, z, theta]"),
+        ('{"vipo:location": [1, NaN]}', "The patch holds NaN, which is not a number of JSON."),
     ],
 )
 def test_what_is_not_for_people_to_change_is_refused(things: str, body: str, told: str) -> None:

@@ -142,7 +142,7 @@ HOSTILE: dict[str, tuple[str, tuple[bytes, ...]]] = {
         ),
     ),
     "control characters": (
-        "control characters",
+        "control character",
         (
             turtle('; dct:title "\\u202Eevil"'),
             message(name="a\u0007"),

@@ -32,7 +32,7 @@ BOOTH = Description("booth", "Booth", "machine", "booth", Pose(0, 0), Size(1, 1,
     [
         ({"time": 2}, "", ""),
         ({}, "paint needs a value for time.", "time: give a value, paint needs it."),
-        ({"time": "2"}, "paint: time must be a number.", "time: give a number."),
+        ({"time": "2"}, "paint: time must be a number.", "time: give a number in MIN."),
         (
             {"time": 0.5},
             "paint: time must be at least 1, not 0.5.",
