@@ -85,6 +85,7 @@ from registry.maps.site_maps import (
 from registry.people.access import Access, NotAMember, find_access, require
 from registry.people.sessions import Session, has_ended, session_of_socket
 from registry.people.sign_in import change_password, check_sign_in, create_user, is_known
+from registry.sites.quota import set_site_quota
 from registry.sites.sites import (
     create_site,
     get_site,
@@ -234,6 +235,7 @@ __all__ = [
     "session_of_socket",
     "set_enrolment_key",
     "set_member",
+    "set_site_quota",
     "set_site_stop",
     "site_to_json",
     "update_device",

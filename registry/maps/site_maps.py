@@ -21,6 +21,7 @@ from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
 from registry.live.fanout import publish
 from registry.maps.robot_maps import get_robot_map
 from registry.models import Device, Site, SiteMap, User
+from registry.sites.quota import lock_site_quota, require_site_quota
 from registry.sites.sites import create_site, find_site, get_site, list_places
 from registry.sites.views import SiteView
 from vipo_device.protocol.description import Description
@@ -124,9 +125,14 @@ def restore_map(*, site: str, version: int, replaces: int, by: User) -> MapView:
 
 
 def create_site_from_map(*, name: str, yaml: bytes, image: bytes | None, admin: User) -> SiteView:
-    """Make a site from a ROS map; nothing is made when the map cannot be read. Raises BadMap, BadName."""
+    """Make a site from a ROS map; nothing is made when the map cannot be read.
+
+    Raises BadMap, BadName, MayNotCreateSites, SiteQuotaReached.
+    """
+    require_site_quota(admin)
     grid = read_map(yaml, image)
     with transaction.atomic():
+        lock_site_quota(admin)
         view = create_site(name=name, admin=admin)
         save_map(site=view.slug, grid=grid, source="upload", by=admin)
     return get_site(site=view.slug, role=view.role)

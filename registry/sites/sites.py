@@ -84,19 +84,19 @@ def create_site(*, name: str, admin: User | None = None, slug: str = "") -> Site
     if not 1 <= len(name) <= 100 or not name.isprintable():
         raise BadName("A site needs a name of 1 to 100 characters that can be printed.")
     with transaction.atomic():
-        site = _new_site(name, slug or slugify(name)[:50] or "site", exact=bool(slug))
+        site = _new_site(name, slug or slugify(name)[:50] or "site", admin, exact=bool(slug))
         if admin:
             Membership.objects.create(site=site, user=admin, role=Membership.Role.ADMIN)
     return _site_view(site, Membership.Role.ADMIN if admin else "")
 
 
-def _new_site(name: str, slug: str, *, exact: bool) -> Site:
+def _new_site(name: str, slug: str, made_by: User | None, *, exact: bool) -> Site:
     """Insert under the first free slug; another request may take one between looking and inserting."""
     for number in range(1, 1000):
         wanted = slug if number == 1 else f"{slug}-{number}"
         try:
             with transaction.atomic():
-                return Site.objects.create(name=name, slug=wanted)
+                return Site.objects.create(name=name, slug=wanted, made_by=made_by)
         except IntegrityError:
             if exact:
                 raise BadName(f"There is already a site {slug!r}. Choose another name.") from None
