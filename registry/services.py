@@ -18,7 +18,14 @@ from registry.broker.mosquitto_file import account_file
 from registry.demo.devices import SITE as DEMO_SITE
 from registry.demo.devices import read_demo_descriptions
 from registry.demo.factory import get_demo_grid
-from registry.devices.authentication import Login, Principal, check_device_password, find_ended, list_broker_hashes
+from registry.devices.authentication import (
+    Login,
+    Principal,
+    check_device_password,
+    find_ended,
+    list_broker_hashes,
+    list_device_sites,
+)
 from registry.devices.credentials import (
     Decided,
     NotApproved,
@@ -28,7 +35,7 @@ from registry.devices.credentials import (
     rotate_credential,
 )
 from registry.devices.descriptions import DescriptionMessage, find_unchanged, ingest_description, ingest_descriptions
-from registry.devices.enrolment import ReservedDevice, enrol_device, expect_device, reserve_device
+from registry.devices.enrolment import NotOfSite, ReservedDevice, enrol_device, expect_device, reserve_device
 from registry.devices.legacy_topics import TopicNotAsked, TopicTaken, confirm_topic, list_granted_topics, withdraw_topic
 from registry.devices.lifecycle import (
     NotPending,
@@ -124,6 +131,7 @@ __all__ = [
     "NoSuchDevice",
     "NotAMember",
     "NotApproved",
+    "NotOfSite",
     "NotPending",
     "NotRetired",
     "Outage",
@@ -193,6 +201,7 @@ __all__ = [
     "list_delivery_facts",
     "list_device_events",
     "list_device_ids",
+    "list_device_sites",
     "list_devices",
     "list_granted_topics",
     "list_map_versions",

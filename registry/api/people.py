@@ -36,7 +36,8 @@ def show_me(request: HttpRequest) -> dict[str, Any]:
     if isinstance(user, User):
         person = {"id": user.pk, "name": user.display_name, "initials": user.initials, "email": user.email}
     may_create = isinstance(user, User) and may_create_sites(user)
-    return {"user": person, "may_create_sites": may_create, "csrf": get_token(request), "demo_accounts": _demo_accounts()}
+    rest = {"csrf": get_token(request), "demo_accounts": _demo_accounts()}
+    return {"user": person, "may_create_sites": may_create, **rest}
 
 
 def _demo_accounts() -> list[dict[str, str]]:

@@ -12,6 +12,7 @@ from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Device, Membership, Place, Site, SiteMap, User
 from registry.people.access import ROLES, NotAMember
+from registry.sites.namespaces import is_in_use
 from registry.sites.views import PlaceView, SiteView, StopView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
 
@@ -94,6 +95,8 @@ def _new_site(name: str, slug: str, made_by: User | None, *, exact: bool) -> Sit
     """Insert under the first free slug; another request may take one between looking and inserting."""
     for number in range(1, 1000):
         wanted = slug if number == 1 else f"{slug}-{number}"
+        if not exact and is_in_use(wanted):
+            continue
         try:
             with transaction.atomic():
                 return Site.objects.create(name=name, slug=wanted, made_by=made_by)

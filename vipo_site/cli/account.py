@@ -8,6 +8,7 @@ import secrets
 from vipo_site.cli.terminal import CLEAN, complain, set_up, write
 
 ACCOUNT = "Let somebody sign in, or a program, and give them a role at a site; a new password is printed this once."
+NOTHING = "Name what to change: --site with --role, --sites, or --new-password."
 ROLES = ("viewer", "operator", "author", "admin", "none")
 
 
@@ -61,4 +62,4 @@ def _decide(options: argparse.Namespace) -> list[str]:
     elif options.site:
         services.set_member(site=options.site, email=email, role=options.role)
         told.append(f"{email} is {options.role} of {options.site}.")
-    return told or [f"{email} may sign in already. Name what to change: --site with --role, --sites, or --new-password."]
+    return told or [f"{email} may sign in already. {NOTHING}"]

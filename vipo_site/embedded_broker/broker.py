@@ -159,7 +159,7 @@ class VipoBroker(SpreadingBroker):
         admitted = await asyncio.to_thread(self._access_control.admit, username, password)
         if admitted is None:
             return "wrong password, or nobody of this name"
-        session.attributes["topics"] = admitted.topics
+        session.attributes["topics"], session.attributes["site"] = admitted.topics, admitted.site
         self._logins[username] = _login(admitted, at)
         return ""
 
