@@ -13,6 +13,7 @@ from registry.alerts.inbox import (
 )
 from registry.alerts.views import AlertView, alert_to_json
 from registry.alerts.watch import watch_devices
+from registry.bounds.places import Claim, Places
 from registry.broker.accounts import wait_account_change
 from registry.broker.mosquitto_file import account_file
 from registry.demo.devices import SITE as DEMO_SITE
@@ -116,6 +117,7 @@ __all__ = [
     "AlertCode",
     "AlertView",
     "BadDevice",
+    "Claim",
     "Decided",
     "DeliveryFacts",
     "DescriptionMessage",
@@ -136,6 +138,7 @@ __all__ = [
     "NotRetired",
     "Outage",
     "PlaceView",
+    "Places",
     "PointView",
     "PositionView",
     "Principal",

@@ -23,6 +23,7 @@ from registry.api.things import router as things_router
 from vipo_device.protocol.errors import VipoError
 from vipo_site.http.openapi import DescribedAPI
 
+FOR_LOAD = frozenset({429, 503})
 _FRAMEWORK_SAYS = {
     "Unauthorized": "You are signed out. Sign in again; a program does so with POST /api/sign-in and sends its cookie "
     "along (docs/api.md).",
@@ -51,7 +52,10 @@ def problem(status: int, code: str, detail: str, **more: Any) -> JsonResponse:
 def on_refusal(request: HttpRequest, error: VipoError, status: int = 0) -> HttpResponse:
     """Turn an app's refusal into an answer, with its own status unless another is given."""
     more = {"args": dict(error.facts)} if error.facts else {}
-    return problem(status or error.status, error.code, error.detail, **more)
+    answer = problem(status or error.status, error.code, error.detail, **more)
+    if answer.status_code in FOR_LOAD:
+        answer["Retry-After"] = str(error.retry_after_s)
+    return answer
 
 
 @api.exception_handler(ValidationError)

@@ -11,6 +11,8 @@ from django.core.files.uploadedfile import SimpleUploadedFile
 from django.test import Client
 
 from registry import services
+from registry.bounds.places import Claim
+from registry.maps import site_maps
 from registry.models import Site, User
 from tests.kit.command_line import run_vipo
 from tests.kit.sign_in import find_person, signed_in
@@ -79,3 +81,15 @@ def test_who_was_admin_of_a_site_keeps_the_right(hall: str) -> None:
     kept = dict(User.objects.values_list("email", "site_quota"))
     assert kept.pop("admin@vipo.example") == 10
     assert set(kept.values()) == {0}
+
+
+def test_one_map_of_a_person_is_read_at_a_time(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(site_maps, "READING_PATIENCE_S", 0.0)
+    for name in ("stranger", "author"):
+        services.set_site_quota(email=f"{name}@vipo.example", sites=1)
+    claim = Claim(find_person("stranger").pk)
+    assert site_maps.reading_places.take(claim)
+    refused, other = upload(signed_in("stranger")), upload(signed_in("author"))
+    site_maps.reading_places.give_back(claim)
+    assert (refused.status_code, refused.json()["code"], refused["Retry-After"]) == (429, "too_many_uploads", "5")
+    assert (other.status_code, upload(signed_in("stranger")).status_code) == (201, 201)
