@@ -29,7 +29,8 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
     """Sends what happens at a site; what the browser says is not listened to.
 
     Closes with 4401 (not signed in, or not any more), 4404 (no such site, or not a member), 4403 (no member any more),
-    4429 (30 of this person are open here, or 500 of the site) and 4503 (the browser reads too slowly); always after accepting, since a browser learns no code otherwise.
+    4429 (30 of this person are open here, or 500 of the site) and 4503 (the browser reads too slowly); always after
+    accepting, since a browser learns no code otherwise.
     """
 
     _access: Access | None = None
