@@ -46,6 +46,12 @@ from registry.services import NotAMember, require
 from registry.shapes import Stop, signed_in
 
 router = Router(tags=["execution"])
+ABSENT = {
+    "program": "There is no such program. It may have been deleted.",
+    "question": "There is no such question. Its run may have been deleted.",
+    "rehearsal": "There is no such rehearsal. It may have been deleted with its program.",
+    "run": "There is no such run. It may have been deleted with its site.",
+}
 
 
 def _require(request: HttpRequest, site: str, role: str, scope: str = "") -> None:
@@ -53,11 +59,14 @@ def _require(request: HttpRequest, site: str, role: str, scope: str = "") -> Non
 
 
 def _require_here(request: HttpRequest, site: str, role: str, what: str) -> None:
-    """Let members through who may; a stranger does not learn that the thing exists. Tokens do this by `run`."""
+    """Let members through who may; a stranger gets the very answer that they get for what does not exist.
+
+    Tokens do this by `run`.
+    """
     try:
         _require(request, site, role, "read" if role == "viewer" else "run")
     except NotAMember as error:
-        raise NotFound(f"There is no such {what}.") from error
+        raise NotFound(ABSENT[what]) from error
 
 
 def _who(request: HttpRequest) -> str:

@@ -13,12 +13,20 @@ from registry.alerts.inbox import (
 )
 from registry.alerts.views import AlertView, alert_to_json
 from registry.alerts.watch import watch_devices
+from registry.bounds.places import Claim, Places
 from registry.broker.accounts import wait_account_change
 from registry.broker.mosquitto_file import account_file
 from registry.demo.devices import SITE as DEMO_SITE
 from registry.demo.devices import read_demo_descriptions
 from registry.demo.factory import get_demo_grid
-from registry.devices.authentication import Login, Principal, check_device_password, find_ended, list_broker_hashes
+from registry.devices.authentication import (
+    Login,
+    Principal,
+    check_device_password,
+    find_ended,
+    list_broker_hashes,
+    list_device_sites,
+)
 from registry.devices.credentials import (
     Decided,
     NotApproved,
@@ -28,7 +36,7 @@ from registry.devices.credentials import (
     rotate_credential,
 )
 from registry.devices.descriptions import DescriptionMessage, find_unchanged, ingest_description, ingest_descriptions
-from registry.devices.enrolment import ReservedDevice, enrol_device, expect_device, reserve_device
+from registry.devices.enrolment import NotOfSite, ReservedDevice, enrol_device, expect_device, reserve_device
 from registry.devices.legacy_topics import TopicNotAsked, TopicTaken, confirm_topic, list_granted_topics, withdraw_topic
 from registry.devices.lifecycle import (
     NotPending,
@@ -95,6 +103,7 @@ from registry.people.tokens import (
     prune_tokens,
     revoke_token,
 )
+from registry.sites.quota import set_site_quota
 from registry.sites.sites import (
     create_site,
     get_enrolment_key,
@@ -119,6 +128,7 @@ __all__ = [
     "AlertCode",
     "AlertView",
     "BadDevice",
+    "Claim",
     "Decided",
     "DeliveryFacts",
     "DescriptionMessage",
@@ -134,10 +144,12 @@ __all__ = [
     "NoSuchDevice",
     "NotAMember",
     "NotApproved",
+    "NotOfSite",
     "NotPending",
     "NotRetired",
     "Outage",
     "PlaceView",
+    "Places",
     "PointView",
     "PositionView",
     "Principal",
@@ -208,6 +220,7 @@ __all__ = [
     "list_delivery_facts",
     "list_device_events",
     "list_device_ids",
+    "list_device_sites",
     "list_devices",
     "list_granted_topics",
     "list_map_versions",
@@ -254,6 +267,7 @@ __all__ = [
     "session_of_socket",
     "set_enrolment_key",
     "set_member",
+    "set_site_quota",
     "set_site_stop",
     "site_to_json",
     "update_device",

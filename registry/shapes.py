@@ -131,9 +131,10 @@ class DemoAccount(Schema):
 
 
 class Me(Schema):
-    """Who asks, and what their next request needs."""
+    """Who asks, whether they may make a site, and what their next request needs."""
 
     user: Person | None
+    may_create_sites: bool
     csrf: str
     demo_accounts: list[DemoAccount]
 

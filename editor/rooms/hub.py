@@ -24,10 +24,11 @@ from editor.rooms.room import Room
 from editor.rooms.runner import INTERRUPTED, OpenRoom, in_database, open_room
 from editor.rooms.stream import RoomStream, StreamLost, make_stream
 from registry import services as registry
-from registry.services import find_access, has_ended
+from registry.services import Claim, Places, find_access, has_ended
 
 CLOSE_EMPTY_AFTER_S = 5.0
 FLUSH_LIMIT_S = 5.0
+MOST_CONNECTIONS, MOST_OF_PERSON = 5_000, 40
 _HEARD = {"device", "device_removed", "map", "members", "programs", "library", "hello"}
 
 
@@ -43,9 +44,19 @@ class Hub:
         self._background: set[asyncio.Task[None]] = set()
         self._watches: defaultdict[str, DeviceWatch] = defaultdict(DeviceWatch)
         self._stop_listening: Callable[[], None] | None = None
+        self._places = Places(in_all=MOST_CONNECTIONS, of_site=MOST_CONNECTIONS, of_person=MOST_OF_PERSON)
 
     async def enter(self, program_id: str, member: Member) -> Room:
         """Let a connection into a program's room, opening it if it is not open. Raises Close."""
+        if not self._places.take(Claim(member.person.id)):
+            raise Close(Close.ABUSE, f"You have {MOST_OF_PERSON} programs open. Close other copies of the page.")
+        try:
+            return await self._let_in(program_id, member)
+        except BaseException:
+            self._places.give_back(Claim(member.person.id))
+            raise
+
+    async def _let_in(self, program_id: str, member: Member) -> Room:
         async with self._locks[program_id]:
             await self._listen()
             try:
@@ -65,6 +76,7 @@ class Hub:
     def leave(self, room: Room, member: Member) -> None:
         """Let a connection go; a room that stays empty is closed."""
         room.leave(member)
+        self._places.give_back(Claim(member.person.id))
         if not room.members:
             self.loop.call_later(CLOSE_EMPTY_AFTER_S, self._start, self._close_if_empty, room)
 

@@ -13,7 +13,9 @@ from editor.rooms.awareness import AwarenessBoard
 from editor.rooms.member import MIB, Close, Member
 from editor.rooms.stream import Entry, Note
 
-MOST_MEMBERS = 50
+MOST_READERS, MOST_WRITERS = 50, 50
+"""Apart, so that whoever may only look never keeps out who may draw."""
+MOST_OF_PERSON = 10
 MOST_DOCUMENT_BYTES = 8 * MIB
 MOST_STEPS = 5000
 TOO_LARGE = "The program is full: it may have 8 MiB and 5,000 steps. Remove steps, or make a second program of a part."
@@ -42,8 +44,13 @@ class Room:
 
     def join(self, member: Member) -> None:
         """Let a connection in: it is asked for what it has, and shown who is here. Raises Close."""
-        if len(self.members) >= MOST_MEMBERS:
-            raise Close(Close.COME_AGAIN, f"{MOST_MEMBERS} people are in this program already. Try again later.")
+        if sum(each.person.id == member.person.id for each in self.members) >= MOST_OF_PERSON:
+            raise Close(
+                Close.ABUSE, f"You have this program open {MOST_OF_PERSON} times. Close other copies of the page."
+            )
+        most = MOST_WRITERS if member.can_write else MOST_READERS
+        if sum(each.can_write == member.can_write for each in self.members) >= most:
+            raise Close(Close.COME_AGAIN, f"{most} people are in this program already. Try again later.")
         self.members.append(member)
         member.ask_for_state(self.document.state())
         if everybody := self.board.everybody():

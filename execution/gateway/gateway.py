@@ -190,7 +190,7 @@ class Gateway:
 
     def _publish_stops(self) -> None:
         for stop in list_stops():
-            body = {"active": stop.active, "by": stop.by, "at": stop.at.isoformat() if stop.at else None}
+            body = {"active": stop.active, "at": stop.at.isoformat() if stop.at else None}
             payload = json.dumps(body).encode()
             if self._stops.get(stop.site) != payload:
                 self._client.publish(f"vipo/v1/site/{stop.site}/stop", payload, retain=True)

@@ -128,6 +128,9 @@ class Ingester:
                 self._ingest_one(entry.device, entry.kind, entry.message)
                 self._outage.end()
                 break
+            except registry.NotOfSite as error:  # the id may be another site's, which hears nothing of it
+                self._note(_asked_at(entry), f"{entry.kind}: {error.detail}", {**error.facts, "kind": entry.kind})
+                break
             except VipoError as error:
                 self._note(entry.device, f"{entry.kind}: {error.detail}", {**error.facts, "kind": entry.kind})
                 break
@@ -191,6 +194,11 @@ class Ingester:
         if now - self._woken_at.get(site, -CHANGES_EVERY_S) >= CHANGES_EVERY_S:
             self._woken_at[site] = now
             mailbox.hint_watching(site)
+
+
+def _asked_at(entry: Entry) -> str:
+    site, _ = messages.read_join_topic(entry.message.topic) or ("", "")
+    return f"join:{site}"
 
 
 def _rounds(entries: Sequence[Entry]) -> Iterator[list[Entry]]:

@@ -29,12 +29,16 @@ class TokenBucket:
 
     def take(self, now: float) -> bool:
         """Take one token if there is one; `now` in seconds of a clock that only goes forward."""
-        self.tokens = min(self.burst, self.tokens + (now - self.filled_at) * self.rate)
-        self.filled_at = now
-        if self.tokens < 1:
+        if not self.has_one(now):
             return False
         self.tokens -= 1
         return True
+
+    def has_one(self, now: float) -> bool:
+        """Tell whether there is a token, without taking it."""
+        self.tokens = min(self.burst, self.tokens + (now - self.filled_at) * self.rate)
+        self.filled_at = now
+        return self.tokens >= 1
 
 
 def new_bucket(name: str) -> TokenBucket:

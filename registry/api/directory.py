@@ -14,7 +14,7 @@ from registry.devices.views import DeviceView
 from registry.errors import RegistryError
 from registry.people.access import find_access, list_visible
 from registry.shapes import signed_in
-from registry.thing_directory.answers import MERGE_PATCH, answer_thing, change_thing, open_stream
+from registry.thing_directory.answers import MERGE_PATCH, answer_thing, change_thing, may_see_thing, open_stream
 from registry.thing_directory.own_thing import directory_thing
 from registry.thing_directory.pages import Page, answer_page, list_page
 
@@ -116,6 +116,7 @@ def _find(request: HttpRequest, thing: str) -> DeviceView:
     """Return a listed device that the asker may see. Raises NoSuchDevice, whatever keeps it from being seen."""
     view = services.find_device(device_id=device_id_of(thing))
     user = signed_in(request)
-    if view is None or view.lifecycle == "retired" or find_access(user, view.site) is None:
+    access = find_access(user, view.site) if view else None
+    if view is None or access is None or not may_see_thing(access, view):
         raise NoSuchDevice(f"There is no Thing {thing[:80]!r} that you may see.")
     return view

@@ -24,6 +24,7 @@ from registry.shapes import (
     Me,
     SignIn,
 )
+from registry.sites.quota import may_create_sites
 
 router = Router(tags=["registry"])
 
@@ -40,7 +41,9 @@ def _me(request: HttpRequest) -> dict[str, Any]:
     person = None
     if isinstance(user, User):
         person = {"id": user.pk, "name": user.display_name, "initials": user.initials, "email": user.email}
-    return {"user": person, "csrf": get_token(request), "demo_accounts": _demo_accounts()}
+    may_create = isinstance(user, User) and may_create_sites(user)
+    rest = {"csrf": get_token(request), "demo_accounts": _demo_accounts()}
+    return {"user": person, "may_create_sites": may_create, **rest}
 
 
 def _demo_accounts() -> list[dict[str, str]]:

@@ -11,11 +11,14 @@ from typing import Any
 from channels.db import database_sync_to_async
 from channels.generic.websocket import AsyncWebsocketConsumer
 
+from registry.bounds.places import Claim, Places
 from registry.live.fanout import Message, subscribe
 from registry.people.access import Access, find_access
 from registry.people.sessions import has_ended, session_of_socket
 
-SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_SLOW = 4401, 4403, 4404, 4503
+SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_MANY, TOO_SLOW = 4401, 4403, 4404, 4429, 4503
+_places = Places(in_all=5_000, of_site=500, of_person=30)
+"""Sockets of this process."""
 BREATH_S = 0.1
 BEAT_S = 5.0
 BEAT = json.dumps({"type": "beat"})
@@ -25,11 +28,13 @@ MOST_WAITING = 1000
 class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has no types
     """Sends what happens at a site; what the browser says is not listened to.
 
-    Closes with 4401 (not signed in, or not any more), 4404 (no such site, or not a member), 4403 (no member any more)
-    and 4503 (the browser reads too slowly); always after accepting, since a browser learns no code otherwise.
+    Closes with 4401 (not signed in, or not any more), 4404 (no such site, or not a member), 4403 (no member any more),
+    4429 (30 of this person are open here, or 500 of the site) and 4503 (the browser reads too slowly); always after
+    accepting, since a browser learns no code otherwise.
     """
 
     _access: Access | None = None
+    _claim: Claim | None = None
     _reader: asyncio.Task[None] | None = None
     _writer: asyncio.Task[None] | None = None
 
@@ -43,11 +48,19 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         if code := await self._refusal():
             await self.close(code)
             return
+        claim = Claim(self.scope["user"].pk, self.site)
+        if not _places.take(claim):
+            await self.close(TOO_MANY)
+            return
+        self._claim = claim
         self._reader = asyncio.create_task(self._read())
         self._writer = asyncio.create_task(self._write())
 
     async def disconnect(self, code: int) -> None:
-        """End both tasks."""
+        """Give the place back and end both tasks."""
+        if self._claim:
+            _places.give_back(self._claim)
+            self._claim = None
         for task in (self._reader, self._writer):
             if task and task is not asyncio.current_task():
                 task.cancel()

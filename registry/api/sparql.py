@@ -65,7 +65,8 @@ def _form_of(named: str) -> ResultForm | None:
 def _answer(request: HttpRequest, slug: str, query: str, form: ResultForm | None) -> HttpResponse:
     if any(name in given for name in _ELSEWHERE for given in (request.GET, request.POST)):
         raise BadQuery(f"{' and '.join(_ELSEWHERE)} are not allowed: a query is answered from this site alone.")
-    found = services.run_query(site=slug, query=query, forms=[form] if form else _accepted(request))
+    person = signed_in(request).pk
+    found = services.run_query(site=slug, query=query, forms=[form] if form else _accepted(request), person=person)
     headers = {"Vary": "Accept"}
     return HttpResponse(found.body, content_type=f"{found.media_type}; charset=utf-8", headers=headers)
 

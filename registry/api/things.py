@@ -6,10 +6,11 @@ from django.http import HttpRequest, HttpResponse, HttpResponseBase
 from ninja import Query, Router
 
 from registry import services
+from registry.devices.rows import NoSuchDevice
 from registry.devices.things import EVENTS, EventName, device_id_of
 from registry.people.access import require
 from registry.shapes import signed_in
-from registry.thing_directory.answers import answer_thing, change_thing, open_stream, sends
+from registry.thing_directory.answers import answer_thing, change_thing, may_see_thing, open_stream, sends
 from registry.thing_directory.pages import Page, answer_page, list_page
 
 router = Router(tags=["things"])
@@ -36,8 +37,11 @@ def watch_things(
 @router.get("/sites/{slug}/things/{thing}", openapi_extra=sends("application/td+json"))
 def show_thing(request: HttpRequest, slug: str, thing: str) -> HttpResponse:
     """Send a device's Thing Description; `thing` is its id, with or without `urn:vipo:device:`."""
-    require(signed_in(request), slug, "viewer")
-    return answer_thing(request, services.get_device(site=slug, device_id=device_id_of(thing)))
+    access = require(signed_in(request), slug, "viewer")
+    view = services.get_device(site=slug, device_id=device_id_of(thing))
+    if not may_see_thing(access, view):
+        raise NoSuchDevice(f"This site has no device {view.id!r}.")
+    return answer_thing(request, view)
 
 
 @router.patch("/sites/{slug}/things/{thing}", response={204: None})

@@ -18,7 +18,7 @@ from django.conf import settings
 from django.db import transaction
 from django.utils.module_loading import import_string
 
-from registry.broker.mosquitto_file import role_of
+from registry.broker.mosquitto_file import find_hearing_all_stops, role_of
 from registry.errors import RegistryError
 from registry.live.fanout import wait_wake, wake
 from vipo_device.protocol.mqtt_client import MqttClient
@@ -39,11 +39,12 @@ class BrokerAway(RegistryError):
 
 @dataclass(frozen=True, slots=True)
 class Account:
-    """Who may come in: a device's id (or `join:<site>` to enrol at a site), the key, and a device's legacy topics."""
+    """Who may come in: a device's id (or `join:<site>` to enrol at a site), the key, and a device's site and topics."""
 
     name: str
     key: str
     topics: tuple[str, ...] = ()
+    site: str = ""
 
 
 class BrokerAccounts(Protocol):
@@ -52,14 +53,20 @@ class BrokerAccounts(Protocol):
     def put(self, account: Account) -> None:
         """Let somebody in with this key and no other; ends their connections. Raises BrokerAway."""
 
-    def allow(self, name: str, topics: tuple[str, ...]) -> None:
-        """Let a device hear these legacy topics and no others; ends its connections. Raises BrokerAway."""
+    def allow(self, name: str, site: str, topics: tuple[str, ...]) -> None:
+        """Let a device hear this site's stop and these legacy topics only; ends its connections. Raises BrokerAway."""
 
     def remove(self, name: str) -> None:
         """Let somebody in no more; ends their connections. Raises BrokerAway."""
 
     def names(self) -> frozenset[str] | None:
         """Return who has an account, None for a broker that keeps none. Raises BrokerAway."""
+
+    def find_outdated(self) -> frozenset[str]:
+        """Return which devices may hear the stops of all sites, as accounts of earlier versions do. Raises BrokerAway.
+
+        They are to be allowed anew.
+        """
 
 
 class AskedAccounts:
@@ -69,7 +76,7 @@ class AskedAccounts:
         """See BrokerAccounts."""
         self.remove(account.name)
 
-    def allow(self, name: str, _topics: tuple[str, ...]) -> None:
+    def allow(self, name: str, _site: str, _topics: tuple[str, ...]) -> None:
         """See BrokerAccounts."""
         self.remove(name)
 
@@ -81,24 +88,29 @@ class AskedAccounts:
         """See BrokerAccounts."""
         return None
 
+    def find_outdated(self) -> frozenset[str]:
+        """See BrokerAccounts."""
+        return frozenset()
+
 
 class DynamicSecurity:
     """Mosquitto's plugin of that name, over a connection of the server's account that lives for one change."""
 
     def put(self, account: Account) -> None:
         """See BrokerAccounts."""
-        role = role_of(account.name, account.topics)
+        role = role_of(account.name, account.site, account.topics)
         name = str(role["rolename"])
         self._tell(
             ("createRole", role, "already exists"),
+            ("modifyRole", role, ""),
             ("createClient", {"username": account.name, "roles": [{"rolename": name}]}, "already exists"),
             ("setClientPassword", {"username": account.name, "password": account.key}, ""),
         )
 
-    def allow(self, name: str, topics: tuple[str, ...]) -> None:
+    def allow(self, name: str, site: str, topics: tuple[str, ...]) -> None:
         """See BrokerAccounts."""
         self._tell(
-            ("modifyRole", role_of(name, topics), ""),
+            ("modifyRole", role_of(name, site, topics), ""),
             # a changed role leaves connections alone: this ends them, so that the device asks for its topics anew
             ("disableClient", {"username": name}, ""),
             ("enableClient", {"username": name}, ""),
@@ -113,14 +125,22 @@ class DynamicSecurity:
 
     def names(self) -> frozenset[str] | None:
         """See BrokerAccounts."""
-        found: list[str] = []
+        return frozenset(str(name) for name in self._list("clients", verbose=False))
+
+    def find_outdated(self) -> frozenset[str]:
+        """See BrokerAccounts."""
+        return find_hearing_all_stops(self._list("roles", verbose=True))
+
+    def _list(self, what: str, *, verbose: bool) -> list[Any]:
+        """Return all clients or roles, page by page."""
+        found: list[Any] = []
         while True:
-            asked = {"verbose": False, "count": PAGE, "offset": len(found)}
-            (answer,) = self._tell(("listClients", asked, ""))
+            asked = {"verbose": verbose, "count": PAGE, "offset": len(found)}
+            (answer,) = self._tell((f"list{what.title()}", asked, ""))
             data = answer.get("data", {})
-            found += [str(name) for name in data.get("clients", [])]
-            if not data.get("clients") or len(found) >= data.get("totalCount", 0):
-                return frozenset(found)
+            found += data.get(what, [])
+            if not data.get(what) or len(found) >= data.get("totalCount", 0):
+                return found
 
     def _tell(self, *commands: tuple[str, Command, str]) -> Sequence[Mapping[str, Any]]:
         """Send (command, arguments, harmless refusal) and return the answers in their order."""

@@ -13,20 +13,33 @@ Acl = dict[str, object]
 Role = dict[str, Any]
 ENROLMENT = "join:"
 """Before a site's name: the user name with which devices enrol that have no key of their own (docs/protocol.md)."""
-HEARD_BY_ALL = ("vipo/v1/site/+/stop", "vipo/v1/srv/status")
+SERVER_STATUS = "vipo/v1/srv/status"
+EVERY_SITE = "+"
+"""In the place of a site: the device hears the stops of all; only tests and bridges without a registry use it."""
+_DEVICE = "device "
 DEFAULTS = {"publishClientSend": False, "publishClientReceive": False, "subscribe": False, "unsubscribe": True}
 
 
-def device_role(device_id: str, topics: Sequence[str] = ()) -> Role:
-    """Return what a device may do: speak for itself, hear its own commands, the sites' stops and the server.
+def device_role(device_id: str, site: str, topics: Sequence[str] = ()) -> Role:
+    """Return what a device may do: speak for itself, hear its own commands, its own site's stop and the server.
 
     `topics` are legacy ones that an admin has confirmed for it.
     """
     own = f"vipo/v1/dev/{device_id}"
-    heard = (f"{own}/down/#", *HEARD_BY_ALL, *topics)
+    heard = (f"{own}/down/#", _stop_of(site), SERVER_STATUS, *topics)
     acls = [_allow("publishClientSend", f"{own}/up/#")]
     acls += [_allow(act, topic) for topic in heard for act in ("publishClientReceive", "subscribePattern")]
-    return {"rolename": f"device {device_id}", "acls": acls}
+    return {"rolename": f"{_DEVICE}{device_id}", "acls": acls}
+
+
+def _stop_of(site: str) -> str:
+    return f"vipo/v1/site/{site}/stop"
+
+
+def find_hearing_all_stops(roles: Sequence[Role]) -> frozenset[str]:
+    """Return the devices among these roles that hear the stops of all sites."""
+    wide = [role["rolename"] for role in roles if any(acl["topic"] == _stop_of(EVERY_SITE) for acl in role["acls"])]
+    return frozenset(name.removeprefix(_DEVICE) for name in wide if name.startswith(_DEVICE))
 
 
 def enrolment_role(name: str) -> Role:
@@ -54,20 +67,29 @@ def _allow(act: str, topic: str) -> Acl:
     return {"acltype": act, "topic": topic, "priority": 0, "allow": True}
 
 
-def account_file(hashes: Mapping[str, str], topics: Mapping[str, Sequence[str]] | None = None, *, server: str) -> str:
-    """Return the plugin's file for {name: `$7$rounds$salt$hash`} and {device: its confirmed legacy topics}.
+def account_file(
+    hashes: Mapping[str, str],
+    sites: Mapping[str, str],
+    topics: Mapping[str, Sequence[str]] | None = None,
+    *,
+    server: str,
+) -> str:
+    """Return the plugin's file for {name: `$7$rounds$salt$hash`}, {device: its site} and {device: confirmed topics}.
 
     `server` is the name of VIPO's own account.
     """
     granted = topics or {}
-    roles = [server_role() if name == server else role_of(name, granted.get(name, ())) for name in sorted(hashes)]
+    roles = [
+        server_role() if name == server else role_of(name, sites.get(name, ""), granted.get(name, ()))
+        for name in sorted(hashes)
+    ]
     clients = [_client(name, role, hashes[name]) for name, role in zip(sorted(hashes), roles, strict=True)]
     return json.dumps({"defaultACLAccess": DEFAULTS, "roles": roles, "clients": clients}, indent=1)
 
 
-def role_of(name: str, topics: Sequence[str] = ()) -> Role:
+def role_of(name: str, site: str = "", topics: Sequence[str] = ()) -> Role:
     """Return the role of a device's account, or of a site's for enrolment, by its name."""
-    return enrolment_role(name) if name.startswith(ENROLMENT) else device_role(name, topics)
+    return enrolment_role(name) if name.startswith(ENROLMENT) else device_role(name, site, topics)
 
 
 def _client(name: str, role: Role, hashed: str) -> dict[str, object]:

@@ -16,6 +16,7 @@ from registry.floorplan.map_server import read_map
 from registry.maps.site_maps import save_map
 from registry.models import Site, SiteMap, User
 from registry.people.sign_in import create_user
+from registry.sites.quota import USUAL_SITES, set_site_quota
 from registry.sites.sites import create_site, save_places, set_enrolment_key, set_member
 from registry.sites.views import PlaceView
 
@@ -95,6 +96,8 @@ def _seed_people(state: Path) -> list[dict[str, str]]:
         elif email not in passwords:
             user.set_password(password)
             user.save(update_fields=["password"])
+        if user is None and role == "admin":
+            set_site_quota(email=email, sites=USUAL_SITES)
         set_member(site=SITE, email=email, role=role)
         accounts.append({"email": email, "password": password, "role": role})
     if passwords != {a["email"]: a["password"] for a in accounts}:

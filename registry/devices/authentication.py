@@ -10,11 +10,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 
+from django.db import transaction
+from django.utils import timezone
+
 from registry.alerts.buffer import note_alert
 from registry.broker.mosquitto_file import ENROLMENT
-from registry.devices.enrolment import MOST_PENDING
-from registry.devices.rows import RESERVED_IDS
+from registry.devices.enrolment import make_pending_device
+from registry.devices.rows import RESERVED_IDS, BadDevice
 from registry.models import Device, Site
+from registry.sites.namespaces import OF_IDS, may_name
 from vipo_device.protocol.credentials import secret_hash
 from vipo_device.protocol.messages import is_device_id
 
@@ -23,13 +27,14 @@ from vipo_device.protocol.messages import is_device_id
 class Principal:
     """Who a connection is: `is_enrolling` when it came in with a site's enrolment key only; `key` is its key's hash.
 
-    `topics` are the legacy ones that an admin has confirmed for it.
+    `topics` are the legacy ones that an admin has confirmed for it, `site` is the one whose stop it hears.
     """
 
     device_id: str
     is_enrolling: bool
     key: str = ""
     topics: frozenset[str] = frozenset()
+    site: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,30 +50,43 @@ def check_device_password(*, username: str, password: str) -> Principal | None:
     """Return who may connect with this: a device by its own key, or one that enrols by a site's enrolment key.
 
     The enrolment key is for the user name `join:<site>`, under which devices bring a key of their own; the embedded
-    broker also takes it from a device whose id has no key yet.
+    broker also takes it from a device whose id has no key yet: one of that site, or a new one, which is that site's
+    from then on, whatever it says of itself.
     """
     offered = secret_hash(password)
     if username.startswith(ENROLMENT):
         return _check_enrolment(username, offered)
     if not is_device_id(username) or username in RESERVED_IDS:
         return None
-    device = Device.objects.filter(pk=username).first()
+    device = Device.objects.filter(pk=username).select_related("site").first()
     if device and device.lifecycle == Device.Lifecycle.RETIRED:
         return None
     if device and device.credential_hash:
         is_its_key = hmac.compare_digest(device.credential_hash, offered)
         if not is_its_key:
             note_alert(device_id=username, code="wrong_key")
-        return Principal(username, False, offered, frozenset(device.granted.values())) if is_its_key else None
+        topics = frozenset(device.granted.values())
+        return Principal(username, False, offered, topics, device.site.slug) if is_its_key else None
     if device and device.lifecycle != Device.Lifecycle.PENDING:
         return None
-    is_let_in = Site.objects.filter(join_key_hash=offered).exists() and (device or _has_room())
-    return Principal(username, True) if is_let_in else None
+    site = Site.objects.filter(join_key_hash=offered).first()
+    if site is None or not (device.site_id == site.pk if device else _make_newcomer(site, username)):
+        return None
+    return Principal(username, True, site=site.slug)
 
 
-def _has_room() -> bool:
-    """Tell whether one more device may come that brings no key of its own."""
-    return Device.objects.filter(lifecycle="pending", credential_hash="").count() < MOST_PENDING
+def _make_newcomer(site: Site, device_id: str) -> bool:
+    """Let a device that nobody knows belong to the site whose key it has; False where it cannot be its id, or is full.
+
+    So nothing that it says later can bring it to another site.
+    """
+    if not may_name(site, device_id, OF_IDS):
+        return False
+    try:
+        with transaction.atomic():
+            return make_pending_device(device_id, site.pk, timezone.now()).site_id == site.pk
+    except BadDevice:
+        return False
 
 
 def _check_enrolment(username: str, offered: str) -> Principal | None:
@@ -83,6 +101,11 @@ def list_broker_hashes() -> dict[str, str]:
     devices = Device.objects.exclude(broker_hash="").exclude(lifecycle=Device.Lifecycle.RETIRED)
     sites = Site.objects.exclude(join_broker_hash="").values_list("slug", "join_broker_hash")
     return {**{ENROLMENT + slug: hashed for slug, hashed in sites}, **dict(devices.values_list("pk", "broker_hash"))}
+
+
+def list_device_sites() -> dict[str, str]:
+    """Return the site of each device."""
+    return dict(Device.objects.values_list("pk", "site__slug"))
 
 
 def find_ended(*, logins: Mapping[str, Login]) -> frozenset[str]:

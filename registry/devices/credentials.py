@@ -147,8 +147,15 @@ def reconcile_accounts() -> tuple[frozenset[str], frozenset[str]]:
     there = accounts().names()
     if there is None:
         return frozenset(), frozenset()
+    _allow_anew(accounts().find_outdated())
     removed = {name for name in there - {str(settings.VIPO_MQTT["username"])} if _remove_unknown(name)}
     return frozenset(removed), frozenset(list_broker_hashes()) - there
+
+
+def _allow_anew(outdated: frozenset[str]) -> None:
+    """Let devices hear no more than they may today."""
+    for device in Device.objects.filter(pk__in=outdated).select_related("site"):
+        accounts().allow(device.pk, device.site.slug, tuple(sorted(device.granted.values())))
 
 
 def _remove_unknown(name: str) -> bool:
@@ -201,7 +208,7 @@ def replace_key(site: str, device_id: str, credential: str, by: User | None, at:
 def give_key(device: Device, credential: str) -> None:
     """Put a key into a locked row and the broker's account; the caller saves the row. Raises BrokerAway."""
     device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
-    accounts().put(Account(device.id, credential, tuple(sorted(device.granted.values()))))
+    accounts().put(Account(device.id, credential, tuple(sorted(device.granted.values())), device.site.slug))
 
 
 def lock_out(device: Device, at: datetime) -> None:

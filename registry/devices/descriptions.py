@@ -179,8 +179,6 @@ def _lock_rows(ids: list[str]) -> list[Device]:
 def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[DeviceEvent]:
     """Put a description into its row, and return the lines for the history, oldest first."""
     description, form, at = news.reading.description, news.reading.form, news.said.at
-    if _may_choose_site(device) and description.site != device.site.slug:
-        device.site = _site_for(description.site, sites)
     before, after = device.description, description_to_json(description)
     old = description_from_json(before) if before else None
     claim_topics(device, old, description, at)
@@ -196,11 +194,6 @@ def _describe(device: Device, news: _News, sites: Mapping[str, Site]) -> list[De
     packs = reversed(_packed(news.reading.notes))
     mended = [history_text("mended", text=" ".join(n.text for n in pack), **facts_of(pack)) for pack in packs]
     return [news_line, *(line_of_history(device, at, "mended", words) for words in mended)]
-
-
-def _may_choose_site(device: Device) -> bool:
-    """Tell whether a device may still say where it belongs; one that has a key enrolled at its site."""
-    return device.lifecycle == Device.Lifecycle.PENDING and not device.description and not device.credential_hash
 
 
 def _write(devices: list[Device]) -> None:

@@ -18,7 +18,8 @@ from registry.alerts.buffer import note_alert
 from registry.broker.accounts import Account, accounts
 from registry.devices.history import history_text, write_event
 from registry.devices.rows import STARTS, BadDevice, check_id, forget_starts
-from registry.models import Device, User
+from registry.models import Device, Site, User
+from registry.sites.namespaces import OF_IDS, may_name
 from registry.sites.sites import find_site
 from vipo_device.protocol.credentials import (
     LEAST_CHARACTERS,
@@ -35,6 +36,10 @@ MOST_PENDING = 200
 FORGOTTEN_AFTER = timedelta(days=1)
 
 
+class NotOfSite(BadDevice):
+    """An id that is not the site's to give; whose it is, if anybody's, is not said."""
+
+
 def enrol_device(*, site: str, device_id: str, payload: bytes, at: datetime) -> bool:
     """Remember the key that a device brings, and let it in as pending; False when it was known with this key.
 
@@ -45,19 +50,30 @@ def enrol_device(*, site: str, device_id: str, payload: bytes, at: datetime) -> 
     key = _read_key(payload)
     with transaction.atomic():
         row = find_site(site)
-        device = Device.objects.select_for_update(of=("self",)).filter(pk=device_id).first()
+        device = _find_own(row, device_id)
         if device is not None and device.lifecycle == Device.Lifecycle.RETIRED:
             return False
         is_known = device is not None and hmac.compare_digest(device.credential_hash, secret_hash(key))
         if not is_known:
             device = device or make_pending_device(device_id, row.pk, at)
-            _require_keyless(device, row.pk)
+            _require_keyless(device)
             device.credential_hash, device.broker_hash = secret_hash(key), broker_hash(key)
             forget_starts(device)
             device.save(update_fields=["credential_hash", "broker_hash", *STARTS])
             write_event(device, at, "knocked", history_text("knocked"))
-    accounts().put(Account(device_id, key))
+    accounts().put(Account(device_id, key, site=site))
     return not is_known
+
+
+def _find_own(site: Site, device_id: str) -> Device | None:
+    """Return the locked row of a site's own device, None where there is none and one of that id may come.
+
+    Raises NotOfSite in the same words whether the id is another site's or could be.
+    """
+    device = Device.objects.select_for_update(of=("self",)).filter(pk=device_id).first()
+    if device.site_id != site.pk if device else not may_name(site, device_id, OF_IDS):
+        raise NotOfSite(*refusal_facts("id_of_site", device=device_id, site=site.slug))
+    return device
 
 
 def make_pending_device(device_id: str, site_id: int, at: datetime) -> Device:
@@ -88,10 +104,10 @@ def _make_room(site_id: int, at: datetime) -> None:
         raise BadDevice(*refusal_facts("newcomers", most=MOST_PENDING))
 
 
-def _require_keyless(device: Device, site_id: int) -> None:
-    if not device.credential_hash and device.lifecycle == Device.Lifecycle.APPROVED and device.site_id == site_id:
+def _require_keyless(device: Device) -> None:
+    if not device.credential_hash and device.lifecycle == Device.Lifecycle.APPROVED:
         raise BadDevice(*refusal_facts("knock_revoked", device=device.pk))
-    if device.lifecycle != Device.Lifecycle.PENDING or device.credential_hash or device.site_id != site_id:
+    if device.lifecycle != Device.Lifecycle.PENDING or device.credential_hash:
         note_alert(device_id=device.pk, code="foreign_knock")
         raise BadDevice(*refusal_facts("knock_foreign", device=device.pk))
 
@@ -113,27 +129,25 @@ def reserve_device(*, site: str, device_id: str, by: User, at: datetime) -> Rese
     second call for a device that has not come yet makes a new key, and the one before ends.
 
     Raises:
-        BadDevice: the id cannot be, belongs to a device that is known, or 200 devices wait already.
+        BadDevice: the id cannot be, is not the site's, belongs to a device that is known, or 200 devices wait already.
         NotAMember, BrokerAway.
     """
     check_id(device_id)
     credential = make_credential()
     with transaction.atomic():
         row = find_site(site)
-        device = Device.objects.select_for_update(of=("self",)).filter(pk=device_id).first()
+        device = _find_own(row, device_id)
         device = device or make_pending_device(device_id, row.pk, at)
-        _require_unknown(device, row.pk)
+        _require_unknown(device)
         device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
         device.first_seen_at = at
         device.save(update_fields=["credential_hash", "broker_hash", "first_seen_at"])
         write_event(device, at, "expected", history_text("expected"), by)
-        accounts().put(Account(device_id, credential))
+        accounts().put(Account(device_id, credential, site=site))
     return ReservedDevice(device_id, site, credential, str(settings.VIPO_BROKER_URL))
 
 
-def _require_unknown(device: Device, site_id: int) -> None:
-    if device.site_id != site_id:
-        raise BadDevice(f"The id {device.pk} is taken. Choose another one.")
+def _require_unknown(device: Device) -> None:
     waits = device.lifecycle == Device.Lifecycle.PENDING
     if not waits or device.description is not None or device.last_seen_at is not None:
         raise BadDevice(f"{device.pk} is known at this site already. Choose another id, or give that device a new key.")

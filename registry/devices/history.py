@@ -5,9 +5,10 @@ The newest 200 lines of each device are kept.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from datetime import datetime
+from datetime import datetime, timedelta
 from typing import Any
 
 from django.db.models import Count
@@ -17,6 +18,9 @@ from vipo_device.descriptions.changes import Change
 from vipo_device.protocol.description import Description
 
 MOST_EVENTS = 200
+DAMPED = frozenset({"described", "mended", "topic_asked", "topic_withdrawn"})
+"""What a device can have written as often as it likes, by saying something else of itself each time."""
+MOST_DAMPED, DAMPED_FOR = 10, timedelta(minutes=10)
 EVENTS_TO_SPARE = 20
 """How many more a history may have before it is cut, where many devices speak at once."""
 MOST_CHARACTERS = 300
@@ -35,6 +39,7 @@ SENTENCES: Mapping[str, str] = {
     "flapping": "Comes and leaves all the time; not every time is written down",
     "error": "Reports an error: {text}",
     "recovered": "Reports no error any more",
+    "described_often": "Describes itself anew all the time; not every time is written down",
     "problem": "{text}",
     "mended": "{text}",
     "renamed": "Renamed from {before} to {after}",
@@ -128,13 +133,15 @@ def write_event(
     *,
     changes: tuple[Change, ...] = (),
 ) -> None:
-    """Add a line of history and forget the ones beyond the newest 200."""
-    line_of_history(device, at, kind, words, by, changes=changes).save(force_insert=True)
-    _forget_old(device.pk)
+    """Add a line of history and forget the ones beyond the newest 200; leave out what a device says all the time."""
+    for line in _damped([line_of_history(device, at, kind, words, by, changes=changes)]):
+        line.save(force_insert=True)
+        _forget_old(device.pk)
 
 
 def write_lines(lines: Sequence[DeviceEvent]) -> None:
     """Add lines of history of many devices, oldest first; who has 20 more than 200 keeps the newest 200."""
+    lines = _damped(lines)
     if not lines:
         return
     DeviceEvent.objects.bulk_create(lines)
@@ -142,6 +149,31 @@ def write_lines(lines: Sequence[DeviceEvent]) -> None:
     counts = kept.values_list("device").annotate(lines=Count("pk")).filter(lines__gt=MOST_EVENTS + EVENTS_TO_SPARE)
     for device_id, _ in counts:
         _forget_old(device_id)
+
+
+def _damped(lines: Sequence[DeviceEvent]) -> list[DeviceEvent]:
+    """Leave out lines by which a device would push its other history out: ten within ten minutes are kept.
+
+    The tenth says that there may be more.
+    """
+    spoken = {line.device_id for line in lines if _is_damped(line)}
+    if not spoken:
+        return list(lines)
+    since = max(line.at for line in lines) - DAMPED_FOR
+    lately = DeviceEvent.objects.filter(device__in=spoken, at__gt=since, kind__in=DAMPED, by=None).order_by()
+    counts = Counter(dict(lately.values_list("device").annotate(lines=Count("pk"))))
+    kept = []
+    for line in lines:
+        counts[line.device_id] += _is_damped(line)
+        if not _is_damped(line) or counts[line.device_id] < MOST_DAMPED:
+            kept.append(line)
+        elif counts[line.device_id] == MOST_DAMPED:
+            kept.append(line_of_history(line.device, line.at, "described", history_text("described_often")))
+    return kept
+
+
+def _is_damped(line: DeviceEvent) -> bool:
+    return line.kind in DAMPED and line.by_id is None
 
 
 def _forget_old(device_id: str) -> None:

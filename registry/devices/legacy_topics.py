@@ -1,13 +1,14 @@
 """Legacy topics: what devices ask for, and what an admin confirms or withdraws.
 
-A topic belongs to the first device that asks for it, at whatever site, until that device describes itself without it
-or is taken out. Nothing is sent there before an admin has confirmed exactly this topic for exactly this device. The
-broker learns of a decision within the same transaction; when it does not answer, nothing is decided.
+A topic belongs to the first device that asks for it, at the site that may name it, until that device describes itself
+without it or is taken out. Nothing is sent there before an admin has confirmed exactly this topic for exactly this
+device. The broker learns of a decision within the same transaction; when it does not answer, nothing is decided.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from datetime import datetime
 
 from django.db import transaction
@@ -18,6 +19,7 @@ from registry.devices.rows import announce, lock_device
 from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.models import Device, TopicClaim, User
+from registry.sites.namespaces import OF_TOPICS, may_name
 from vipo_device.protocol.description import Description, description_from_json
 from vipo_device.protocol.faults import refusal_facts
 from vipo_device.protocol.topics import list_legacy_methods
@@ -53,13 +55,24 @@ def claim_topics(device: Device, before: Description | None, after: Description,
 
 
 def _ask(device: Device, method: str, topic: str, at: datetime) -> None:
+    if _claim(device, method, topic, at):
+        write_event(device, at, "topic_asked", history_text("topic_asked", topic=topic, method=method))
+
+
+def _claim(device: Device, method: str, topic: str, at: datetime) -> bool:
+    """Let a topic be the device's and tell whether that is new.
+
+    Raises TopicTaken, in the same words whether the topic is another site's or could be.
+    """
+    claim = TopicClaim.objects.filter(pk=topic).select_related("device").first()
+    if claim.device.site_id != device.site_id if claim else not may_name(device.site, topic, OF_TOPICS):
+        raise TopicTaken(*refusal_facts("topic_of_site", method=method, topic=topic, site=device.site.slug))
     claim, made = TopicClaim.objects.get_or_create(
         topic=topic, defaults={"device": device, "method": method, "asked_at": at}
     )
     if claim.device_id != device.pk:
         raise TopicTaken(*refusal_facts("topic_taken", method=method, topic=topic))
-    if made:
-        write_event(device, at, "topic_asked", history_text("topic_asked", topic=topic, method=method))
+    return made
 
 
 def _give_up(device: Device, gone: Mapping[str, str], at: datetime) -> None:
@@ -76,7 +89,7 @@ def _grant(device: Device, granted: Mapping[str, str]) -> None:
     device.granted = dict(granted)
     device.save(update_fields=["granted"])
     if device.broker_hash:
-        accounts().allow(device.pk, tuple(sorted(granted.values())))
+        accounts().allow(device.pk, device.site.slug, tuple(sorted(granted.values())))
 
 
 def release_topics(device: Device, at: datetime) -> None:
@@ -91,9 +104,8 @@ def release_topics(device: Device, at: datetime) -> None:
 def claim_again(device: Device, at: datetime) -> None:
     """Let a device that may come back ask for what its description names, save what others have taken meanwhile."""
     for method in list_legacy_methods(description_from_json(device.description or {})):
-        TopicClaim.objects.get_or_create(
-            topic=method.topic, defaults={"device": device, "method": method.name, "asked_at": at}
-        )
+        with suppress(TopicTaken):
+            _claim(device, method.name, method.topic, at)
 
 
 def confirm_topic(*, site: str, device_id: str, topic: str, by: User | None, at: datetime) -> DeviceView:
@@ -107,11 +119,7 @@ def confirm_topic(*, site: str, device_id: str, topic: str, by: User | None, at:
         method = next((m for m in before.asks if m.topic == topic), None)
         if method is None or device.lifecycle != Device.Lifecycle.APPROVED:
             raise TopicNotAsked(_why_not(before, topic))
-        claim, _ = TopicClaim.objects.get_or_create(
-            topic=topic, defaults={"device": device, "method": method.name, "asked_at": at}
-        )
-        if claim.device_id != device_id:
-            raise TopicTaken(f"Another device asks for the topic {topic} or has it. Only one may be told on it.")
+        _claim(device, method.name, topic, at)
         TopicClaim.objects.filter(pk=topic).update(confirmed_at=at, confirmed_by=by)
         write_event(device, at, "topic_confirmed", history_text("topic_confirmed", topic=topic, method=method.name), by)
         _grant(device, {**device.granted, method.name: topic})

@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import re
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import cos, isfinite, pi, sin
 from typing import Any
@@ -26,9 +27,16 @@ MAX_SIDE = 4096
 MAX_IMAGE_BYTES = 16 * 1024 * 1024
 MAX_YAML_BYTES = 64 * 1024
 MAX_BRACKETS = 64
+BAND_ROWS, PIECE_BYTES = 256, 1 << 18
+"""An image is worked on in bands, its text in pieces: beside the cells themselves, little is held at a time."""
+MOST_COMMENTS = 1000
+_DIGITS_AND_SPACE = b"0123456789 \t\r\n\v\f"
 _PIXELS = {OCCUPIED: 0, FREE: 254, UNKNOWN: 205}
 Cells = NDArray[np.uint8]
 Shades = NDArray[np.float32]
+Band = tuple[Shades, Shades | None]
+"""Some rows of an image: lightness 0..1 and, where it has alpha, opacity 0..1; top row first."""
+Bands = Iterator[Band]
 
 
 class BadMap(RegistryError):
@@ -58,9 +66,13 @@ def read_map(yaml_bytes: bytes, image_bytes: bytes | None) -> Grid:
         raise BadMap(f"The map's image {header.image!r} is missing. Choose it together with the .yaml file.")
     if len(image_bytes) > MAX_IMAGE_BYTES:
         raise BadMap("The map's image is larger than 16 MB. Crop it or save it with a coarser resolution.")
-    lightness, alpha = _read_image(image_bytes)
-    cells = np.flipud(_classify(lightness, alpha, header))
-    return _upright(np.ascontiguousarray(cells), header)
+    (height, width), bands = _read_image(image_bytes)
+    cells, bottom = np.empty((height, width), dtype=np.uint8), height
+    for lightness, alpha in bands:
+        top = bottom - lightness.shape[0]
+        cells[top:bottom] = np.flipud(_classify(lightness, alpha, header))
+        bottom = top
+    return _upright(cells, header)
 
 
 def read_header(yaml_bytes: bytes) -> Header:
@@ -81,8 +93,20 @@ def read_header(yaml_bytes: bytes) -> Header:
     return Header(image.strip(), resolution, _origin(fields), _negate(fields), occupied, free, mode)
 
 
+def _without_sixties(pattern: re.Pattern[str]) -> re.Pattern[str]:
+    return re.compile(rf"(?![-+]?[0-9][0-9_]*(?::[0-9]))(?:{pattern.pattern})", pattern.flags)
+
+
 class _PlainLoader(yaml.SafeLoader):
-    """SafeLoader without anchors: a few aliases can stand for gigabytes."""
+    """SafeLoader without anchors, of which a few can stand for gigabytes, and without numbers to the base of sixty.
+
+    ROS reads `1:30` as a text (YAML 1.2), YAML 1.1 as 90: here it is a text, and so no resolution.
+    """
+
+    yaml_implicit_resolvers = {
+        first: [(tag, _without_sixties(pattern)) for tag, pattern in resolvers]
+        for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
+    }
 
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
         if self.check_event(yaml.AliasEvent):
@@ -137,10 +161,10 @@ def _negate(fields: dict[str, Any]) -> bool:
     return bool(int(value))
 
 
-def _read_image(data: bytes) -> tuple[Shades, Shades | None]:
-    """Return lightness 0..1 and, for images with alpha, opacity 0..1; top row first."""
+def _read_image(data: bytes) -> tuple[tuple[int, int], Bands]:
+    """Return height and width, and the image's bands from the top; the size is looked at before anything is decoded."""
     if data[:2] in (b"P2", b"P5"):
-        return _read_pgm(data), None
+        return _read_pgm(data)
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise BadMap("The map's image is neither PGM (P2, P5) nor PNG. Save it as one of them.")
     try:
@@ -148,12 +172,15 @@ def _read_image(data: bytes) -> tuple[Shades, Shades | None]:
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             image = Image.open(io.BytesIO(data), formats=["PNG"])
             check_size(*image.size)
-            return _lightness(image)
+            image.load()
     except (UnidentifiedImageError, OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise BadMap("The map's PNG image is damaged. Export it again.") from error
+    width, height = image.size
+    tops = range(0, height, BAND_ROWS)
+    return (height, width), (_lightness(image.crop((0, y, width, min(y + BAND_ROWS, height)))) for y in tops)
 
 
-def _lightness(image: Image.Image) -> tuple[Shades, Shades | None]:
+def _lightness(image: Image.Image) -> Band:
     if image.mode.startswith(("I", "F")):
         deep = np.asarray(image, dtype=np.float32)
         return np.clip(deep / np.float32(65535), 0.0, 1.0), None
@@ -173,18 +200,23 @@ def check_size(width: int, height: int) -> None:
         )
 
 
-def _read_pgm(data: bytes) -> Shades:
-    tokens, start = _pgm_tokens(data)
-    width, height, maximum = tokens
+def _read_pgm(data: bytes) -> tuple[tuple[int, int], Bands]:
+    (width, height, maximum), start = _pgm_tokens(data)
     check_size(width, height)
     if not 1 <= maximum <= 65535:
         raise BadMap(f"The PGM's largest value is {maximum}. It must lie between 1 and 65535.")
-    values = _pgm_text(data[start:]) if data[:2] == b"P2" else _pgm_binary(data[start:], maximum)
-    if values.size < width * height:
-        raise BadMap(f"The PGM ends early: {values.size} of {width * height} cells. Copy the whole file again.")
-    pixels = values[: width * height].reshape(height, width).astype(np.float32)
-    pixels /= np.float32(maximum)
-    return np.minimum(pixels, np.float32(1), dtype=np.float32)
+    count = width * height
+    values = _pgm_text(data, start, count) if data[:2] == b"P2" else _pgm_binary(data, start, maximum, count)
+    if values.size < count:
+        raise BadMap(f"The PGM ends early: {values.size} of {count} cells. Copy the whole file again.")
+    pixels = values.reshape(height, width)
+    return (height, width), (_shades(pixels[y : y + BAND_ROWS], maximum) for y in range(0, height, BAND_ROWS))
+
+
+def _shades(values: NDArray[Any], maximum: int) -> Band:
+    shades = values.astype(np.float32)
+    shades /= np.float32(maximum)
+    return np.minimum(shades, np.float32(1), dtype=np.float32), None
 
 
 _NUMBER = re.compile(rb"\s*(?:#[^\n]*\n\s*)*(\d{1,9})(?=[\s#])")
@@ -204,18 +236,43 @@ def _pgm_tokens(data: bytes) -> tuple[list[int], int]:
     return tokens, (comment.end() if comment else position) + 1
 
 
-def _pgm_text(body: bytes) -> NDArray[np.int64]:
-    words = re.sub(rb"#[^\n]*", b"", body).split()
-    try:
-        return np.array(words, dtype="S9").astype(np.int64) if words else np.zeros(0, dtype=np.int64)
-    except (ValueError, OverflowError) as error:
-        raise BadMap("The PGM holds something that is not a number. Save the map again.") from error
+def _pgm_text(data: bytes, start: int, count: int) -> NDArray[np.uint16]:
+    """Return the first `count` numbers of a text, or as many as there are; a piece at a time is taken apart."""
+    if data.count(b"#") > MOST_COMMENTS:
+        raise BadMap(f"The PGM has more than {MOST_COMMENTS} comments. Save the map again, as P5 if you can.")
+    values, filled = np.empty(count, dtype=np.uint16), 0
+    while filled < count and start < len(data):
+        words, start = _next_words(data, start)
+        if words.translate(None, _DIGITS_AND_SPACE):
+            raise BadMap("The PGM holds something that is not a number. Save the map again.")
+        if not words or words.isspace():
+            continue
+        found = np.fromstring(words, dtype=np.int64, sep=" ")[: count - filled]
+        values[filled : filled + found.size] = np.minimum(found, 65535)
+        filled += found.size
+    return values[:filled]
 
 
-def _pgm_binary(body: bytes, maximum: int) -> NDArray[np.uint16]:
+def _next_words(data: bytes, start: int) -> tuple[bytes, int]:
+    """Return the text from `start` on up to a comment, or whole words of a piece of it, and where to go on."""
+    end = start + PIECE_BYTES
+    comment = data.find(b"#", start, end)
+    if comment >= 0:
+        line_end = data.find(b"\n", comment)
+        return data[start:comment], line_end + 1 if line_end >= 0 else len(data)
+    piece = data[start:end]
+    if end >= len(data):
+        return piece, len(data)
+    whole = max(piece.rfind(space) for space in (b" ", b"\n", b"\t", b"\r"))
+    if whole < 0:
+        raise BadMap("The PGM holds something that is not a number. Save the map again.")
+    return piece[:whole], start + whole
+
+
+def _pgm_binary(data: bytes, start: int, maximum: int, count: int) -> NDArray[Any]:
     kind = np.dtype(">u2") if maximum > 255 else np.dtype("u1")
-    whole = len(body) // kind.itemsize * kind.itemsize
-    return np.frombuffer(body[:whole], dtype=kind).astype(np.uint16)
+    there = max(0, len(data) - start) // kind.itemsize
+    return np.frombuffer(data, dtype=kind, count=min(count, there), offset=min(start, len(data)))
 
 
 def _classify(lightness: Shades, alpha: Shades | None, header: Header) -> Cells:
@@ -248,13 +305,15 @@ def _upright(cells: Cells, header: Header) -> Grid:
     ys = [y + a * turn_y + b * turn_x for a, b in corners]
     new_width, new_height = (int(np.ceil(round((max(v) - min(v)) / side, 6))) for v in (xs, ys))
     check_size(new_width, new_height)
-    right = min(xs) + (np.arange(new_width)[None, :] + 0.5) * side - x
-    up = min(ys) + (np.arange(new_height)[:, None] + 0.5) * side - y
-    columns = np.floor((right * turn_x + up * turn_y) / side).astype(np.int64)
-    rows = np.floor((up * turn_x - right * turn_y) / side).astype(np.int64)
-    inside = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height)
     upright = np.full((new_height, new_width), UNKNOWN, dtype=np.uint8)
-    upright[inside] = cells[rows[inside], columns[inside]]
+    right = min(xs) + (np.arange(new_width)[None, :] + 0.5) * side - x
+    for top in range(0, new_height, BAND_ROWS):
+        band = upright[top : top + BAND_ROWS]
+        up = min(ys) + (np.arange(top, top + band.shape[0])[:, None] + 0.5) * side - y
+        columns = np.floor((right * turn_x + up * turn_y) / side).astype(np.int64)
+        rows = np.floor((up * turn_x - right * turn_y) / side).astype(np.int64)
+        inside = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height)
+        band[inside] = cells[rows[inside], columns[inside]]
     return Grid(new_width, new_height, side, min(xs), min(ys), upright.tobytes())
 
 

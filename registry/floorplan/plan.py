@@ -16,6 +16,7 @@ from vipo_device.protocol.description import Description, Pose
 FREE, OCCUPIED, UNKNOWN = 0, 100, 255
 STATION_GAP_M = 0.15
 COMFORT_M = 0.3
+MOST_RUNS = 50_000
 Box = tuple[float, float, float, float]
 Corners = tuple[tuple[float, float], ...]
 
@@ -61,15 +62,37 @@ def clearance_m(grid: Grid) -> NDArray[np.float64]:
 
 
 def wall_boxes(grid: Grid) -> tuple[Box, ...]:
-    """Return rectangles (x1, y1, x2, y2) in metres that together cover the occupied cells exactly, none twice."""
-    occupied = cells_array(grid) == OCCUPIED
-    by_rows = _merged_runs(occupied)
-    by_columns = [(c1, r1, c2, r2) for r1, c1, r2, c2 in _merged_runs(occupied.T)]
-    return tuple(_box_m(grid, cells) for cells in min(by_rows, by_columns, key=len))
+    """Return rectangles (x1, y1, x2, y2) in metres that together cover the occupied cells exactly, none twice.
+
+    A map that is speckled all over is covered by larger cells, so that there are never more than 50,000 rectangles.
+    """
+    occupied, scale = cells_array(grid) == OCCUPIED, 1
+    while min(runs := (_count_runs(occupied), _count_runs(occupied.T))) > MOST_RUNS:
+        occupied, scale = _halved(occupied), 2 * scale
+    covers = []
+    if runs[0] <= MOST_RUNS:
+        covers.append(_merged_runs(occupied))
+    if runs[1] <= MOST_RUNS:
+        covers.append([(c1, r1, c2, r2) for r1, c1, r2, c2 in _merged_runs(occupied.T)])
+    return tuple(_box_m(grid, cells, scale) for cells in min(covers, key=len))
 
 
-def _box_m(grid: Grid, cells: tuple[int, int, int, int]) -> Box:
-    row1, column1, row2, column2 = cells
+def _count_runs(occupied: NDArray[np.bool_]) -> int:
+    """Return how many runs of occupied cells the rows have, without looking at each."""
+    return int(np.count_nonzero(occupied[:, 0]) + np.count_nonzero(occupied[:, 1:] & ~occupied[:, :-1]))
+
+
+def _halved(occupied: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return a grid of half the size; a cell is occupied where any of its four was."""
+    height, width = occupied.shape
+    even = np.pad(occupied, ((0, height % 2), (0, width % 2)))
+    halved: NDArray[np.bool_] = even[::2, ::2] | even[1::2, ::2] | even[::2, 1::2] | even[1::2, 1::2]
+    return halved
+
+
+def _box_m(grid: Grid, cells: tuple[int, int, int, int], scale: int) -> Box:
+    row1, column1, row2, column2 = (scale * side for side in cells)
+    row2, column2 = min(row2, grid.height), min(column2, grid.width)
     side, left, bottom = grid.resolution_m, grid.origin_x_m, grid.origin_y_m
     return (
         round(left + column1 * side, 4),

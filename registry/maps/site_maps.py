@@ -8,10 +8,10 @@ from __future__ import annotations
 import zlib
 from dataclasses import dataclass
 from datetime import datetime
-from functools import lru_cache
 
 from django.db import models, transaction
 
+from registry.bounds.places import Claim, Places
 from registry.devices.queries import list_devices
 from registry.devices.views import effective_description
 from registry.errors import RegistryError
@@ -19,13 +19,30 @@ from registry.floorplan.comparison import MapDifference, NamedPoint, compare_map
 from registry.floorplan.map_server import check_size, read_map
 from registry.floorplan.plan import Box, FloorPlan, Grid, wall_boxes
 from registry.live.fanout import publish
+from registry.maps.kept_work import KeptWork
 from registry.maps.robot_maps import get_robot_map
 from registry.models import Device, Site, SiteMap, User
+from registry.sites.quota import lock_site_quota, require_site_quota
 from registry.sites.sites import create_site, find_site, get_site, list_places
 from registry.sites.views import SiteView
 from vipo_device.protocol.description import Description
 
 MOST_VERSIONS = 50
+MOST_KEPT_CELLS = 20_000_000
+"""Of each kind of work; a floor takes about twenty bytes for each cell, the others one."""
+READING_PATIENCE_S = 5.0
+_grids: KeptWork[Grid] = KeptWork(MOST_KEPT_CELLS)
+_walls: KeptWork[tuple[Box, ...]] = KeptWork(MOST_KEPT_CELLS)
+_floors: KeptWork[FloorPlan] = KeptWork(MOST_KEPT_CELLS)
+reading_places = Places(in_all=2, of_site=2, of_person=1, most_waiting=1)
+"""Maps that are read at once."""
+
+
+class TooManyUploads(RegistryError):
+    """This process reads as many maps as it may, in all or of this person."""
+
+    code = "too_many_uploads"
+    status = 429
 
 
 class NoMap(RegistryError):
@@ -124,12 +141,27 @@ def restore_map(*, site: str, version: int, replaces: int, by: User) -> MapView:
 
 
 def create_site_from_map(*, name: str, yaml: bytes, image: bytes | None, admin: User) -> SiteView:
-    """Make a site from a ROS map; nothing is made when the map cannot be read. Raises BadMap, BadName."""
-    grid = read_map(yaml, image)
+    """Make a site from a ROS map; nothing is made when the map cannot be read.
+
+    Raises BadMap, BadName, MayNotCreateSites, SiteQuotaReached, TooManyUploads.
+    """
+    require_site_quota(admin)
+    grid = _read_in_turn(yaml, image, Claim(admin.pk))
     with transaction.atomic():
+        lock_site_quota(admin)
         view = create_site(name=name, admin=admin)
         save_map(site=view.slug, grid=grid, source="upload", by=admin)
     return get_site(site=view.slug, role=view.role)
+
+
+def _read_in_turn(yaml: bytes, image: bytes | None, claim: Claim) -> Grid:
+    """Read a map, two at once in this process and one of a person. Raises BadMap, TooManyUploads."""
+    if not reading_places.take(claim, patience_s=READING_PATIENCE_S):
+        raise TooManyUploads("Other maps are being read, yours or others'. Try again in a moment.")
+    try:
+        return read_map(yaml, image)
+    finally:
+        reading_places.give_back(claim)
 
 
 def save_map(
@@ -172,17 +204,23 @@ def get_map(*, site: str) -> MapView:
     return MapView(site, latest[1], _grid(latest[0], latest[2]))
 
 
-@lru_cache(maxsize=8)
 def _grid(map_id: int, created_at: datetime) -> Grid:
     """Unpack a map once in each process: it never changes; the time tells apart rows that were given the same key."""
+    return _grids.get((map_id, created_at), lambda: _unpack(map_id), _cells_of)
+
+
+def _unpack(map_id: int) -> Grid:
     row = SiteMap.objects.get(pk=map_id)
     return Grid(row.width, row.height, row.resolution_m, row.origin_x_m, row.origin_y_m, row.cells)
 
 
-@lru_cache(maxsize=8)
+def _cells_of(grid: Grid) -> int:
+    return grid.width * grid.height
+
+
 def get_walls(grid: Grid) -> tuple[Box, ...]:
     """Return the walls of a grid as boxes, worked out once."""
-    return wall_boxes(grid)
+    return _walls.get(grid, lambda: wall_boxes(grid), lambda _walls: _cells_of(grid))
 
 
 def get_floor_plan(*, site: str) -> FloorPlan:
@@ -192,6 +230,5 @@ def get_floor_plan(*, site: str) -> FloorPlan:
     return _floor(get_map(site=site).grid, tuple(d for d in described if d.kind == "machine"))
 
 
-@lru_cache(maxsize=8)
 def _floor(grid: Grid, machines: tuple[Description, ...]) -> FloorPlan:
-    return FloorPlan(grid, machines)
+    return _floors.get((grid, machines), lambda: FloorPlan(grid, machines), lambda floor: _cells_of(floor.grid))

@@ -35,12 +35,13 @@ class UserManager(BaseUserManager["User"]):
 
 
 class User(AbstractBaseUser):
-    """A person; signs in by e-mail."""
+    """A person; signs in by e-mail, and may make so many sites as `site_quota` says."""
 
     email = models.EmailField(unique=True)
     display_name = models.CharField(max_length=100)
     initials = models.CharField(max_length=4)
     is_active = models.BooleanField(default=True)
+    site_quota = models.PositiveSmallIntegerField(default=0)
     created_at = models.DateTimeField(auto_now_add=True)
 
     grant: Grant | None = None

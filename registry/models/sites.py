@@ -19,6 +19,7 @@ class Site(models.Model):
     stop_active = models.BooleanField(default=False)
     stop_by = models.CharField(max_length=100, blank=True)
     stop_at = models.DateTimeField(null=True)
+    made_by = models.ForeignKey(User, null=True, on_delete=models.SET_NULL, related_name="+")
     created_at = models.DateTimeField(auto_now_add=True)
 
     def __str__(self) -> str:

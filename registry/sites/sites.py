@@ -17,6 +17,7 @@ from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Device, Membership, Place, Site, SiteMap, User
 from registry.people.access import ROLES, NotAMember, access_of, list_memberships
+from registry.sites.namespaces import is_in_use
 from registry.sites.views import PlaceView, SiteView, StopView
 from vipo_device.protocol.credentials import broker_hash, secret_hash
 from vipo_device.protocol.texts import find_unfit, normal
@@ -100,19 +101,21 @@ def create_site(*, name: str, admin: User | None = None, slug: str = "") -> Site
     if not 1 <= len(name) <= 100 or find_unfit(name, is_line=True):
         raise BadName("A site needs a name of 1 to 100 characters that can be printed.")
     with transaction.atomic():
-        site = _new_site(name, slug or slugify(name)[:50] or "site", exact=bool(slug))
+        site = _new_site(name, slug or slugify(name)[:50] or "site", admin, exact=bool(slug))
         if admin:
             Membership.objects.create(site=site, user=admin, role=Membership.Role.ADMIN)
     return _site_view(site, Membership.Role.ADMIN if admin else "")
 
 
-def _new_site(name: str, slug: str, *, exact: bool) -> Site:
+def _new_site(name: str, slug: str, made_by: User | None, *, exact: bool) -> Site:
     """Insert under the first free slug; another request may take one between looking and inserting."""
     for number in range(1, 1000):
         wanted = slug if number == 1 else f"{slug}-{number}"
+        if not exact and is_in_use(wanted):
+            continue
         try:
             with transaction.atomic():
-                return Site.objects.create(name=name, slug=wanted)
+                return Site.objects.create(name=name, slug=wanted, made_by=made_by)
         except IntegrityError:
             if exact:
                 raise BadName(f"There is already a site {slug!r}. Choose another name.") from None

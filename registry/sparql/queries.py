@@ -6,13 +6,13 @@ import json
 import signal
 import subprocess
 import sys
-import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from django.conf import settings
 
+from registry.bounds.places import Claim, Places
 from registry.devices.queries import list_devices
 from registry.devices.views import DeviceView
 from registry.errors import RegistryError
@@ -22,11 +22,11 @@ CPU_S = 5
 WALL_S = 30.0
 MEMORY_BYTES = 1024 * 1024 * 1024
 MOST_QUERY_CHARACTERS = 16_384
-AT_ONCE = 2
-PATIENCE_S = 5.0
+PATIENCE_S = 10.0
 ANSWERED, REFUSED, TOO_LARGE = 0, 3, 4
 """The exit codes of registry/sparql/engine.py, which is never imported here: rdflib stays out of the server."""
-_slots = threading.BoundedSemaphore(AT_ONCE)
+_places = Places(in_all=2, of_site=1, of_person=1, most_waiting=2)
+"""So a site with many questions leaves one of the two places to the others."""
 
 
 class BadQuery(RegistryError):
@@ -58,26 +58,27 @@ class QueryAnswer:
     body: bytes
 
 
-def run_query(*, site: str, query: str, forms: Sequence[str] = ()) -> QueryAnswer:
-    """Answer a query over a site's devices in the first form that can hold the result, or (none given) in any.
+def run_query(*, site: str, query: str, forms: Sequence[str] = (), person: int = 0) -> QueryAnswer:
+    """Answer a person's query over a site's devices in the first form that can hold the result, or (none given) in any.
 
     Forms are `json`, `xml`, `csv`, `turtle`, `n-triples` and `json-ld`.
 
     Raises:
         BadQuery: it is no query, reaches out of the site, or cannot be answered in these forms.
         QueryTooLarge: it took too long or too much memory, or its result is too large.
-        TooManyQueries: two others are under way.
+        TooManyQueries: others are under way, of this person, at this site, or in all.
     """
     if not query.strip() or len(query) > MOST_QUERY_CHARACTERS:
         raise BadQuery(f"A query has 1 to {MOST_QUERY_CHARACTERS} characters. Give it as `query`.")
     devices = [_device(view) for view in list_devices(site=site)]
     job = {"query": query, "forms": list(forms), "devices": devices, "cpu_s": CPU_S, "memory_bytes": MEMORY_BYTES}
-    if not _slots.acquire(timeout=PATIENCE_S):
+    claim = Claim(person, site)
+    if not _places.take(claim, patience_s=PATIENCE_S):
         raise TooManyQueries("Other queries are still being answered. Try again in a moment.")
     try:
         code, output = _run(json.dumps(job).encode())
     finally:
-        _slots.release()
+        _places.give_back(claim)
     return _read(code, output)
 
 

@@ -17,7 +17,7 @@ from registry.devices.things import read_patch, thing_tag, thing_text
 from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.models import User
-from registry.people.access import require
+from registry.people.access import Access, require
 from registry.people.sessions import session_of
 from registry.thing_directory.event_stream import Listener, check_room, stream_events
 
@@ -41,6 +41,11 @@ class Changed(RegistryError):
 def sends(media_type: str) -> dict[str, Any]:
     """Say in the OpenAPI file that a call answers in this media type."""
     return {"responses": {200: {"content": {media_type: {"schema": {"type": "object"}}}}}}
+
+
+def may_see_thing(access: Access, view: DeviceView) -> bool:
+    """Tell whether a member may read a Thing by its id; one that waits for approval is for admins, who decide on it."""
+    return view.lifecycle == "approved" or (view.lifecycle == "pending" and access.allows("admin"))
 
 
 def answer_thing(request: HttpRequest, view: DeviceView) -> HttpResponse:

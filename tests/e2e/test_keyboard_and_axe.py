@@ -88,7 +88,7 @@ def screens(page: Page, things: dict[str, str]) -> list[Screen]:
         Screen("library", f"{site}/library", "main li, main section p"),
         Screen("runs", f"{site}/runs", "tbody tr"),
         Screen("map", f"{site}/map", "main canvas"),
-        Screen("a new site", "/sites/new", "form"),
+        Screen("a new site", "/sites/new", "main form, main p"),
         Screen("paint order", things["paint order"], "[data-shape]"),
         Screen("empty program", things["empty"], ".react-flow__node"),
         Screen("program", things["errand"], "[data-shape]"),

@@ -56,7 +56,7 @@ def choose(page: Page, parent: Path, header: str, image: str, body: bytes) -> No
 @pytest.mark.parametrize(("image", "encode"), [("hall.pgm", pgm), ("hall.png", png)])
 def test_a_ros_map_becomes_a_site(sign_in: SignIn, tmp_path: Path, image: str, encode: object) -> None:
     assert callable(encode)
-    page = sign_in("author", "/sites/new")
+    page = sign_in("admin", "/sites/new")
     choose(page, tmp_path, HEADER.format(image=image), image, encode(hall()))
     expect(page.get_by_role("img", name="Preview of the map")).to_be_visible()
     name = page.get_by_label("Name of the site")
@@ -76,7 +76,7 @@ def test_a_ros_map_becomes_a_site(sign_in: SignIn, tmp_path: Path, image: str, e
 def test_a_broken_map_is_explained_at_the_field_and_can_be_mended(
     sign_in: SignIn, tmp_path: Path, faults: list[str]
 ) -> None:
-    page = sign_in("author", "/sites/new")
+    page = sign_in("admin", "/sites/new")
     choose(page, tmp_path, HEADER.format(image="hall.pgm"), "hall.pgm", pgm(hall())[:-900])
     page.get_by_role("button", name="Create the site").click()
     problem = page.get_by_role("main").get_by_role("alert")

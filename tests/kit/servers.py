@@ -19,7 +19,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from registry.broker.mosquitto_file import account_file
+from registry.broker.mosquitto_file import EVERY_SITE, account_file
 from tests.kit.files import ROOT
 from tests.kit.waiting import wait_for
 from vipo_device.protocol.credentials import broker_hash
@@ -253,7 +253,8 @@ def write_mosquitto_files(server: Mosquitto) -> None:
     """Write the configuration with this test's paths and ports, and the files that it names."""
     folder = server.folder
     hashes = {name: broker_hash(word) for name, word in server.accounts.items()}
-    (folder / "dynamic-security.json").write_text(account_file(hashes, server="server"))
+    accounts = account_file(hashes, dict.fromkeys(hashes, EVERY_SITE), server="server")
+    (folder / "dynamic-security.json").write_text(accounts)
     text = (ROOT / "deploy" / "mosquitto" / "mosquitto.conf").read_text()
     for old, new in {
         "/usr/lib/mosquitto_dynamic_security.so": find_plugin(),

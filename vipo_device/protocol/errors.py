@@ -9,11 +9,13 @@ from typing import Any
 class VipoError(Exception):
     """A refusal: `code` for machines, `status` for HTTP, the message says what is wrong and how to mend it.
 
-    `facts` are what a screen says it from in another language.
+    `retry_after_s` says when to come again, where load was why (429, 503). `facts` are what a screen says it from in
+    another language.
     """
 
     code = "refused"
     status = 400
+    retry_after_s = 5
 
     def __init__(self, detail: str, facts: Mapping[str, Any] | None = None) -> None:
         super().__init__(detail)

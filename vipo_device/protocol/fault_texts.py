@@ -251,6 +251,14 @@ _JOINING: Mapping[str, str] = {
         "Its method {method} names the topic {topic}, which another device asks for or has. Use a topic of its own, or "
         "let an admin take the other device out."
     ),
+    "topic_of_site": (
+        "Its method {method} names the topic {topic}. Several sites share this server: new topics of this one begin "
+        "with {site}/, such as {site}/{topic}."
+    ),
+    "id_of_site": (
+        "{device} cannot be a new id here. Several sites share this server: new ids of this one begin with {site}., "
+        "such as {site}.{device}."
+    ),
     "no_site": "There is no site {site!r} that the device could join, and no default site.",
     "device_id": "A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server', '.' or '..'.",
     "knock_key": "A knock needs `key`: {least} to {most} printable ASCII characters, made at random.",

@@ -8,6 +8,7 @@ import secrets
 from vipo_site.cli.terminal import CLEAN, complain, set_up, write
 
 ACCOUNT = "Let somebody sign in, or a program, and give them a role at a site; a new password is printed this once."
+NOTHING = "Name what to change: --site with --role, --sites, or --new-password."
 ROLES = ("viewer", "operator", "author", "admin", "none")
 
 
@@ -17,6 +18,7 @@ def add_account_arguments(sub: argparse.ArgumentParser) -> None:
     sub.add_argument("--name", default="", help="how others see them (a new account: what stands before the @)")
     sub.add_argument("--site", default="", help="make them a member of this site")
     sub.add_argument("--role", choices=ROLES, default="viewer", help="what they may do there (viewer); none: no more")
+    sub.add_argument("--sites", type=int, help="how many sites they may make in all (0: none)")
     sub.add_argument("--new-password", action="store_true", help="another password; who is signed in is signed out")
     sub.set_defaults(run=set_account)
 
@@ -50,6 +52,9 @@ def _decide(options: argparse.Namespace) -> list[str]:
     elif options.new_password:
         services.change_password(email=email, password=password)
         told = [f"The new password of {email}, shown this once: {password}"]
+    if options.sites is not None:
+        services.set_site_quota(email=email, sites=options.sites)
+        told.append(f"{email} may make {options.sites} sites in all.")
     if options.site and options.role == "none":
         services.get_site(site=options.site)
         services.remove_member(site=options.site, email=email)
@@ -57,4 +62,4 @@ def _decide(options: argparse.Namespace) -> list[str]:
     elif options.site:
         services.set_member(site=options.site, email=email, role=options.role)
         told.append(f"{email} is {options.role} of {options.site}.")
-    return told or [f"{email} may sign in already. Name what to change: --site with --role, or --new-password."]
+    return told or [f"{email} may sign in already. {NOTHING}"]

@@ -23,13 +23,16 @@ ENROLMENT = "join:"
 LOOK_EVERY_S = 2.0
 _ENROL = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
 _STOP = re.compile(r"vipo/v1/site/[^/#]+/stop")
+EVERY_SITE = "+"
+"""In the place of a site, where there is no registry that could say which one is somebody's."""
 
 
 class Admitted(NamedTuple):
-    """Somebody who may come in: the hash of their own key (empty with an enrolment key), and their legacy topics."""
+    """Somebody who may come in: the hash of their own key (empty with an enrolment key), legacy topics, and site."""
 
     key: str = ""
     topics: frozenset[str] = frozenset()
+    site: str = ""
 
 
 class AccessControl(Protocol):
@@ -56,7 +59,7 @@ class PasswordAccess:
 
     def admit(self, username: str, password: str) -> Admitted | None:
         """See AccessControl."""
-        return Admitted() if self._check_password(username, password) else None
+        return Admitted(site=EVERY_SITE) if self._check_password(username, password) else None
 
     def find_ended(self, _logins: Mapping[str, Login]) -> frozenset[str]:
         """See AccessControl."""
@@ -80,7 +83,7 @@ class RegistryAccess:
         close_old_connections()
         try:
             found = services.check_device_password(username=username, password=password)
-            return Admitted(found.key, found.topics) if found else None
+            return Admitted(found.key, found.topics, found.site) if found else None
         finally:
             close_old_connections()
 
@@ -121,8 +124,8 @@ def may_publish(username: str, topic: str) -> bool:
     return topic.startswith(f"vipo/v1/dev/{username}/up/") and not {"+", "#"} & set(topic)
 
 
-def may_subscribe(username: str, topic_filter: str, topics: Collection[str] = ()) -> bool:
-    """Say whether somebody may ask for a filter: a device its own `down/`, sites' stops and the server's births.
+def may_subscribe(username: str, topic_filter: str, site: str, topics: Collection[str] = ()) -> bool:
+    """Say whether somebody may ask for a filter: a device its own `down/`, its site's stop and the server's births.
 
     `topics` are the legacy ones that an admin has confirmed for it.
     """
@@ -130,4 +133,5 @@ def may_subscribe(username: str, topic_filter: str, topics: Collection[str] = ()
         return False
     if topic_filter.startswith(f"vipo/v1/dev/{username}/down/") or topic_filter in topics:
         return True
-    return _STOP.fullmatch(topic_filter) is not None or topic_filter == "vipo/v1/srv/status"
+    is_stop = _STOP.fullmatch(topic_filter) and (site == EVERY_SITE or topic_filter == f"vipo/v1/site/{site}/stop")
+    return bool(is_stop) or topic_filter == "vipo/v1/srv/status"

@@ -21,11 +21,12 @@ from typing import TYPE_CHECKING, Any
 
 from amqtt.adapters import BufferReader
 from amqtt.errors import MQTTError
-from amqtt.mqtt.connack import NOT_AUTHORIZED, UNACCEPTABLE_PROTOCOL_VERSION
+from amqtt.mqtt.connack import NOT_AUTHORIZED, SERVER_UNAVAILABLE, UNACCEPTABLE_PROTOCOL_VERSION
 from django.db import DatabaseError
 
 from vipo_device.protocol.faults import printable
 from vipo_site.embedded_broker.access_control import AccessControl, Admitted, may_publish
+from vipo_site.embedded_broker.arrivals import Arrivals
 from vipo_site.embedded_broker.client_queue import DEVICE_ROOM, SERVER_ROOM, Outbox
 from vipo_site.embedded_broker.connection import (
     PROTOCOL_LEVEL,
@@ -70,6 +71,7 @@ class VipoBroker(SpreadingBroker):
         self._access_control = access_control
         self._logins: dict[str, Login] = {}
         self._refused_at: dict[str, float] = {}
+        self._arrivals = Arrivals()
         self._ending = False
         self._open: dict[asyncio.StreamWriter, None] = {}
         self._not_admitted: dict[asyncio.StreamWriter, None] = {}
@@ -123,10 +125,16 @@ class VipoBroker(SpreadingBroker):
         except UNREADABLE as error:
             await writer.close()
             raise MQTTError(f"No proper CONNECT from {remote_address}:{remote_port}: {error}") from error
+        if not self._arrivals.may_come(session.username or "", remote_address, time.monotonic()):
+            self._complain(session, "it comes again and again")
+            await refuse(writer, SERVER_UNAVAILABLE)
+            raise MQTTError("Too many connections.")
         if fault := await self._find_fault(session):
+            self._arrivals.note_refused(session.username or "", remote_address, time.monotonic())
             self._complain(session, fault)
             await refuse(writer, NOT_AUTHORIZED)
             raise MQTTError("Not authorised.")
+        self._arrivals.note_admitted(session.username or "", time.monotonic())
         self._not_admitted.pop(writer._writer, None)
         session = await self._take_over(session)
         session.keep_alive = math.ceil(session.keep_alive * 1.5)
@@ -159,7 +167,7 @@ class VipoBroker(SpreadingBroker):
         admitted = await asyncio.to_thread(self._access_control.admit, username, password)
         if admitted is None:
             return "wrong password, or nobody of this name"
-        session.attributes["topics"] = admitted.topics
+        session.attributes["topics"], session.attributes["site"] = admitted.topics, admitted.site
         self._logins[username] = _login(admitted, at)
         return ""
 

@@ -256,9 +256,10 @@ def protocol_level(packet: bytes) -> int:
 
 
 async def refuse(writer: Any, code: int) -> None:
-    """Answer a CONNECT with a return code of MQTT 3.1.1, and close."""
-    await ConnackPacket.build(0, code).to_stream(writer)
-    await writer.close()
+    """Answer a CONNECT with a return code of MQTT 3.1.1, and close; who is gone already hears it no more."""
+    with suppress(OSError):
+        await ConnackPacket.build(0, code).to_stream(writer)
+        await writer.close()
 
 
 def notice_dead_peers(writer: asyncio.StreamWriter) -> None:

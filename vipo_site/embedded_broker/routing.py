@@ -57,7 +57,7 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
             return True
         if action == Action.PUBLISH:
             return may_publish(username, topic)
-        return may_subscribe(username, topic, session.attributes.get("topics", ()))
+        return may_subscribe(username, topic, session.attributes.get("site", ""), session.attributes.get("topics", ()))
 
     async def add_subscription(self, subscription: tuple[str, int], session: Any) -> int:
         """Let a session hear a filter, at QoS 1 at most; 128 when it may not, or holds too many."""

@@ -29,6 +29,7 @@ from vipo_device.protocol.messages import BadMessage, parse_plain_json
 from vipo_site.http.openapi import DescribedAPI
 
 _SEND_JSON = "Send JSON, or what docs/openapi.json names."
+FOR_LOAD = frozenset({429, 503})
 _FRAMEWORK_SAYS = {
     "Unauthorized": "You are signed out. Sign in again; a program shows a token in the header Authorization, or "
     "signs in with POST /api/sign-in and sends its cookie along (docs/api.md).",
@@ -43,7 +44,7 @@ MOST_BYTES, DEEPEST = 16 * 1024 * 1024, 100
 """Of a body that is JSON; Django refuses larger ones before (settings.DATA_UPLOAD_MAX_MEMORY_SIZE)."""
 
 
-class SuspiciousParser(Parser):
+class StrictParser(Parser):
     """Reads JSON as devices' is read: no key twice, no NaN or Infinity, no number too large; `Asked` reads texts."""
 
     def parse_body(self, request: HttpRequest) -> DictStrAny:
@@ -52,7 +53,7 @@ class SuspiciousParser(Parser):
 
 
 api = DescribedAPI(
-    title="VIPO", version="1", auth=token_or_session, docs_url=None, urls_namespace="api", parser=SuspiciousParser()
+    title="VIPO", version="1", auth=token_or_session, docs_url=None, urls_namespace="api", parser=StrictParser()
 )
 
 
@@ -73,12 +74,12 @@ def problem(status: int, code: str, detail: str, **more: Any) -> JsonResponse:
 def on_refusal(request: HttpRequest, error: VipoError, status: int = 0) -> HttpResponse:
     """Turn an app's refusal into an answer, with its own status unless another is given."""
     more = {"args": dict(error.facts)} if error.facts else {}
-    response = problem(status or error.status, error.code, error.detail, **more)
-    if error.code == "under_way":
-        response["Retry-After"] = "1"
+    answer = problem(status or error.status, error.code, error.detail, **more)
+    if answer.status_code in FOR_LOAD or error.code == "under_way":
+        answer["Retry-After"] = str(error.retry_after_s)
     if error.code in _OF_TOKENS:
-        response["WWW-Authenticate"] = f'Bearer error="{error.code}"'
-    return response
+        answer["WWW-Authenticate"] = f'Bearer error="{error.code}"'
+    return answer
 
 
 @api.exception_handler(ValidationError)

@@ -2179,10 +2179,11 @@ export interface components {
             version: number;
             width: number;
         };
-        /** @description Who asks, and what their next request needs. */
+        /** @description Who asks, whether they may make a site, and what their next request needs. */
         Me: {
             csrf: string;
             demo_accounts: components["schemas"]["DemoAccount"][];
+            may_create_sites: boolean;
             user: components["schemas"]["Person"] | null;
         };
         /** @description Something a device can be told to do. */

@@ -2,6 +2,7 @@ import { Menu } from "@mantine/core";
 import { Check, ChevronDown, Plus } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
+import { useMe } from "@/api/queries";
 import type { Site } from "@/api/types";
 import { initialsOf } from "@/design/Avatar";
 import styles from "./sidebar.module.css";
@@ -17,6 +18,7 @@ function SiteSign({ site }: { site: Site }) {
 /** Which site, and how many of its devices are there. */
 export function SiteSwitch({ site, sites }: { site: Site | undefined; sites: Site[] }) {
   const { t } = useTranslation();
+  const mayAdd = useMe().data?.may_create_sites ?? false;
   if (!site) return null;
   const all = site.machines + site.robots;
   return (
@@ -43,10 +45,14 @@ export function SiteSwitch({ site, sites }: { site: Site | undefined; sites: Sit
             {each.name}
           </Menu.Item>
         ))}
-        <Menu.Divider />
-        <Menu.Item component={Link} to="/sites/new" leftSection={<Plus size={15} />}>
-          {t("shell.site.add")}
-        </Menu.Item>
+        {mayAdd ? (
+          <>
+            <Menu.Divider />
+            <Menu.Item component={Link} to="/sites/new" leftSection={<Plus size={15} />}>
+              {t("shell.site.add")}
+            </Menu.Item>
+          </>
+        ) : null}
       </Menu.Dropdown>
     </Menu>
   );

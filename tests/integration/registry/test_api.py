@@ -163,6 +163,7 @@ def upload(client: Client, **files: Any) -> Any:
 
 
 def test_a_site_is_made_from_a_ros_map_and_its_maker_is_admin(hall: str) -> None:
+    services.set_site_quota(email="stranger@vipo.example", sites=2)
     client = signed_in("stranger")
     for slug in ("second-hall", "second-hall-2"):
         answer = upload(client, yaml=SimpleUploadedFile("m.yaml", YAML), image=SimpleUploadedFile("a.pgm", IMAGE))
@@ -173,6 +174,7 @@ def test_a_site_is_made_from_a_ros_map_and_its_maker_is_admin(hall: str) -> None
 
 
 def test_a_broken_map_makes_no_site(hall: str) -> None:
+    services.set_site_quota(email="author@vipo.example", sites=1)
     client, before = signed_in("author"), Site.objects.count()
     bad = upload(client, yaml=SimpleUploadedFile("m.yaml", YAML), image=SimpleUploadedFile("a.pgm", b"P5 9 9 255\n1"))
     assert (bad.status_code, bad.json()["code"]) == (422, "bad_map")
@@ -275,6 +277,7 @@ TAKE_OUT_NUL = "This text holds U+0000, which is no text: take that character ou
 
 def test_characters_that_no_name_has_are_refused(hall: str) -> None:
     describe()
+    services.set_site_quota(email="admin@vipo.example", sites=1)
     client = signed_in("admin")
     for path in ("/sites/ha%00ll", "/sites/hall/devices/mixer1%00", "/sites/hall/devices/a%00/events"):
         assert client.get(f"/api{path}").status_code == 404

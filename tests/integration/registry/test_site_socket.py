@@ -17,6 +17,7 @@ from django.urls import path
 from registry import services
 from registry.api import site_socket
 from registry.api.site_socket import SiteSocket
+from registry.bounds.places import Places
 from registry.live import fanout
 from registry.models import User
 from tests.kit.sign_in import ROLES, signed_in
@@ -149,3 +150,19 @@ async def test_a_quiet_site_still_sends_a_beat(person: Callable[[str], User], mo
     async with opened(await database_sync_to_async(person)("viewer")) as socket:
         await socket.receive_json_from(5)
         assert [await socket.receive_json_from(5) for _ in range(2)] == [{"type": "beat"}, {"type": "beat"}]
+
+
+async def test_the_sockets_of_one_person_are_bounded_and_leave_room_for_others(
+    person: Callable[[str], User], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(site_socket, "_places", Places(in_all=9, of_site=3, of_person=2))
+    viewer, admin = await database_sync_to_async(person)("viewer"), await database_sync_to_async(person)("admin")
+    async with opened(viewer) as first, opened(viewer), opened(viewer) as third:
+        assert await close_code(third) == 4429
+        async with opened(admin) as other, opened(admin) as full:
+            assert (await other.receive_json_from(5))["type"] == "hello"
+            assert await close_code(full) == 4429
+        await first.disconnect(timeout=5)
+        async with opened(viewer) as again:
+            assert (await again.receive_json_from(5))["type"] == "hello"
+    assert site_socket._places.taken == 0

@@ -15,9 +15,10 @@ from xml.etree import ElementTree
 import pytest
 from django.test import Client
 
+from registry.bounds.places import Claim
 from registry.sparql import queries
 from registry.sparql.engine import Refused, answer, check_query, graph_of_devices
-from tests.kit.sign_in import ROLES, signed_in
+from tests.kit.sign_in import ROLES, find_person, signed_in
 from tests.kit.sites import MIXER, ROBOT, come, describe, say
 from vipo_device.protocol.description import PropertySpec
 
@@ -226,8 +227,23 @@ def test_the_server_answers_others_while_a_hostile_query_runs(asked: Client, mon
 
 def test_only_two_are_answered_at_once(asked: Client, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(queries, "PATIENCE_S", 0.0)
-    monkeypatch.setattr(queries, "_slots", threading.BoundedSemaphore(1))
-    with queries._slots:
-        answer = asked.get(ADDRESS, {"query": NAMES})
-    assert (answer.status_code, answer.json()["code"]) == (429, "too_many_queries")
+    for other in (Claim(1000, "x"), Claim(1001, "y")):
+        assert queries._places.take(other)
+    answer = asked.get(ADDRESS, {"query": NAMES})
+    for other in (Claim(1000, "x"), Claim(1001, "y")):
+        queries._places.give_back(other)
+    assert (answer.status_code, answer.json()["code"], answer["Retry-After"]) == (429, "too_many_queries", "5")
     assert json.loads(asked.get(ADDRESS, {"query": NAMES}).content)["head"]["vars"] == ["id", "name"]
+
+
+@pytest.mark.parametrize("busy", ["hall", "elsewhere"])
+def test_a_site_and_a_person_have_one_question_answered_at_a_time_and_leave_room_for_others(
+    asked: Client, monkeypatch: pytest.MonkeyPatch, busy: str
+) -> None:
+    monkeypatch.setattr(queries, "PATIENCE_S", 0.0)
+    asker = find_person("viewer").pk
+    other = Claim(1000 if busy == "hall" else asker, busy)
+    assert queries._places.take(other)
+    told = [signed_in(name).get(ADDRESS, {"query": NAMES}).status_code for name in ("viewer", "author")]
+    queries._places.give_back(other)
+    assert told == ([429, 429] if busy == "hall" else [429, 200])

@@ -9,7 +9,7 @@ import pytest
 from editor.documents import yjs_encoding
 from editor.rooms import yjs_protocol
 from editor.rooms.member import FRAMES_PER_S, Close, Member, Person
-from editor.rooms.room import MOST_MEMBERS, Room
+from editor.rooms.room import MOST_OF_PERSON, MOST_READERS, MOST_WRITERS, Room
 from editor.rooms.stream import Entry, Note
 from tests.unit.editor.people import Client, nobody, room
 
@@ -70,11 +70,37 @@ def test_a_reader_is_answered_and_never_heard() -> None:
 
 def test_a_room_is_full_at_some_point() -> None:
     here = room()
-    for number in range(MOST_MEMBERS):
-        Client(here, number=number + 1)
+    for number in range(MOST_WRITERS):
+        Client(here, person(number), number=number + 1)
     with pytest.raises(Close, match="50 people are in this program already") as refused:
-        Client(here, number=99)
-    assert (refused.value.code, len(here.members)) == (4503, MOST_MEMBERS)
+        Client(here, person(99), number=99)
+    assert (refused.value.code, len(here.members)) == (4503, MOST_WRITERS)
+
+
+def test_readers_never_keep_writers_out() -> None:
+    here = room()
+    for number in range(MOST_READERS):
+        Client(here, person(number), can_write=False, number=number + 1)
+    with pytest.raises(Close, match="50 people are in this program already"):
+        Client(here, person(99), can_write=False, number=99)
+    Client(here, person(100), number=100)
+    assert len(here.members) == MOST_READERS + 1
+
+
+def test_one_person_has_a_program_open_ten_times_at_most_and_others_come_in() -> None:
+    here = room()
+    for number in range(MOST_OF_PERSON):
+        Client(here, person(1), number=number + 1)
+    with pytest.raises(Close, match="Close other copies of the page") as refused:
+        Client(here, person(1), number=99)
+    Client(here, person(2), number=100)
+    assert (refused.value.code, len(here.members)) == (4429, MOST_OF_PERSON + 1)
+    here.leave(here.members[0])
+    Client(here, person(1), number=101)
+
+
+def person(number: int) -> Person:
+    return Person(number, f"Person {number}", "PP")
 
 
 def test_too_many_frames_in_a_second_are_refused_and_a_steady_hand_is_not() -> None:

@@ -31,6 +31,10 @@ class Command(BaseCommand):
         part = path.with_name(path.name + ".part")
         part.unlink(missing_ok=True)
         with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
-            file.write(services.account_file(hashes, services.list_granted_topics(), server=server))
+            file.write(
+                services.account_file(
+                    hashes, services.list_device_sites(), services.list_granted_topics(), server=server
+                )
+            )
         part.replace(path)
         self.stdout.write(f"{len(hashes)} accounts written to {path}.")

@@ -6,7 +6,7 @@ import { Link } from "react-router-dom";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { useCurrentSite } from "@/shell/currentSite";
-import { usePrograms, useRuns, useSites } from "@/api/queries";
+import { useMe, usePrograms, useRuns, useSites } from "@/api/queries";
 import type { Site } from "@/api/types";
 import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
@@ -53,12 +53,19 @@ function SitePart({ site }: { site: Site }) {
 
 function NoSites() {
   const { t } = useTranslation();
+  const mayAdd = useMe().data?.may_create_sites ?? false;
   return (
     <Panel>
-      <EmptyState icon={<Building2 size={20} />} title={t("pages.home.noSites")} text={t("pages.home.noSitesText")}>
-        <Button component={Link} to="/sites/new">
-          {t("shell.site.add")}
-        </Button>
+      <EmptyState
+        icon={<Building2 size={20} />}
+        title={t("pages.home.noSites")}
+        text={t(mayAdd ? "pages.home.noSitesText" : "pages.home.askForSite")}
+      >
+        {mayAdd ? (
+          <Button component={Link} to="/sites/new">
+            {t("shell.site.add")}
+          </Button>
+        ) : null}
       </EmptyState>
     </Panel>
   );

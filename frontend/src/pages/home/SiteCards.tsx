@@ -3,7 +3,7 @@ import { Button } from "@mantine/core";
 import { Plus } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
-import { useDevices, usePrograms, useRuns, useSiteMap } from "@/api/queries";
+import { useDevices, useMe, usePrograms, useRuns, useSiteMap } from "@/api/queries";
 import type { Site } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
@@ -58,18 +58,21 @@ function SiteCard({ site }: { site: Site }) {
 
 export function SiteCards({ sites }: { sites: readonly Site[] }) {
   const { t } = useTranslation();
+  const mayAdd = useMe().data?.may_create_sites ?? false;
   return (
     <div className={styles.sites}>
       {sites.map((site) => (
         <SiteCard key={site.slug} site={site} />
       ))}
-      <Link to="/sites/new" className={styles.addSite}>
-        <span className={styles.plus}>
-          <Plus size={20} aria-hidden="true" />
-        </span>
-        <b>{t("shell.site.add")}</b>
-        <span>{t("pages.home.addSiteText")}</span>
-      </Link>
+      {mayAdd ? (
+        <Link to="/sites/new" className={styles.addSite}>
+          <span className={styles.plus}>
+            <Plus size={20} aria-hidden="true" />
+          </span>
+          <b>{t("shell.site.add")}</b>
+          <span>{t("pages.home.addSiteText")}</span>
+        </Link>
+      ) : null}
     </div>
   );
 }

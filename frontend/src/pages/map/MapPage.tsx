@@ -5,7 +5,7 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams, useSearchParams } from "react-router-dom";
 import { missing } from "@/api/failed";
-import { useDevices, useSite, useSiteMap } from "@/api/queries";
+import { useDevices, useMe, useSite, useSiteMap } from "@/api/queries";
 import type { Site, SiteMap } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { EmptyState } from "@/design/EmptyState";
@@ -113,6 +113,7 @@ export function MapPage() {
   const { slug = "" } = useParams();
   const site = useSite(slug);
   const map = useSiteMap(site.data?.has_map ? slug : undefined);
+  const me = useMe();
   const [moving, setMoving] = useState(false);
   const problem = missing(site, map);
   return (
@@ -134,9 +135,11 @@ export function MapPage() {
       {site.data?.has_map === false ? (
         <Panel>
           <EmptyState icon={<MapPinned size={20} />} title={t("pages.map.none")} text={t("pages.map.noneText")}>
-            <Button component={Link} to="/sites/new">
-              {t("pages.newSite.upload")}
-            </Button>
+            {me.data?.may_create_sites ? (
+              <Button component={Link} to="/sites/new">
+                {t("pages.newSite.upload")}
+              </Button>
+            ) : null}
           </EmptyState>
         </Panel>
       ) : null}

@@ -1,15 +1,16 @@
 /** A new site out of a ROS map: the .yaml and its image. */
 import { Button, TextInput } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Check, FileUp } from "lucide-react";
+import { Building2, Check, FileUp } from "lucide-react";
 import { useState, type DragEvent, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
 import { problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { api, ApiProblem } from "@/api/client";
-import { keys } from "@/api/queries";
+import { keys, useMe } from "@/api/queries";
 import type { Site } from "@/api/types";
+import { EmptyState } from "@/design/EmptyState";
 import { Panel } from "@/design/Panel";
 import { nameFrom, sortFiles, type MapFiles } from "./files";
 import { Preview } from "./Preview";
@@ -28,6 +29,7 @@ function useCreateSite() {
     },
     onSuccess: async (site) => {
       await queries.invalidateQueries({ queryKey: keys.sites });
+      await queries.invalidateQueries({ queryKey: keys.me });
       await navigate(`/sites/${site.slug}/map`);
     },
   });
@@ -97,7 +99,24 @@ function DropZone({ files, problem, choose }: DropZoneProps) {
   );
 }
 
+function NoRight() {
+  const { t } = useTranslation();
+  return (
+    <Panel>
+      <EmptyState icon={<Building2 size={20} />} title={t("pages.newSite.noRight")} text={t("pages.home.askForSite")} />
+    </Panel>
+  );
+}
+
 export function NewSitePage() {
+  const { t } = useTranslation();
+  const me = useMe().data;
+  return (
+    <PageShell title={t("shell.site.add")}>{me?.may_create_sites === false ? <NoRight /> : <NewSite />}</PageShell>
+  );
+}
+
+function NewSite() {
   const { t } = useTranslation();
   const [name, setName] = useState("");
   const [files, setFiles] = useState<MapFiles>({ yaml: null, image: null });
@@ -115,32 +134,30 @@ export function NewSitePage() {
     create.mutate({ name: name.trim(), files });
   };
   return (
-    <PageShell title={t("shell.site.add")}>
-      <div className={styles.page}>
-        <Panel className={styles.card}>
-          <form onSubmit={submit} className={styles.form}>
-            <div>
-              <h2>{t("pages.newSite.title")}</h2>
-              <p>{t("pages.newSite.text")}</p>
-            </div>
-            <DropZone files={files} problem={aboutName ? null : problem} choose={choose} />
-            <TextInput
-              label={t("pages.newSite.name")}
-              placeholder={t("pages.newSite.namePlaceholder")}
-              maxLength={100}
-              value={name}
-              error={aboutName ? problem : null}
-              onChange={(event) => setName(event.target.value)}
-            />
-            <Button type="submit" size="md" disabled={!files.yaml || !name.trim()} loading={create.isPending}>
-              {t("pages.newSite.create")}
-            </Button>
-          </form>
-        </Panel>
-        <Panel className={styles.side}>
-          {files.image ? <Preview file={files.image} /> : <p>{t("pages.newSite.previewHere")}</p>}
-        </Panel>
-      </div>
-    </PageShell>
+    <div className={styles.page}>
+      <Panel className={styles.card}>
+        <form onSubmit={submit} className={styles.form}>
+          <div>
+            <h2>{t("pages.newSite.title")}</h2>
+            <p>{t("pages.newSite.text")}</p>
+          </div>
+          <DropZone files={files} problem={aboutName ? null : problem} choose={choose} />
+          <TextInput
+            label={t("pages.newSite.name")}
+            placeholder={t("pages.newSite.namePlaceholder")}
+            maxLength={100}
+            value={name}
+            error={aboutName ? problem : null}
+            onChange={(event) => setName(event.target.value)}
+          />
+          <Button type="submit" size="md" disabled={!files.yaml || !name.trim()} loading={create.isPending}>
+            {t("pages.newSite.create")}
+          </Button>
+        </form>
+      </Panel>
+      <Panel className={styles.side}>
+        {files.image ? <Preview file={files.image} /> : <p>{t("pages.newSite.previewHere")}</p>}
+      </Panel>
+    </div>
   );
 }

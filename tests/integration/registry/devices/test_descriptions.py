@@ -10,9 +10,10 @@ from django.test.utils import CaptureQueriesContext
 
 from registry import services
 from registry.models import Device, DeviceEvent
-from registry.services import BadDevice, DescriptionMessage, DeviceView
+from registry.services import BadDevice, DescriptionMessage, DeviceView, TopicTaken
 from tests.kit.sites import LATER, MIXER, NOW, ROBOT, come, describe, describe_later
 from vipo_device.descriptions.forms import BadDescription
+from vipo_device.protocol.description import MethodSpec
 
 
 def many(count: int, name: str) -> list[DescriptionMessage]:
@@ -65,17 +66,18 @@ def test_many_cost_no_more_statements_than_a_few(hall: str) -> None:
 
 
 def test_one_that_the_registry_refuses_while_it_is_kept_spoils_no_other(hall: str, settings: Any) -> None:
-    settings.VIPO_DEFAULT_SITE = "hall"
-    come("shy")
     settings.VIPO_DEFAULT_SITE = ""
-    homeless = replace(MIXER, id="shy", site="nowhere", methods=())
-    shy, stranger, fine = services.ingest_descriptions(
-        descriptions=[describe_later(homeless), describe_later(replace(homeless, id="stranger")), describe_later(MIXER)]
+    asking = replace(MIXER, id="holder", methods=(MethodSpec("mix", "plant/mix"),))
+    describe(asking)
+    greedy = replace(asking, id="greedy")
+    homeless = replace(MIXER, id="stranger", site="nowhere", methods=())
+    late, stranger, fine = services.ingest_descriptions(
+        descriptions=[describe_later(greedy), describe_later(homeless), describe_later(MIXER)]
     )
-    assert isinstance(shy, BadDevice)
+    assert isinstance(late, TopicTaken)
     assert isinstance(stranger, BadDevice)
     assert isinstance(fine, DeviceView)
-    assert Device.objects.get(pk="shy").description is None
+    assert Device.objects.get(pk="greedy").description is None
     assert not Device.objects.filter(pk="stranger").exists()
     assert [line.text for line in services.list_device_events(site="hall", device_id="mixer1")] == [
         "Described itself for the first time: Mixer One, mixer"

@@ -255,7 +255,7 @@ def test_a_device_comes_in_with_its_own_key_only(hall: str) -> None:
     services.set_enrolment_key(site="hall", key=JOIN)
     services.expect_device(site="hall", device_id="mixer1", credential=KEY)
     check = services.check_device_password
-    assert check(username="mixer1", password=KEY) == Principal("mixer1", False, secret_hash(KEY))
+    assert check(username="mixer1", password=KEY) == Principal("mixer1", False, secret_hash(KEY), site="hall")
     assert check(username="mixer1", password=JOIN) is None
     assert check(username="mixer2", password=KEY) is None
     assert check(username="mixer2", password="") is None
@@ -264,11 +264,11 @@ def test_a_device_comes_in_with_its_own_key_only(hall: str) -> None:
 def test_the_join_key_is_for_newcomers_until_they_are_approved(hall: str) -> None:
     services.set_enrolment_key(site="hall", key=JOIN)
     check = services.check_device_password
-    assert check(username="new1", password=JOIN) == Principal("new1", True)
+    assert check(username="new1", password=JOIN) == Principal("new1", True, site="hall")
     assert check(username="server", password=JOIN) is None
     assert check(username="a/b", password=JOIN) is None
     describe()
-    assert check(username="mixer1", password=JOIN) == Principal("mixer1", True)
+    assert check(username="mixer1", password=JOIN) == Principal("mixer1", True, site="hall")
     services.approve_device(site="hall", device_id="mixer1", by=None, at=NOW)
     assert check(username="mixer1", password=JOIN) is None
 

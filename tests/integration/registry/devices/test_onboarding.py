@@ -65,8 +65,8 @@ def test_an_added_device_stays_at_the_site_whose_admin_added_it(hall: str) -> No
 
 def test_an_added_device_that_comes_before_it_describes_itself_stays_there_too(hall: str, settings: Any) -> None:
     services.create_site(name="Yard", slug="yard")
-    settings.VIPO_DEFAULT_SITE = "yard"
     assert send("admin", "newcomers").status_code == 201
+    settings.VIPO_DEFAULT_SITE = "yard"
     assert come() is None
     assert describe().site == "hall"
 

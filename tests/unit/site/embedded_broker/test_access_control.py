@@ -34,7 +34,8 @@ def test_a_device_publishes_only_under_its_own_up(topic: str, allowed: bool) -> 
         ("vipo/v1/dev/robot01/down/#", True),
         ("vipo/v1/dev/robot01/down/move", True),
         ("vipo/v1/site/hall/stop", True),
-        ("vipo/v1/site/+/stop", True),
+        ("vipo/v1/site/+/stop", False),
+        ("vipo/v1/site/yard/stop", False),
         ("vipo/v1/srv/status", True),
         ("vipo/v1/dev/+/down/#", False),
         ("vipo/v1/dev/robot01/#", False),
@@ -46,7 +47,7 @@ def test_a_device_publishes_only_under_its_own_up(topic: str, allowed: bool) -> 
     ],
 )
 def test_a_device_hears_only_its_commands_the_stop_and_the_servers_births(topic_filter: str, allowed: bool) -> None:
-    assert may_subscribe("robot01", topic_filter) is allowed
+    assert may_subscribe("robot01", topic_filter, "hall") is allowed
 
 
 def test_a_kept_key_is_what_mosquitto_checks() -> None:
@@ -68,5 +69,5 @@ def test_a_kept_key_is_what_mosquitto_checks() -> None:
 )
 def test_whoever_has_the_enrolment_key_may_ask_to_enrol_and_nothing_else(topic: str, allowed: bool) -> None:
     assert may_publish("join:hall", topic) is allowed
-    assert not may_subscribe("join:hall", topic)
-    assert not may_subscribe("join:hall", "vipo/v1/srv/status")
+    assert not may_subscribe("join:hall", topic, "hall")
+    assert not may_subscribe("join:hall", "vipo/v1/srv/status", "hall")

@@ -1,0 +1,33 @@
+"""Which names a site may give, where several sites share one broker: ids of devices and legacy topics are global there.
+
+The site that was there first (or the default one) gives plain names, every other site names that begin with its own.
+So whether a new name is taken never tells what there is at another site, and no site can take another's names.
+"""
+
+from __future__ import annotations
+
+from django.conf import settings
+
+from registry.models import Device, Site, TopicClaim
+
+OF_IDS, OF_TOPICS = ".", "/"
+"""What stands between a site's short name and the rest: `hall.robot1`, `hall/robot1/move`."""
+
+
+def may_name(site: Site, name: str, separator: str) -> bool:
+    """Tell whether a site may give a new id or topic of this name, whatever names there are."""
+    first, found, _ = name.partition(separator)
+    if found and first == site.slug:
+        return True
+    return _gives_plain_names(site) and not (found and Site.objects.filter(slug=first).exists())
+
+
+def _gives_plain_names(site: Site) -> bool:
+    default = Site.objects.filter(slug=settings.VIPO_DEFAULT_SITE).values_list("pk", flat=True).first()
+    return site.pk == (default or Site.objects.order_by("pk").values_list("pk", flat=True).first())
+
+
+def is_in_use(slug: str) -> bool:
+    """Tell whether some device's id or topic begins like those of a site of this short name would."""
+    topics = TopicClaim.objects.filter(topic__startswith=slug + OF_TOPICS)
+    return Device.objects.filter(pk__startswith=slug + OF_IDS).exists() or topics.exists()

@@ -1,0 +1,95 @@
+"""Who may make a site, and how many."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+import pytest
+from django.apps import apps
+from django.core.files.uploadedfile import SimpleUploadedFile
+from django.test import Client
+
+from registry import services
+from registry.bounds.places import Claim
+from registry.maps import site_maps
+from registry.models import Site, User
+from tests.kit.command_line import run_vipo
+from tests.kit.sign_in import find_person, signed_in
+
+YAML = b"image: a.pgm\nresolution: 0.05\norigin: [-1, -2, 0]\n"
+IMAGE = b"P5 2 2 255\n" + bytes([254, 0, 205, 254])
+
+
+def upload(client: Client, image: bytes = IMAGE) -> Any:
+    files = {"yaml": SimpleUploadedFile("m.yaml", YAML), "image": SimpleUploadedFile("a.pgm", image)}
+    return client.post("/api/sites", {"name": "Shed", **files})
+
+
+def told(client: Client) -> bool:
+    return bool(client.get("/api/me").json()["may_create_sites"])
+
+
+@pytest.mark.parametrize("name", ["stranger", "viewer", "operator", "author", "admin"])
+def test_nobody_makes_a_site_without_the_right_to(hall: str, name: str) -> None:
+    client = signed_in(name)
+    for image in (IMAGE, b"no image"):
+        answer = upload(client, image)
+        assert (answer.status_code, answer.json()["code"]) == (403, "may_not_create_sites")
+    assert (told(client), Site.objects.count()) == (False, 1)
+
+
+def test_one_makes_as_many_sites_as_one_may(hall: str) -> None:
+    services.set_site_quota(email="stranger@vipo.example", sites=2)
+    client = signed_in("stranger")
+    assert (upload(client).status_code, told(client)) == (201, True)
+    assert (upload(client).status_code, told(client)) == (201, False)
+    answer = upload(client)
+    assert (answer.status_code, answer.json()["code"]) == (403, "site_quota_reached")
+    assert list(Site.objects.values_list("slug", flat=True).order_by("slug")) == ["hall", "shed", "shed-2"]
+
+
+def test_leaving_a_site_that_one_made_makes_no_room_for_another(hall: str) -> None:
+    services.set_site_quota(email="stranger@vipo.example", sites=1)
+    client = signed_in("stranger")
+    assert upload(client).status_code == 201
+    services.remove_member(site="shed", email="stranger@vipo.example")
+    assert upload(client).json()["code"] == "site_quota_reached"
+
+
+def test_a_stranger_is_told_of_no_right(hall: str) -> None:
+    assert not told(Client())
+
+
+def test_the_right_is_given_and_taken_at_the_terminal(hall: str, capsys: pytest.CaptureFixture[str]) -> None:
+    email = "stranger@vipo.example"
+    assert run_vipo(capsys, "account", email, "--sites", "3") == (0, f"{email} may make 3 sites in all.\n", "")
+    assert find_person("stranger").site_quota == 3
+    assert run_vipo(capsys, "account", email, "--sites", "0")[0] == 0
+    assert find_person("stranger").site_quota == 0
+    assert run_vipo(capsys, "account", email, "--sites", "1001") == (
+        2,
+        "",
+        "A person may make 0 to 1000 sites, not 1001.\n",
+    )
+    assert find_person("stranger").site_quota == 0
+
+
+def test_who_was_admin_of_a_site_keeps_the_right(hall: str) -> None:
+    migration = importlib.import_module("registry.migrations.0011_site_quota")
+    migration.keep_the_right(apps, None)
+    kept = dict(User.objects.values_list("email", "site_quota"))
+    assert kept.pop("admin@vipo.example") == 10
+    assert set(kept.values()) == {0}
+
+
+def test_one_map_of_a_person_is_read_at_a_time(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(site_maps, "READING_PATIENCE_S", 0.0)
+    for name in ("stranger", "author"):
+        services.set_site_quota(email=f"{name}@vipo.example", sites=1)
+    claim = Claim(find_person("stranger").pk)
+    assert site_maps.reading_places.take(claim)
+    refused, other = upload(signed_in("stranger")), upload(signed_in("author"))
+    site_maps.reading_places.give_back(claim)
+    assert (refused.status_code, refused.json()["code"], refused["Retry-After"]) == (429, "too_many_uploads", "5")
+    assert (other.status_code, upload(signed_in("stranger")).status_code) == (201, 201)
