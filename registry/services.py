@@ -83,8 +83,9 @@ from registry.maps.site_maps import (
     use_robot_map,
 )
 from registry.people.access import Access, NotAMember, find_access, require
-from registry.people.sessions import Session, has_ended, session_of_socket
+from registry.people.sessions import Session, Standing, drop_expired, session_of_socket
 from registry.people.sign_in import change_password, check_sign_in, create_user, is_known
+from registry.people.watch import Seat, watch_of_this_loop
 from registry.sites.sites import (
     create_site,
     get_site,
@@ -136,9 +137,11 @@ __all__ = [
     "ReservedDevice",
     "RobotMapFacts",
     "RobotMapView",
+    "Seat",
     "SeriesView",
     "Session",
     "SiteView",
+    "Standing",
     "StateMessage",
     "StopView",
     "TopicNotAsked",
@@ -156,6 +159,7 @@ __all__ = [
     "create_site_from_map",
     "create_user",
     "device_to_json",
+    "drop_expired",
     "end_alert",
     "end_alerts",
     "enrol_device",
@@ -179,7 +183,6 @@ __all__ = [
     "get_site",
     "get_site_id",
     "get_walls",
-    "has_ended",
     "ingest_description",
     "ingest_descriptions",
     "ingest_map_part",
@@ -242,5 +245,6 @@ __all__ = [
     "wait_wake",
     "wake",
     "watch_devices",
+    "watch_of_this_loop",
     "withdraw_topic",
 ]

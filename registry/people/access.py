@@ -29,6 +29,11 @@ class NotAllowed(RegistryError):
     status = 403
 
 
+def allows(has: str, role: str) -> bool:
+    """Tell whether somebody who has one role may do what another one may."""
+    return ROLES.index(has) >= ROLES.index(role)
+
+
 @dataclass(frozen=True, slots=True)
 class Access:
     """A user's standing at a site."""
@@ -39,7 +44,7 @@ class Access:
 
     def allows(self, role: str) -> bool:
         """Tell whether this standing includes that role."""
-        return ROLES.index(self.role) >= ROLES.index(role)
+        return allows(self.role, role)
 
 
 def find_access(user: AbstractBaseUser | AnonymousUser, site: str | Site) -> Access | None:
