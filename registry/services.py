@@ -84,7 +84,15 @@ from registry.maps.site_maps import (
 )
 from registry.people.access import Access, NotAMember, find_access, require
 from registry.people.sessions import Session, Standing, drop_expired, session_of_socket
-from registry.people.sign_in import change_password, check_sign_in, create_user, is_known
+from registry.people.sign_in import (
+    change_password,
+    check_sign_in,
+    close_account,
+    create_user,
+    is_known,
+    reopen_account,
+)
+from registry.people.throttle import forget_attempts
 from registry.people.watch import Seat, watch_of_this_loop
 from registry.sites.sites import (
     create_site,
@@ -152,6 +160,7 @@ __all__ = [
     "change_password",
     "check_device_password",
     "check_sign_in",
+    "close_account",
     "compare_robot_map",
     "confirm_topic",
     "count_dropped",
@@ -172,6 +181,7 @@ __all__ = [
     "find_unchanged",
     "flush_alerts",
     "flush_samples",
+    "forget_attempts",
     "get_demo_grid",
     "get_device",
     "get_device_names",
@@ -225,6 +235,7 @@ __all__ = [
     "reject_device",
     "remove_member",
     "renew_enrolment_key",
+    "reopen_account",
     "require",
     "reserve_device",
     "restore_map",

@@ -87,6 +87,13 @@ class SignIn(Schema):
     password: str = Field(max_length=1000)
 
 
+class NewPassword(Schema):
+    """The password that somebody has, and the one that they want."""
+
+    old: str = Field(max_length=1000)
+    new: str = Field(max_length=1000)
+
+
 class Stop(Schema):
     """The latched stop of a site."""
 

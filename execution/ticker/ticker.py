@@ -59,6 +59,8 @@ class Ticker:
             mailbox.forget_taken(now - KEPT_FOR)
             registry.prune_samples(now=now)
             registry.prune_alerts(now=now)
+            registry.drop_expired(now=now)
+            registry.forget_attempts(now=now)
         return True
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:

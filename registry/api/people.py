@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from django.conf import settings
-from django.contrib.auth import login, logout
-from django.http import HttpRequest
+from django.contrib.auth import login, logout, update_session_auth_hash
+from django.http import HttpRequest, HttpResponse
 from django.middleware.csrf import get_token
 from django.utils import timezone
 from ninja import Router
@@ -18,11 +18,10 @@ from ninja.utils import check_csrf
 from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import User
-from registry.people.sign_in import check_sign_in
-from registry.shapes import (
-    Me,
-    SignIn,
-)
+from registry.people.known_browsers import find_device, remember_browser
+from registry.people.sign_in import change_own_password, check_sign_in
+from registry.people.sign_in import sign_out_everywhere as end_all_sessions
+from registry.shapes import Me, NewPassword, SignIn, signed_in
 
 router = Router(tags=["registry"])
 
@@ -46,14 +45,25 @@ def _demo_accounts() -> list[dict[str, str]]:
 
 
 @router.post("/sign-in", response=Me, auth=None)
-def sign_in(request: HttpRequest, body: SignIn) -> dict[str, Any]:
-    """Begin a session."""
+def sign_in(request: HttpRequest, response: HttpResponse, body: SignIn) -> dict[str, Any]:
+    """Begin a session; too many wrong passwords are refused for a while, which `Retry-After` names."""
     if check_csrf(request):
         raise HttpError(403, "The page is out of date. Reload it and sign in again.")
-    address = request.META.get("REMOTE_ADDR", "")
-    user = check_sign_in(email=body.email, password=body.password, address=address, now=timezone.now())
+    user = check_sign_in(
+        email=body.email,
+        password=body.password,
+        address=client_address(request),
+        now=timezone.now(),
+        device=find_device(request, body.email),
+    )
     login(request, user)
+    remember_browser(request, response, user.email)
     return show_me(request)
+
+
+def client_address(request: HttpRequest) -> str:
+    """Return where a request comes from, as the server that took it says; no header that a client sends counts."""
+    return str(request.META.get("REMOTE_ADDR", ""))
 
 
 @router.post("/sign-out", response=Me)
@@ -62,4 +72,22 @@ def sign_out(request: HttpRequest) -> dict[str, Any]:
     logout(request)
     call_listeners()
     publish(EVERY_SITE, {"type": "members"})
+    return show_me(request)
+
+
+@router.post("/me/password", response=Me)
+def change_my_password(request: HttpRequest, body: NewPassword) -> dict[str, Any]:
+    """Change the own password; all other sessions end, and this one goes on under another key."""
+    user = change_own_password(
+        user=signed_in(request), old=body.old, new=body.new, address=client_address(request), now=timezone.now()
+    )
+    update_session_auth_hash(request, user)
+    return show_me(request)
+
+
+@router.post("/me/sign-out-everywhere", response=Me)
+def sign_out_everywhere(request: HttpRequest) -> dict[str, Any]:
+    """End all sessions of who asks, this one too."""
+    end_all_sessions(user=signed_in(request))
+    logout(request)
     return show_me(request)

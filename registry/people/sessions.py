@@ -63,10 +63,10 @@ def read_standings(sessions: Collection[Session]) -> dict[Session, Standing]:
     rows = User.objects.filter(pk__in={session.person for session in sessions}, is_active=True)
     people: dict[int, User] = {}
     roles: defaultdict[int, dict[str, str]] = defaultdict(dict)
-    for person, password, site, role in rows.values_list(
-        "pk", "password", "memberships__site__slug", "memberships__role"
+    for person, password, generation, site, role in rows.values_list(
+        "pk", "password", "session_generation", "memberships__site__slug", "memberships__role"
     ):
-        people[person] = User(pk=person, password=password)
+        people[person] = User(pk=person, password=password, session_generation=generation)
         if site is not None:
             roles[person][site] = role
     return {

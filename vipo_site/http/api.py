@@ -51,7 +51,10 @@ def problem(status: int, code: str, detail: str, **more: Any) -> JsonResponse:
 def on_refusal(request: HttpRequest, error: VipoError, status: int = 0) -> HttpResponse:
     """Turn an app's refusal into an answer, with its own status unless another is given."""
     more = {"args": dict(error.facts)} if error.facts else {}
-    return problem(status or error.status, error.code, error.detail, **more)
+    response = problem(status or error.status, error.code, error.detail, **more)
+    if "retry_after_s" in error.facts:
+        response["Retry-After"] = str(error.facts["retry_after_s"])
+    return response
 
 
 @api.exception_handler(ValidationError)
