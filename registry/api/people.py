@@ -8,6 +8,7 @@ from typing import Any
 
 from django.conf import settings
 from django.contrib.auth import login, logout, update_session_auth_hash
+from django.db import transaction
 from django.http import HttpRequest, HttpResponse
 from django.middleware.csrf import get_token
 from django.utils import timezone
@@ -19,7 +20,7 @@ from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import User
 from registry.people.known_browsers import find_device, remember_browser
-from registry.people.sign_in import change_own_password, check_sign_in
+from registry.people.sign_in import change_password, check_own_password, check_sign_in
 from registry.people.sign_in import sign_out_everywhere as end_all_sessions
 from registry.shapes import Me, NewPassword, SignIn, signed_in
 
@@ -78,10 +79,13 @@ def sign_out(request: HttpRequest) -> dict[str, Any]:
 @router.post("/me/password", response=Me)
 def change_my_password(request: HttpRequest, body: NewPassword) -> dict[str, Any]:
     """Change the own password; all other sessions end, and this one goes on under another key."""
-    user = change_own_password(
-        user=signed_in(request), old=body.old, new=body.new, address=client_address(request), now=timezone.now()
-    )
-    update_session_auth_hash(request, user)
+    user = signed_in(request)
+    check_own_password(user=user, password=body.old, address=client_address(request), now=timezone.now())
+    with transaction.atomic():
+        change_password(email=user.email, password=body.new)
+        user.refresh_from_db(fields=["password"])
+        update_session_auth_hash(request, user)
+        request.session.save()
     return show_me(request)
 
 

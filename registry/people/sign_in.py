@@ -85,16 +85,11 @@ def reopen_account(*, email: str, password: str) -> None:
     User.objects.filter(email=email.strip().lower()).update(is_active=True)
 
 
-def change_own_password(*, user: User, old: str, new: str, address: str, now: datetime) -> User:
-    """Give somebody who knows the old password a new one; all their sessions end. Raises as the parts do."""
+def check_own_password(*, user: User, password: str, address: str, now: datetime) -> None:
+    """Make sure that somebody who is signed in knows their password. Raises WrongOldPassword, TooManyAttempts."""
     with counted(Attempt(user.email, address, f"own:{user.pk}"), now):
-        if not user.check_password(old):
+        if not user.check_password(password):
             raise WrongOldPassword("The password that you have now is another one. Try again.", {"why": "old"})
-    check_new_password(new, user)
-    user.set_password(new)
-    user.save(update_fields=["password"])
-    _tell_sessions()
-    return user
 
 
 def sign_out_everywhere(*, user: User) -> None:

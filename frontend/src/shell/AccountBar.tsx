@@ -1,9 +1,9 @@
 /** Who is signed in, what they may do here, and how the screen looks to them. */
 import { Menu } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Check, Languages, LogOut, Monitor, Moon, Sun, type LucideIcon } from "lucide-react";
+import { Check, KeyRound, Languages, LogOut, Monitor, Moon, Sun, type LucideIcon } from "lucide-react";
 import { useTranslation } from "react-i18next";
-import { useNavigate } from "react-router-dom";
+import { Link, useNavigate } from "react-router-dom";
 import { api } from "@/api/client";
 import { useMe } from "@/api/queries";
 import type { Role, User } from "@/api/types";
@@ -86,6 +86,9 @@ function AccountMenu({ user, role }: { user: User; role: Role | undefined }) {
           </Menu.Item>
         ))}
         <Menu.Divider />
+        <Menu.Item component={Link} to="/account" leftSection={<KeyRound size={15} />}>
+          {t("shell.account.settings")}
+        </Menu.Item>
         <Menu.Item leftSection={<LogOut size={15} />} onClick={() => signOut.mutate()}>
           {t("shell.account.signOut")}
         </Menu.Item>

@@ -29,7 +29,9 @@ MAKE_PEOPLE = """
 import json, sys
 import django
 django.setup()
+from tests.kit.sites import approve
 from tests.kit.web_process import make_person
+approve()
 print(json.dumps({name: make_person(name, "hall", "author") for name in sys.argv[1:]}))
 """
 EXPIRE = """
@@ -81,7 +83,8 @@ def form(
     module_database_url: str,
     shared_redis: Redis,
 ) -> Iterator[Form]:
-    folder, extra = tmp_path_factory.mktemp(request.param), {}
+    folder = tmp_path_factory.mktemp(request.param)
+    extra: dict[str, str] = {}
     if request.param == "served":
         told = served_without_broker(folder, module_database_url, shared_redis.url)
         extra = {name: value for name, value in told.items() if name.startswith("VIPO_")}
@@ -150,7 +153,7 @@ async def read_stream(web: Web, person: str, path: str, opened: asyncio.Event) -
         httpx.AsyncClient(base_url=f"http://127.0.0.1:{web.port}/api", headers=web.headers(person)) as client,
         client.stream("GET", path, timeout=60) as answer,
     ):
-        assert answer.status_code == 200
+        assert answer.status_code == 200, (await answer.aread()).decode()
         async for _ in answer.aiter_raw():
             opened.set()
     return End(time.monotonic())
@@ -189,7 +192,7 @@ async def test_all_that_is_open_ends_within_3_s_and_later_edits_are_not_kept(
         ends = {
             "program": asyncio.create_task(read_socket(drawing)),
             "site": asyncio.create_task(read_socket(site)),
-            "things": asyncio.create_task(read_stream(web, person, "/sites/hall/wot/events", opened[0])),
+            "things": asyncio.create_task(read_stream(web, person, "/sites/hall/things/events", opened[0])),
             "mtconnect": asyncio.create_task(
                 read_stream(web, person, "/sites/hall/mtconnect/current?interval=1000", opened[1])
             ),
