@@ -23,7 +23,7 @@ log = logging.getLogger(__name__)
 EVERY_S = 1.0
 PAUSE_S = 0.05
 """Hints that come within such a while are one look."""
-STALE_AFTER_S = 2.5
+STALE_AFTER_S = 3.0
 """Nothing is taken from a session of which was heard longer ago: the database may have ended it since."""
 
 
