@@ -29,9 +29,9 @@ MAKE_PEOPLE = """
 import json, sys
 import django
 django.setup()
-from tests.kit.sites import approve
+from tests.kit.sites import make_mixers
 from tests.kit.web_process import make_person
-approve()
+make_mixers("a")
 print(json.dumps({name: make_person(name, "hall", "author") for name in sys.argv[1:]}))
 """
 EXPIRE = """
