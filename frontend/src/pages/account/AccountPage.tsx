@@ -8,7 +8,6 @@ import { useNavigate } from "react-router-dom";
 import { api, ApiProblem, rememberCsrf } from "@/api/client";
 import { keys, useMe } from "@/api/queries";
 import type { Me, User } from "@/api/types";
-import { Avatar } from "@/design/Avatar";
 import { Panel } from "@/design/Panel";
 import { problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
@@ -142,11 +141,8 @@ export function AccountPage() {
       {user ? (
         <div className={styles.page}>
           <div className={styles.who}>
-            <Avatar name={user.name} initials={user.initials} size={44} />
-            <div>
-              <strong>{user.name}</strong>
-              <span>{user.email}</span>
-            </div>
+            <strong>{user.name}</strong>
+            <span>{user.email}</span>
           </div>
           <PasswordForm user={user} />
           <Sessions />
