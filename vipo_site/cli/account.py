@@ -19,9 +19,7 @@ def add_account_arguments(sub: argparse.ArgumentParser) -> None:
     sub.add_argument("--role", choices=ROLES, default="viewer", help="what they may do there (viewer); none: no more")
     ending = sub.add_mutually_exclusive_group()
     ending.add_argument("--new-password", action="store_true", help="another password; who is signed in is signed out")
-    ending.add_argument(
-        "--close", action="store_true", help="they are signed out and sign in no more; work stays"
-    )
+    ending.add_argument("--close", action="store_true", help="they are signed out and sign in no more; work stays")
     ending.add_argument("--reopen", action="store_true", help="they may sign in again, with a new password")
     sub.set_defaults(run=set_account)
 
