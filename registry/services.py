@@ -92,8 +92,16 @@ from registry.maps.site_maps import (
 )
 from registry.people.access import Access, NotAMember, find_access, require
 from registry.people.keyed_requests import prune_keyed_requests
-from registry.people.sessions import Session, has_ended, session_of_socket
-from registry.people.sign_in import change_password, check_sign_in, create_user, is_known
+from registry.people.sessions import Session, Standing, drop_expired, session_of_socket
+from registry.people.sign_in import (
+    change_password,
+    check_sign_in,
+    close_account,
+    create_user,
+    is_known,
+    reopen_account,
+)
+from registry.people.throttle import forget_attempts
 from registry.people.tokens import (
     TokenView,
     create_token,
@@ -103,6 +111,7 @@ from registry.people.tokens import (
     prune_tokens,
     revoke_token,
 )
+from registry.people.watch import Seat, watch_of_this_loop
 from registry.sites.quota import set_site_quota
 from registry.sites.sites import (
     create_site,
@@ -159,9 +168,11 @@ __all__ = [
     "ReservedDevice",
     "RobotMapFacts",
     "RobotMapView",
+    "Seat",
     "SeriesView",
     "Session",
     "SiteView",
+    "Standing",
     "StateMessage",
     "StopView",
     "TokenView",
@@ -173,6 +184,7 @@ __all__ = [
     "change_password",
     "check_device_password",
     "check_sign_in",
+    "close_account",
     "compare_robot_map",
     "confirm_topic",
     "count_dropped",
@@ -181,6 +193,7 @@ __all__ = [
     "create_token",
     "create_user",
     "device_to_json",
+    "drop_expired",
     "end_alert",
     "end_alerts",
     "enrol_device",
@@ -195,6 +208,7 @@ __all__ = [
     "find_unchanged",
     "flush_alerts",
     "flush_samples",
+    "forget_attempts",
     "get_demo_grid",
     "get_device",
     "get_device_names",
@@ -207,7 +221,6 @@ __all__ = [
     "get_site",
     "get_site_id",
     "get_walls",
-    "has_ended",
     "ingest_description",
     "ingest_descriptions",
     "ingest_map_part",
@@ -254,6 +267,7 @@ __all__ = [
     "reject_device",
     "remove_member",
     "renew_enrolment_key",
+    "reopen_account",
     "require",
     "reserve_device",
     "restore_map",
@@ -276,5 +290,6 @@ __all__ = [
     "wait_wake",
     "wake",
     "watch_devices",
+    "watch_of_this_loop",
     "withdraw_topic",
 ]

@@ -146,6 +146,13 @@ class SignIn(Asked):
     password: Annotated[str, AsTyped()] = Field(max_length=1000)
 
 
+class NewPassword(Asked):
+    """The password that somebody has, and the one that they want."""
+
+    old: Annotated[str, AsTyped()] = Field(max_length=1000)
+    new: Annotated[str, AsTyped()] = Field(max_length=1000)
+
+
 class Stop(Schema):
     """The latched stop of a site."""
 

@@ -13,4 +13,5 @@ if "VIPO_STATE_DIR" not in os.environ or os.environ.get("VIPO_TEST_WORKER", work
 
 from vipo_site.settings import *  # noqa: E402, F403
 
+DATABASES["default"]["TEST"] = {"NAME": str(VIPO_STATE_DIR / "tests.sqlite3")}  # noqa: F405
 PASSWORD_HASHERS = ["django.contrib.auth.hashers.MD5PasswordHasher"]

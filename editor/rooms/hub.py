@@ -20,16 +20,16 @@ from editor.errors import NoSuchProgram
 from editor.models import Program
 from editor.programs.checking import DeviceWatch
 from editor.rooms.member import Close, Member, Person
-from editor.rooms.room import Room
-from editor.rooms.runner import INTERRUPTED, OpenRoom, in_database, open_room
+from editor.rooms.room import INTERRUPTED, Room
+from editor.rooms.runner import OpenRoom, in_database, open_room
 from editor.rooms.stream import RoomStream, StreamLost, make_stream
 from registry import services as registry
-from registry.services import Claim, Places, find_access, has_ended
+from registry.services import Claim, Places, Standing, find_access
 
 CLOSE_EMPTY_AFTER_S = 5.0
 FLUSH_LIMIT_S = 5.0
 MOST_CONNECTIONS, MOST_OF_PERSON = 5_000, 40
-_HEARD = {"device", "device_removed", "map", "members", "programs", "library", "hello"}
+_HEARD = {"device", "device_removed", "map", "programs", "library", "hello"}
 
 
 class Hub:
@@ -130,7 +130,7 @@ class Hub:
 
     def _on_live(self, site: str, message: registry.Message) -> None:
         rooms = [opened for opened in self._open.values() if site in (opened.room.site, registry.EVERY_SITE)]
-        if message["type"] in {"members", "programs", "hello"}:
+        if message["type"] in {"programs", "hello"}:
             for opened in rooms:
                 self._start(self._review, opened.room)
         if self._watches[site].changes_programs(message):
@@ -139,19 +139,24 @@ class Hub:
                 opened.wake()
 
     async def _review(self, room: Room) -> None:
-        """Look again at what each connection may do; it acts on the open connection at once."""
-        for member in list(room.members):
-            if await in_database(has_ended)(member.session):
-                member.close(Close(Close.SIGNED_OUT, "You are signed out. Sign in again."))
-                continue
-            permission = await in_database(find_permission)(member.person.id, room.program)
-            if permission is None:
-                member.close(Close(Close.NOT_FOUND, "The program was deleted, or you are no longer one of its site."))
-                continue
-            gained = permission.can_write and not member.can_write
-            member.can_write = permission.can_write
-            if gained:
-                member.ask_for_state(room.document.state())
+        """Close the room when its program has been deleted."""
+        if not await in_database(Program.objects.filter(pk=room.program).exists)():
+            room.close_all(GONE)
+
+
+GONE = Close(Close.NOT_FOUND, "The program was deleted, or you are no longer one of its site.")
+
+
+def review(room: Room, member: Member, standing: Standing | None) -> None:
+    """Let a connection do what its session is good for now; it acts at once."""
+    if standing is None:
+        member.close(Close(Close.SIGNED_OUT, "You are signed out. Sign in again."))
+    elif not standing.allows(room.site, "viewer"):
+        member.close(GONE)
+    else:
+        could_write, member.can_write = member.can_write, standing.allows(room.site, "author")
+        if member.can_write and not could_write:
+            member.ask_for_state(room.document.state())
 
 
 _hubs: weakref.WeakKeyDictionary[asyncio.AbstractEventLoop, Hub] = weakref.WeakKeyDictionary()

@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from editor.rooms import yjs_protocol
-
-if TYPE_CHECKING:
-    from registry.services import Session
 
 KIB, MIB = 1024, 1024 * 1024
 FRAMES_PER_S, BURST_FRAMES = 60.0, 600.0
@@ -81,11 +78,11 @@ class Member:
     """A connection; frames for it are queued here and sent by its socket."""
 
     def __init__(
-        self, person: Person, *, can_write: bool, wake: Callable[[], None], session: Session | None = None
+        self, person: Person, *, can_write: bool, wake: Callable[[], None], is_sure: Callable[[], bool] = lambda: True
     ) -> None:
-        """`wake` is called when there is something to send; `session` is the one that the connection came in with."""
+        """`wake` is called when there is something to send; `is_sure` tells whether `can_write` is of now."""
         self.person = person
-        self.session = session
+        self.is_sure = is_sure
         self.can_write = can_write
         self.synced = False
         self.clients: set[int] = set()

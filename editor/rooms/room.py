@@ -18,6 +18,7 @@ MOST_READERS, MOST_WRITERS = 50, 50
 MOST_OF_PERSON = 10
 MOST_DOCUMENT_BYTES = 8 * MIB
 MOST_STEPS = 5000
+INTERRUPTED = "The program could not be reached just now. What was typed stays in the browser and follows."
 TOO_LARGE = "The program is full: it may have 8 MiB and 5,000 steps. Remove steps, or make a second program of a part."
 
 
@@ -118,6 +119,8 @@ class Room:
         """Apply a client's change, save it, publish it."""
         if update == EMPTY_UPDATE:
             return
+        if not member.is_sure():
+            raise Close(Close.COME_AGAIN, INTERRUPTED)
         if self._leaves_a_hole(update):
             member.ask_for_state(self.document.state())
             return

@@ -27,7 +27,7 @@ from editor.errors import NoSuchProgram
 from editor.language.compiler import EditedProgram
 from editor.programs.checking import check_and_publish, new_revision
 from editor.rooms.member import Close
-from editor.rooms.room import Room, encode_saved_note
+from editor.rooms.room import INTERRUPTED, Room, encode_saved_note
 from editor.rooms.stream import BEGINNING, Entry, RoomStream, StreamLost
 
 log = logging.getLogger(__name__)
@@ -39,7 +39,6 @@ COMPARE_EVERY_S = 30.0
 BEAT_EVERY_S = 10.0
 SILENT_AFTER_S = 75.0
 RETRY_AFTER_S = 1.0
-INTERRUPTED = "The program could not be reached just now. What was typed stays in the browser and follows."
 P = ParamSpec("P")
 R = TypeVar("R")
 

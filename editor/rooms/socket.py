@@ -7,13 +7,14 @@ import time
 from contextlib import suppress
 
 from channels.generic.websocket import AsyncWebsocketConsumer
+from django.db import Error
 
 from editor.rooms import yjs_protocol
-from editor.rooms.hub import Hub, Permission, find_permission, hub_of_this_loop
+from editor.rooms.hub import Hub, Permission, find_permission, hub_of_this_loop, review
 from editor.rooms.member import Close, Member
-from editor.rooms.room import Room
+from editor.rooms.room import INTERRUPTED, Room
 from editor.rooms.runner import in_database
-from registry.services import session_of_socket
+from registry.services import Seat, session_of_socket, watch_of_this_loop
 
 
 class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
@@ -21,6 +22,7 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
 
     room: Room | None = None
     member: Member | None = None
+    seat: Seat | None = None
     hub: Hub
     _sender: asyncio.Task[None] | None = None
 
@@ -31,13 +33,20 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
             permission = await self._permission()
             await self._enter(permission)
         except Close as close:
+            self._leave()
             await self._refuse(close)
+        except Error:
+            self._leave()
+            await self._refuse(Close(Close.COME_AGAIN, INTERRUPTED))
 
     async def _permission(self) -> Permission:
-        user = self.scope.get("user")
-        if user is None or not user.is_authenticated:
+        session = session_of_socket(self.scope)
+        if session is None:
             raise Close(Close.SIGNED_OUT, "You are signed out. Sign in again.")
-        permission = await in_database(find_permission)(user.pk, str(self.scope["url_route"]["kwargs"]["program"]))
+        self.seat = await watch_of_this_loop().join(session, self._review)
+        permission = await in_database(find_permission)(
+            session.person, str(self.scope["url_route"]["kwargs"]["program"])
+        )
         if permission is None:
             raise Close(Close.NOT_FOUND, "There is no such program, or you are not one of its site.")
         return permission
@@ -49,12 +58,21 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
             permission.person,
             can_write=permission.can_write,
             wake=self._waiting.set,
-            session=session_of_socket(self.scope),
+            is_sure=self._is_sure,
         )
         program = str(self.scope["url_route"]["kwargs"]["program"])
         self.room = await self.hub.enter(program, member)
         self.member = member
+        self._review()
         self._sender = asyncio.create_task(self._send_all(member))
+
+    def _is_sure(self) -> bool:
+        return self.seat is not None and self.seat.is_fresh
+
+    def _review(self) -> None:
+        """Called when what the session is good for has changed."""
+        if self.room is not None and self.member is not None and self.seat is not None:
+            review(self.room, self.member, self.seat.standing)
 
     async def receive(self, text_data: str | None = None, bytes_data: bytes | None = None) -> None:
         """Hand a frame to the room."""
@@ -92,6 +110,9 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
                 await self._sender
 
     def _leave(self) -> None:
+        if self.seat is not None:
+            watch_of_this_loop().leave(self.seat)
+            self.seat = None
         if self.room is not None and self.member is not None:
             self.hub.leave(self.room, self.member)
             self.room = None

@@ -61,6 +61,8 @@ class Ticker:
             registry.prune_alerts(now=now)
             registry.prune_tokens(now=now)
             registry.prune_keyed_requests(now=now)
+            registry.drop_expired(now=now)
+            registry.forget_attempts(now=now)
         return True
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from django.conf import settings
-from django.contrib.auth import login, logout
+from django.contrib.auth import login, logout, update_session_auth_hash
+from django.db import transaction
 from django.http import HttpRequest, HttpResponse
 from django.middleware.csrf import get_token
 from django.utils import timezone
@@ -19,11 +20,10 @@ from registry.api.authentication import session_only
 from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import User
-from registry.people.sign_in import check_sign_in
-from registry.shapes import (
-    Me,
-    SignIn,
-)
+from registry.people.known_browsers import find_device, remember_browser
+from registry.people.sign_in import change_password, check_own_password, check_sign_in
+from registry.people.sign_in import sign_out_everywhere as end_all_sessions
+from registry.shapes import Me, NewPassword, SignIn, signed_in
 from registry.sites.quota import may_create_sites
 
 router = Router(tags=["registry"])
@@ -55,14 +55,25 @@ def _demo_accounts() -> list[dict[str, str]]:
 
 
 @router.post("/sign-in", response=Me, auth=None)
-def sign_in(request: HttpRequest, body: SignIn) -> dict[str, Any]:
-    """Begin a session."""
+def sign_in(request: HttpRequest, response: HttpResponse, body: SignIn) -> dict[str, Any]:
+    """Begin a session; too many wrong passwords are refused for a while, which `Retry-After` names."""
     if check_csrf(request):
         raise HttpError(403, "The page is out of date. Reload it and sign in again.")
-    address = request.META.get("REMOTE_ADDR", "")
-    user = check_sign_in(email=body.email, password=body.password, address=address, now=timezone.now())
+    user = check_sign_in(
+        email=body.email,
+        password=body.password,
+        address=client_address(request),
+        now=timezone.now(),
+        device=find_device(request, body.email),
+    )
     login(request, user)
+    remember_browser(request, response, user.email)
     return _me(request)
+
+
+def client_address(request: HttpRequest) -> str:
+    """Return where a request comes from, as the server that took it says; no header that a client sends counts."""
+    return str(request.META.get("REMOTE_ADDR", ""))
 
 
 @router.post("/sign-out", response=Me, auth=session_only)
@@ -71,4 +82,25 @@ def sign_out(request: HttpRequest) -> dict[str, Any]:
     logout(request)
     call_listeners()
     publish(EVERY_SITE, {"type": "members"})
+    return _me(request)
+
+
+@router.post("/me/password", response=Me, auth=session_only)
+def change_my_password(request: HttpRequest, body: NewPassword) -> dict[str, Any]:
+    """Change the own password; all other sessions end, and this one goes on under another key."""
+    user = signed_in(request)
+    check_own_password(user=user, password=body.old, address=client_address(request), now=timezone.now())
+    with transaction.atomic():
+        change_password(email=user.email, password=body.new)
+        user.refresh_from_db(fields=["password"])
+        update_session_auth_hash(request, user)
+        request.session.save()
+    return _me(request)
+
+
+@router.post("/me/sign-out-everywhere", response=Me, auth=session_only)
+def sign_out_everywhere(request: HttpRequest) -> dict[str, Any]:
+    """End all sessions of who asks, this one too."""
+    end_all_sessions(user=signed_in(request))
+    logout(request)
     return _me(request)

@@ -8,15 +8,15 @@ from collections import deque
 from contextlib import suppress
 from typing import Any
 
-from channels.db import database_sync_to_async
 from channels.generic.websocket import AsyncWebsocketConsumer
+from django.db import Error
 
 from registry.bounds.places import Claim, Places
 from registry.live.fanout import Message, subscribe
-from registry.people.access import Access, find_access
-from registry.people.sessions import has_ended, session_of_socket
+from registry.people.sessions import session_of_socket
+from registry.people.watch import Seat, watch_of_this_loop
 
-SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_MANY, TOO_SLOW = 4401, 4403, 4404, 4429, 4503
+SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_MANY, COME_AGAIN = 4401, 4403, 4404, 4429, 4503
 _places = Places(in_all=5_000, of_site=500, of_person=30)
 """Sockets of this process."""
 BREATH_S = 0.1
@@ -29,12 +29,13 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
     """Sends what happens at a site; what the browser says is not listened to.
 
     Closes with 4401 (not signed in, or not any more), 4404 (no such site, or not a member), 4403 (no member any more),
-    4429 (30 of this person are open here, or 500 of the site) and 4503 (the browser reads too slowly); always after
-    accepting, since a browser learns no code otherwise.
+    4429 (30 of this person are open here, or 500 of the site) and 4503 (the browser reads too slowly, or the database
+    is away); always after accepting, since a browser learns no code otherwise.
     """
 
-    _access: Access | None = None
     _claim: Claim | None = None
+    _seat: Seat | None = None
+    _closing: asyncio.Task[None] | None = None
     _reader: asyncio.Task[None] | None = None
     _writer: asyncio.Task[None] | None = None
 
@@ -45,7 +46,13 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         self._devices: dict[str, dict[str, Any]] = {}
         self._something = asyncio.Event()
         await self.accept()
-        if code := await self._refusal():
+        try:
+            if session := session_of_socket(self.scope):
+                self._seat = await watch_of_this_loop().join(session, self._review)
+        except Error:
+            await self.close(COME_AGAIN)
+            return
+        if code := self._refusal(NOT_FOUND):
             await self.close(code)
             return
         claim = Claim(self.scope["user"].pk, self.site)
@@ -57,7 +64,9 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
         self._writer = asyncio.create_task(self._write())
 
     async def disconnect(self, code: int) -> None:
-        """Give the place back and end both tasks."""
+        """Leave the watch, give the place back and end both tasks."""
+        if self._seat:
+            watch_of_this_loop().leave(self._seat)
         if self._claim:
             _places.give_back(self._claim)
             self._claim = None
@@ -70,30 +79,35 @@ class SiteSocket(AsyncWebsocketConsumer):  # type: ignore[misc] # Channels has n
     async def receive(self, text_data: str | None = None, bytes_data: bytes | None = None) -> None:
         """Leave aside what a browser sends: all that it asks for goes over HTTP."""
 
-    @database_sync_to_async  # type: ignore[untyped-decorator] # Channels has no types
-    def _refusal(self) -> int:
-        user = self.scope["user"]
-        if not user.is_authenticated or has_ended(session_of_socket(self.scope)):
+    def _refusal(self, no_member: int) -> int:
+        """Return the code to close with; 0 for members."""
+        if self._seat is None or self._seat.standing is None:
             return SIGNED_OUT
-        self._access = find_access(user, self.site)
-        return 0 if self._access else NOT_FOUND
+        return 0 if self._seat.standing.allows(self.site, "viewer") else no_member
+
+    def _review(self) -> None:
+        """Called when what the session is good for has changed: nothing more is sent to who may hear no more."""
+        if (code := self._refusal(NOT_ALLOWED)) and self._closing is None:
+            for task in (self._reader, self._writer):
+                if task:
+                    task.cancel()
+            self._closing = asyncio.create_task(self.close(code))
 
     async def _read(self) -> None:
         async with subscribe(self.site, limit=10 * MOST_WAITING) as messages:
             self._put({"type": "hello", "site": self.site})
             while True:
                 message = await messages.get()
-                if message["type"] == "members":
-                    if code := await self._refusal():
-                        await self.close(SIGNED_OUT if code == SIGNED_OUT else NOT_ALLOWED)
-                        return
-                elif self._concerns(message) and not self._put(message):
-                    await self.close(TOO_SLOW)
+                if self._concerns(message) and not self._put(message):
+                    await self.close(COME_AGAIN)
                     return
 
     def _concerns(self, message: Message) -> bool:
-        """Tell whether whoever watches may know; some alerts are for admins alone."""
-        return message["type"] != "alert" or bool(self._access and self._access.allows(message["alert"]["role"]))
+        """Tell whether whoever watches is told; some alerts are for admins alone, and the watch heeds members."""
+        if message["type"] == "alert":
+            standing = self._seat and self._seat.standing
+            return bool(standing and standing.allows(self.site, message["alert"]["role"]))
+        return bool(message["type"] != "members")
 
     def _put(self, message: Message) -> bool:
         """Keep a message for the writer; a device's changes are put on top of those that still wait."""

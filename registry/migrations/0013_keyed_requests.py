@@ -5,7 +5,7 @@ from django.db import migrations, models
 
 class Migration(migrations.Migration):
     dependencies = [
-        ("registry", "0011_site_quota"),
+        ("registry", "0012_sign_in"),
     ]
 
     operations = [

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
 from django.contrib.auth.base_user import AbstractBaseUser, BaseUserManager
 from django.db import models
 from django.db.models.functions import Lower
+from django.utils.crypto import salted_hmac
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +44,7 @@ class User(AbstractBaseUser):
     initials = models.CharField(max_length=4)
     is_active = models.BooleanField(default=True)
     site_quota = models.PositiveSmallIntegerField(default=0)
+    session_generation = models.PositiveIntegerField(default=0)
     created_at = models.DateTimeField(auto_now_add=True)
 
     grant: Grant | None = None
@@ -60,12 +63,26 @@ class User(AbstractBaseUser):
     def __str__(self) -> str:
         return self.email
 
+    def get_session_auth_hash(self) -> str:
+        """Return what this person's sessions are known by; another password or generation ends all of them."""
+        return self._of_generation(super().get_session_auth_hash())
+
+    def get_session_auth_fallback_hash(self) -> Iterator[str]:
+        """Yield the same by the server's former keys."""
+        yield from map(self._of_generation, super().get_session_auth_fallback_hash())
+
+    def _of_generation(self, proof: str) -> str:
+        if not self.session_generation:
+            return proof
+        return salted_hmac(f"generation {self.session_generation}", proof).hexdigest()
+
 
 class SignInFailure(models.Model):
-    """A sign-in that failed, counted to slow down guessing."""
+    """A sign-in that failed or is under way, counted to slow down guessing."""
 
     email = models.CharField(max_length=254)
     address = models.CharField(max_length=64)
+    device = models.CharField(max_length=64, default="")
     at = models.DateTimeField()
 
     class Meta:

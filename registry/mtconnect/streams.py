@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 import time
-from asyncio import sleep
 from collections import Counter
 from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -15,8 +15,8 @@ from django.utils import timezone
 
 from registry.mtconnect.agent import AgentError, Answer, Question, agent_of, next_number, whole
 from registry.mtconnect.documents import Agent, write_error
-from registry.people.access import find_access
-from registry.people.sessions import Session, find_person
+from registry.people.sessions import Session
+from registry.people.watch import Seat, seated
 
 BOUNDARY = "vipo-mtconnect-part"
 MEDIA_TYPE = f"multipart/x-mixed-replace;boundary={BOUNDARY}"
@@ -100,41 +100,40 @@ async def stream_documents(listener: Listener, rhythm: Rhythm, first: Answer) ->
     """
     until, left, answer, took_s = time.monotonic() + MOST_SECONDS, MOST_BYTES, first, 0.0
     with suppress(AgentError), _counted(listener):
-        while True:
-            part = _part(answer.document)
-            left -= len(part)
-            yield part
-            pause_s = max(rhythm.pause_s, REST * took_s)
-            if left <= 0 or not await _wait(listener, replace(rhythm, pause_s=pause_s), answer, until):
-                break
-            begun = time.monotonic()
-            answer, is_last = await sync_to_async(_next_answer)(listener, answer)
-            took_s = time.monotonic() - begun
-            if is_last:
-                yield _part(answer.document)
-                break
-        yield f"--{BOUNDARY}--\r\n".encode()
+        async with seated(listener.session, _nothing) as seat:
+            while True:
+                part = _part(answer.document)
+                left -= len(part)
+                yield part
+                pause_s = max(rhythm.pause_s, REST * took_s)
+                if left <= 0 or not await _wait(listener, seat, replace(rhythm, pause_s=pause_s), answer, until):
+                    break
+                begun = time.monotonic()
+                answer, is_last = await sync_to_async(_next_answer)(listener, answer)
+                took_s = time.monotonic() - begun
+                if is_last:
+                    yield _part(answer.document)
+                    break
+            yield f"--{BOUNDARY}--\r\n".encode()
 
 
-async def _wait(listener: Listener, rhythm: Rhythm, last: Answer, until: float) -> bool:
+def _nothing() -> None:
+    """A change of the session's standing is seen before the next document."""
+
+
+async def _wait(listener: Listener, seat: Seat, rhythm: Rhythm, last: Answer, until: float) -> bool:
     """Wait until the next document is due; False when there is to be none."""
     begun = time.monotonic()
     while time.monotonic() < until:
-        await sleep(LEAST_PAUSE_S)
-        following = await sync_to_async(_look)(listener)
-        if following is None:
+        await asyncio.sleep(LEAST_PAUSE_S)
+        if seat.standing is None or not seat.standing.allows(listener.site, "viewer"):
             return False
+        following = await sync_to_async(next_number)()
         waited_s = time.monotonic() - begun
         has_news = not listener.is_sample or following > last.next or waited_s >= rhythm.heartbeat_s
         if has_news and waited_s >= rhythm.pause_s:
             return True
     return False
-
-
-def _look(listener: Listener) -> int | None:
-    """Return the number that the next observation will have; None when the listener may hear no more."""
-    person = find_person(listener.session)
-    return next_number() if person is not None and find_access(person, listener.site) else None
 
 
 def _next_answer(listener: Listener, last: Answer) -> tuple[Answer, bool]:

@@ -39,6 +39,11 @@ class OutOfScope(NotAllowed):
     code = "insufficient_scope"
 
 
+def allows(has: str, role: str) -> bool:
+    """Tell whether somebody who has one role may do what another one may."""
+    return ROLES.index(has) >= ROLES.index(role)
+
+
 @dataclass(frozen=True, slots=True)
 class Access:
     """A user's standing at a site; `scopes` are those of the token that was shown, None without one."""
@@ -50,7 +55,7 @@ class Access:
 
     def allows(self, role: str, scope: str = "") -> bool:
         """Tell whether this standing includes that role, and a token that scope (unless named, the role's own)."""
-        return ROLES.index(self.role) >= ROLES.index(role) and self.has_scope(scope or scope_of(role))
+        return allows(self.role, role) and self.has_scope(scope or scope_of(role))
 
     def has_scope(self, scope: str) -> bool:
         """Tell whether this is in the token's scopes; without a token everything is."""

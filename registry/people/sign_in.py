@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from datetime import datetime, timedelta
+from datetime import datetime
 
 from django.contrib.auth import authenticate
-from django.contrib.auth.password_validation import validate_password
 from django.core.exceptions import ValidationError
 from django.core.validators import validate_email
 from django.db import IntegrityError, transaction
+from django.db.models import F
 
 from registry.errors import RegistryError
-from registry.models import SignInFailure, User
+from registry.live.fanout import EVERY_SITE, publish
+from registry.models import User
+from registry.people.passwords import check_new_password
+from registry.people.throttle import Attempt, counted
 
-WINDOW = timedelta(minutes=15)
 MOST_NAME = 100
-MOST_FOR_PAIR, MOST_FOR_EMAIL, MOST_FOR_ADDRESS = 8, 50, 200
 
 
 class WrongPassword(RegistryError):
@@ -25,11 +26,11 @@ class WrongPassword(RegistryError):
     status = 401
 
 
-class TooManyAttempts(RegistryError):
-    """Too many sign-ins failed within a short time."""
+class WrongOldPassword(RegistryError):
+    """Somebody who is signed in does not know the password that they want to change."""
 
-    code = "too_many_attempts"
-    status = 429
+    code = "wrong_old_password"
+    status = 422
 
 
 class BadPerson(RegistryError):
@@ -40,13 +41,13 @@ class BadPerson(RegistryError):
 
 
 def create_user(*, email: str, password: str, display_name: str) -> User:
-    """Add a person. Raises BadPerson."""
+    """Add a person. Raises BadPerson, BadPassword."""
     email = email.strip().lower()
     if not 0 < len(display_name) <= MOST_NAME or not display_name.isprintable():
         raise BadPerson(f"A person's name has 1 to {MOST_NAME} characters, all of which can be printed.")
     try:
         validate_email(email)
-        validate_password(password)
+        check_new_password(password, User(email=email, display_name=display_name))
         with transaction.atomic():
             return User.objects.create_user(email=email, password=password, display_name=display_name)
     except ValidationError as error:
@@ -56,37 +57,67 @@ def create_user(*, email: str, password: str, display_name: str) -> User:
 
 
 def is_known(*, email: str) -> bool:
-    """Tell whether somebody signs in with this address."""
+    """Tell whether somebody signs in with this address, or did until the account was closed."""
     return User.objects.filter(email=email.strip().lower()).exists()
 
 
 def change_password(*, email: str, password: str) -> None:
-    """Give a known person another password; their sessions end. Raises BadPerson."""
+    """Give a known person another password; their sessions end. Raises BadPerson, BadPassword."""
+    user = _find(email)
+    check_new_password(password, user)
+    user.set_password(password)
+    user.save(update_fields=["password"])
+    _tell_sessions()
+
+
+def close_account(*, email: str) -> None:
+    """Let a person sign in no more; their sessions end for good, and what they made stays. Raises BadPerson."""
+    user = _find(email)
+    user.is_active = False
+    user.set_unusable_password()
+    user.save(update_fields=["is_active", "password"])
+    _tell_sessions()
+
+
+def reopen_account(*, email: str, password: str) -> None:
+    """Let a person sign in again, with another password. Raises BadPerson, BadPassword."""
+    change_password(email=email, password=password)
+    User.objects.filter(email=email.strip().lower()).update(is_active=True)
+
+
+def check_own_password(*, user: User, password: str, address: str, now: datetime) -> None:
+    """Make sure that somebody who is signed in knows their password. Raises WrongOldPassword, TooManyAttempts."""
+    with counted(Attempt(user.email, address, f"own:{user.pk}"), now):
+        if not user.check_password(password):
+            raise WrongOldPassword("The password that you have now is another one. Try again.", {"why": "old"})
+
+
+def sign_out_everywhere(*, user: User) -> None:
+    """End all sessions of a person."""
+    User.objects.filter(pk=user.pk).update(session_generation=F("session_generation") + 1)
+    _tell_sessions()
+
+
+def check_sign_in(*, email: str, password: str, address: str, now: datetime, device: str = "") -> User:
+    """Return the person whose password this is; attempts are counted. Raises WrongPassword, TooManyAttempts.
+
+    `device` is a browser from which this person has signed in before; such are counted for themselves.
+    """
+    email = email.strip().lower().replace("\0", "")[:254]
+    with counted(Attempt(email, address, device), now):
+        user = authenticate(username=email, password=password)
+        if not isinstance(user, User):
+            raise WrongPassword("The e-mail address or the password is wrong. Check both and try again.")
+        return user
+
+
+def _find(email: str) -> User:
     user = User.objects.filter(email=email.strip().lower()).first()
     if user is None:
         raise BadPerson(f"Nobody signs in as {email[:100]!r}. Check the address.")
-    user.set_password(password)
-    user.save(update_fields=["password"])
-
-
-def check_sign_in(*, email: str, password: str, address: str, now: datetime) -> User:
-    """Return the person whose password this is; failures are counted. Raises WrongPassword, TooManyAttempts."""
-    email = email.strip().lower().replace("\0", "")[:254]
-    if _is_throttled(email, address, now):
-        raise TooManyAttempts("Too many sign-ins failed. Wait 15 minutes, then try again.")
-    user = authenticate(username=email, password=password)
-    if not isinstance(user, User):
-        SignInFailure.objects.filter(at__lt=now - WINDOW).delete()
-        SignInFailure.objects.create(email=email, address=address[:64], at=now)
-        raise WrongPassword("The e-mail address or the password is wrong. Check both and try again.")
-    SignInFailure.objects.filter(email=email, address=address[:64]).delete()
     return user
 
 
-def _is_throttled(email: str, address: str, now: datetime) -> bool:
-    recent = SignInFailure.objects.filter(at__gte=now - WINDOW)
-    return (
-        recent.filter(email=email, address=address[:64]).count() >= MOST_FOR_PAIR
-        or recent.filter(email=email).count() >= MOST_FOR_EMAIL
-        or recent.filter(address=address[:64]).count() >= MOST_FOR_ADDRESS
-    )
+def _tell_sessions() -> None:
+    """Have the watches of all processes look at once."""
+    transaction.on_commit(lambda: publish(EVERY_SITE, {"type": "members"}))

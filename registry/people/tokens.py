@@ -16,7 +16,7 @@ from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import ApiToken, Membership, User
 from registry.models.people import Grant
-from registry.people.access import ROLES, SCOPES, NotAllowed, NotAMember
+from registry.people.access import ROLES, SCOPES, NotAllowed, NotAMember, access_of
 
 MARK = "vipo"
 MOST_OF_MEMBER = 20
@@ -163,10 +163,13 @@ def find_bearer(*, token: str, now: datetime) -> User:
     return _person(row)
 
 
-def find_person_of_token(*, token_id: int, now: datetime) -> User | None:
-    """Return who a token that was shown before stands for; None once it has ended."""
-    row = _standing(now).filter(pk=token_id).first()
-    return _person(row) if row else None
+def read_standing_roles(*, token_ids: Collection[int], now: datetime) -> dict[int, dict[str, str]]:
+    """Return what tokens that were shown before are good for: role by site; those that have ended are left out."""
+    roles = {}
+    for row in _standing(now).filter(pk__in=token_ids):
+        access = access_of(_person(row), row.membership)
+        roles[row.pk] = {access.site: access.role}
+    return roles
 
 
 def expiry_of_token(*, token_id: int) -> datetime | None:

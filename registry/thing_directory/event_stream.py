@@ -18,8 +18,8 @@ from django.utils import timezone
 from registry.devices.things import THINGS, ThingNews, is_kept_since, newest_news, read_news
 from registry.errors import RegistryError
 from registry.live.fanout import Message, listen
-from registry.people.access import list_visible
-from registry.people.sessions import Session, find_person
+from registry.people.sessions import Session
+from registry.people.watch import Seat, seated
 from vipo_device.descriptions.thing_description import DEVICE_URN
 
 MOST_AT_ONCE = 50
@@ -87,12 +87,12 @@ async def stream_events(listener: Listener, last_id: str) -> AsyncIterator[bytes
     """
     until, left = time.monotonic() + min(MOST_SECONDS, _lasts_s(listener.session)), MOST_BYTES
     with suppress(TooManyStreams), _counted(listener.session.person):
-        async with _bell() as rung:
-            heard = await _begin(listener, last_id)
+        async with _bell() as rung, seated(listener.session, rung.set) as seat:
+            heard = await _begin(listener, seat, last_id)
             if heard is not None:
                 yield _opening(heard)
             while heard is not None and left > 0 and time.monotonic() < until:
-                heard = await _look(listener, heard)
+                heard = await _look(listener, seat, heard)
                 for told in _in_words(listener, heard):
                     left -= len(told)
                     yield told
@@ -102,11 +102,11 @@ async def stream_events(listener: Listener, last_id: str) -> AsyncIterator[bytes
 
 @asynccontextmanager
 async def _bell() -> AsyncIterator[asyncio.Event]:
-    """Give an event that is set whenever there may be news, or somebody may have lost the right to hear them."""
+    """Give an event that is set whenever there may be news."""
     loop, rung = asyncio.get_running_loop(), asyncio.Event()
 
     def hear(slug: str, message: Message) -> None:
-        if slug == THINGS or message["type"] in ("members", "hello"):
+        if slug == THINGS or message["type"] == "hello":
             with suppress(RuntimeError):  # the loop has just ended: nobody is left to hear it
                 loop.call_soon_threadsafe(rung.set)
 
@@ -132,9 +132,9 @@ async def _wait(rung: asyncio.Event, most_s: float) -> bool:
 
 
 @sync_to_async
-def _begin(listener: Listener, last_id: str) -> Heard | None:
+def _begin(listener: Listener, seat: Seat, last_id: str) -> Heard | None:
     """Return where the listener begins: after the event it heard last, if all that came since is kept, else now."""
-    sites, newest = _visible(listener), newest_news()
+    sites, newest = _visible(listener, seat), newest_news()
     if sites is None:
         return None
     if not last_id:
@@ -144,9 +144,9 @@ def _begin(listener: Listener, last_id: str) -> Heard | None:
 
 
 @sync_to_async
-def _look(listener: Listener, before: Heard) -> Heard | None:
+def _look(listener: Listener, seat: Seat, before: Heard) -> Heard | None:
     """Return what has come since; None when the listener may hear no more."""
-    sites = _visible(listener)
+    sites = _visible(listener, seat)
     if sites is None:
         return None
     if sites != before.sites or not is_kept_since(before.until):
@@ -155,12 +155,11 @@ def _look(listener: Listener, before: Heard) -> Heard | None:
     return Heard(sites, news, news[-1].id if news else before.until, is_whole=True)
 
 
-def _visible(listener: Listener) -> frozenset[str] | None:
+def _visible(listener: Listener, seat: Seat) -> frozenset[str] | None:
     """Return the sites whose Things the listener may see; None when it is signed out, or no member of its one site."""
-    person = find_person(listener.session)
-    if person is None:
+    if seat.standing is None:
         return None
-    sites = list_visible(person)
+    sites = frozenset(seat.standing.roles)
     if listener.site is None:
         return sites
     return frozenset({listener.site}) if listener.site in sites else None

@@ -19,7 +19,10 @@ def add_account_arguments(sub: argparse.ArgumentParser) -> None:
     sub.add_argument("--site", default="", help="make them a member of this site")
     sub.add_argument("--role", choices=ROLES, default="viewer", help="what they may do there (viewer); none: no more")
     sub.add_argument("--sites", type=int, help="how many sites they may make in all (0: none)")
-    sub.add_argument("--new-password", action="store_true", help="another password; who is signed in is signed out")
+    ending = sub.add_mutually_exclusive_group()
+    ending.add_argument("--new-password", action="store_true", help="another password; who is signed in is signed out")
+    ending.add_argument("--close", action="store_true", help="they are signed out and sign in no more; work stays")
+    ending.add_argument("--reopen", action="store_true", help="they may sign in again, with a new password")
     sub.set_defaults(run=set_account)
 
 
@@ -46,7 +49,13 @@ def _decide(options: argparse.Namespace) -> list[str]:
 
     email: str = options.email.strip().lower()
     told, password = [], secrets.token_urlsafe(12)
-    if not services.is_known(email=email):
+    if options.close:
+        services.close_account(email=email)
+        return [f"{email} signs in no more. --reopen undoes that."]
+    if options.reopen:
+        services.reopen_account(email=email, password=password)
+        told = [f"{email} may sign in again.", f"The password, shown this once: {password}"]
+    elif not services.is_known(email=email):
         services.create_user(email=email, password=password, display_name=options.name or email.partition("@")[0])
         told = [f"{email} may sign in.", f"The password, shown this once: {password}"]
     elif options.new_password:

@@ -76,7 +76,7 @@ def on_refusal(request: HttpRequest, error: VipoError, status: int = 0) -> HttpR
     more = {"args": dict(error.facts)} if error.facts else {}
     answer = problem(status or error.status, error.code, error.detail, **more)
     if answer.status_code in FOR_LOAD or error.code == "under_way":
-        answer["Retry-After"] = str(error.retry_after_s)
+        answer["Retry-After"] = str(error.facts.get("retry_after_s", error.retry_after_s))
     if error.code in _OF_TOKENS:
         answer["WWW-Authenticate"] = f'Bearer error="{error.code}"'
     return answer

@@ -16,6 +16,7 @@ const screens: Screens = import.meta.glob<Record<string, ComponentType>>([
 
 const ROUTES: readonly [path: string, file: string][] = [
   ["/", "pages/home/HomePage"],
+  ["/account", "pages/account/AccountPage"],
   ["/sites/new", "pages/site/NewSitePage"],
   ["/sites/:slug/devices/:id?", "pages/devices/DevicesPage"],
   ["/sites/:slug/programs", "pages/programs/ProgramsPage"],

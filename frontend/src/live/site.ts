@@ -2,7 +2,7 @@
 import { useQueryClient, type QueryClient } from "@tanstack/react-query";
 import { useEffect } from "react";
 import { keys } from "@/api/queries";
-import type { Device, Site } from "@/api/types";
+import type { Device, Me, Site } from "@/api/types";
 import { LiveConnection } from "./connection";
 import { SiteFeed } from "./feed";
 import type { LiveMessage } from "./messages";
@@ -15,6 +15,9 @@ interface Session {
 }
 
 const LINGER_MS = 2000;
+const SIGNED_OUT = 4401;
+/** So long the answer that brings the new key may take. */
+const NEW_KEY_MS = 500;
 const sessions = new Map<string, Session>();
 
 /** Watch a site while the caller is on the screen; nothing happens while the slug is not known. */
@@ -43,15 +46,25 @@ function begin(slug: string, queries: QueryClient): Session {
     useLiveStore.setState({ ...EMPTY, site: slug });
   }
   const feed = new SiteFeed(slug, queries);
-  const connection = new LiveConnection(socketAddress(slug), {
-    onMessage: (message) => feed.take(message as LiveMessage),
-    onState: (state) => setConnection(state),
-    onRefused: () => void queries.invalidateQueries({ queryKey: keys.me }),
-  });
+  let ended = false;
+  const connect = (): LiveConnection =>
+    new LiveConnection(socketAddress(slug), {
+      onMessage: (message) => feed.take(message as LiveMessage),
+      onState: (state) => setConnection(state),
+      onRefused: (code) => void comeAgain(code),
+    });
+  /** A new password gives this browser's session another key: who is still signed in with that one comes again. */
+  const comeAgain = async (code: number): Promise<void> => {
+    await new Promise((done) => setTimeout(done, NEW_KEY_MS));
+    await queries.refetchQueries({ queryKey: keys.me });
+    if (code === SIGNED_OUT && !ended && queries.getQueryData<Me>(keys.me)?.user) connection = connect();
+  };
+  let connection = connect();
   const unfollow = followCaches(slug, queries);
   return {
     watchers: 0,
     end() {
+      ended = true;
       connection.close();
       feed.end();
       unfollow();

@@ -1,7 +1,7 @@
 /** Who is signed in, what they may do here, and how the screen looks to them. */
 import { Menu } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Check, KeyRound, Languages, LogOut, Monitor, Moon, Sun, type LucideIcon } from "lucide-react";
+import { Check, KeyRound, Languages, LogOut, Monitor, Moon, Sun, UserRound, type LucideIcon } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate } from "react-router-dom";
 import { api } from "@/api/client";
@@ -86,6 +86,9 @@ function AccountMenu({ user, role, slug }: { user: User; role: Role | undefined;
           </Menu.Item>
         ))}
         <Menu.Divider />
+        <Menu.Item component={Link} to="/account" leftSection={<UserRound size={15} />}>
+          {t("shell.account.settings")}
+        </Menu.Item>
         {slug ? (
           <Menu.Item component={Link} to={`/sites/${slug}/tokens`} leftSection={<KeyRound size={15} />}>
             {t("tokens.menu")}

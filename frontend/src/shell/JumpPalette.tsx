@@ -16,6 +16,7 @@ function useTargets(slug: string | undefined): JumpTarget[] {
   const at = `/sites/${slug ?? ""}`;
   return [
     { kind: "page", name: t("shell.nav.home"), to: "/" },
+    { kind: "page", name: t("shell.account.settings"), to: "/account" },
     ...(slug ? PAGES : []).map((page) => ({
       kind: "page" as const,
       name: t(`shell.nav.${page}`),

@@ -36,7 +36,7 @@ def test_wrong_passwords_get_a_sentence_and_then_a_pause(factory: Factory) -> No
     answers = [stranger.post("/api/sign-in", json=words) for _ in range(9)]
     assert [a.status_code for a in answers] == [401] * 8 + [429]
     assert answers[0].json()["detail"] == "The e-mail address or the password is wrong. Check both and try again."
-    assert answers[8].json()["detail"] == "Too many sign-ins failed. Wait 15 minutes, then try again."
+    assert answers[8].json()["detail"] == "Too many sign-ins failed. Try again in 15 min."
 
 
 @pytest.mark.parametrize("name", BROKEN_MAPS)

@@ -12,6 +12,7 @@ from channels.routing import URLRouter
 from channels.testing import WebsocketCommunicator
 from django.contrib.auth.models import AnonymousUser
 from django.contrib.sessions.backends.db import SessionStore
+from django.test import Client
 from django.urls import path
 
 from registry import services
@@ -28,11 +29,19 @@ pytestmark = pytest.mark.django_db(transaction=True)
 @asynccontextmanager
 async def opened(user: Any, site: str = "hall", **scope: Any) -> AsyncIterator[WebsocketCommunicator]:
     socket = WebsocketCommunicator(URLRouter([path("ws/site/<slug:slug>", SiteSocket.as_asgi())]), f"/ws/site/{site}")
+    if user.is_authenticated and "session" not in scope:
+        scope["session"] = await database_sync_to_async(begin_session)(user)
     socket.scope |= {"user": user, **scope}
     connected, _ = await socket.connect(timeout=5)
     assert connected
     yield socket
     await socket.disconnect(timeout=5)
+
+
+def begin_session(user: User) -> SessionStore:
+    browser = Client()
+    browser.force_login(user)
+    return SessionStore(browser.cookies["sessionid"].value)
 
 
 async def close_code(socket: WebsocketCommunicator) -> int:

@@ -30,7 +30,7 @@ NEEDED = {
     name: scope
     for scope, names in {
         "anybody": "show_me sign_in",
-        "session": "sign_out upload_site list_tokens create_token revoke_token",
+        "session": "sign_out change_my_password sign_out_everywhere upload_site list_tokens create_token revoke_token",
         "read": """search_library show_function show_function_version show_program show_compiled show_document
             read_expression list_versions get_rehearsal get_run list_events list_sites list_armed get_call
             list_questions plan_route plan_routes list_runs show_site list_alerts look_at_description list_devices

@@ -68,6 +68,20 @@ def test_a_reader_is_answered_and_never_heard() -> None:
     assert len(here.to_save) == 1
 
 
+def test_of_somebody_whose_session_was_not_looked_at_lately_no_change_is_taken() -> None:
+    here, sure = room(), [True]
+    ada = Client(here)
+    ada.member.is_sure = lambda: sure[0]
+    ada.read()
+    ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
+    sure[0] = False
+    ada.send(yjs_protocol.encode_step_1(b"\x00"))
+    with pytest.raises(Close, match="What was typed stays in the browser") as refused:
+        ada.send(yjs_protocol.encode_update(ada.edit("s2", 1)))
+    assert refused.value.code == 4503
+    assert (list(here.document.to_json()["steps"]), len(here.to_save)) == (["s1"], 1)
+
+
 def test_a_room_is_full_at_some_point() -> None:
     here = room()
     for number in range(MOST_WRITERS):

@@ -1,0 +1,153 @@
+/** One's own account: another password, and an end of all sessions. */
+import { Button, PasswordInput } from "@mantine/core";
+import { useMutation, useQueryClient } from "@tanstack/react-query";
+import { Check, CircleAlert, LogOut } from "lucide-react";
+import { useState, type FormEvent } from "react";
+import { useTranslation } from "react-i18next";
+import { useNavigate } from "react-router-dom";
+import { api, ApiProblem, rememberCsrf } from "@/api/client";
+import { keys, useMe } from "@/api/queries";
+import type { Me, User } from "@/api/types";
+import { Panel } from "@/design/Panel";
+import { problemText } from "@/shell/LoadProblem";
+import { PageShell } from "@/shell/PageShell";
+import styles from "./account.module.css";
+
+const EMPTY = { old: "", new: "" };
+
+function useChangePassword(onDone: () => void) {
+  const queries = useQueryClient();
+  return useMutation({
+    mutationFn: (words: typeof EMPTY) => api.post<Me>("/me/password", words),
+    onSuccess: (me) => {
+      rememberCsrf(me.csrf);
+      queries.setQueryData(keys.me, me);
+      onDone();
+    },
+  });
+}
+
+function Told({ error, done }: { error: Error | null; done: boolean }) {
+  const { t } = useTranslation();
+  if (error)
+    return (
+      <p className={styles.refused} role="alert">
+        <CircleAlert size={16} aria-hidden="true" />
+        {problemText(error, t("shell.problem.screen"))}
+      </p>
+    );
+  return (
+    <p className={done ? styles.done : "visually-hidden"} role="status">
+      {done ? <Check size={16} aria-hidden="true" /> : null}
+      {done ? t("pages.account.changed") : null}
+    </p>
+  );
+}
+
+function PasswordForm({ user }: { user: User }) {
+  const { t } = useTranslation();
+  const [words, setWords] = useState(EMPTY);
+  const change = useChangePassword(() => setWords(EMPTY));
+  const write = (some: Partial<typeof EMPTY>) => {
+    if (!change.isIdle) change.reset();
+    setWords({ ...words, ...some });
+  };
+  const submit = (event: FormEvent) => {
+    event.preventDefault();
+    change.mutate(words);
+  };
+  const code = change.error instanceof ApiProblem ? change.error.code : "";
+  return (
+    <Panel className={styles.card}>
+      <form className={styles.form} onSubmit={submit}>
+        <div>
+          <h2>{t("pages.account.password")}</h2>
+          <p>{t("pages.account.passwordText")}</p>
+        </div>
+        <input
+          type="text"
+          className="visually-hidden"
+          tabIndex={-1}
+          aria-hidden="true"
+          autoComplete="username"
+          value={user.email}
+          readOnly
+        />
+        <PasswordInput
+          label={t("pages.account.old")}
+          autoComplete="current-password"
+          required
+          withAsterisk={false}
+          value={words.old}
+          error={code === "wrong_old_password"}
+          onChange={(event) => write({ old: event.target.value })}
+        />
+        <PasswordInput
+          label={t("pages.account.new")}
+          description={t("pages.account.newHint")}
+          autoComplete="new-password"
+          required
+          withAsterisk={false}
+          value={words.new}
+          error={code === "bad_password"}
+          onChange={(event) => write({ new: event.target.value })}
+        />
+        <Told error={change.error} done={change.isSuccess} />
+        <Button type="submit" loading={change.isPending} disabled={!words.old || !words.new}>
+          {t("pages.account.change")}
+        </Button>
+      </form>
+    </Panel>
+  );
+}
+
+function Sessions() {
+  const { t } = useTranslation();
+  const queries = useQueryClient();
+  const navigate = useNavigate();
+  const end = useMutation({
+    mutationFn: () => api.post("/me/sign-out-everywhere"),
+    onSuccess: async () => {
+      await navigate("/sign-in");
+      queries.clear();
+    },
+  });
+  return (
+    <Panel className={styles.card}>
+      <div className={styles.form}>
+        <div>
+          <h2>{t("pages.account.everywhere")}</h2>
+          <p>{t("pages.account.everywhereText")}</p>
+        </div>
+        {end.isError ? <Told error={end.error} done={false} /> : null}
+        <Button
+          variant="default"
+          leftSection={<LogOut size={16} aria-hidden="true" />}
+          loading={end.isPending}
+          onClick={() => end.mutate()}
+        >
+          {t("pages.account.everywhere")}
+        </Button>
+      </div>
+    </Panel>
+  );
+}
+
+export function AccountPage() {
+  const { t } = useTranslation();
+  const user = useMe().data?.user;
+  return (
+    <PageShell title={t("pages.account.title")}>
+      {user ? (
+        <div className={styles.page}>
+          <div className={styles.who}>
+            <strong>{user.name}</strong>
+            <span>{user.email}</span>
+          </div>
+          <PasswordForm user={user} />
+          <Sessions />
+        </div>
+      ) : null}
+    </PageShell>
+  );
+}

@@ -1,0 +1,85 @@
+"""The page of one's own account: another password, and signing out everywhere, by keyboard and in both languages."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, expect
+
+from tests.e2e.conftest import PATIENCE_MS, SignIn, listen
+from tests.e2e.screens import violations
+from tests.kit.demo import Demo
+from tests.kit.files import ROOT
+
+pytestmark = pytest.mark.browser
+EMAIL, SECOND = "own.account@vipo.example", "four words of mine"
+SIZES = [(1600, 1000, "light"), (1600, 1000, "dark"), (820, 1180, "light"), (820, 1180, "dark")]
+
+
+@pytest.fixture
+def password(demo: Demo) -> str:
+    """Somebody with an account of their own, whose password is told."""
+    command = [sys.executable, "-m", "vipo_site.cli.main", "account", EMAIL, "--site", "painting-factory"]
+    environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state)}
+    environment.pop("DJANGO_SETTINGS_MODULE", None)
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()[1].removeprefix("The password, shown this once: ")
+
+
+def come_in(context: BrowserContext, demo: Demo, password: str) -> Page:
+    page = context.new_page()
+    page.set_default_timeout(PATIENCE_MS)
+    page.goto(f"{demo.url}/sign-in?next=/account")
+    page.get_by_label("Email address").fill(EMAIL)
+    page.get_by_label("Password", exact=True).fill(password)
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("heading", name="Your account")).to_be_visible()
+    return page
+
+
+def test_an_own_password_is_changed_and_all_sessions_are_ended(
+    demo: Demo, chromium: Browser, password: str, faults: list[str]
+) -> None:
+    here, there = (chromium.new_context(locale="en-GB") for _ in range(2))
+    listen(here, faults)
+    page, other = come_in(here, demo, password), come_in(there, demo, password)
+    page.get_by_label("Password that you have now").fill(password)
+    page.keyboard.press("Tab")
+    page.get_by_label("New password").fill("own.account")
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("too much like your name or e-mail address")).to_be_visible()
+    faults.clear()  # the browser itself tells of the refusal
+    page.get_by_label("New password").fill(SECOND)
+    page.keyboard.press("Enter")
+    expect(page.get_by_text("The new password holds. Everywhere else you are signed out.")).to_be_visible()
+    expect(other.get_by_role("button", name="Sign in", exact=True)).to_be_visible()
+    page.reload()
+    third = chromium.new_context(locale="en-GB")
+    elsewhere = come_in(third, demo, SECOND)
+    page.get_by_role("button", name="Sign out everywhere").focus()
+    page.keyboard.press("Enter")
+    for each in (page, elsewhere):
+        expect(each.get_by_role("button", name="Sign in", exact=True)).to_be_visible()
+    for context in (here, there, third):
+        context.close()
+
+
+def test_the_page_is_sound_in_both_themes_sizes_and_languages(sign_in: SignIn) -> None:
+    for width, height, scheme in SIZES:
+        for language, title in (("en", "Your account"), ("de", "Ihr Konto")):
+            page = sign_in("author", "/account", width=width, height=height, dark=scheme == "dark", language=language)
+            expect(page.get_by_role("heading", name=title)).to_be_visible()
+            assert violations(page) == []
+            assert page.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
+            assert "account." not in page.locator("main").inner_text()
+
+
+def test_the_menu_of_the_account_leads_there(sign_in: SignIn) -> None:
+    page = sign_in("author")
+    page.get_by_role("button", name="Account").press("Enter")
+    page.get_by_role("menuitem", name="Password and sessions").press("Enter")
+    expect(page.get_by_role("heading", name="Your account")).to_be_visible()
