@@ -24,6 +24,5 @@ RUN pip install --no-cache-dir --disable-pip-version-check --constraint constrai
 COPY examples examples
 COPY --from=frontend /build/dist frontend/dist
 USER vipo
-VOLUME /state
 EXPOSE 8000
-CMD ["daphne", "-b", "0.0.0.0", "-p", "8000", "--proxy-headers", "--websocket-max-message-size", "16777216", "--websocket-max-frame-size", "16777216", "vipo_site.asgi:application"]
+CMD ["daphne", "-b", "0.0.0.0", "-p", "8000", "--websocket-max-message-size", "16777216", "--websocket-max-frame-size", "16777216", "vipo_site.asgi:application"]
