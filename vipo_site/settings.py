@@ -153,6 +153,8 @@ VIPO_BROKER_URL = os.environ.get("VIPO_BROKER_URL", "" if SERVED else f"mqtt://1
 VIPO_DEFAULT_SITE = os.environ.get("VIPO_DEFAULT_SITE", "painting-factory")
 VIPO_OFFLINE_ALERT_S = float(os.environ.get("VIPO_OFFLINE_ALERT_S", "600"))
 """After so many seconds a device that is away is worth an alert; one that is needed for work is at once."""
+VIPO_PULSE = os.environ.get("VIPO_PULSE", "")
+"""The file that a process without pages touches while it works, for a health check; none if empty."""
 VIPO_SPEED = float(os.environ.get("VIPO_SPEED", "1"))
 VIPO_DEMO = has_demo(ALLOWED_HOSTS)
 VIPO_DEMO_SIGN_IN = VIPO_DEMO and not SERVED
