@@ -67,7 +67,7 @@ class Composed:
         known = "|".join(re.escape(path) for path in sorted(paths, key=len, reverse=True))
         text = re.sub(rf"(?<![\w/.-])({known})", lambda match: paths[match[1]], text)
         text = text.replace("@postgres:5432/", f"@127.0.0.1:{self.postgres.port}/")
-        return re.sub(r"(?<![\w/.-])(redis|web-[12]):(\d)", lambda m: f"{self.address(m[1])}:{m[2]}", text)
+        return re.sub(r"(?<![\w.-])(redis|web-[12]):(\d)", lambda m: f"{self.address(m[1])}:{m[2]}", text)
 
     def environment(self, service: str) -> dict[str, str]:
         own = {name: value for name, value in os.environ.items() if not name.startswith(("VIPO_", "DJANGO_"))}
