@@ -7,6 +7,7 @@ import re
 import ssl
 import stat
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +88,7 @@ def test_a_stranger_learns_no_password_and_gets_safe_cookies(site: Composed) -> 
 
 def test_people_come_in_as_the_page_says(site: Composed) -> None:
     word = make_account(site, "ada@vipo.example")
-    with browser(site) as client:
+    with closing(browser(site)) as client:
         answer = client.post("/api/sign-in", json={"email": "ada@vipo.example", "password": word})
         assert answer.status_code == 200, answer.text
         session = next(cookie for cookie in answer.headers.get_list("Set-Cookie") if cookie.startswith("sessionid="))
@@ -99,7 +100,7 @@ def test_forged_headers_do_not_reset_the_throttle(site: Composed) -> None:
     word = make_account(site, "bob@vipo.example")
     codes = []
     for number in range(10):
-        with browser(site) as client:
+        with closing(browser(site)) as client:
             forged = {name: value.format(n=number) for name, value in FORGED.items()}
             body = {"email": "bob@vipo.example", "password": "wrong"}
             codes.append(client.post("/api/sign-in", json=body, headers=forged).status_code)
