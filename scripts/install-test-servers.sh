@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs what the tests start for themselves, as Debian packages: PostgreSQL, Redis, Mosquitto and its clients,
-# Chromium and ROS 1. Nothing is enabled or left running by the tests; each starts its own servers on free ports.
+# nginx, Chromium and ROS 1. Nothing is enabled or left running by the tests; each starts its own servers on free ports.
 # ROS is not in every distribution: without it the tests of the robot agent's rospy shell are skipped, and say so.
 set -eu
 
@@ -9,6 +9,7 @@ missing=""
 command -v redis-server >/dev/null || missing="$missing redis-server"
 command -v mosquitto >/dev/null || [ -x /usr/sbin/mosquitto ] || missing="$missing mosquitto"
 command -v mosquitto_pub >/dev/null || missing="$missing mosquitto-clients"
+command -v nginx >/dev/null || [ -x /usr/sbin/nginx ] || missing="$missing nginx-light"
 command -v chromium >/dev/null || missing="$missing chromium"
 ros=""
 if ! /usr/bin/python3 -c "import rospy, rosmaster, actionlib, move_base_msgs, nav_msgs, sensor_msgs, paho" 2>/dev/null; then

@@ -12,13 +12,15 @@ http = get_asgi_application()
 
 from channels.auth import AuthMiddlewareStack  # noqa: E402 - models load only after Django is set up
 from channels.routing import ProtocolTypeRouter, URLRouter  # noqa: E402
-from channels.security.websocket import AllowedHostsOriginValidator  # noqa: E402
 from django.conf import settings  # noqa: E402
+from django.core.management import call_command  # noqa: E402
 from django.urls import path, re_path  # noqa: E402
 from servestatic import ServeStaticASGI  # noqa: E402
 
 from editor.rooms.socket import ProgramSocket  # noqa: E402
 from registry.api.site_socket import SiteSocket  # noqa: E402
+from vipo_site.http.entrance import BehindProxies, OwnPagesOnly  # noqa: E402
+from vipo_site.http.middleware import add_headers  # noqa: E402
 
 
 async def refuse_socket(_scope: Any, receive: Any, send: Any) -> None:
@@ -28,10 +30,14 @@ async def refuse_socket(_scope: Any, receive: Any, send: Any) -> None:
     await send({"type": "websocket.close", "code": 4404})
 
 
+if not settings.VIPO_DEMO:
+    # Nobody signs in with a password of the demo after the demo, also where nobody ran `manage.py prepare`.
+    call_command("end_demo")
+
 routes = ProtocolTypeRouter(
     {
         "http": http,
-        "websocket": AllowedHostsOriginValidator(
+        "websocket": OwnPagesOnly(
             AuthMiddlewareStack(
                 URLRouter(
                     [
@@ -40,16 +46,22 @@ routes = ProtocolTypeRouter(
                         re_path(r"", refuse_socket),  # type: ignore[arg-type]  # the stubs know pages only
                     ]
                 )
-            )
+            ),
+            settings.ALLOWED_HOSTS,
+            settings.CSRF_TRUSTED_ORIGINS,
         ),
     }
 )
 
 # Everything of the built frontend but its page, which Django serves with the CSRF cookie.
-application = ServeStaticASGI(
+files = ServeStaticASGI(
     routes,
     root=settings.FRONTEND_DIST if settings.FRONTEND_DIST.exists() else None,
     index_file=False,
     immutable_file_test=r"^/assets/.+-[A-Za-z0-9_-]{8}\.\w+$",
     max_age=3600,
+    add_headers_function=lambda headers, _path, _url: add_headers(headers),
+    allow_all_origins=False,
 )
+files.files.pop("/index.html", None)
+application = BehindProxies(files, settings.VIPO_PROXIES)

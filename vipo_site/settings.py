@@ -10,45 +10,50 @@ from urllib.parse import unquote, urlsplit
 
 from django.core.exceptions import ImproperlyConfigured
 
+from vipo_site.environment import (
+    has_demo,
+    is_https,
+    is_local,
+    local_secret,
+    named_proxies,
+    open_state,
+    private_database,
+    required,
+    required_secret,
+    served_hosts,
+    with_password,
+)
+
 BASE_DIR = Path(__file__).resolve().parent.parent
 MODE = os.environ.get("VIPO_MODE", "embedded")
 if MODE not in {"embedded", "served"}:
     raise ImproperlyConfigured(f"VIPO_MODE is {MODE!r}; set it to 'embedded' or 'served'.")
 SERVED = MODE == "served"
 
-
-def required(name: str) -> str:
-    """Return a setting that the served mode cannot do without."""
-    value = os.environ.get(name, "")
-    if not value:
-        raise ImproperlyConfigured(f"{name} is not set; the served mode needs it (see docs/operations.md).")
-    return value
-
-
 VIPO_STATE_DIR = Path(os.environ.get("VIPO_STATE_DIR", BASE_DIR / "var"))
 
+if not SERVED:
+    open_state(VIPO_STATE_DIR)
 
-def local_secret(name: str) -> str:
-    """Return a secret of this machine, made at first use and kept beside the database."""
-    path = VIPO_STATE_DIR / "secrets" / name
-    if not path.exists():
-        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-        path.touch(mode=0o600)
-        path.write_text(secrets.token_urlsafe(32))
-    return path.read_text().strip()
-
-
-SECRET_KEY = required("VIPO_SECRET_KEY") if SERVED else local_secret("django")
+VIPO_PROCESS = os.environ.get("VIPO_PROCESS", "")
+"""What runs here, where a process is not to see every secret: web, gateway, worker, ticker, twin or connector."""
+if VIPO_PROCESS not in {"", "web", "gateway", "worker", "ticker", "twin", "connector"}:
+    raise ImproperlyConfigured(
+        f"VIPO_PROCESS is {VIPO_PROCESS!r}; it names web, gateway, worker, ticker, twin, connector."
+    )
+_SIGNS = VIPO_PROCESS in {"", "web"}
+_SPEAKS_FOR_VIPO = VIPO_PROCESS in {"", "web", "gateway"}
+if SERVED:
+    # What signs nothing has a key of its own: what it signed by mistake would be worth nothing elsewhere.
+    SECRET_KEY = required_secret("VIPO_SECRET_KEY", 32) if _SIGNS else secrets.token_urlsafe(32)
+else:
+    SECRET_KEY = local_secret(VIPO_STATE_DIR, "django")
 DEBUG = False
-ALLOWED_HOSTS = (
-    required("VIPO_HOSTS").split(",")
-    if SERVED
-    else os.environ.get("VIPO_HOSTS", "127.0.0.1,localhost,[::1],testserver").split(",")
-)
+ALLOWED_HOSTS = served_hosts(required("VIPO_HOSTS") if SERVED else "127.0.0.1,localhost,[::1]")
 CSRF_TRUSTED_ORIGINS = [o for o in os.environ.get("VIPO_ORIGINS", "").split(",") if o]
-if os.environ.get("VIPO_HTTPS", "") == "1":
-    SESSION_COOKIE_SECURE = CSRF_COOKIE_SECURE = True
-    SECURE_PROXY_SSL_HEADER = ("HTTP_X_FORWARDED_PROTO", "https")
+SESSION_COOKIE_SECURE = CSRF_COOKIE_SECURE = is_https(ALLOWED_HOSTS, served=SERVED)
+VIPO_PROXIES = named_proxies(https=SESSION_COOKIE_SECURE)
+SECURE_HSTS_SECONDS = 365 * 24 * 3600 if SESSION_COOKIE_SECURE else 0
 
 INSTALLED_APPS = [
     "daphne",
@@ -111,12 +116,12 @@ def postgres(url: str) -> dict[str, object]:
 
 
 if SERVED:
-    DATABASES = {"default": postgres(required("VIPO_DATABASE_URL"))}
+    DATABASES = {"default": postgres(with_password("VIPO_DATABASE"))}
 else:
     DATABASES = {
         "default": {
             "ENGINE": "django.db.backends.sqlite3",
-            "NAME": VIPO_STATE_DIR / "vipo.sqlite3",
+            "NAME": private_database(VIPO_STATE_DIR / "vipo.sqlite3"),
             "OPTIONS": {
                 "transaction_mode": "IMMEDIATE",
                 "timeout": 20,
@@ -125,18 +130,29 @@ else:
         }
     }
 
-VIPO_REDIS_URL = required("VIPO_REDIS_URL") if SERVED else None
+VIPO_REDIS_URL = with_password("VIPO_REDIS") if SERVED else None
 VIPO_LIVE_URL = VIPO_REDIS_URL or "memory://"
 VIPO_STREAM_URL = VIPO_REDIS_URL or "memory://"
+
+
+def _mqtt_password() -> str:
+    """Return the server's password at the broker; what never speaks for VIPO there has none."""
+    if not SERVED:
+        return local_secret(VIPO_STATE_DIR, "mqtt-server")
+    return required_secret("VIPO_MQTT_PASSWORD") if _SPEAKS_FOR_VIPO else ""
+
+
 VIPO_MQTT = {
     "host": required("VIPO_MQTT_HOST") if SERVED else "127.0.0.1",
     "port": int(os.environ.get("VIPO_MQTT_PORT", "8883" if SERVED else "1883")),
     "username": os.environ.get("VIPO_MQTT_USERNAME", "server"),
-    "password": required("VIPO_MQTT_PASSWORD") if SERVED else local_secret("mqtt-server"),
+    "password": _mqtt_password(),
     "tls": os.environ.get("VIPO_MQTT_TLS", "1" if SERVED else "0") == "1",
     "ca": os.environ.get("VIPO_MQTT_CA", ""),
     "protocol": "auto" if SERVED else "3.1.1",
 }
+if SERVED and not VIPO_MQTT["tls"] and not is_local(str(VIPO_MQTT["host"])):
+    raise ImproperlyConfigured("VIPO_MQTT_TLS is 0 and VIPO_MQTT_HOST another machine: set VIPO_MQTT_TLS=1.")
 VIPO_BROKER_ACCOUNTS = f"registry.broker.accounts.{'DynamicSecurity' if SERVED else 'AskedAccounts'}"
 VIPO_GATEWAY = f"gateway-{os.environ.get('VIPO_GATEWAY') or socket.gethostname()}"
 """What the broker knows a gateway by; two on one machine need names of their own."""
@@ -144,8 +160,12 @@ VIPO_BROKER_URL = os.environ.get("VIPO_BROKER_URL", "" if SERVED else f"mqtt://1
 VIPO_DEFAULT_SITE = os.environ.get("VIPO_DEFAULT_SITE", "painting-factory")
 VIPO_OFFLINE_ALERT_S = float(os.environ.get("VIPO_OFFLINE_ALERT_S", "600"))
 """After so many seconds a device that is away is worth an alert; one that is needed for work is at once."""
+VIPO_PULSE = os.environ.get("VIPO_PULSE", "")
+"""The file that a process without pages touches while it works, for a health check; none if empty."""
 VIPO_SPEED = float(os.environ.get("VIPO_SPEED", "1"))
-VIPO_DEMO = os.environ.get("VIPO_DEMO", "") == "1"
+VIPO_DEMO = has_demo(ALLOWED_HOSTS)
+VIPO_DEMO_SIGN_IN = VIPO_DEMO and not SERVED
+"""Whether the sign-in page offers the demo's accounts, which tells their passwords to who asks."""
 
 CELERY_BROKER_URL = VIPO_REDIS_URL or "memory://localhost/"
 CELERY_BROKER_TRANSPORT_OPTIONS: dict[str, object] = {} if SERVED else {"polling_interval": 0.005}

@@ -24,6 +24,7 @@ from execution.gateway.ingest import ENROLMENT, Ingester
 from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
 from registry import services as registry
 from registry.services import Outage
+from vipo_device.kit.pulse import Pulse
 from vipo_device.protocol import messages
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import facts_of, fault
@@ -51,6 +52,7 @@ class Gateway:
     def __init__(self, settings: Any) -> None:
         # The same name after a restart takes over the session of the one that died, with the answers kept in it.
         self._client = MqttClient.from_settings(settings.VIPO_MQTT, client_id=settings.VIPO_GATEWAY, keep_session=True)
+        self._pulse = Pulse(settings.VIPO_PULSE)
         self._inbox = Inbox()
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
         self.complaints = Complaints()
@@ -73,6 +75,7 @@ class Gateway:
         sender.start()
         try:
             while not stopping.is_set():
+                self._pulse.beat()
                 entries = self._inbox.get_all(0.2, MOST_AT_ONCE)
                 self._renew_connection()
                 self._ingester.ingest_all(entries, stopping)

@@ -8,6 +8,7 @@ import socket
 import threading
 from datetime import UTC, datetime, timedelta
 
+from django.conf import settings
 from django.db import DatabaseError, connection, transaction
 
 from execution import mailbox
@@ -19,6 +20,7 @@ from execution.rehearsals.rehearsals import sweep_rehearsals
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
 from registry import services as registry
+from vipo_device.kit.pulse import Pulse
 
 LEASE_S = 5.0
 TICK_SITES_S = 0.5
@@ -121,7 +123,9 @@ IDLE_S = 1.0
 
 def run_ticker(*, stopping: threading.Event) -> None:
     """Tick until `stopping` is set; a database that is away is waited for."""
+    pulse = Pulse(settings.VIPO_PULSE)
     while not stopping.is_set():
+        pulse.beat()
         try:
             leads = tick(datetime.now(UTC))
         except DatabaseError as error:

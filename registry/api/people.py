@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+from ipaddress import ip_address
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ from ninja.errors import HttpError
 from ninja.utils import check_csrf
 
 from registry.api.authentication import session_only
+from registry.demo.accounts import read_accounts
 from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import User
@@ -42,16 +43,20 @@ def _me(request: HttpRequest) -> dict[str, Any]:
     if isinstance(user, User):
         person = {"id": user.pk, "name": user.display_name, "initials": user.initials, "email": user.email}
     may_create = isinstance(user, User) and may_create_sites(user)
-    rest = {"csrf": get_token(request), "demo_accounts": _demo_accounts()}
+    rest = {"csrf": get_token(request), "demo_accounts": _offered_accounts(request)}
     return {"user": person, "may_create_sites": may_create, **rest}
 
 
-def _demo_accounts() -> list[dict[str, str]]:
-    path = Path(settings.VIPO_STATE_DIR) / "demo-accounts.json"
-    if not settings.VIPO_DEMO or not path.exists():
+def _offered_accounts(request: HttpRequest) -> list[dict[str, str]]:
+    """Return the demo's accounts, to browsers of this machine alone: not to what another program passed on."""
+    passed_on = any(name in request.META for name in ("HTTP_X_FORWARDED_FOR", "HTTP_FORWARDED", "HTTP_VIA"))
+    try:
+        is_here = ip_address(request.META.get("REMOTE_ADDR", "")).is_loopback
+    except ValueError:
+        is_here = False
+    if not settings.VIPO_DEMO_SIGN_IN or passed_on or not is_here:
         return []
-    accounts: list[dict[str, str]] = json.loads(path.read_text())
-    return accounts
+    return read_accounts(state=Path(settings.VIPO_STATE_DIR))
 
 
 @router.post("/sign-in", response=Me, auth=None)

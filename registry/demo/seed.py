@@ -9,6 +9,7 @@ from math import pi
 from pathlib import Path
 from typing import Any
 
+from registry.demo.accounts import FILE, read_accounts
 from registry.demo.devices import PENDING_DEVICE, SITE, describe_devices
 from registry.demo.factory import FOLDER, MAP_NAME, read_plan
 from registry.devices.enrolment import expect_device
@@ -85,8 +86,7 @@ def _seed_enrolment_key(path: Path) -> None:
 
 def _seed_people(state: Path) -> list[dict[str, str]]:
     """Make the accounts; the file's passwords hold for a new database, new ones are made when the file is gone."""
-    path = state / "demo-accounts.json"
-    passwords = {a["email"]: a["password"] for a in _read(path, [])}
+    passwords = {a["email"]: a["password"] for a in read_accounts(state=state)}
     accounts = []
     for email, name, role in PEOPLE:
         password = passwords.get(email) or secrets.token_urlsafe(9)
@@ -101,7 +101,7 @@ def _seed_people(state: Path) -> list[dict[str, str]]:
         set_member(site=SITE, email=email, role=role)
         accounts.append({"email": email, "password": password, "role": role})
     if passwords != {a["email"]: a["password"] for a in accounts}:
-        _write_private(path, json.dumps(accounts, indent=1))
+        _write_private(state / FILE, json.dumps(accounts, indent=1))
     return accounts
 
 

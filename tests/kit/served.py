@@ -21,7 +21,7 @@ from tests.kit.sign_in import open_page, sign_in
 from tests.kit.waiting import PATIENCE_S, wait_for
 
 SPEED = 6
-WEB = ["-m", "daphne", "-b", "127.0.0.1", "--proxy-headers", "--websocket-max-message-size", "16777216"]
+WEB = ["-m", "daphne", "-b", "127.0.0.1", "--websocket-max-message-size", "16777216"]
 WORKER = ["-m", "celery", "-A", "vipo_site", "worker", "--pool", "threads", "--concurrency", "4", "--loglevel", "INFO"]
 
 
@@ -114,6 +114,7 @@ def served_without_broker(state: Path, database_url: str, redis_url: str) -> dic
         "VIPO_MODE": "served",
         "VIPO_SECRET_KEY": "a key for this test alone, long enough to be taken",
         "VIPO_HOSTS": "127.0.0.1",
+        "VIPO_HTTPS": "0",
         "VIPO_DATABASE_URL": database_url,
         "VIPO_REDIS_URL": redis_url,
         "VIPO_MQTT_HOST": "127.0.0.1",

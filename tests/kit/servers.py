@@ -259,7 +259,9 @@ def write_mosquitto_files(server: Mosquitto) -> None:
     for old, new in {
         "/usr/lib/mosquitto_dynamic_security.so": find_plugin(),
         "/mosquitto/config/": f"{folder}/",
-        "/mosquitto/certificates/": f"{folder}/",
+        "/run/secrets/broker-authority": f"{folder}/ca.crt",
+        "/run/secrets/broker-certificate": f"{folder}/server.crt",
+        "/run/secrets/broker-key": f"{folder}/server.key",
         "/mosquitto/data/": f"{folder}/",
         "listener 8883": f"listener {server.device_port} 127.0.0.1",
         "listener 8884": f"listener {server.port} 127.0.0.1",

@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from daphne.server import Server  # installs Twisted's asyncio reactor, so it comes before anything that uses one
+from django.core.exceptions import ImproperlyConfigured
 
 from vipo_device.protocol.errors import VipoError
 
@@ -347,6 +348,8 @@ def main() -> None:
         sys.exit(str(error))
     except VipoError as error:
         sys.exit(error.detail)
+    except ImproperlyConfigured as error:
+        sys.exit(str(error))
     except KeyboardInterrupt:
         sys.exit(130)
 

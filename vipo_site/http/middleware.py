@@ -3,42 +3,72 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
+from django.conf import settings
+from django.core.exceptions import DisallowedHost
 from django.http import HttpRequest, HttpResponse, HttpResponseNotAllowed
 
 from vipo_device.protocol.texts import find_unfit, refusal_of
 from vipo_site.http.api import problem
 
-# Mantine sets styles from scripts; device pictures may come from any https address.
+# Mantine sets styles from scripts; device pictures may come from any address of the web. No script is anybody else's,
+# none stands in a page, and what a page links to is its own.
 POLICY = "; ".join(
     [
-        "default-src 'self'",
+        "default-src 'none'",
+        "script-src 'self'",
         "style-src 'self' 'unsafe-inline'",
         "img-src 'self' data: blob: http: https:",
         "font-src 'self' data:",
-        "connect-src 'self' ws: wss:",
-        "worker-src 'self' blob:",
+        "connect-src 'self'{sockets}",
+        "worker-src 'self'",
+        "manifest-src 'self'",
+        "object-src 'none'",
+        "frame-src 'none'",
         "frame-ancestors 'none'",
-        "base-uri 'self'",
+        "base-uri 'none'",
         "form-action 'self'",
     ]
 )
+HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "same-origin",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=(), payment=(), usb=()",
+}
 UNREADABLE = (
     "The request cannot be read: it is larger than it may be, or asks for a host that VIPO_HOSTS does not name."
 )
 FAILED = "VIPO failed at this; what went wrong stands in the server's log. Look what holds now before you try again."
 
 
+def add_headers(headers: Any, sockets: str = "") -> None:
+    """Add what a browser is told with every answer; `sockets` is where pages may open them, besides their own address.
+
+    Some browsers do not count a socket of the page's own host as 'self', so pages name it.
+    """
+    policy = POLICY.format(sockets=f" {sockets}" if sockets else "")
+    told = {**HEADERS, "Content-Security-Policy": policy}
+    if settings.SECURE_HSTS_SECONDS:
+        told["Strict-Transport-Security"] = f"max-age={settings.SECURE_HSTS_SECONDS}"
+    for name, value in told.items():
+        if name not in headers:
+            headers[name] = value
+
+
 class SecurityHeaders:
-    """Adds the content security policy to each answer."""
+    """Adds to each answer what a browser is told with every one."""
 
     def __init__(self, get_response: Callable[[HttpRequest], HttpResponse]) -> None:
         self.get_response = get_response
 
     def __call__(self, request: HttpRequest) -> HttpResponse:
-        """Answer, with the policy."""
+        """Answer, with the headers."""
         response = self.get_response(request)
-        response.headers.setdefault("Content-Security-Policy", POLICY)
+        add_headers(response.headers, _socket_address(request))
         return response
 
 
@@ -64,6 +94,13 @@ def _query_of(request: HttpRequest) -> Iterator[str]:
     for name, values in request.GET.lists():
         yield name
         yield from values
+
+
+def _socket_address(request: HttpRequest) -> str:
+    try:
+        return f"{'wss' if request.is_secure() else 'ws'}://{request.get_host()}"
+    except DisallowedHost:
+        return ""
 
 
 class TellMethods:

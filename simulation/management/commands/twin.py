@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 from argparse import ArgumentParser
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from simulation.twin import Twin, TwinPlan
 from vipo_device.kit.connection import ConnectionMaker
 from vipo_device.kit.enrolment import device_connections
 from vipo_device.kit.keyring import RotatingKeyRing
+from vipo_device.kit.pulse import Pulse
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.errors import VipoError
 
@@ -66,9 +68,14 @@ def make_twin(options: dict[str, Any]) -> Twin:
         pending=frozenset(d.description.id for d in facts.devices) - passwords.keys(),
         speed=options["speed"],
         driver=options["driver"],
-        refresh=lambda: read_site_facts(site),
+        refresh=partial(_look_again, site, Pulse(settings.VIPO_PULSE)),
     )
     return Twin(plan, connections(site, enrolment_key, folder / "secrets"))
+
+
+def _look_again(site: str, pulse: Pulse) -> SiteFacts:
+    pulse.beat()
+    return read_site_facts(site)
 
 
 def choose_devices(facts: SiteFacts, only: str, left_out: str) -> frozenset[str]:

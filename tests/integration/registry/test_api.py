@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from django.core.files.uploadedfile import SimpleUploadedFile
+from django.core.management import call_command
 from django.test import Client
 
 from registry import services
@@ -67,13 +68,56 @@ def test_somebody_who_was_deactivated_cannot_sign_in(hall: str) -> None:
     assert sign_in(Client(), "admin@vipo.example", PASSWORD).status_code == 401
 
 
-def test_the_demo_shows_its_accounts_and_nothing_else_does(hall: str, settings: Any, tmp_path: Path) -> None:
-    account = {"email": "a@vipo.example", "password": "x", "role": "admin"}
+@pytest.fixture
+def demo_file(settings: Any, tmp_path: Path) -> dict[str, str]:
+    account = {"email": "admin@vipo.example", "password": PASSWORD, "role": "admin"}
     (tmp_path / "demo-accounts.json").write_text(json.dumps([account]))
     settings.VIPO_STATE_DIR = tmp_path
-    assert Client().get("/api/me").json()["demo_accounts"] == []
+    return account
+
+
+def offered(**about: str) -> list[dict[str, str]]:
+    found: list[dict[str, str]] = Client(**about).get("/api/me").json()["demo_accounts"]
+    return found
+
+
+def test_the_demo_offers_its_accounts_and_nothing_else_does(
+    hall: str, settings: Any, demo_file: dict[str, str]
+) -> None:
+    assert offered() == []
     settings.VIPO_DEMO = True
-    assert Client().get("/api/me").json()["demo_accounts"] == [account]
+    assert offered() == []
+    settings.VIPO_DEMO_SIGN_IN = True
+    assert offered() == [demo_file]
+
+
+def test_the_demo_offers_its_accounts_to_browsers_of_its_machine_alone(
+    hall: str, settings: Any, demo_file: dict[str, str]
+) -> None:
+    settings.VIPO_DEMO_SIGN_IN = True
+    assert offered(REMOTE_ADDR="::1") == [demo_file]
+    assert [offered(REMOTE_ADDR=address) for address in ("10.0.0.9", "", "nonsense")] == [[], [], []]
+    passed_on = ("HTTP_X_FORWARDED_FOR", "HTTP_FORWARDED", "HTTP_VIA")
+    assert [offered(**{name: "127.0.0.1"}) for name in passed_on] == [[], [], []]
+
+
+def test_the_accounts_of_the_demo_end_with_it(
+    hall: str, settings: Any, demo_file: dict[str, str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    open_page = Client()
+    assert sign_in(open_page, "admin@vipo.example", PASSWORD).status_code == 200
+    call_command("end_demo")
+    assert capsys.readouterr().out == "admin@vipo.example was an account of the demo and cannot sign in any more.\n"
+    assert open_page.get("/api/me").json()["user"] is None
+    assert sign_in(Client(), "admin@vipo.example", PASSWORD).status_code == 401
+    assert sign_in(Client(), "author@vipo.example", PASSWORD).status_code == 200
+    assert not (settings.VIPO_STATE_DIR / "demo-accounts.json").exists()
+
+
+def test_who_was_given_another_password_outlives_the_demo(hall: str, settings: Any, demo_file: dict[str, str]) -> None:
+    services.change_password(email="admin@vipo.example", password="a password of my own")
+    call_command("end_demo")
+    assert sign_in(Client(), "admin@vipo.example", "a password of my own").status_code == 200
 
 
 DEVICE = "/devices/mixer1"

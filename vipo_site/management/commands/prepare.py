@@ -1,4 +1,4 @@
-"""Bring the database up to date, and fill in the painting factory when VIPO_DEMO=1."""
+"""Bring the database up to date; fill in the painting factory when VIPO_DEMO=1, else end its accounts."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ class Command(BaseCommand):
     help = __doc__ or ""
 
     def handle(self, *_args: Any, **_options: Any) -> None:
-        """Migrate, then seed; both may be repeated."""
+        """Migrate, then seed or end the demo; all may be repeated."""
         call_command("migrate", verbosity=0, interactive=False)
         if not settings.VIPO_DEMO:
+            call_command("end_demo")
             return
         from editor.services import seed_programs
 

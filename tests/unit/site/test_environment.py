@@ -1,0 +1,157 @@
+"""What about the settings stops a start, and that the setting is named."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.kit.files import ROOT
+from vipo_site.environment import is_local
+
+SERVED = {
+    "VIPO_MODE": "served",
+    "VIPO_SECRET_KEY": "0123456789abcdef0123456789abcdef",
+    "VIPO_HOSTS": "vipo.example",
+    "VIPO_PROXIES": "10.0.0.2",
+    "VIPO_DATABASE_URL": "postgresql://vipo@database/vipo",
+    "VIPO_DATABASE_PASSWORD": "word of/the:database",
+    "VIPO_REDIS_URL": "redis://redis:6379/0",
+    "VIPO_REDIS_PASSWORD": "word@of the redis",
+    "VIPO_MQTT_HOST": "broker",
+    "VIPO_MQTT_PASSWORD": "word of the broker",
+}
+SHOW = """
+from vipo_site import settings
+print(settings.DATABASES["default"].get("PASSWORD"), settings.VIPO_REDIS_URL, settings.VIPO_MQTT["password"], sep="|")
+print(settings.SESSION_COOKIE_SECURE, settings.CSRF_COOKIE_SECURE, settings.SECURE_HSTS_SECONDS, settings.VIPO_PROXIES)
+print(settings.SECRET_KEY, settings.ALLOWED_HOSTS, settings.VIPO_DEMO, settings.VIPO_DEMO_SIGN_IN)
+"""
+
+
+def read_settings(folder: Path, changes: dict[str, str | None]) -> tuple[str, str]:
+    """Return what a process shows of its settings, and what it says instead of starting."""
+    own = {name: value for name, value in os.environ.items() if not name.startswith(("VIPO_", "DJANGO_"))}
+    wanted = {**own, "VIPO_STATE_DIR": str(folder), "PYTHONPATH": str(ROOT), **changes}
+    environment = {name: value for name, value in wanted.items() if value is not None}
+    command = [sys.executable, "-c", SHOW]
+    done = subprocess.run(command, env=environment, cwd=folder, capture_output=True, text=True, timeout=60)
+    said = done.stderr.strip().rpartition("\n")[2]
+    return done.stdout, said.removeprefix("django.core.exceptions.ImproperlyConfigured: ")
+
+
+def test_a_served_site_starts_with_safe_settings(tmp_path: Path) -> None:
+    shown, _ = read_settings(tmp_path, SERVED)
+    assert shown.splitlines() == [
+        "word of/the:database|redis://:word%40of%20the%20redis@redis:6379/0|word of the broker",
+        "True True 31536000 (IPv4Network('10.0.0.2/32'),)",
+        "0123456789abcdef0123456789abcdef ['vipo.example'] False False",
+    ]
+
+
+@pytest.mark.parametrize("name", [name for name in SERVED if name != "VIPO_MODE"])
+def test_a_setting_that_is_missing_is_named(tmp_path: Path, name: str) -> None:
+    shown, said = read_settings(tmp_path, {**SERVED, name: None})
+    assert (shown, said.startswith(f"{name} is not set")) == ("", True), said
+
+
+UNSAFE = {
+    "VIPO_MODE": ["server"],
+    "VIPO_SECRET_KEY": ["short", "a" * 40],
+    "VIPO_MQTT_PASSWORD": ["secret", "aaaaaaaaaaaaaaaaaaa"],
+    "VIPO_HOSTS": ["*", ".vipo.example", "vipo.example,*"],
+    "VIPO_HTTPS": ["0", "yes"],
+    "VIPO_PROXIES": ["0.0.0.0/0", "::/0", "128.0.0.0/1", "proxy", "10.0.0.1/8"],
+    "VIPO_DEMO": ["1"],
+    "VIPO_MQTT_TLS": ["0"],
+    "VIPO_PROCESS": ["webb"],
+}
+
+
+@pytest.mark.parametrize(("name", "value"), [(name, value) for name, values in UNSAFE.items() for value in values])
+def test_an_unsafe_setting_stops_the_start_and_is_named(tmp_path: Path, name: str, value: str) -> None:
+    shown, said = read_settings(tmp_path, {**SERVED, name: value})
+    assert (shown, said.startswith(name)) == ("", True), said
+
+
+def test_secrets_are_read_from_files(tmp_path: Path) -> None:
+    changes: dict[str, str | None] = dict(SERVED)
+    for name in ("VIPO_SECRET_KEY", "VIPO_DATABASE_PASSWORD", "VIPO_REDIS_PASSWORD", "VIPO_MQTT_PASSWORD"):
+        (tmp_path / name).write_text(f"{SERVED[name]}\n")
+        changes |= {name: None, f"{name}_FILE": str(tmp_path / name)}
+    assert read_settings(tmp_path, changes)[0] == read_settings(tmp_path, dict(SERVED))[0]
+    both = read_settings(tmp_path, {**changes, "VIPO_SECRET_KEY": "x"})[1]
+    assert both == "VIPO_SECRET_KEY and VIPO_SECRET_KEY_FILE are both set; keep the file and take the other away."
+    (tmp_path / "VIPO_MQTT_PASSWORD").unlink()
+    gone = read_settings(tmp_path, changes)[1]
+    assert gone.startswith("VIPO_MQTT_PASSWORD_FILE names ")
+    assert gone.endswith("which cannot be read: No such file or directory.")
+
+
+@pytest.mark.parametrize(
+    ("process", "needs_none_of"),
+    [
+        ("gateway", ["VIPO_SECRET_KEY"]),
+        ("worker", ["VIPO_SECRET_KEY", "VIPO_MQTT_PASSWORD"]),
+        ("ticker", ["VIPO_SECRET_KEY", "VIPO_MQTT_PASSWORD"]),
+        ("twin", ["VIPO_SECRET_KEY", "VIPO_MQTT_PASSWORD"]),
+    ],
+)
+def test_a_process_starts_without_the_secrets_that_it_does_not_use(
+    tmp_path: Path, process: str, needs_none_of: list[str]
+) -> None:
+    changes = {**SERVED, "VIPO_PROCESS": process, **dict.fromkeys(needs_none_of)}
+    shown, said = read_settings(tmp_path, changes)
+    assert (len(shown.splitlines()), said) == (3, "")
+    assert SERVED["VIPO_SECRET_KEY"] not in shown
+
+
+def test_this_machine_alone_may_do_without_https_and_have_a_demo(tmp_path: Path) -> None:
+    local = {**SERVED, "VIPO_HOSTS": "localhost,127.0.0.1,[::1]", "VIPO_HTTPS": "0", "VIPO_DEMO": "1"}
+    shown, _ = read_settings(tmp_path, {**local, "VIPO_PROXIES": None})
+    assert shown.splitlines()[1:] == [
+        "False False 0 ()",
+        f"{SERVED['VIPO_SECRET_KEY']} ['localhost', '127.0.0.1', '[::1]'] True False",
+    ]
+
+
+def test_the_embedded_mode_offers_its_demo_on_this_machine_alone(tmp_path: Path) -> None:
+    shown, _ = read_settings(tmp_path, {"VIPO_DEMO": "1"})
+    assert shown.splitlines()[2].endswith(" ['127.0.0.1', 'localhost', '[::1]'] True True")
+    shown, said = read_settings(tmp_path, {"VIPO_DEMO": "1", "VIPO_HOSTS": "localhost,vipo.example"})
+    assert (shown, said.startswith("VIPO_DEMO=1 makes accounts whose passwords are shown")) == ("", True)
+
+
+@pytest.mark.parametrize(
+    ("host", "local"),
+    [
+        *((host, True) for host in ("localhost", "LOCALHOST:8000", "127.0.0.1", "127.9.9.9:80", "[::1]", "::1")),
+        *((host, False) for host in ("localhost.example", "10.0.0.1", "0.0.0.0", "[::]", "vipo.example", "", "*")),
+    ],
+)
+def test_which_hosts_are_this_machine(host: str, local: bool) -> None:
+    assert is_local(host) is local
+
+
+TOUCH = """
+import django, json, pathlib, sys
+django.setup()
+django.db.connection.cursor().execute("CREATE TABLE x (y)")
+print(json.dumps({path.name: oct(path.stat().st_mode)[-3:] for path in pathlib.Path(sys.argv[1]).iterdir()}))
+"""
+
+
+def test_files_of_this_machine_are_its_owners_alone(tmp_path: Path) -> None:
+    state = tmp_path / "state"
+    state.mkdir(mode=0o755)
+    (state / "vipo.sqlite3").touch(mode=0o644)
+    own = {"VIPO_STATE_DIR": str(state), "DJANGO_SETTINGS_MODULE": "vipo_site.settings", "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-c", TOUCH, str(state)]
+    done = subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, umask=0o022)
+    database = dict.fromkeys(("vipo.sqlite3", "vipo.sqlite3-shm", "vipo.sqlite3-wal"), "600")
+    assert json.loads(done.stdout) == {**database, "secrets": "700"}, done.stderr
+    assert oct(state.stat().st_mode)[-3:] == "700"
