@@ -178,7 +178,7 @@ def _begin_delivery(device: Device, at: datetime) -> None:
         )
     is_new = device.ends_before is not None and timedelta(0) < at - device.ends_before < JUST_NOW
     if is_new and device.credential_hash:
-        raise KeyChanged(f"Somebody else has just given {device.id} a new key. Ask them for it, or wait half a minute.")
+        raise KeyChanged(f"Somebody else has just given {device.id} a new key. Ask them for it, or wait ten seconds.")
     device.key_told_at = at
     device.save(update_fields=["key_told_at"])
 
