@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from vipo_device.descriptions.forms import TD_CONTEXT, TD_CONTEXT_1_0
 from vipo_device.descriptions.thing_description import schema_of, thing_of
 from vipo_device.protocol.description import Description, MethodSpec, PropertySpec
 
@@ -19,6 +20,8 @@ TOKEN: Mapping[str, Any] = {
     "format": "opaque",
     "description": "A token that a member has made for a program, on VIPO's pages.",
 }
+CONTEXTS = (TD_CONTEXT_1_0, TD_CONTEXT)
+"""Both, as the standard wants it of Things that clients of its version 1.0 may read, too, such as node-wot 0.8."""
 CALL_ID = {"call": {"type": "string", "format": "uuid", "title": "The call, as `href` names it at its end"}}
 STATUS = {
     "type": "object",
@@ -42,9 +45,11 @@ def things_address(site: str, device_id: str = "") -> str:
 def consumed_thing(said: Description, site: str) -> dict[str, Any]:
     """Return a device's Thing Description with the forms by which programs use it."""
     address = things_address(site, said.id)
+    described = thing_of(said)
     everything = {"op": "readallproperties", **_form("GET", f"{address}/properties")}
     return {
-        **thing_of(said),
+        **described,
+        "@context": [*CONTEXTS, *described["@context"][1:]],
         "securityDefinitions": {"token": dict(TOKEN)},
         "security": ["token"],
         "properties": {spec.name: _property_of(spec, address) for spec in said.properties},

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Any
 from urllib.parse import urlsplit
 
-from registry.devices.thing_forms import TOKEN
+from registry.devices.thing_forms import CONTEXTS, TOKEN
 from registry.devices.things import EVENTS
 from registry.thing_directory.pages import DISCOVERY_CONTEXT, MOST_AT_ONCE, SORTED_BY
-from vipo_device.descriptions.forms import TD_CONTEXT
 
 PROBLEM = "application/problem+json"
 THING_ID = {"id": {"@type": "ThingID", "type": "string", "format": "iri-reference", "title": "The Thing's id"}}
@@ -34,7 +33,7 @@ SECURITY = {
 def directory_thing(base: str) -> dict[str, Any]:
     """Return the directory's Thing Description; `base` is where it is served."""
     return {
-        "@context": [TD_CONTEXT, DISCOVERY_CONTEXT, {"htv": "http://www.w3.org/2011/http#"}],
+        "@context": [*CONTEXTS, DISCOVERY_CONTEXT, {"htv": "http://www.w3.org/2011/http#"}],
         "@type": "ThingDirectory",
         "id": f"urn:vipo:directory:{urlsplit(base).netloc}",
         "title": "VIPO",
