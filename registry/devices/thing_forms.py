@@ -63,13 +63,16 @@ def _form(method: str, href: str) -> dict[str, Any]:
 
 
 def _property_of(spec: PropertySpec, address: str) -> dict[str, Any]:
-    """Return a property; of the two ways to observe it the first is the one that carries a token everywhere."""
+    """Return a property; of the two ways to observe it the first is the one that carries a token everywhere.
+
+    That form names no method: node-wot asks by HEAD first, unless a method is named.
+    """
     here = f"{address}/properties/{spec.name}"
     observe = {"op": ["observeproperty", "unobserveproperty"]}
     title = {"title": spec.title} if spec.title else {}
     forms = [
         {"op": "readproperty", **_form("GET", here)},
-        {**observe, **_form("GET", f"{here}/next"), "subprotocol": "longpoll"},
+        {**observe, "href": f"{here}/next", "contentType": "application/json", "subprotocol": "longpoll"},
         {**observe, **_form("GET", f"{here}/events"), "subprotocol": "sse"},
     ]
     return {**title, **value_schema(spec), "readOnly": True, "observable": True, "forms": forms}

@@ -37,8 +37,9 @@ NEEDED = {
             export_devices show_device list_device_events show_property_history show_robot_map download_robot_pgm
             download_robot_yaml show_robot_cells show_difference show_rdf show_map download_pgm download_yaml
             show_cells list_map_versions current probe sample current_of_device probe_device sample_of_device
-            list_programs ask post_query list_things watch_things show_thing""",
-        "operate": "mark_seen mark_all_seen call_method cancel_call press_stop reset_stop",
+            list_programs ask post_query list_things watch_things show_thing
+            show_values show_value watch_value await_next_value query_action""",
+        "operate": "mark_seen mark_all_seen call_method cancel_call invoke_action cancel_action press_stop reset_stop",
         "run": """start_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program delete_program
             rename_program draw_script pin_version save_function create_program""",
         "admin": """edit_device approve_device reject_device retire_device readmit_device rotate_credential

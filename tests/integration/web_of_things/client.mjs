@@ -26,6 +26,7 @@ const servient = new Servient();
 servient.addClientFactory(new HttpClientFactory());
 const wot = await servient.start();
 
+console.debug = console.warn = () => {};
 const directory = await wot.requestThingDescription(`${address}/.well-known/wot`);
 servient.addCredentials({ [directory.id]: { token } });
 const found = [];
@@ -43,10 +44,11 @@ say({ all: Object.fromEntries(await Promise.all([...all].map(async ([name, out])
 
 const forms = description.properties[property].forms;
 const formIndex = sse ? forms.findIndex((form) => form.subprotocol === "sse") : undefined;
+let stopping = false;
 const subscription = await thing.observeProperty(
   property,
   async (output) => say({ observed: await output.value() }),
-  (error) => say({ error: String(error) }),
+  (error) => stopping || say({ error: String(error) }), // a poll that is under way ends as an error
   { formIndex },
 );
 const answer = await thing.invokeAction(action, input);
@@ -56,6 +58,7 @@ try {
 } catch (error) {
   say({ refused: error.message });
 }
+stopping = true;
 await subscription.stop();
 await servient.shutdown();
 process.exit(0);
