@@ -190,7 +190,7 @@ def invoke_action(
     )
     address = f"{request.path}/{call.id}"
     response["Location"] = address
-    return Status(200 if call.is_over else 202, services.action_to_json(call, address))
+    return Status(200 if call.is_over else 202, services.action_to_json(call=call, address=address))
 
 
 @router.get("/sites/{slug:site}/things/{thing}/actions/{action}/{uuid:call}", response=ActionStatus, exclude_unset=True)
@@ -198,7 +198,7 @@ def query_action(request: HttpRequest, site: str, thing: str, action: str, call:
     """Return what has come of an action."""
     _require(request, site, "viewer")
     found = services.find_action(site=site, device_id=thing.removeprefix(DEVICE_URN), action=action, call_id=call)
-    return services.action_to_json(found, request.path)
+    return services.action_to_json(call=found, address=request.path)
 
 
 @router.delete(
@@ -208,7 +208,8 @@ def cancel_action(request: HttpRequest, site: str, thing: str, action: str, call
     """Ask the device to end an action; one that is over stays as it is."""
     _require(request, site, "operator")
     services.find_action(site=site, device_id=thing.removeprefix(DEVICE_URN), action=action, call_id=call)
-    return Status(202, services.action_to_json(services.cancel_call(site=site, call_id=call), request.path))
+    ended = services.cancel_call(site=site, call_id=call)
+    return Status(202, services.action_to_json(call=ended, address=request.path))
 
 
 @router.get("/sites/{slug:site}/questions", response=list[QuestionShape])

@@ -49,7 +49,7 @@ def find_action(*, site: str, device_id: str, action: str, call_id: UUID) -> Cal
     return call
 
 
-def action_to_json(call: CallView, address: str) -> dict[str, Any]:
+def action_to_json(*, call: CallView, address: str) -> dict[str, Any]:
     """Return a call as an ActionStatus; `address` is where it is asked for."""
     said: dict[str, Any] = {
         "status": _PROGRESS.get(call.status, "failed"),

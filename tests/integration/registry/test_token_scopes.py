@@ -19,6 +19,7 @@ from execution.models import Question, Rehearsal, Run
 from registry import services
 from registry.models import ApiToken, Device, DeviceAlert, Site
 from registry.people.access import SCOPES
+from registry.thing_directory import property_values
 from tests.kit.files import ROOT
 from tests.kit.sign_in import find_person
 from tests.kit.sites import MIXER, describe, make_mixers
@@ -70,6 +71,11 @@ BODIES: dict[str, Any] = {
 }
 
 
+@pytest.fixture(autouse=True)
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(property_values, "MOST_POLL_S", 0.0)
+
+
 @pytest.fixture
 def ids(hall: str) -> dict[str, str]:
     """What stands in the addresses: one of each thing at the hall."""
@@ -87,6 +93,7 @@ def ids(hall: str) -> dict[str, str]:
     alert = DeviceAlert.objects.create(device_id="a", code="offline", first_at=NOW, last_at=NOW)
     names = {"program": program, "run": run.pk, "question": question.pk, "rehearsal": rehearsal.pk}
     here = {"alert_id": alert.pk, "device_id": "a", "device": "a", "thing": "a", "slug": "hall", "site": "hall"}
+    here |= {"name": "jobStatus", "action": "mix"}
     absent = {"call": uuid4(), "function": uuid4(), "number": 1, "token_id": "0" * 16}
     return {name: str(value) for name, value in {**names, **here, **absent}.items()}
 
