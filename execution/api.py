@@ -5,13 +5,16 @@ from __future__ import annotations
 from typing import Any
 from uuid import UUID
 
-from django.http import HttpRequest
+from django.http import HttpRequest, HttpResponse
 from ninja import Router
+from ninja.responses import Status
 
 from execution import services
 from execution.errors import NotFound, NoWay
 from execution.runs.programs import prepare, site_of_program
 from execution.shapes import (
+    ActionInput,
+    ActionStatus,
     AnswerQuestion,
     ArmedShape,
     ArmProgram,
@@ -44,6 +47,7 @@ from execution.views import (
 from registry import services as registry
 from registry.services import NotAMember, require
 from registry.shapes import Stop, signed_in
+from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])
 ABSENT = {
@@ -164,6 +168,48 @@ def cancel_call(request: HttpRequest, site: str, call: UUID) -> dict[str, Any]:
     """Ask the device to end a call."""
     _require(request, site, "operator")
     return call_to_json(services.cancel_call(site=site, call_id=call))
+
+
+@router.post(
+    "/sites/{slug:site}/things/{thing}/actions/{action}",
+    response={200: ActionStatus, 202: ActionStatus},
+    exclude_unset=True,
+)
+def invoke_action(
+    request: HttpRequest, response: HttpResponse, site: str, thing: str, action: str, body: ActionInput | None = None
+) -> Status[dict[str, Any]]:
+    """Call a device's method as an action of the Web of Things, and wait 20 s for what comes of it; 202: not over yet.
+
+    The body has the arguments by name, or is empty.
+    """
+    _require(request, site, "operator")
+    device_id = thing.removeprefix(DEVICE_URN)
+    given = body.model_dump() if body else {}
+    call = services.invoke_action(
+        site=site, device_id=device_id, action=action, given=given, person=signed_in(request).pk, by=_who(request)
+    )
+    address = f"{request.path}/{call.id}"
+    response["Location"] = address
+    return Status(200 if call.is_over else 202, services.action_to_json(call=call, address=address))
+
+
+@router.get("/sites/{slug:site}/things/{thing}/actions/{action}/{uuid:call}", response=ActionStatus, exclude_unset=True)
+def query_action(request: HttpRequest, site: str, thing: str, action: str, call: UUID) -> dict[str, Any]:
+    """Return what has come of an action."""
+    _require(request, site, "viewer")
+    found = services.find_action(site=site, device_id=thing.removeprefix(DEVICE_URN), action=action, call_id=call)
+    return services.action_to_json(call=found, address=request.path)
+
+
+@router.delete(
+    "/sites/{slug:site}/things/{thing}/actions/{action}/{uuid:call}", response={202: ActionStatus}, exclude_unset=True
+)
+def cancel_action(request: HttpRequest, site: str, thing: str, action: str, call: UUID) -> Status[dict[str, Any]]:
+    """Ask the device to end an action; one that is over stays as it is."""
+    _require(request, site, "operator")
+    services.find_action(site=site, device_id=thing.removeprefix(DEVICE_URN), action=action, call_id=call)
+    ended = services.cancel_call(site=site, call_id=call)
+    return Status(202, services.action_to_json(call=ended, address=request.path))
 
 
 @router.get("/sites/{slug:site}/questions", response=list[QuestionShape])

@@ -7,6 +7,8 @@ ExecutionError
  ├── AlreadyAnswered: somebody else was quicker
  ├── AnswerNotFitting: the answer is not what was asked for
  ├── BadArguments: a method does not take these arguments
+ ├── ActionFailed: a device did not do what it was told
+ ├── TooManyWaiting: as many wait for results as may
  └── NoWay: there is no route
 """
 
@@ -61,6 +63,20 @@ class BadArguments(ExecutionError):
 
     code = "bad_arguments"
     status = 422
+
+
+class ActionFailed(ExecutionError):
+    """The device refused, failed or gave up; no proxy sends a 409 again by itself."""
+
+    code = "action_failed"
+    status = 409
+
+
+class TooManyWaiting(ExecutionError):
+    """This process lets so many wait for what comes of a call, in all or of this person; nothing was done."""
+
+    code = "too_many_waiting"
+    status = 429
 
 
 class StepConflict(ExecutionError):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from execution.commands.claim import OutgoingCommand, claim_commands, mark_commands_sent
+from execution.commands.invocations import action_to_json, find_action, invoke_action
 from execution.commands.manual_calls import call_method, cancel_call, expire_calls, get_call
 from execution.commands.outbox import record_ack, resend_commands
 from execution.errors import (
@@ -63,6 +64,7 @@ __all__ = [
     "RunView",
     "StopView",
     "WholeRunView",
+    "action_to_json",
     "answer_question",
     "arm_program",
     "call_method",
@@ -73,9 +75,11 @@ __all__ = [
     "claim_commands",
     "disarm_program",
     "expire_calls",
+    "find_action",
     "get_call",
     "get_rehearsal",
     "get_run",
+    "invoke_action",
     "is_stopped",
     "list_armed",
     "list_events",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from ninja import Field, Schema
-from pydantic import Strict
+from pydantic import ConfigDict, Strict
 
 from editor.shapes import Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
 from registry.shapes import Asked, Flag, Line, Unchecked
@@ -185,6 +185,23 @@ class CallMethod(Asked):
 
     method: Line = Field(max_length=64)
     args: dict[str, Any] = {}
+
+
+class ActionInput(Asked):
+    """The arguments of an action, by name, as its Thing Description says."""
+
+    model_config = ConfigDict(extra="allow")
+
+
+class ActionStatus(Schema):
+    """What has come of an action, as the Web of Things says it; `output` once it is completed, `error` if it failed."""
+
+    status: Literal["pending", "running", "completed", "failed"]
+    href: str
+    timeRequested: str
+    timeEnded: str | None = None
+    output: dict[str, Scalar | None] | None = None
+    error: dict[str, Scalar] | None = None
 
 
 class CallShape(Schema):

@@ -14,7 +14,14 @@ from registry.devices.views import DeviceView
 from registry.errors import RegistryError
 from registry.people.access import find_access, list_visible
 from registry.shapes import signed_in
-from registry.thing_directory.answers import MERGE_PATCH, answer_thing, change_thing, may_see_thing, open_stream
+from registry.thing_directory.answers import (
+    MERGE_PATCH,
+    answer_thing,
+    change_thing,
+    may_see_thing,
+    open_stream,
+    root_of,
+)
 from registry.thing_directory.own_thing import directory_thing
 from registry.thing_directory.pages import Page, answer_page, list_page
 
@@ -44,7 +51,7 @@ class NotSearchedHere(RegistryError):
 @router.api_operation(READ, "/.well-known/wot", auth=None)
 def show_directory(request: HttpRequest) -> HttpResponse:
     """Describe the directory itself, also to strangers: they learn here how to sign in."""
-    body = json.dumps(directory_thing(request.build_absolute_uri("/")), ensure_ascii=False)
+    body = json.dumps(directory_thing(root_of(request)), ensure_ascii=False)
     return HttpResponse(body, content_type="application/td+json")
 
 
@@ -52,7 +59,7 @@ def show_directory(request: HttpRequest) -> HttpResponse:
 def list_things(request: HttpRequest, page: Query[Page]) -> HttpResponse:
     """List the Things of all sites of which the asker is a member."""
     listed = list_page(sites=list_visible(signed_in(request)), page=page)
-    return answer_page(base="/things", page=page, listed=listed)
+    return answer_page(root=root_of(request), base="/things", page=page, listed=listed)
 
 
 @router.api_operation(READ, "/things/{thing}")

@@ -7,13 +7,26 @@ from ninja import Query, Router
 
 from registry import services
 from registry.devices.rows import NoSuchDevice
+from registry.devices.thing_forms import things_address
 from registry.devices.things import EVENTS, EventName, device_id_of
 from registry.people.access import require
 from registry.shapes import signed_in
-from registry.thing_directory.answers import answer_thing, change_thing, may_see_thing, open_stream, sends
+from registry.thing_directory.answers import (
+    answer_thing,
+    answer_value,
+    change_thing,
+    may_see_thing,
+    observer_of,
+    open_stream,
+    open_values,
+    root_of,
+    sends,
+)
 from registry.thing_directory.pages import Page, answer_page, list_page
+from registry.thing_directory.property_values import await_value, get_thing, read_value, read_values
 
 router = Router(tags=["things"])
+VALUE = {"responses": {200: {"content": {"application/json": {"schema": {"type": ["number", "string", "boolean"]}}}}}}
 
 
 @router.get("/sites/{slug}/things", openapi_extra=sends("application/ld+json"))
@@ -21,7 +34,10 @@ def list_things(request: HttpRequest, slug: str, page: Query[Page]) -> HttpRespo
     """List the site's approved devices as Thing Descriptions, a part at a time; the header Link names the next part."""
     require(signed_in(request), slug, "viewer")
     return answer_page(
-        base=f"/api/sites/{slug}/things", page=page, listed=list_page(sites=frozenset({slug}), page=page)
+        root=root_of(request),
+        base=things_address(slug),
+        page=page,
+        listed=list_page(sites=frozenset({slug}), page=page),
     )
 
 
@@ -48,3 +64,39 @@ def show_thing(request: HttpRequest, slug: str, thing: str) -> HttpResponse:
 def patch_thing(request: HttpRequest, slug: str, thing: str) -> HttpResponse:
     """Change a Thing's `title` or `vipo:location` by a JSON merge patch; the rest the device says itself."""
     return change_thing(request, signed_in(request), slug, device_id_of(thing))
+
+
+@router.get("/sites/{slug}/things/{thing}/properties", openapi_extra=sends("application/json"))
+def show_values(request: HttpRequest, slug: str, thing: str) -> HttpResponse:
+    """Send all properties of a Thing, by name; left out are those of which no value is known that fits."""
+    require(signed_in(request), slug, "viewer")
+    return answer_value(read_values(get_thing(slug, device_id_of(thing))))
+
+
+@router.get("/sites/{slug}/things/{thing}/properties/{name}", openapi_extra=VALUE)
+def show_value(request: HttpRequest, slug: str, thing: str, name: str) -> HttpResponse:
+    """Send what a property is, as the Thing said it last: the value alone, as its schema says."""
+    require(signed_in(request), slug, "viewer")
+    return answer_value(read_value(get_thing(slug, device_id_of(thing)), name))
+
+
+@router.get("/sites/{slug}/things/{thing}/properties/{name}/events", openapi_extra=sends("text/event-stream"))
+def watch_value(request: HttpRequest, slug: str, thing: str, name: str) -> HttpResponseBase:
+    """Send what a property is and each value that follows as server-sent events (subprotocol `sse`)."""
+    require(signed_in(request), slug, "viewer")
+    return open_values(observer_of(request, slug, device_id_of(thing), name))
+
+
+@router.get("/sites/{slug}/things/{thing}/properties/{name}/next", openapi_extra=VALUE)
+def await_next_value(request: HttpRequest, slug: str, thing: str, name: str) -> HttpResponse:
+    """Send the next value of a property, or after 10 s the one that it still is (subprotocol `longpoll`)."""
+    require(signed_in(request), slug, "viewer")
+    return answer_value(await_value(observer_of(request, slug, device_id_of(thing), name)))
+
+
+@router.api_operation(["HEAD"], "/sites/{slug}/things/{thing}/properties/{name}/next", include_in_schema=False)
+def probe_next_value(request: HttpRequest, slug: str, thing: str, name: str) -> HttpResponse:
+    """Say at once that one may wait here, as clients ask before they do."""
+    require(signed_in(request), slug, "viewer")
+    observer_of(request, slug, device_id_of(thing), name)
+    return HttpResponse(content_type="application/json")

@@ -12,15 +12,15 @@ from hashlib import sha256
 from math import isfinite
 from typing import Any, Literal
 
-from django.conf import settings
 from django.db import connection, transaction
 from django.db.models import Max
 
+from registry.devices.thing_forms import consumed_thing
 from registry.devices.views import DeviceView
 from registry.errors import RegistryError
 from registry.live.fanout import publish
 from registry.models import Site, ThingEvent
-from vipo_device.descriptions.thing_description import DEVICE_URN, thing_of
+from vipo_device.descriptions.thing_description import DEVICE_URN
 from vipo_device.protocol.description import Description, Pose
 from vipo_device.protocol.messages import BadMessage, parse_json
 
@@ -48,14 +48,14 @@ class ThingPatch:
     pose: Pose | None
 
 
-def thing_to_json(view: DeviceView, broker: str) -> dict[str, Any]:
-    """Return a device as a Thing Description, with the name and place that hold."""
-    return thing_of(view.canonical, broker)
+def thing_to_json(view: DeviceView, base: str) -> dict[str, Any]:
+    """Return a device as a Thing Description, with the name and place that hold; `base` is where VIPO is served."""
+    return {**consumed_thing(view.canonical, view.site), "base": base}
 
 
-def thing_text(view: DeviceView, broker: str) -> str:
+def thing_text(view: DeviceView, base: str) -> str:
     """Return a device's Thing Description as it is sent."""
-    return json.dumps(thing_to_json(view, broker), ensure_ascii=False)
+    return json.dumps(thing_to_json(view, base), ensure_ascii=False)
 
 
 def thing_tag(text: str) -> str:
@@ -106,10 +106,10 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
 
 
-def what_became(before: DeviceView | None, after: DeviceView, broker: str) -> tuple[EventName, dict[str, Any]] | None:
+def what_became(before: DeviceView | None, after: DeviceView) -> tuple[EventName, dict[str, Any]] | None:
     """Return what a decision or a description made of a Thing, and the change: nothing for readings and drives.
 
-    The change is the whole Thing when it is new, and a merge patch (RFC 7396) when it is another.
+    The change is the whole Thing but its `base` when it is new, and a merge patch (RFC 7396) when it is another.
     """
     was, is_now = _as_listed(before), _as_listed(after)
     if was == is_now:
@@ -117,8 +117,8 @@ def what_became(before: DeviceView | None, after: DeviceView, broker: str) -> tu
     if is_now is None:
         return ("thing_deleted", {})
     if was is None:
-        return ("thing_created", thing_to_json(after, broker))
-    change = merge_patch(thing_of(was, broker), thing_of(is_now, broker))
+        return ("thing_created", consumed_thing(after.canonical, after.site))
+    change = merge_patch(consumed_thing(was, after.site), consumed_thing(is_now, after.site))
     return ("thing_updated", change) if change else None
 
 
@@ -159,7 +159,7 @@ def record_thing(before: DeviceView | None, after: DeviceView) -> None:
 
 def record_things(changes: Sequence[tuple[DeviceView | None, DeviceView]]) -> None:
     """Write what became of devices' Things, if anything did; call it within the transaction that changes them."""
-    became = [(after, what_became(before, after, settings.VIPO_BROKER_URL)) for before, after in changes]
+    became = [(after, what_became(before, after)) for before, after in changes]
     told = [(after, news) for after, news in became if news is not None]
     if not told:
         return

@@ -7,7 +7,7 @@ import json
 import threading
 import time
 from collections import Counter
-from collections.abc import AsyncIterator, Collection, Iterator
+from collections.abc import AsyncIterator, Callable, Collection, Iterator
 from contextlib import asynccontextmanager, contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any
@@ -28,6 +28,8 @@ MOST_SECONDS = 900.0
 MOST_STREAMS, MOST_FOR_PERSON = 50, 10
 HEARTBEAT_S = 15.0
 RETRY_MS = 2000
+RIGHTS = ("members", "hello")
+"""Messages after which somebody may have lost the right to hear more."""
 _open: Counter[int] = Counter()
 _lock = threading.Lock()
 
@@ -41,12 +43,16 @@ class TooManyStreams(RegistryError):
 
 @dataclass(frozen=True, slots=True)
 class Listener:
-    """Who hears what: the sites that the session's person may see, or one of them; `diff` asks for the changes."""
+    """Who hears what: the sites that the session's person may see, or one of them; `diff` asks for the changes.
+
+    `root` is where VIPO is served, the base of new Things.
+    """
 
     session: Session
     site: str | None
     kinds: Collection[str]
     diff: bool
+    root: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +75,8 @@ def check_room(person: int) -> None:
 
 
 @contextmanager
-def _counted(person: int) -> Iterator[None]:
+def counted(person: int) -> Iterator[None]:
+    """Hold one of the places for streams. Raises TooManyStreams."""
     with _lock:
         check_room(person)
         _open[person] += 1
@@ -85,9 +92,9 @@ async def stream_events(listener: Listener, last_id: str) -> AsyncIterator[bytes
 
     A stream that ends is opened anew by its listener, who names the last event it heard and misses nothing.
     """
-    until, left = time.monotonic() + min(MOST_SECONDS, _lasts_s(listener.session)), MOST_BYTES
-    with suppress(TooManyStreams), _counted(listener.session.person):
-        async with _bell() as rung, seated(listener.session, rung.set) as seat:
+    until, left = time.monotonic() + min(MOST_SECONDS, lasts_s(listener.session)), MOST_BYTES
+    with suppress(TooManyStreams), counted(listener.session.person):
+        async with bell(_may_be_news) as rung, seated(listener.session, rung.set) as seat:
             heard = await _begin(listener, seat, last_id)
             if heard is not None:
                 yield _opening(heard)
@@ -96,17 +103,21 @@ async def stream_events(listener: Listener, last_id: str) -> AsyncIterator[bytes
                 for told in _in_words(listener, heard):
                     left -= len(told)
                     yield told
-                if heard is not None and not heard.news and not await _wait(rung, until - time.monotonic()):
+                if heard is not None and not heard.news and not await wait_for(rung, until - time.monotonic()):
                     yield b":\n\n"
 
 
+def _may_be_news(slug: str, message: Message) -> bool:
+    return slug == THINGS or message["type"] in RIGHTS
+
+
 @asynccontextmanager
-async def _bell() -> AsyncIterator[asyncio.Event]:
-    """Give an event that is set whenever there may be news."""
+async def bell(is_wanted: Callable[[str, Message], bool]) -> AsyncIterator[asyncio.Event]:
+    """Give an event that is set whenever a message is called out that is wanted: it tells of a site, and says what."""
     loop, rung = asyncio.get_running_loop(), asyncio.Event()
 
     def hear(slug: str, message: Message) -> None:
-        if slug == THINGS or message["type"] == "hello":
+        if is_wanted(slug, message):
             with suppress(RuntimeError):  # the loop has just ended: nobody is left to hear it
                 loop.call_soon_threadsafe(rung.set)
 
@@ -117,12 +128,12 @@ async def _bell() -> AsyncIterator[asyncio.Event]:
         stop()
 
 
-def _lasts_s(session: Session) -> float:
+def lasts_s(session: Session) -> float:
     """Return how long a token lasts from now on; a session has no end that is known beforehand."""
     return (session.until - timezone.now()).total_seconds() if session.until else MOST_SECONDS
 
 
-async def _wait(rung: asyncio.Event, most_s: float) -> bool:
+async def wait_for(rung: asyncio.Event, most_s: float) -> bool:
     """Wait for the bell; tell whether it rang within a while."""
     with suppress(TimeoutError):
         await asyncio.wait_for(rung.wait(), max(0.0, min(HEARTBEAT_S, most_s)))
@@ -182,10 +193,11 @@ def _in_words(listener: Listener, heard: Heard | None) -> Iterator[bytes]:
         yield _reset(heard)
     for news in heard.news:
         if news.kind in listener.kinds:
-            body = json.dumps(_body(news, diff=listener.diff), ensure_ascii=False)
+            body = json.dumps(_body(news, listener), ensure_ascii=False)
             yield f"id: {news.id}\nevent: {news.kind}\ndata: {body}\n\n".encode()
 
 
-def _body(news: ThingNews, *, diff: bool) -> dict[str, Any]:
-    change = news.change if diff else {}
-    return {**change, "id": f"{DEVICE_URN}{news.device_id}"}
+def _body(news: ThingNews, listener: Listener) -> dict[str, Any]:
+    change = news.change if listener.diff else {}
+    base = {"base": listener.root} if change and news.kind == "thing_created" else {}
+    return {**change, **base, "id": f"{DEVICE_URN}{news.device_id}"}

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from typing import Any
+from urllib.parse import urlsplit
 
+from registry.devices.thing_forms import CONTEXTS, TOKEN
 from registry.devices.things import EVENTS
 from registry.thing_directory.pages import DISCOVERY_CONTEXT, MOST_AT_ONCE, SORTED_BY
-from vipo_device.descriptions.forms import TD_CONTEXT
 
 PROBLEM = "application/problem+json"
 THING_ID = {"id": {"@type": "ThingID", "type": "string", "format": "iri-reference", "title": "The Thing's id"}}
@@ -18,41 +19,28 @@ PAGES = {
     "sort_order": {"type": "string", "enum": ["asc", "desc"], "default": "asc"},
 }
 SECURITY = {
-    "token": {
-        "scheme": "bearer",
-        "in": "header",
-        "name": "Authorization",
-        "format": "opaque",
-        "description": "A token that a member has made for a program, on VIPO's pages.",
-    },
+    "token": dict(TOKEN),
     "session": {
         "scheme": "apikey",
         "in": "cookie",
         "name": "sessionid",
-        "description": "The cookie that POST /api/sign-in sets, with the e-mail address and password of a member.",
+        "description": "Taken in place of a token: the cookie that POST /api/sign-in sets. Changes need the header "
+        "X-CSRFToken, too. That either will do could only be said by a `combo`, which clients do not know.",
     },
-    "csrf": {
-        "scheme": "apikey",
-        "in": "header",
-        "name": "X-CSRFToken",
-        "description": "For changes: the value of the cookie csrftoken, which goes along.",
-    },
-    "both": {"scheme": "combo", "allOf": ["session", "csrf"]},
-    "either": {"scheme": "combo", "oneOf": ["token", "session"]},
-    "token_or_both": {"scheme": "combo", "oneOf": ["token", "both"]},
 }
 
 
 def directory_thing(base: str) -> dict[str, Any]:
     """Return the directory's Thing Description; `base` is where it is served."""
     return {
-        "@context": [TD_CONTEXT, DISCOVERY_CONTEXT, {"htv": "http://www.w3.org/2011/http#"}],
+        "@context": [*CONTEXTS, DISCOVERY_CONTEXT, {"htv": "http://www.w3.org/2011/http#"}],
         "@type": "ThingDirectory",
+        "id": f"urn:vipo:directory:{urlsplit(base).netloc}",
         "title": "VIPO",
         "description": "The robots and machines of all sites of which the caller is a member.",
         "base": base,
         "securityDefinitions": SECURITY,
-        "security": ["either"],
+        "security": ["token"],
         "links": [{"rel": "service-desc", "href": "/api/openapi.json", "type": "application/json"}],
         "properties": {"things": _things()},
         "actions": {"retrieveThing": _retrieve(), "partiallyUpdateThing": _patch()},
@@ -89,8 +77,8 @@ def _retrieve() -> dict[str, Any]:
 
 
 def _patch() -> dict[str, Any]:
-    media_type, security = "application/merge-patch+json", ["token_or_both"]
-    form = _form("PATCH", "/things/{id}", "invokeaction", media_type, 400, 401, 403, 404, 412, 415, security=security)
+    media_type = "application/merge-patch+json"
+    form = _form("PATCH", "/things/{id}", "invokeaction", media_type, 400, 401, 403, 404, 412, 415)
     changes = {
         "title": {"type": "string", "description": "A name that people give it; null: its own again."},
         "vipo:location": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 4},

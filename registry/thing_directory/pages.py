@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any, Literal
 from urllib.parse import urlencode
 
-from django.conf import settings
 from django.http import HttpResponse
 from ninja import Field, Schema
 
@@ -68,9 +67,12 @@ def _in_order(names: Iterable[tuple[str, str, str]], page: Page) -> list[str]:
     return sorted(keys, key=keys.__getitem__, reverse=page.sort_order == "desc")
 
 
-def answer_page(*, base: str, page: Page, listed: Listed) -> HttpResponse:
-    """Return a page as an array or a collection; `base` is the list's address. The header Link names the next page."""
-    members = [thing_to_json(view, settings.VIPO_BROKER_URL) for view in listed.views]
+def answer_page(*, root: str, base: str, page: Page, listed: Listed) -> HttpResponse:
+    """Return a page as an array or a collection; `base` is the list's address, `root` where VIPO is served.
+
+    The header Link names the next page.
+    """
+    members = [thing_to_json(view, root) for view in listed.views]
     end = page.offset + page.limit
     following = _address(base, page, end) if end < listed.total else ""
     body: Any = members if page.format == "array" else _collection(base, page, members, listed.total, following)

@@ -33,7 +33,8 @@ DESCRIPTION = "The description"
 MOST_TOLD = 5
 PINNED_CONTEXTS: Mapping[str, Mapping[str, str]] = {CONTEXT: NAMESPACES}
 TD_CONTEXT = "https://www.w3.org/2022/wot/td/v1.1"
-TD_CONTEXTS = frozenset({TD_CONTEXT, "https://www.w3.org/2019/wot/td/v1"})
+TD_CONTEXT_1_0 = "https://www.w3.org/2019/wot/td/v1"
+TD_CONTEXTS = frozenset({TD_CONTEXT, TD_CONTEXT_1_0})
 PAPER_KEYS = frozenset(
     {"id", "name", "description", "location", "size", "imgurl", "done", "properties", "methods", "kind"}
 )

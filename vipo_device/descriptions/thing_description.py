@@ -241,7 +241,7 @@ def _property_of(device_id: str, spec: PropertySpec, base: str) -> dict[str, Any
         "vipo:pointer": f"/props/{spec.name}",
     }
     title = {"title": spec.title} if spec.title else {}
-    return {**title, **_schema_of(spec), "readOnly": True, "observable": True, "forms": [form]}
+    return {**title, **schema_of(spec), "readOnly": True, "observable": True, "forms": [form]}
 
 
 def _action_of(method: MethodSpec, base: str) -> dict[str, Any]:
@@ -256,7 +256,7 @@ def _action_of(method: MethodSpec, base: str) -> dict[str, Any]:
     }
     arguments = {
         "type": "object",
-        "properties": {spec.name: _schema_of(spec) for spec in method.parameters},
+        "properties": {spec.name: schema_of(spec) for spec in method.parameters},
         "required": [spec.name for spec in method.parameters if spec.required],
     }
     said = {"title": method.title, "vipo:messageType": method.message_type}
@@ -269,7 +269,8 @@ def _command(arguments: dict[str, Any]) -> dict[str, Any]:
     return {"@type": COMMAND, "type": "object", "properties": fields, "required": ["id", "v"]}
 
 
-def _schema_of(spec: PropertySpec | ParameterSpec) -> dict[str, Any]:
+def schema_of(spec: PropertySpec | ParameterSpec) -> dict[str, Any]:
+    """Return the schema of a value."""
     td_type = _TD_TYPES[spec.type]
     exact = {} if _TYPES.get(td_type) == spec.type else {"vipo:type": spec.type}
     said = {

@@ -740,6 +740,52 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/things/{thing}/actions/{action}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Invoke Action
+         * @description Call a device's method as an action of the Web of Things, and wait 20 s for what comes of it; 202: not over yet.
+         *
+         *     The body has the arguments by name, or is empty.
+         */
+        post: operations["invoke_action"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/things/{thing}/actions/{action}/{call}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Query Action
+         * @description Return what has come of an action.
+         */
+        get: operations["query_action"];
+        put?: never;
+        post?: never;
+        /**
+         * Cancel Action
+         * @description Ask the device to end an action; one that is over stays as it is.
+         */
+        delete: operations["cancel_action"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}": {
         parameters: {
             query?: never;
@@ -1620,6 +1666,86 @@ export interface paths {
         patch: operations["patch_thing"];
         trace?: never;
     };
+    "/api/sites/{slug}/things/{thing}/properties": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Values
+         * @description Send all properties of a Thing, by name; left out are those of which no value is known that fits.
+         */
+        get: operations["show_values"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/things/{thing}/properties/{name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Value
+         * @description Send what a property is, as the Thing said it last: the value alone, as its schema says.
+         */
+        get: operations["show_value"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/things/{thing}/properties/{name}/events": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Watch Value
+         * @description Send what a property is and each value that follows as server-sent events (subprotocol `sse`).
+         */
+        get: operations["watch_value"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{slug}/things/{thing}/properties/{name}/next": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Await Next Value
+         * @description Send the next value of a property, or after 10 s the one that it still is (subprotocol `longpoll`).
+         */
+        get: operations["await_next_value"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{slug}/tokens": {
         parameters: {
             query?: never;
@@ -1668,6 +1794,24 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** @description The arguments of an action, by name, as its Thing Description says. */
+        ActionInput: {
+            [key: string]: unknown;
+        };
+        /** @description What has come of an action, as the Web of Things says it; `output` once it is completed, `error` if it failed. */
+        ActionStatus: {
+            error?: {
+                [key: string]: boolean | number | string;
+            } | null;
+            href: string;
+            output?: {
+                [key: string]: boolean | number | string | null;
+            } | null;
+            /** @enum {string} */
+            status: "pending" | "running" | "completed" | "failed";
+            timeEnded?: string | null;
+            timeRequested: string;
+        };
         /** @description What a device is doing, for screens in other languages; `args` by code as in registry/devices/activity.py. */
         Activity: {
             args: {
@@ -4218,6 +4362,126 @@ export interface operations {
             };
         };
     };
+    invoke_action: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                site: string;
+                thing: string;
+                action: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["ActionInput"] | null;
+            };
+        };
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ActionStatus"];
+                };
+            };
+            /** @description Accepted */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ActionStatus"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    query_action: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+                thing: string;
+                action: string;
+                call: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ActionStatus"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cancel_action: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                site: string;
+                thing: string;
+                action: string;
+                call: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Accepted */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ActionStatus"];
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     show_site: {
         parameters: {
             query?: never;
@@ -5870,6 +6134,137 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_values: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                thing: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": Record<string, never>;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_value: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                thing: string;
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": number | string | boolean;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    watch_value: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                thing: string;
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/event-stream": Record<string, never>;
+                };
+            };
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    await_next_value: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                thing: string;
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": number | string | boolean;
+                };
             };
             /** @description A refusal */
             default: {

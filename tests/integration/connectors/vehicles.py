@@ -12,6 +12,7 @@ from typing import Any
 
 from tests.integration.connectors.connector_process import ConnectorProcess
 from tests.integration.connectors.factsheet import FACTSHEET
+from tests.kit.node_packages import install_packages
 from tests.kit.servers import Mosquitto, answers, find_program, free_port, wait_ready
 
 HERE = Path(__file__).parent
@@ -20,9 +21,7 @@ MANUFACTURER = "Acme"
 
 def install_library() -> None:
     """Install the virtual vehicle's library, as its lock file says, if it is not there."""
-    if not (HERE / "node_modules" / "vda-5050-lib").exists():
-        npm = [find_program("npm"), "ci", "--no-audit", "--no-fund", "--loglevel=error"]
-        subprocess.run(npm, cwd=HERE, check=True)
+    install_packages(HERE)
 
 
 @contextmanager

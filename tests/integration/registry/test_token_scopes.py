@@ -19,6 +19,7 @@ from execution.models import Question, Rehearsal, Run
 from registry import services
 from registry.models import ApiToken, Device, DeviceAlert, Site
 from registry.people.access import SCOPES
+from registry.thing_directory import property_values
 from tests.kit.files import ROOT
 from tests.kit.sign_in import find_person
 from tests.kit.sites import MIXER, describe, make_mixers
@@ -37,8 +38,9 @@ NEEDED = {
             export_devices show_device list_device_events show_property_history show_robot_map download_robot_pgm
             download_robot_yaml show_robot_cells show_difference show_rdf show_map download_pgm download_yaml
             show_cells list_map_versions current probe sample current_of_device probe_device sample_of_device
-            list_programs ask post_query list_things watch_things show_thing""",
-        "operate": "mark_seen mark_all_seen call_method cancel_call press_stop reset_stop",
+            list_programs ask post_query list_things watch_things show_thing
+            show_values show_value watch_value await_next_value query_action""",
+        "operate": "mark_seen mark_all_seen call_method cancel_call invoke_action cancel_action press_stop reset_stop",
         "run": """start_rehearsal start_run pause_run resume_run cancel_run answer_question arm_program delete_program
             rename_program draw_script pin_version save_function create_program""",
         "admin": """edit_device approve_device reject_device retire_device readmit_device rotate_credential
@@ -69,6 +71,11 @@ BODIES: dict[str, Any] = {
 }
 
 
+@pytest.fixture(autouse=True)
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(property_values, "MOST_POLL_S", 0.0)
+
+
 @pytest.fixture
 def ids(hall: str) -> dict[str, str]:
     """What stands in the addresses: one of each thing at the hall."""
@@ -86,6 +93,7 @@ def ids(hall: str) -> dict[str, str]:
     alert = DeviceAlert.objects.create(device_id="a", code="offline", first_at=NOW, last_at=NOW)
     names = {"program": program, "run": run.pk, "question": question.pk, "rehearsal": rehearsal.pk}
     here = {"alert_id": alert.pk, "device_id": "a", "device": "a", "thing": "a", "slug": "hall", "site": "hall"}
+    here |= {"name": "jobStatus", "action": "mix"}
     absent = {"call": uuid4(), "function": uuid4(), "number": 1, "token_id": "0" * 16}
     return {name: str(value) for name, value in {**names, **here, **absent}.items()}
 

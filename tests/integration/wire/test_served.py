@@ -8,6 +8,7 @@ from typing import Any
 import httpx
 import pytest
 
+from tests.integration.web_of_things.node_wot import check_story, make_token, run_client, wait_for_mixer
 from tests.kit.served import WORKER, Served, running_served
 from tests.kit.servers import Redis
 from vipo_device.protocol.mqtt_client import MqttClient, tls_context
@@ -108,6 +109,16 @@ def test_a_pick_and_drop_runs_to_its_end_with_two_workers(served: Served) -> Non
         assert stock(after, "itemInventory01") < stock(before, "itemInventory01")
     logs = [served.log(f"worker-{n}").read_text() for n in (1, 2)]
     assert all("advance_site" in log or "advance_run" in log for log in logs), "one worker had nothing to do"
+
+
+@pytest.mark.parametrize("sse", [False, True])
+def test_a_foreign_client_reads_observes_and_invokes_at_another_process_than_its_token_was_made(
+    served: Served, sse: bool
+) -> None:
+    with served.signed_in("admin", 0) as admin:
+        wait_for_mixer(admin)
+        token = make_token(admin, "operate")
+    check_story(run_client(f"http://127.0.0.1:{served.web_ports[1]}", token, sse=sse))
 
 
 def test_a_run_survives_the_death_of_a_worker_and_of_the_gateway(served: Served) -> None:

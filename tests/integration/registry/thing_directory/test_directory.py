@@ -33,20 +33,15 @@ class ThingsClient:
         form = self.thing[kind][name]["forms"][0]
         address = urlsplit(self.thing["base"].rstrip("/") + self._filled(form["href"], values))
         method = getattr(self.http, form["htv:methodName"].lower())
-        secrets = dict(each for name in form.get("security", self.thing["security"]) for each in self._secrets(name))
         data = {"data": json.dumps(body), "content_type": form["contentType"]} if body is not None else {}
-        return method(f"{address.path}?{address.query}", **data, headers={**secrets, **(headers or {})})
+        return method(f"{address.path}?{address.query}", **data, headers={**self._secrets(), **(headers or {})})
 
-    def _secrets(self, name: str) -> list[tuple[str, str]]:
-        """Return the headers that a scheme asks for; of schemes that may be chosen the last one, which is a session."""
-        scheme = self.thing["securityDefinitions"][name]
-        if scheme["scheme"] == "combo":
-            chosen = scheme["allOf"] if "allOf" in scheme else scheme["oneOf"][-1:]
-            return [each for name in chosen for each in self._secrets(name)]
-        if scheme["in"] == "cookie":
-            assert scheme["name"] in self.http.cookies
-            return []
-        return [(scheme["name"], self.http.cookies["csrftoken"].value)]
+    def _secrets(self) -> dict[str, str]:
+        """Return what a session needs besides its cookie, which is taken in place of the token that is asked for."""
+        schemes = self.thing["securityDefinitions"]
+        assert (self.thing["security"], schemes["token"]["scheme"]) == (["token"], "bearer")
+        assert schemes["session"]["name"] in self.http.cookies
+        return {"X-CSRFToken": self.http.cookies["csrftoken"].value}
 
     @staticmethod
     def _filled(template: str, values: dict[str, Any]) -> str:
