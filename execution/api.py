@@ -6,7 +6,7 @@ from typing import Any
 from uuid import UUID
 
 from django.http import HttpRequest, HttpResponse
-from ninja import Router
+from ninja import Query, Router
 from ninja.responses import Status
 
 from execution import services
@@ -28,6 +28,7 @@ from execution.shapes import (
     RestoreMap,
     RouteShape,
     RunEventShape,
+    RunsAsked,
     RunShape,
     RunSummaryShape,
     StartRehearsal,
@@ -46,7 +47,7 @@ from execution.views import (
 )
 from registry import services as registry
 from registry.services import NotAMember, require
-from registry.shapes import Stop, signed_in
+from registry.shapes import Stop, link_to_next, signed_in
 from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])
@@ -105,10 +106,14 @@ def start_run(request: HttpRequest, program: UUID, body: StartRun | None = None)
 
 
 @router.get("/sites/{slug:site}/runs", response=list[RunSummaryShape])
-def list_runs(request: HttpRequest, site: str) -> list[dict[str, Any]]:
-    """Return the site's runs, the newest first."""
+def list_runs(request: HttpRequest, response: HttpResponse, site: str, asked: Query[RunsAsked]) -> list[dict[str, Any]]:
+    """Return the site's runs, the newest first; the header `Link` names the next part where there are older ones."""
     _require(request, site, "viewer")
-    return [run_to_json(run) for run in services.list_runs(site=site)]
+    which = services.RunFilter(state=asked.state, program=asked.program, since=asked.since, until=asked.until)
+    runs, has_older = services.list_runs(site=site, limit=asked.limit, before=asked.before, which=which)
+    if has_older:
+        response["Link"] = link_to_next(request, before=runs[-1].number)
+    return [run_to_json(run) for run in runs]
 
 
 @router.get("/runs/{uuid:run}", response=RunShape)

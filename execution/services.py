@@ -22,6 +22,7 @@ from execution.rehearsals.rehearsals import get_rehearsal, start_rehearsal
 from execution.runs.programs import Prepared
 from execution.runs.questions import answer_question, list_questions, site_of_question
 from execution.runs.runs import (
+    RunFilter,
     cancel_run,
     get_run,
     list_events,
@@ -61,6 +62,7 @@ __all__ = [
     "RehearsalView",
     "RouteView",
     "RunEventView",
+    "RunFilter",
     "RunView",
     "StopView",
     "WholeRunView",

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from typing import Annotated, Any, Literal
+from uuid import UUID
 
 from ninja import Field, Schema
-from pydantic import ConfigDict, Strict
+from pydantic import AwareDatetime, ConfigDict, Strict
 
 from editor.shapes import Compiled, DevicePlace, Document, NamedPlace, PointPlace, Position
 from registry.shapes import Asked, Flag, Line, Unchecked
@@ -16,6 +17,17 @@ Scalar = bool | int | float | str
 Driver = Literal["physics", "kinematic"]
 Seed = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
 MapVersion = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
+
+
+class RunsAsked(Asked):
+    """Which of a site's runs are asked for: the newest that fit, or with `before` those older than that number."""
+
+    limit: int = Field(50, ge=1, le=200)
+    before: int | None = Field(None, ge=1, lt=2**31)
+    state: RunStatus | None = None
+    program: UUID | None = None
+    since: AwareDatetime | None = Field(None, description="Made at this moment or later.")
+    until: AwareDatetime | None = Field(None, description="Made before this moment.")
 
 
 class StartRun(Asked):

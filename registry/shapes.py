@@ -30,6 +30,14 @@ def signed_in(request: HttpRequest) -> User:
     return request.user
 
 
+def link_to_next(request: HttpRequest, **changed: object) -> str:
+    """Return the header Link that names the next part of a list: the same address with another place to go on from."""
+    query = request.GET.copy()
+    for name, value in changed.items():
+        query[name] = str(value)
+    return f'<{request.path}?{query.urlencode()}>; rel="next"'
+
+
 class Unchecked:
     """`Annotated[Any, Unchecked(Shape)]` looks like `Shape` in the OpenAPI file and passes through as it is.
 

@@ -72,6 +72,8 @@ INSTALLED_APPS = [
 MIDDLEWARE = [
     "django.middleware.security.SecurityMiddleware",
     "vipo_site.http.middleware.SecurityHeaders",
+    "vipo_site.http.middleware.Compress",
+    "vipo_site.http.middleware.TellUnchanged",
     "vipo_site.http.middleware.TellMethods",
     "vipo_site.http.middleware.FitTexts",
     "django.contrib.sessions.middleware.SessionMiddleware",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from datetime import UTC, datetime
+from typing import Any
 from uuid import UUID, uuid4
 
 from django.db import IntegrityError, transaction
@@ -124,10 +126,38 @@ def get_run(*, run_id: UUID | str) -> WholeRunView:
     return WholeRunView(view_run(row), row.document, row.compiled)
 
 
-def list_runs(*, site: str, limit: int = 50) -> tuple[RunView, ...]:
-    """Return a site's runs, the newest first."""
-    rows = Run.objects.select_related("site").filter(site__slug=site).defer("document", "compiled", "plan", "state")
-    return tuple(view_run(row) for row in rows.order_by("-number")[:limit])
+@dataclass(frozen=True, slots=True)
+class RunFilter:
+    """Which runs are looked for: with a status, of a program, and made from one moment until another."""
+
+    state: str | None = None
+    program: UUID | None = None
+    since: datetime | None = None
+    until: datetime | None = None
+
+    def conditions(self) -> dict[str, Any]:
+        """Return what the rows of such runs fulfil."""
+        named = {
+            "status": self.state,
+            "program": self.program,
+            "created_at__gte": self.since,
+            "created_at__lt": self.until,
+        }
+        return {name: value for name, value in named.items() if value is not None}
+
+
+ANY_RUN = RunFilter()
+
+
+def list_runs(
+    *, site: str, limit: int = 50, before: int | None = None, which: RunFilter = ANY_RUN
+) -> tuple[tuple[RunView, ...], bool]:
+    """Return a site's runs, the newest first or the newest before a number, and whether there are older ones."""
+    rows = Run.objects.select_related("site").filter(site__slug=site, **which.conditions())
+    if before is not None:
+        rows = rows.filter(number__lt=before)
+    found = list(rows.defer("document", "compiled", "plan", "state").order_by("-number")[: limit + 1])
+    return tuple(view_run(row) for row in found[:limit]), len(found) > limit
 
 
 def list_events(*, run_id: UUID | str, after: int = 0) -> tuple[RunEventView, ...]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from datetime import datetime
-from typing import Any
+from typing import Annotated, Any
 
 from django.conf import settings
 from django.http import HttpRequest, HttpResponse
 from django.utils import timezone
-from ninja import Router, Schema
+from ninja import Field, Router, Schema
 
 from registry import services
 from registry.devices.property_history import MOST_POINTS
@@ -68,10 +68,12 @@ def show_device(request: HttpRequest, slug: str, device_id: str) -> dict[str, An
 
 
 @router.get("/sites/{slug}/devices/{device_id}/events", response=list[DeviceEventShape])
-def list_device_events(request: HttpRequest, slug: str, device_id: str) -> list[dict[str, Any]]:
-    """Show what happened to a device, newest first."""
+def list_device_events(
+    request: HttpRequest, slug: str, device_id: str, limit: Annotated[int, Field(ge=1, le=1000)] = 50
+) -> list[dict[str, Any]]:
+    """Show what happened to a device, the newest first; no device has a history of more than a thousand lines."""
     require(signed_in(request), slug, "viewer")
-    events = services.list_device_events(site=slug, device_id=device_id)
+    events = services.list_device_events(site=slug, device_id=device_id, limit=limit)
     return [{**asdict(e), "at": e.at.isoformat()} for e in events]
 
 

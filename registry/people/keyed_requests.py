@@ -34,6 +34,7 @@ class UnderWay(RegistryError):
 
     code = "under_way"
     status = 409
+    retry_after_s = 1
 
 
 class OutcomeUnknown(RegistryError):

@@ -1,4 +1,4 @@
-"""What goes for every answer: the content security policy, and refusals and failures told as the API tells its own."""
+"""What goes for every answer: the security policy, compression, tags, and refusals told as the API tells its own."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ from typing import Any
 from django.conf import settings
 from django.core.exceptions import DisallowedHost
 from django.http import HttpRequest, HttpResponse, HttpResponseNotAllowed
+from django.http.response import HttpResponseBase
+from django.middleware.gzip import GZipMiddleware
+from django.middleware.http import ConditionalGetMiddleware
+from django.utils.cache import set_response_etag
 
 from vipo_device.protocol.texts import find_unfit, refusal_of
 from vipo_site.http.api import problem
@@ -42,6 +46,8 @@ HEADERS = {
 UNREADABLE = (
     "The request cannot be read: it is larger than it may be, or asks for a host that VIPO_HOSTS does not name."
 )
+WORTH_COMPRESSING = 1024
+TEXTS = ("json", "xml", "n-triples")
 FAILED = "VIPO failed at this; what went wrong stands in the server's log. Look what holds now before you try again."
 
 
@@ -120,6 +126,43 @@ class TellMethods:
         told = problem(405, "no_such_method", f"{str(request.method)[:20]} is not known here; known are {allowed}.")
         told["Allow"] = allowed
         return told
+
+
+class Compress(GZipMiddleware):
+    """Compresses JSON and text for who can read that, with a length that does not tell what a secret in it is like.
+
+    Streams go out as they come. What tells a secret (`no-store`) is left alone, and what has a tag for its very bytes.
+    """
+
+    def process_response(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
+        """Return the answer, compressed if that is worth it."""
+        if response.streaming or not isinstance(response, HttpResponse) or len(response.content) < WORTH_COMPRESSING:
+            return response
+        if "no-store" in response.get("Cache-Control", "") or response.get("ETag", "").startswith('"'):
+            return response
+        return super().process_response(request, response) if _is_text(response) else response
+
+
+def _is_text(response: HttpResponse) -> bool:
+    kind = response.get("Content-Type", "").partition(";")[0].strip()
+    return kind.startswith("text/") or kind.removeprefix("application/").endswith(TEXTS)
+
+
+class TellUnchanged(ConditionalGetMiddleware):
+    """Gives what is read a tag by its content, and answers 304 to who has it already; it is kept, but always asked for.
+
+    The tag is weak: the same is told, however it is compressed. Answers with a tag of their own keep it.
+    """
+
+    def process_response(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
+        """Return the answer, or that it has not changed."""
+        if request.method != "GET" or response.streaming or response.status_code != 200:
+            return response
+        if "ETag" not in response and bool(getattr(response, "content", None)) and self.needs_etag(response):
+            set_response_etag(response)
+            response["ETag"] = f"W/{response['ETag']}"
+            response.setdefault("Cache-Control", "private, no-cache")
+        return super().process_response(request, response)
 
 
 def tell_unreadable(request: HttpRequest, exception: Exception) -> HttpResponse:

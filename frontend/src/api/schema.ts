@@ -689,7 +689,7 @@ export interface paths {
         };
         /**
          * List Runs
-         * @description Return the site's runs, the newest first.
+         * @description Return the site's runs, the newest first; the header `Link` names the next part where there are older ones.
          */
         get: operations["list_runs"];
         put?: never;
@@ -983,7 +983,7 @@ export interface paths {
         };
         /**
          * List Device Events
-         * @description Show what happened to a device, newest first.
+         * @description Show what happened to a device, the newest first; no device has a history of more than a thousand lines.
          */
         get: operations["list_device_events"];
         put?: never;
@@ -2787,6 +2787,18 @@ export interface components {
             };
             version: number;
         };
+        /** @description Which of a site's runs are asked for: the newest that fit, or with `before` those older than that number. */
+        RunsAsked: {
+            before?: number | null;
+            /** @default 50 */
+            limit: number;
+            program?: string | null;
+            /** @description Made at this moment or later. */
+            since?: string | null;
+            state?: ("pending" | "running" | "paused" | "finished" | "failed" | "cancelled") | null;
+            /** @description Made before this moment. */
+            until?: string | null;
+        };
         /** @description Which observations: texts, since what cannot be read is answered with an MTConnect error. */
         SampleAsked: {
             count?: string | null;
@@ -4265,7 +4277,16 @@ export interface operations {
     };
     list_runs: {
         parameters: {
-            query?: never;
+            query?: {
+                limit?: number;
+                before?: number | null;
+                state?: ("pending" | "running" | "paused" | "finished" | "failed" | "cancelled") | null;
+                program?: string | null;
+                /** @description Made at this moment or later. */
+                since?: string | null;
+                /** @description Made before this moment. */
+                until?: string | null;
+            };
             header?: never;
             path: {
                 site: string;
@@ -4860,7 +4881,9 @@ export interface operations {
     };
     list_device_events: {
         parameters: {
-            query?: never;
+            query?: {
+                limit?: number;
+            };
             header?: never;
             path: {
                 slug: string;

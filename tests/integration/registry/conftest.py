@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from registry.models import User
+from registry.thing_directory import property_values
 from tests.kit.sign_in import find_person
 from tests.kit.sites import hear_news, make_hall
 
@@ -26,3 +27,9 @@ def person(hall: str) -> Callable[[str], User]:
 def heard(hall: str) -> Iterator[list[tuple[str, Any]]]:
     with hear_news() as news:
         yield news
+
+
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let nobody wait for the next value of a property."""
+    monkeypatch.setattr(property_values, "MOST_POLL_S", 0.0)

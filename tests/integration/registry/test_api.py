@@ -12,7 +12,7 @@ from django.core.management import call_command
 from django.test import Client
 
 from registry import services
-from registry.models import Membership, Site, User
+from registry.models import DeviceEvent, Membership, Site, User
 from tests.kit.sign_in import PASSWORD, ROLES, signed_in
 from tests.kit.sites import MIXER, NOW, come, describe, say
 from vipo_device.descriptions.forms import CONTENT_TYPES
@@ -338,3 +338,14 @@ def test_a_call_that_does_not_exist_is_told_as_a_problem(hall: str, path: str) -
     answer = signed_in("viewer").get(path)
     assert (answer.status_code, answer.headers["Content-Type"]) == (404, "application/problem+json")
     assert answer.json()["detail"] == "There is no such call. See docs/api.md."
+
+
+def test_a_devices_whole_history_can_be_had(hall: str) -> None:
+    describe()
+    before = DeviceEvent.objects.filter(device="mixer1").count()
+    lines = [DeviceEvent(device_id="mixer1", at=NOW, kind="note", text=f"{number}") for number in range(120)]
+    DeviceEvent.objects.bulk_create(lines)
+    address, viewer = "/api/sites/hall/devices/mixer1/events", signed_in("admin")
+    newest, whole = viewer.get(address).json(), viewer.get(f"{address}?limit=1000").json()
+    assert ([line["text"] for line in newest], len(whole)) == ([str(n) for n in range(119, 69, -1)], 120 + before)
+    assert [viewer.get(f"{address}?limit={limit}").status_code for limit in (0, 1001)] == [422, 422]

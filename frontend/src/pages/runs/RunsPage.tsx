@@ -1,9 +1,12 @@
+import { useState } from "react";
+import { useMutation } from "@tanstack/react-query";
 import { History } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link, useParams } from "react-router-dom";
 import { Button } from "@mantine/core";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
+import { api } from "@/api/client";
 import { useRuns } from "@/api/queries";
 import type { RunSummary } from "@/api/types";
 import { Chip } from "@/design/Chip";
@@ -14,9 +17,12 @@ import { formatAgo, formatSpan } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
 import styles from "../pages.module.css";
 import { nameOf } from "../people";
-import { isOpen, secondsOfRun, statusOfRun, stepsDone } from "./runStatus";
+import { isOpen, joinRuns, secondsOfRun, statusOfRun, stepsDone } from "./runStatus";
 import { TableSkeleton } from "../TableSkeleton";
 import { useNow } from "@/design/useNow";
+
+/** So many runs the server gives at once. */
+const PART = 50;
 
 function Row({ run, now }: { run: RunSummary; now: number }) {
   const { t } = useTranslation();
@@ -70,10 +76,31 @@ function RunTable({ runs }: { runs: RunSummary[] }) {
   );
 }
 
+/** Older runs than the newest, which the server gives in parts: what is shown in all, and how to have more. */
+function useOlderRuns(slug: string, newest: RunSummary[] | undefined) {
+  const [kept, setKept] = useState<RunSummary[]>([]);
+  const [hasAll, setHasAll] = useState(false);
+  const shown = joinRuns(newest ?? [], kept);
+  const more = useMutation({
+    mutationFn: () => api.get<RunSummary[]>(`/sites/${slug}/runs?limit=${PART}&before=${shown.at(-1)?.number ?? 1}`),
+    onSuccess: (older) => {
+      // What is shown is kept, too: a run that falls out of the newest ones must not leave a gap.
+      setKept(joinRuns(shown, older));
+      setHasAll(older.length < PART);
+    },
+  });
+  return { shown, more, hasMore: !hasAll && shown.length >= PART };
+}
+
 export function RunsPage() {
-  const { t } = useTranslation();
   const { slug = "" } = useParams();
+  return <RunsOfSite key={slug} slug={slug} />;
+}
+
+function RunsOfSite({ slug }: { slug: string }) {
+  const { t } = useTranslation();
   const runs = useRuns(slug);
+  const { shown, more, hasMore } = useOlderRuns(slug, runs.data);
   const open = runs.data?.filter(isOpen).length ?? 0;
   return (
     <PageShell
@@ -82,7 +109,13 @@ export function RunsPage() {
     >
       {runs.isPending ? <TableSkeleton /> : null}
       {runs.isLoadingError ? <LoadProblem error={runs.error} again={() => void runs.refetch()} /> : null}
-      {runs.data?.length ? <RunTable runs={runs.data} /> : null}
+      {runs.data?.length ? <RunTable runs={shown} /> : null}
+      {more.isError ? <LoadProblem error={more.error} again={() => more.mutate()} /> : null}
+      {hasMore && !more.isError ? (
+        <Button variant="default" loading={more.isPending} onClick={() => more.mutate()}>
+          {t("pages.runs.showOlder")}
+        </Button>
+      ) : null}
       {runs.data?.length === 0 ? (
         <Panel>
           <EmptyState icon={<History size={20} />} title={t("pages.runs.none")} text={t("pages.runs.noneText")}>

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { RunStatus, RunSummary } from "@/api/types";
-import { isOpen, lastRuns, secondsOfRun, statusOfRun, stepsDone } from "./runStatus";
+import { isOpen, joinRuns, lastRuns, secondsOfRun, statusOfRun, stepsDone } from "./runStatus";
 
 const run = (more: Partial<RunSummary> = {}) =>
   ({ id: "r", number: 1, program: { id: "p", name: "P" }, status: "running", steps: {}, ...more }) as RunSummary;
@@ -35,4 +35,15 @@ test("the last run of a program is the one with the highest number", () => {
   ];
   const last = lastRuns(runs);
   expect([last.get("p")?.id, last.get("q")?.id, last.size]).toEqual(["c", "q", 2]);
+});
+
+test("older runs come after the newest, and a run that is in both lists once, as the first has it", () => {
+  const newest = [run({ id: "d", number: 4 }), run({ id: "c", number: 3 })];
+  const kept = [run({ id: "c", number: 3, status: "failed" }), run({ id: "b", number: 2 })];
+  const joined = joinRuns(newest, kept);
+  expect(joined.map((each) => [each.number, each.status])).toEqual([
+    [4, "running"],
+    [3, "running"],
+    [2, "running"],
+  ]);
 });

@@ -37,3 +37,9 @@ export function lastRuns(runs: readonly RunSummary[]): Map<string, RunSummary> {
   for (const run of [...runs].sort((a, b) => a.number - b.number)) last.set(run.program.id, run);
   return last;
 }
+
+/** Two lists of runs as one, the newest first; of a run that is in both the first list knows more. */
+export function joinRuns(first: readonly RunSummary[], second: readonly RunSummary[]): RunSummary[] {
+  const known = new Set(first.map((run) => run.id));
+  return [...first, ...second.filter((run) => !known.has(run.id))].sort((a, b) => b.number - a.number);
+}

@@ -1,0 +1,123 @@
+"""Every operation of the API asked once, and a site at which there is one of everything that addresses name."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from datetime import UTC, datetime
+from http.cookies import SimpleCookie
+from typing import Any
+from uuid import uuid4
+
+from django.core.files.uploadedfile import SimpleUploadedFile
+from django.db import transaction
+from django.test import Client
+
+from editor import services as editor
+from execution.models import Command, Question, Rehearsal, Run
+from registry import services
+from registry.models import Device, DeviceAlert, Site
+from tests.kit.api_rights import OPERATIONS
+from tests.kit.programs import document
+from tests.kit.sites import NOW, ROBOT, describe
+from tests.unit.robot_agent.agent import RobotGrid, write_grid
+from vipo_device.protocol.description import MethodSpec, PropertySpec
+
+ANSWER: dict[str, Any] = {"type": "boolean", "unit": "", "minimum": None, "maximum": None, "options": []}
+BODIES: dict[str, dict[str, Any]] = {
+    "rename_program": {"name": "Other"},
+    "arm_program": {"on": False},
+    "read_expression": {"value": None, "step": ""},
+    "draw_script": {"text": ""},
+    "answer_question": {"value": True},
+    "call_method": {"method": "none"},
+    "plan_route": {"from": [1, 1], "to": [2, 2]},
+    "plan_routes": {"pairs": []},
+    "look_at_description": {"text": ""},
+    "confirm_topic": {"topic": "a"},
+    "withdraw_topic": {"topic": "a"},
+    "save_function": {"program": "{program}", "function": "f", "name": "F"},
+    "use_robot_map": {"device": "{device}", "version": 1, "replaces": 1},
+    "restore_map": {"version": 1, "replaces": 1},
+    "reserve_device": {"id": "mixer-9"},
+    "create_program": {"name": "New"},
+    "create_token": {"name": "Other", "scopes": ["read"]},
+    "sign_in": {"email": "a", "password": "b"},
+    "change_my_password": {"old": "not this one", "new": "another-horse-9"},
+}
+"""What is sent, where an empty object does not say enough; a name in braces stands for an id."""
+QUERIES = {"ask": "?query=ASK+%7B%7D", "show_property_history": "?property=jobStatus"}
+
+
+def make_one_of_each(slug: str) -> dict[str, str]:
+    """Make one of each thing at a site that has a map; return what stands in addresses that name them."""
+    site, device = Site.objects.get(slug=slug), f"robot-{slug}"
+    _make_robot(device, slug)
+    drawn = document({}, functions={"f": {"name": "Greet", "parameters": []}})
+    program = editor.create_program(site=slug, name="Mix", document=drawn).id
+    editor.pin_version(program_id=program, user=None, message="")
+    function = editor.save_function(
+        site=slug, program_id=program, function="f", name="Greet", description="", user=None
+    ).id
+    run = Run.objects.create(site=site, number=1, program=program, program_name="Mix", created_at=NOW)
+    call = Command.objects.create(
+        id=uuid4(), site=site, position=1, device=device, method="mix", by="Me", send_after=NOW, created_at=NOW
+    )
+    made = {
+        "program": program,
+        "run": run.pk,
+        "question": Question.objects.create(run=run, number=1, text="Go?", answer=ANSWER, asked_at=NOW).pk,
+        "rehearsal": Rehearsal.objects.create(site=site, program=program, created_at=NOW).pk,
+        "function": function,
+        "call": call.pk,
+        "alert_id": DeviceAlert.objects.create(device_id=device, code="offline", first_at=NOW, last_at=NOW).pk,
+    }
+    named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
+    named |= {"name": "jobStatus", "action": "mix"}
+    return {**named, **{name: str(key) for name, key in made.items()}}
+
+
+def _make_robot(name: str, site: str) -> None:
+    """Let a robot be approved at a site, and send a map."""
+    methods = (MethodSpec("mix", f"vipo/v1/dev/{name}/down/mix"),)
+    properties = (PropertySpec("jobStatus", "number", "PERCENT"),)
+    describe(replace(ROBOT, id=name, site=site, methods=methods, properties=properties))
+    Device.objects.filter(pk=name).update(lifecycle="approved")
+    for payload in write_grid(RobotGrid(4, 3, 1.0, (0.0, 0.0, 0.0), bytes(12)), 1, 1):
+        services.ingest_map_part(device_id=name, payload=payload, at=datetime.now(UTC))
+
+
+@contextmanager
+def undone() -> Iterator[None]:
+    """Take back what happens in it."""
+    with transaction.atomic():
+        yield
+        transaction.set_rollback(True)
+
+
+def ask_each(client: Client, ids: dict[str, str]) -> Iterator[tuple[str, Any]]:
+    """Yield the name of each operation and what it answers, each asked as if it were the first."""
+    cookies = SimpleCookie(client.cookies)
+    for path, calls in OPERATIONS.items():
+        for method, call in calls.items():
+            with undone():
+                yield call["operationId"], ask(client, method, path, call["operationId"], ids)
+            client.cookies = SimpleCookie(cookies)
+
+
+def ask(client: Client, method: str, path: str, name: str, ids: dict[str, str]) -> Any:
+    """Ask for an operation in a way that it understands, with these ids in its address and body."""
+    path = path.format(**ids) + QUERIES.get(name, "")
+    if name == "post_query":
+        return client.post(path, "ASK {}", content_type="application/sparql-query")
+    if name == "upload_site":
+        return client.post(path, {"name": "New", "yaml": SimpleUploadedFile("map.yaml", b"image: a.pgm")})
+    if method == "get":
+        return client.get(path)
+    sent = {
+        key: value.format(**ids) if isinstance(value, str) else value for key, value in BODIES.get(name, {}).items()
+    }
+    form = "application/merge-patch+json" if name == "patch_thing" else "application/json"
+    return getattr(client, method)(path, json.dumps(sent), content_type=form)
