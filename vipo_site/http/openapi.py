@@ -39,6 +39,32 @@ _KEY = {
 }
 
 
+_REFUSALS = {
+    400: "It cannot be read.",
+    401: "Nobody is signed in, or the token is not valid.",
+    403: "The role or the token's scope does not suffice, or X-CSRFToken is missing.",
+    404: "It does not exist, or the asker is no member of its site.",
+    409: "Not in the state that things are in.",
+    422: "The request does not fit; `fields` says which part of it, and why.",
+    429: "Too much at once: wait as long as the header Retry-After says.",
+    500: "A fault of VIPO's own.",
+    503: "What it takes is away; nothing was changed.",
+}
+"""What calls are refused with; some have others of their own, which are told as any other refusal (`default`)."""
+
+
+def _refused(path: str, method: str, call: dict[str, Any]) -> list[int]:
+    """Return the statuses with which a call may be refused, by what it asks for."""
+    holds = {
+        401: "security" in call or call["operationId"] == "sign_in",
+        403: "security" in call or method != "get",
+        404: "{" in path,
+        409: method != "get",
+        422: method != "get" or bool(call.get("parameters")),
+    }
+    return [status for status in _REFUSALS if holds.get(status, True)]
+
+
 class DescribedAPI(NinjaAPI):
     """An API whose description also says what refusals look like, and names calls whatever module they stand in."""
 
@@ -56,9 +82,15 @@ class DescribedAPI(NinjaAPI):
             "description": "A refusal",
             "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}},
         }
-        for methods in schema["paths"].values():
+        schema["components"]["responses"] = {
+            f"Refused{status}": {**refusal, "description": why} for status, why in _REFUSALS.items()
+        }
+        for path, methods in schema["paths"].items():
             for method, call in methods.items():
-                call["responses"]["default"] = refusal
+                told = {
+                    each: {"$ref": f"#/components/responses/Refused{each}"} for each in _refused(path, method, call)
+                }
+                call["responses"].update(told, default=refusal)
                 if method != "get" and "security" in call:
                     call["parameters"] = [*call.get("parameters", []), _KEY]
         return schema
