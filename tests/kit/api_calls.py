@@ -84,7 +84,7 @@ def _make_robot(name: str, site: str) -> None:
     methods = (MethodSpec("mix", f"vipo/v1/dev/{name}/down/mix"),)
     properties = (PropertySpec("jobStatus", "number", "PERCENT"),)
     describe(replace(ROBOT, id=name, site=site, methods=methods, properties=properties))
-    Device.objects.filter(pk=name).update(lifecycle="approved")
+    Device.objects.filter(pk=name).update(lifecycle="approved", properties={"jobStatus": 0})
     for payload in write_grid(RobotGrid(4, 3, 1.0, (0.0, 0.0, 0.0), bytes(12)), 1, 1):
         services.ingest_map_part(device_id=name, payload=payload, at=datetime.now(UTC))
 
