@@ -1,4 +1,6 @@
-"""How tasks are carried out: roles find robots, robots find machines, devices get commands."""
+"""How tasks are carried out: roles find robots, robots find machines, devices get commands, and how long they may take
+to answer (`limit_of`).
+"""
 
 from __future__ import annotations
 
