@@ -34,6 +34,7 @@ from registry.devices.credentials import (
     renew_enrolment_key,
     revoke_credential,
     rotate_credential,
+    show_enrolment_key,
 )
 from registry.devices.descriptions import DescriptionMessage, find_unchanged, ingest_description, ingest_descriptions
 from registry.devices.enrolment import NotOfSite, ReservedDevice, enrol_device, expect_device, reserve_device
@@ -115,7 +116,6 @@ from registry.people.watch import Seat, watch_of_this_loop
 from registry.sites.quota import set_site_quota
 from registry.sites.sites import (
     create_site,
-    get_enrolment_key,
     get_site,
     get_site_id,
     list_places,
@@ -212,7 +212,6 @@ __all__ = [
     "get_demo_grid",
     "get_device",
     "get_device_names",
-    "get_enrolment_key",
     "get_floor_plan",
     "get_map",
     "get_readings",
@@ -283,6 +282,7 @@ __all__ = [
     "set_member",
     "set_site_quota",
     "set_site_stop",
+    "show_enrolment_key",
     "site_to_json",
     "update_device",
     "use_robot_map",

@@ -25,7 +25,7 @@ from registry.devices.rows import STARTS, announce, forget_starts, lock_device
 from registry.devices.views import DeviceView, view_of
 from registry.errors import RegistryError
 from registry.models import Device, User
-from registry.sites.sites import replace_enrolment_key
+from registry.sites.sites import get_enrolment_key, has_enrolment_key, replace_enrolment_key
 from vipo_device.protocol.credentials import broker_hash, make_credential, secret_hash
 from vipo_device.protocol.messages import BadMessage, down_topic, parse_ack, up_topic
 from vipo_device.protocol.mqtt_client import MqttClient, MqttError
@@ -136,6 +136,14 @@ def renew_enrolment_key(*, site: str) -> str:
         key = replace_enrolment_key(site=site, key=make_credential())
         accounts().put(Account(ENROLMENT + site, key))
     return key
+
+
+def show_enrolment_key(*, site: str) -> str:
+    """Return a site's enrolment key; a site that has none yet gets its first one.
+
+    Raises NoEnrolmentKey where its hash alone is known, NotAMember, BrokerAway.
+    """
+    return get_enrolment_key(site=site) if has_enrolment_key(site=site) else renew_enrolment_key(site=site)
 
 
 def reconcile_accounts() -> tuple[frozenset[str], frozenset[str]]:

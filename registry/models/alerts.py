@@ -7,7 +7,7 @@ from django.db.models import Q
 
 
 class DeviceAlert(models.Model):
-    """Something about a device that people should know and deal with; what it means is said by registry/alerts/causes.py.
+    """Something about a device that people should know and deal with; its meaning is in registry/alerts/causes.py.
 
     `last_at` is when it was raised, or its words changed, last; `count` is how often that was.
     """

@@ -186,8 +186,16 @@ def get_enrolment_key(*, site: str) -> str:
     """Return the key with which devices may enrol at the site. Raises NoEnrolmentKey, NotAMember."""
     key = _unsealed(find_site(site))
     if not key:
-        raise NoEnrolmentKey(f"No join key of {site} can be shown: none was made, or VIPO_SECRET_KEY was another then.")
+        raise NoEnrolmentKey(
+            f"The join key of {site} cannot be shown: it was made by an earlier version, or with another "
+            "VIPO_SECRET_KEY. Devices still enrol with it; --new makes another one."
+        )
     return key
+
+
+def has_enrolment_key(*, site: str) -> bool:
+    """Tell whether devices may enrol at the site with any key. Raises NotAMember."""
+    return bool(find_site(site).join_key_hash)
 
 
 def replace_enrolment_key(*, site: str, key: str) -> str:

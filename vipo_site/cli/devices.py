@@ -152,13 +152,13 @@ def _decide_topic(device: DeviceView, options: argparse.Namespace) -> int:
 
 
 def tell_enrolment_key(options: argparse.Namespace) -> int:
-    """Print a site's enrolment key, a new one if that is asked for; return 0, or 2 when that cannot be."""
+    """Print a site's enrolment key, a new one if asked for or there is none; return 0, or 2 when that cannot be."""
     set_up()
     from registry import services
     from vipo_device.protocol.errors import VipoError
 
     try:
-        tell = services.renew_enrolment_key if options.new else services.get_enrolment_key
+        tell = services.renew_enrolment_key if options.new else services.show_enrolment_key
         write(tell(site=options.site))
     except VipoError as error:
         return complain(error.detail)

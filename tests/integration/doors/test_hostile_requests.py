@@ -28,7 +28,9 @@ CALLS = [
     for path, calls in sorted(API["paths"].items())
     for method, call in sorted(calls.items())
     if (call.get("parameters") or "requestBody" in call)
-    and not path.endswith(("/sign-out", "/mtconnect/current", "/mtconnect/sample", "/things/events"))
+    and not path.endswith(
+        ("/sign-out", "/sign-out-everywhere", "/mtconnect/current", "/mtconnect/sample", "/things/events")
+    )
 ]
 """All calls that are told anything, but for those that may go on without an end."""
 MARK = "poisoned"

@@ -136,7 +136,7 @@ def test_what_was_not_looked_at_is_not_taken(factory):
     assert (use(client, robot="robot02").status_code, use(client, robot="no\0body").status_code) == (404, 422)
     lost = post_json(client, f"/api/sites/{SITE}/map/restore", {"version": 9, "replaces": 1})
     assert (lost.status_code, lost.json()["code"]) == (404, "no_map")
-    assert use(client, version=10**30).status_code == 422
+    assert use(client, version=10**30).status_code == 400
     assert SiteMap.objects.count() == 1
 
 

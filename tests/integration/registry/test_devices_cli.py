@@ -68,9 +68,15 @@ def test_one_with_a_key_of_its_own_keeps_it(hall: str, capsys: pytest.CaptureFix
 def test_the_enrolment_key_is_shown_and_only_a_new_one_ends_it(
     command: str, hall: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    code, first, err = run_vipo(capsys, command, "hall")
+    assert (code, err, run_vipo(capsys, command, "hall")) == (0, "", (0, first, ""))
+    assert services.check_device_password(username="join:hall", password=first.strip())
+    services.set_enrolment_key(site="hall", key="j" * 32)
+    Site.objects.update(join_key_sealed="")
     told = run_vipo(capsys, command, "hall")
     assert told[0] == 2
-    assert told[2].startswith("No join key of hall can be shown")
+    assert told[2].startswith("The join key of hall cannot be shown")
+    assert services.check_device_password(username="join:hall", password="j" * 32)
     services.set_enrolment_key(site="hall", key="j" * 32)
     assert [run_vipo(capsys, command, "hall") for _ in range(2)] == [(0, "j" * 32 + "\n", "")] * 2
     assert services.check_device_password(username="join:hall", password="j" * 32)

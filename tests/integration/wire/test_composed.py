@@ -15,7 +15,7 @@ import httpx
 import pytest
 import websockets
 
-from tests.kit.composed import Composed, running_composed, wait_open
+from tests.integration.wire.composed import Composed, running_composed, wait_open
 from tests.kit.sign_in import sign_in
 from tests.kit.waiting import wait_for
 from vipo_device.kit.pulse import beats

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from django.conf import settings
 
 from execution.gateway.gateway import Gateway
 from registry import services
@@ -30,6 +31,9 @@ def folder(bus: Bus, database: Path, tmp_path: Path) -> Path:
         pytest.skip("mosquitto_pub is not here; scripts/install-test-servers.sh installs it")
     made = tmp_path / "lamp"
     made.mkdir()
+    secrets = tmp_path / "secrets"
+    secrets.mkdir(exist_ok=True)
+    (secrets / "django").write_text(settings.SECRET_KEY)
     page = (ROOT / "docs" / "devices" / "any.md").read_text()
     page = page.replace("1883", str(bus.server_port)).replace("painting-factory", SITE)
     for form, text in re.findall(r"```(\w+)\n(.*?)```", page, re.DOTALL):

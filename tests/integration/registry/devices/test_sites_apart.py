@@ -71,6 +71,7 @@ def test_a_new_site_gets_no_name_that_ids_or_topics_begin_with_already(hall: str
 
 def test_whoever_enrols_at_another_site_takes_no_id_and_its_owner_hears_nothing(yard: str) -> None:
     approve()
+    services.flush_alerts()
     before = (DeviceEvent.objects.count(), DeviceAlert.objects.count())
     for name in ("mixer1", "mixer9", "hall.mixer9"):
         with pytest.raises(NotOfSite, match=f"{name} cannot be a new id here"):
