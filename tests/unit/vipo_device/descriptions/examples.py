@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from vipo_device.descriptions.plausibility import find_faults
 from vipo_device.protocol.description import Description, MethodSpec, ParameterSpec, Pose, PropertySpec, Size
 from vipo_device.protocol.messages import down_topic
+from vipo_device.protocol.texts import normal
 
 THING: dict[str, Any] = {
     "@context": "https://www.w3.org/2022/wot/td/v1.1",
@@ -26,7 +27,7 @@ THING: dict[str, Any] = {
 IDS = st.from_regex(r"[A-Za-z0-9_.-]{1,20}", fullmatch=True)
 NAMES = st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,12}", fullmatch=True)
 WORDS = st.from_regex(r"[A-Za-z0-9_.-]{1,8}", fullmatch=True)
-TEXTS = st.text(st.characters(exclude_categories=["Cc", "Cs", "Zl", "Zp", "Cf", "Cn"]), max_size=12)
+TEXTS = st.text(st.characters(exclude_categories=["Cc", "Cs", "Zl", "Zp", "Cf", "Cn"]), max_size=12).map(normal)
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False).map(lambda number: number + 0.0)
 LENGTHS = st.floats(0.001, 100)
 TYPES = st.sampled_from(["number", "text", "boolean", "object", "device", "place", "location"])
