@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from math import ceil
 
-from django.db.models import Q, QuerySet
+from django.db.models import QuerySet
 
 from registry.errors import RegistryError
 from registry.models import SignInFailure
@@ -97,4 +97,4 @@ def _until_room_s(rows: QuerySet[SignInFailure], most: int, now: datetime) -> in
 
 def forget_attempts(*, now: datetime) -> int:
     """Remove the attempts that count no more; returns how many."""
-    return SignInFailure.objects.filter(Q(at__lte=now - WINDOW)).delete()[0]
+    return SignInFailure.objects.filter(at__lte=now - WINDOW).delete()[0]

@@ -65,7 +65,9 @@ export function formatAge(iso: string, now: number): string {
   return formatSpan(seconds < 60 ? seconds : Math.round(seconds / 60) * 60).replace(new RegExp(` 0${THIN}s$`), "");
 }
 
-/** Date and time of day, for logs and details. */
+/** Date and time of day as in the browser's region where it speaks the screen's language; for logs and details. */
 export function formatMoment(iso: string): string {
-  return new Intl.DateTimeFormat(i18next.language, { dateStyle: "medium", timeStyle: "short" }).format(new Date(iso));
+  const language = i18next.language;
+  const region = navigator.languages.find((name) => name.startsWith(`${language}-`)) ?? language;
+  return new Intl.DateTimeFormat(region, { dateStyle: "medium", timeStyle: "short" }).format(new Date(iso));
 }

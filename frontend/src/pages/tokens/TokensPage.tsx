@@ -47,7 +47,13 @@ function Row({ token, now, revoke }: { token: Token; now: number; revoke: () => 
       </td>
       <td className={pages.nowrap}>{token.expired ? t("tokens.expired") : formatMoment(token.expires_at)}</td>
       <td>
-        <Button size="xs" variant="default" aria-label={t("tokens.revokeLabel", { name: token.name })} onClick={revoke}>
+        <Button
+          size="xs"
+          variant="default"
+          c="var(--error)"
+          aria-label={t("tokens.revokeLabel", { name: token.name })}
+          onClick={revoke}
+        >
           {t("tokens.revoke")}
         </Button>
       </td>
@@ -65,7 +71,7 @@ function TokenTable({ tokens, choose }: { tokens: Token[]; choose: (token: Token
           <tr>
             {COLUMNS.map((column) => (
               <th key={column} scope="col" className={OPTIONAL.has(column) ? pages.optional : undefined}>
-                {t(`tokens.column.${column}`)}
+                <span className={column === "act" ? "visually-hidden" : undefined}>{t(`tokens.column.${column}`)}</span>
               </th>
             ))}
           </tr>
