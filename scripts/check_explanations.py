@@ -55,6 +55,12 @@ _VALUES: Final = {
     "wrong_type": "A text stands where a number is needed, or the like.",
     "not_comparable": "The two sides are of different types, or have no order.",
     "wrong_unit": "The two units measure different things, so neither can be converted into the other.",
+    "plain_number": "A number without a unit takes that of what it meets only where it is written out, as in "
+    "`wait(30)`; a variable, a parameter and what is worked out say their unit.",
+    "unit_not_taken": "How often, how many, and what a device takes without a unit are plain numbers; minutes "
+    "divided by minutes are one, too.",
+    "no_such_product": "Speed times time is a length, and a share of anything is one of its kind; minutes times "
+    "minutes are nothing.",
     "out_of_range": "The number is below or above what the description declares.",
     "not_an_option": "The description lists the values that are allowed.",
     "quantity_not_positive": "Nobody can carry none, or half an object.",

@@ -10,6 +10,7 @@ from editor.documents.store import get_document
 from editor.language import compile_document
 from editor.language.expressions.names import member_name
 from editor.language.expressions.printing import quote
+from editor.language.expressions.units import is_measure
 from editor.language.one_line.scope import LineScope, make_line_scope
 from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
 from editor.programs.checking import build_surroundings
@@ -79,7 +80,8 @@ def print_expression(*, program_id: UUID | str, value: Any, step: str = "", name
 
 def _view(value: Any, text: str, line: LineScope, *, names: bool) -> ExpressionView:
     value_type = type_of_line(value, line)
-    return ExpressionView(value, text, value_type.type, value_type.unit, None, _line_names(line) if names else ())
+    unit = value_type.unit if is_measure(value_type.unit) else ""
+    return ExpressionView(value, text, value_type.type, unit, None, _line_names(line) if names else ())
 
 
 def _scope(program_id: UUID | str, step: str) -> LineScope:

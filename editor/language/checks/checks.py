@@ -13,12 +13,20 @@ from editor.language.checks.devices import check_floor, check_load_place, check_
 from editor.language.checks.flow import check_flow, check_leaving
 from editor.language.checks.library import check_library
 from editor.language.checks.parallel import check_branches, check_parallel
-from editor.language.checks.values import check_argument, check_condition, check_quantity, check_value, has_missing
+from editor.language.checks.values import (
+    check_argument,
+    check_condition,
+    check_kept,
+    check_quantity,
+    check_value,
+    has_missing,
+)
 from editor.language.checks.variables import check_variables
 from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Constant
-from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value, plain_type
+from editor.language.expressions.units import PLAIN
+from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value, declared_type
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
 from editor.language.messages.phrases import Options, Span
 from editor.language.reading.document import ReadDocument
@@ -26,7 +34,8 @@ from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
 from editor.language.tree.traversal import needed_of_roles
-from editor.language.tree.variables import program_variables, types_in_function, types_in_program
+from editor.language.tree.variable_types import type_of_items, types_in_function, types_in_loops, types_in_program
+from editor.language.tree.variables import program_variables
 from editor.language.tree.zones import read_zones
 from vipo_device.protocol.description import ParameterSpec
 
@@ -43,7 +52,7 @@ def check(
     `tree` is the reading's tree with the moves that were put in, `document` what was read; `memos` have what was
     found at the last look.
     """
-    context = Context(tree, surroundings, memos=memos)
+    context = Context(tree, surroundings, memos=memos, params=reading.outline.params)
     context.zones = frozenset(zone.id for zone in read_zones(document))
     found = context.found
     found.extend((problem, 0) for problem in reading.problems)
@@ -75,7 +84,7 @@ def _check_steps(context: Context) -> None:
         _check_block(context, event.step, event.body, types)
         check_condition(context, cast("n.Node", event), event.condition, "condition")  # an event has a step as nodes do
     for function in tree.functions:
-        context.result = ValueType(plain_type(function.result_type), function.result_unit)
+        context.result = declared_type(function.result_type, function.result_unit)
         _check_block(context, function.method, function.body, types_in_function(tree, function, types, site))
     context.result = ValueType()
 
@@ -89,24 +98,19 @@ def _all_around(context: Context) -> object:
 
 def _check_block(context: Context, name: str, block: n.Block, types: Mapping[str, ValueType]) -> None:
     nodes = context.tree.walked(block)
-    if context.tree.holds(n.ForEach):
-        loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
-        types = {name: value_type for name, value_type in types.items() if name not in loops}
-    context.variables = types
-    if context.memos is None:
-        for node in nodes:
-            CHECKS[type(node)](context, node)
-        return
-    memo = context.memos.of_block(name, (context.variables, context.result))
+    in_loops = types_in_loops(block, types, context.surroundings) if context.tree.holds(n.ForEach) else {}
+    memo = context.memos.of_block(name, (types, context.result)) if context.memos is not None else None
     for node in nodes:
-        reported: Findings | None = memo.get(node)
-        if reported is None:
-            before = len(context.found)
-            CHECKS[type(node)](context, node)
-            if not _looks_around(node):
-                memo.put(node, tuple(context.found[before:]))
-        else:
+        context.variables = in_loops.get(id(node), types)
+        inside = context.variables if in_loops else None
+        reported: Findings | None = memo.get(node, inside) if memo is not None else None
+        if reported is not None:
             context.found.extend(reported)
+            continue
+        before = len(context.found)
+        CHECKS[type(node)](context, node)
+        if memo is not None and not _looks_around(node):
+            memo.put(node, tuple(context.found[before:]), inside)
 
 
 _LOOK_AROUND = (n.Call, n.Parallel)
@@ -176,7 +180,7 @@ def _wait(context: Context, node: n.Wait) -> None:
 def _wait_until(context: Context, node: n.WaitUntil) -> None:
     check_condition(context, node, node.condition, "until")
     if node.timeout_s is not None:
-        check_value(context, node, node.timeout_s, "timeout", NUMBER, "The time limit")
+        check_value(context, node, node.timeout_s, "timeout", SECONDS, "The time limit")
         _check_time(context, node, node.timeout_s, "timeout", "The time limit")
 
 
@@ -231,7 +235,8 @@ def _call(context: Context, node: n.Call) -> None:
         value = given.get(parameter.name, e.MISSING)
         kind = parameter.type if parameter.type in {"number", "text", "boolean", "object", "device", "place"} else ""
         if value != e.MISSING or parameter.default is None:
-            spec = ParameterSpec(parameter.name, kind or "text", parameter.unit)  # type: ignore[arg-type]
+            unit = parameter.unit or (PLAIN if kind == "number" else "")
+            spec = ParameterSpec(parameter.name, kind or "text", unit)  # type: ignore[arg-type]
             name = function.name or function.method
             check_argument(context, node, spec, value, name, "missing_function_argument", typed=bool(kind))
 
@@ -254,9 +259,10 @@ def _for_each(context: Context, node: n.ForEach) -> None:
         context.report(node, "missing_variable", "variable")
     if not node.items or any(map(has_missing, node.items)):
         context.report(node, "missing_items", "items")
+    items = type_of_items(node.items, context.variables, context.surroundings)
     for item in node.items:
         if not has_missing(item):
-            check_value(context, node, item, "items", ValueType(), "A value")
+            check_kept(context, node, item, "items", items if items.type == "number" else ValueType(), "A value")
 
 
 def _set(context: Context, node: n.Set) -> None:
@@ -266,7 +272,7 @@ def _set(context: Context, node: n.Set) -> None:
         context.report(node, "missing_value", "value")
     else:
         known = context.variables.get(node.variable, ValueType())
-        check_value(context, node, node.value, "value", known, "The variable")
+        check_kept(context, node, node.value, "value", known, "The variable")
 
 
 def _ask(context: Context, node: n.Ask) -> None:

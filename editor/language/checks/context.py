@@ -35,6 +35,8 @@ class Context:
     roles: Mapping[str, n.Role] = field(init=False)
     memos: Memos | None = None
     """What was found at the last look."""
+    params: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+    """The parameters of each step as the document has them."""
     stations: dict[tuple[str, str], tuple[e.Point | None, ...]] = field(default_factory=dict)
     """Where each robot of a role would stand to serve a device, as far as it was asked for."""
     _robots: dict[str, tuple[Description, ...]] = field(default_factory=dict)
@@ -49,6 +51,13 @@ class Context:
     ) -> None:
         """Note a problem with a field of a node's step."""
         self.found.append((Problem(code, node.step, field_name, args or {}, fix), id(node)))
+
+    def raw_value(self, step: str, field_name: str) -> object:
+        """Return a value of a step as the document has it; None where it has none, or several."""
+        value: object = self.params.get(step)
+        for key in field_name.split("."):
+            value = value.get(key) if isinstance(value, Mapping) else None
+        return None if isinstance(value, list) else value
 
     def report_step(
         self, step: str, code: str, field_name: str, args: TextArguments | None = None, fix: Fix | None = None

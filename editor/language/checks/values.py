@@ -10,7 +10,7 @@ from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading
 from editor.language.expressions.ranges import first_limited_reading, possible
 from editor.language.expressions.unit_conversion import convert_units
-from editor.language.expressions.units import same_dimension
+from editor.language.expressions.units import PLAIN, UNITS, declared_unit, is_measure, same_dimension
 from editor.language.expressions.value_types import (
     BOOLEAN,
     NUMBER,
@@ -25,7 +25,7 @@ from editor.language.expressions.value_types import (
     unit_word,
 )
 from editor.language.expressions.values import is_number, parts_of
-from editor.language.messages.diagnostics import TextArguments, fix_value
+from editor.language.messages.diagnostics import Fix, TextArguments, fix_value
 from editor.language.messages.phrases import Amounts, Options, Plural, Span
 from editor.language.tree import nodes as n
 from vipo_device.protocol.description import ParameterSpec
@@ -56,10 +56,51 @@ def check_value(
     if value_type.type and wanted.type and value_type.type != plain_type(wanted.type):
         details = {"subject": subject, "wanted": TYPE_WORDS[wanted.type], "given": TYPE_WORDS[value_type.type]}
         context.report(node, "wrong_type", field, details)
-    elif value_type.unit and wanted.unit and not same_dimension(value_type.unit, wanted.unit):
-        units = {"subject": subject, "wanted": unit_word(wanted.unit), "given": unit_word(value_type.unit)}
-        context.report(node, "wrong_unit", field, units)
+    elif value_type.type == "number" == wanted.type:
+        _check_unit(context, node, value, field, (value_type.unit, wanted.unit), subject)
     return len(context.found) == before
+
+
+def _check_unit(
+    context: Context, node: n.Node, value: Expression, field: str, units: tuple[str, str], subject: str
+) -> None:
+    """Check a number against the unit that is wanted of it."""
+    given, wanted = units
+    words = {"subject": subject, "wanted": unit_word(wanted), "given": unit_word(given)}
+    if is_measure(wanted):
+        if is_measure(given) and not same_dimension(given, wanted):
+            context.report(node, "wrong_unit", field, words)
+        elif given == PLAIN:
+            context.report(node, "plain_number", field, words, _with_unit(context, node, field, "*", wanted))
+    elif is_measure(given) and (wanted == PLAIN or not isinstance(value, Reading)):
+        context.report(node, "unit_not_taken", field, words, _with_unit(context, node, field, "/", given))
+
+
+def _with_unit(context: Context, node: n.Node, field: str, operator: str, unit: str) -> Fix | None:
+    """Return the fix that takes a value in a unit, or takes the unit from it."""
+    raw = context.raw_value(node.step, field)
+    if raw is None:
+        return None
+    value = {"op": operator, "args": [raw, {"quantity": [1, unit]}]}
+    return Fix("take_in" if operator == "*" else "number_of", node.step, field, value, {"value": unit_word(unit)})
+
+
+def check_kept(
+    context: Context, node: n.Node, value: Expression, field: str, kept: ValueType, subject: str
+) -> None:  # fmt: skip
+    """Check a value that a variable takes, which is kept in a unit: one that is written out has to say it, too."""
+    if not check_value(context, node, value, field, kept, subject) or not is_measure(kept.unit):
+        return
+    unit = TypeChecker(context.surroundings, context.variables, []).type_of(value).unit
+    has_zero = UNITS[kept.unit].dimension != "temperature" if kept.unit in UNITS else True
+    if unit or (has_zero and constant_value(value) == 0):
+        return
+    words = {"subject": subject, "wanted": unit_word(kept.unit)}
+    fix = _with_unit(context, node, field, "*", kept.unit)
+    if isinstance(value, Constant) and is_number(value.value):
+        shown = f"{value.value} {unit_word(kept.unit)}"
+        fix = Fix("set_to", node.step, field, {"quantity": [value.value, kept.unit]}, {"value": shown})
+    context.report(node, "plain_number", field, words, None if field == "items" else fix)
 
 
 def _check_things(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
@@ -144,7 +185,7 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
             fix = None if parameter.minimum is None else fix_value(node.step, field, parameter.minimum)
             context.report(node, missing_code, field, {**details, "range": limits}, fix)
         return
-    wanted = ValueType(parameter.type, parameter.unit) if typed else UNKNOWN_TYPE
+    wanted = ValueType(parameter.type, declared_unit(parameter.unit)) if typed else UNKNOWN_TYPE
     if not check_value(context, node, value, field, wanted, parameter.name.capitalize()):
         return
     value = converted(context, value, parameter.unit)

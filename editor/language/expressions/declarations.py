@@ -8,6 +8,7 @@ from typing import Final
 
 from editor.language.expressions.nodes import AnswerSpec
 from editor.language.expressions.printing import quote
+from editor.language.expressions.units import unit_code, unit_symbol
 from editor.language.expressions.values import is_number, plain
 
 TYPE_NAMES: Final[Mapping[str, str]] = {
@@ -32,7 +33,7 @@ def normal_type(type_name: object, unit: object = "") -> tuple[str, str]:
     name = _ALSO_CALLED.get(name, name)
     if name not in TYPE_NAMES:
         return "", ""
-    return name, unit if name == "number" and isinstance(unit, str) else ""
+    return name, unit_code(unit) if name == "number" and isinstance(unit, str) else ""
 
 
 def write_type(type_name: str, unit: str = "") -> str:
@@ -40,7 +41,7 @@ def write_type(type_name: str, unit: str = "") -> str:
     name, settled_unit = normal_type(type_name, unit)
     if not name:
         return ""
-    return f"{TYPE_NAMES[name]}({quote(settled_unit)})" if settled_unit else TYPE_NAMES[name]
+    return f"{TYPE_NAMES[name]}({quote(unit_symbol(settled_unit))})" if settled_unit else TYPE_NAMES[name]
 
 
 def parse_type(node: ast.expr | None) -> tuple[str, str]:
@@ -55,8 +56,8 @@ def parse_type(node: ast.expr | None) -> tuple[str, str]:
         case ast.Name(id=name) if name in _TYPES:
             return _TYPES[name], ""
         case ast.Call(func=ast.Name(id="Number"), args=[ast.Constant(value=str() as unit)], keywords=[]) if unit:
-            return "number", unit
-    raise UnknownType(f'Write one of: {", ".join(_TYPES)}, or a number with its unit: Number("MIN").')
+            return "number", unit_code(unit)
+    raise UnknownType(f'Write one of: {", ".join(_TYPES)}, or a number with its unit: Number("min").')
 
 
 ANSWER_TYPES = ("boolean", "number", "text", "choice")
@@ -68,7 +69,7 @@ def normal_answer(given: Mapping[str, object]) -> AnswerSpec:
     if kind == "number":
         unit = given.get("unit")
         least, most = _limit(given.get("minimum")), _limit(given.get("maximum"))
-        return AnswerSpec("number", unit if isinstance(unit, str) else "", least, most)
+        return AnswerSpec("number", unit_code(unit) if isinstance(unit, str) else "", least, most)
     if kind == "choice":
         options = given.get("options")
         listed = options if isinstance(options, list | tuple) else ()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading
-from editor.language.expressions.units import conversion, convert, same_dimension, tidy, unit_symbol
+from editor.language.expressions.products import product_of
+from editor.language.expressions.units import conversion, convert, is_measure, same_dimension, tidy, unit_symbol
 from editor.language.expressions.value_types import TypeChecker, ValueType, common_unit, is_written
 from editor.language.expressions.values import ARITHMETIC, COMPARISONS, is_number
 from editor.language.site.surroundings import Surroundings
@@ -17,7 +18,7 @@ def convert_units(expression: Expression, wanted_unit: str, checker: TypeChecker
     if isinstance(expression, Constant):
         return expression
     converted = expression if _units_in(expression) <= 1 else _convert(expression, checker)
-    return _into(converted, _type_of(expression, checker).unit, wanted_unit) if wanted_unit else converted
+    return into_unit(converted, _type_of(expression, checker).unit, wanted_unit) if wanted_unit else converted
 
 
 def _units_in(expression: Expression) -> int:
@@ -28,7 +29,8 @@ def _units_in(expression: Expression) -> int:
     if isinstance(expression, Constant):
         return 0
     if isinstance(expression, Operation) and expression.operator not in _WITH_UNITS:
-        return sum(map(_units_in, expression.arguments))
+        inside = sum(map(_units_in, expression.arguments))
+        return 2 if inside and expression.operator == "/" else inside
     return 1 if isinstance(expression, Reading) and isinstance(expression.device, Constant) else 2
 
 
@@ -46,6 +48,8 @@ def _convert(expression: Expression, checker: TypeChecker) -> Expression:
                 return Operation(name, tuple(_as_text(argument, checker) for argument in arguments))
             if name in {"distance", "nearest"} or _is_in_zone(expression):
                 return Operation(name, _placed(name, arguments, checker))
+            if name in {"*", "/"}:
+                return _folded(Operation(name, _multiplied(name, arguments, checker)), expression)
             if name in _MEETING:
                 return _folded(Operation(name, _met(name, arguments, checker)), expression)
             return _folded(Operation(name, tuple(_convert(argument, checker) for argument in arguments)), expression)
@@ -59,8 +63,21 @@ def _met(name: str, arguments: tuple[Expression, ...], checker: TypeChecker) -> 
     converted = []
     for index, (argument, value_type) in enumerate(zip(arguments, types, strict=True)):
         aside = name in {"+", "-"} and len(arguments) == 2 and _is_difference(index, arguments)
-        converted.append(_into(_convert(argument, checker), value_type.unit, unit, difference=aside))
+        converted.append(into_unit(_convert(argument, checker), value_type.unit, unit, difference=aside))
     return tuple(converted)
+
+
+def _multiplied(name: str, arguments: tuple[Expression, ...], checker: TypeChecker) -> tuple[Expression, ...]:
+    """Return two values that are multiplied or divided, each in the unit in which the product is measured."""
+    left, right = (_convert(argument, checker) for argument in arguments)
+    product = product_of(name, *(_type_of(argument, checker).unit for argument in arguments))
+    return (left, right) if product is None else (_times(left, product.left), _times(right, product.right))
+
+
+def _times(expression: Expression, factor: float) -> Expression:
+    if isinstance(expression, Constant) and is_number(expression.value):
+        return Constant(tidy(expression.value * factor))
+    return _scaled(expression, factor)
 
 
 def _is_difference(index: int, arguments: tuple[Expression, ...]) -> bool:
@@ -116,9 +133,9 @@ def _folded(converted: Operation, before: Expression) -> Expression:
     return converted if right == 0 else Constant(tidy(left / right))
 
 
-def _into(expression: Expression, source: str, target: str, *, difference: bool = False) -> Expression:
-    """Return an expression that is in one unit in another one."""
-    if not source or not target or source == target or not same_dimension(source, target):
+def into_unit(expression: Expression, source: str, target: str, *, difference: bool = False) -> Expression:
+    """Return an expression that is in one unit in another one, or as it is where neither goes over into the other."""
+    if source == target or not is_measure(source) or not same_dimension(source, target):
         return expression
     factor, offset = conversion(source, target)
     if isinstance(expression, Constant) and is_number(expression.value):

@@ -74,6 +74,10 @@ _UNITS: Final = (
     Unit("DEC_B", "dB", "level"),
 )
 UNITS: Final[Mapping[str, Unit]] = {unit.code: unit for unit in _UNITS}
+PLAIN: Final = "1"
+"""The unit of a number that measures nothing: a count, or one quantity divided by another of its kind."""
+UNSAID: Final = "?"
+"""The unit of a number whose device does not say one: it is taken in the unit of what it meets."""
 _WRITTEN: Final[Mapping[str, str]] = {
     **{word: unit.code for unit in _UNITS for word in unit.also},
     **{unit.symbol: unit.code for unit in _UNITS},
@@ -94,6 +98,19 @@ def unit_symbol(code: str) -> str:
 def is_unit(written: str) -> bool:
     """Tell whether a word is a unit's code or one of the ways in which people write it."""
     return unit_code(written) in UNITS
+
+
+_UNITLESS: Final = frozenset({PLAIN, "UNITLESS", "NUM"})
+
+
+def declared_unit(unit: str) -> str:
+    """Return the unit of a number that a device declares; QUDT has two words for plain numbers."""
+    return PLAIN if unit in _UNITLESS else unit or UNSAID
+
+
+def is_measure(unit: str) -> bool:
+    """Tell whether a value in this unit is measured: not written without one, plain, or of a unit that nobody says."""
+    return unit not in {"", PLAIN, UNSAID}
 
 
 def same_dimension(left: str, right: str) -> bool:

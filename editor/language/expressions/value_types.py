@@ -8,7 +8,16 @@ from functools import reduce
 from typing import TYPE_CHECKING, Any
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Quantity, Reading, Variable
-from editor.language.expressions.units import UNITS, same_dimension, unit_symbol
+from editor.language.expressions.products import product_of
+from editor.language.expressions.units import (
+    PLAIN,
+    UNITS,
+    UNSAID,
+    declared_unit,
+    is_measure,
+    same_dimension,
+    unit_symbol,
+)
 from editor.language.expressions.values import COMPARISONS, parts_of
 from editor.language.site.surroundings import Surroundings
 from vipo_device.protocol.description import PropertySpec
@@ -29,7 +38,11 @@ _TEXT_LIKE = frozenset({"object", "device", "place", "location"})
 
 @dataclass(frozen=True, slots=True)
 class ValueType:
-    """The type of a value (empty: not known) and its unit (empty: none, or not known)."""
+    """The type of a value (empty: not known) and its unit.
+
+    A number without a unit is one that is written so; it takes the unit of what it meets. All others say one, also
+    that they are plain numbers, or that their device does not say which.
+    """
 
     type: str = ""
     unit: str = ""
@@ -44,7 +57,8 @@ class Mismatch:
 
 
 UNKNOWN_TYPE = ValueType()
-NUMBER, TEXT, BOOLEAN = ValueType("number"), ValueType("text"), ValueType("boolean")
+TEXT, BOOLEAN = ValueType("text"), ValueType("boolean")
+WRITTEN, NUMBER = ValueType("number"), ValueType("number", PLAIN)
 ZONE, POINT, LIST = ValueType("zone"), ValueType("point"), ValueType("list")
 METRES, SECONDS = ValueType("number", "M"), ValueType("number", "SEC")
 
@@ -84,7 +98,7 @@ class TypeChecker:
         if isinstance(value, bool):
             return BOOLEAN
         if isinstance(value, _NUMBERS):
-            return NUMBER
+            return WRITTEN
         if isinstance(value, str):
             return TEXT
         return LIST if isinstance(value, tuple) else UNKNOWN_TYPE
@@ -96,7 +110,7 @@ class TypeChecker:
     def reading(self, expression: Reading) -> ValueType:
         """Return the type of a device's property."""
         spec = property_spec(expression, self.surroundings)
-        return UNKNOWN_TYPE if spec is None else ValueType(plain_type(spec.type), spec.unit)
+        return UNKNOWN_TYPE if spec is None else declared_type(spec.type, declared_unit(spec.unit))
 
     def quantity(self, expression: Quantity) -> ValueType:
         """Return the type of a number with a unit."""
@@ -135,7 +149,7 @@ class TypeChecker:
         for value_type in types:
             self._need(value_type, "number", f"“{name}”")
         if name in {"*", "/"}:
-            return ValueType("number", _unit_of_product(name, types[0].unit, types[1].unit))
+            return ValueType("number", self._unit_of_product(name, types[0].unit, types[1].unit))
         self._same_unit(types)
         return ValueType("number", common_unit(expression.arguments, types))
 
@@ -168,15 +182,26 @@ class TypeChecker:
         if not fits:
             words = {"left": TYPE_WORDS[left.type], "right": TYPE_WORDS[right.type], "operator": f"“{name}”"}
             self.mismatches.append(Mismatch("not_comparable", {**words, "left": words["left"].capitalize()}))
-        elif left.unit and right.unit and left.type == "number":
+        elif left.type == "number":
             self._same_unit([left, right])
 
     def _same_unit(self, types: list[ValueType]) -> None:
-        units = [value_type.unit for value_type in types if value_type.unit]
+        units = [value_type.unit for value_type in types if is_measure(value_type.unit)]
         other = next((unit for unit in units if not same_dimension(unit, units[0])), None)
         if other is not None:
             words = {"subject": "The first value", "wanted": unit_word(units[0]), "given": unit_word(other)}
             self.mismatches.append(Mismatch("wrong_unit", words))
+        elif units and any(value_type.unit == PLAIN for value_type in types):
+            words = {"subject": "One of the values", "wanted": unit_word(units[0])}
+            self.mismatches.append(Mismatch("plain_number", words))
+
+    def _unit_of_product(self, name: str, left: str, right: str) -> str:
+        product = product_of(name, left, right)
+        if product is not None:
+            return product.unit
+        units = {"left": unit_word(left) if is_measure(left) else "1", "right": unit_word(right)}
+        self.mismatches.append(Mismatch("no_such_product", {**units, "operator": "\u00d7" if name == "*" else "/"}))
+        return UNSAID
 
 
 _TYPES: Mapping[type[Expression], Callable[[TypeChecker, Any], ValueType]] = {
@@ -191,12 +216,15 @@ _TYPES: Mapping[type[Expression], Callable[[TypeChecker, Any], ValueType]] = {
 
 def common_unit(arguments: Sequence[Expression], types: Sequence[ValueType]) -> str:
     """Return the unit in which values meet: that of the first one that is measured or given, else the first."""
-    units = [value_type.unit for value_type in types if value_type.unit]
-    if len(set(units)) <= 1:
-        return units[0] if units else ""
+    units = [value_type.unit for value_type in types if is_measure(value_type.unit)]
+    if not units:
+        others = {value_type.unit for value_type in types}
+        return next((unit for unit in (UNSAID, PLAIN) if unit in others), "")
+    if len(set(units)) == 1:
+        return units[0]
     paired = zip(arguments, types, strict=True)
     return next(
-        (value_type.unit for argument, value_type in paired if value_type.unit and not is_written(argument)), units[0]
+        (each.unit for argument, each in paired if is_measure(each.unit) and not is_written(argument)), units[0]
     )
 
 
@@ -208,10 +236,9 @@ def is_written(expression: Expression) -> bool:
     )
 
 
-def _unit_of_product(name: str, left: str, right: str) -> str:
-    if name == "*":
-        return left or right if not (left and right) else ""
-    return left if not right else ""
+def declared_type(type_name: str, unit: str) -> ValueType:
+    """Return the type of what is declared; a number without a unit is a plain one."""
+    return ValueType(plain_type(type_name), unit or PLAIN if type_name == "number" else "")
 
 
 def plain_type(name: str) -> str:

@@ -50,6 +50,9 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "wrong_type": "{subject}: Hier wird {wanted} gebraucht, und das ist {given}.",
     "not_comparable": "{left} und {right} lassen sich nicht mit {operator} vergleichen.",
     "wrong_unit": "{subject} ist in {wanted}, und dieser Wert ist in {given}.",
+    "plain_number": "{subject} ist in {wanted}, und das ist eine bloße Zahl. Geben Sie ihre Einheit an.",
+    "unit_not_taken": "{subject} ist eine bloße Zahl, und dieser Wert ist in {given}. Geben Sie an, worin er zählt.",
+    "no_such_product": "{left} {operator} {right} misst nichts. Nehmen Sie für eines davon eine bloße Zahl.",
     "out_of_range": "{subject} muss {range} sein.",
     "not_an_option": "{subject} ist eines von: {options}.",
     "quantity_not_positive": "Die Menge muss eine ganze Zahl über 0 sein.",
@@ -135,6 +138,8 @@ TEXTS_DE: Final[Mapping[str, str]] = {
 
 FIX_TEXTS_DE: Final[Mapping[str, str]] = {
     "set_to": "Auf {value} setzen",
+    "take_in": "In {value} nehmen",
+    "number_of": "Die Zahl der {value} nehmen",
     "choose": "{value} wählen",
     "remove": "{value} entfernen",
     "join_at_end": "Am Ende des Programms anhängen",
@@ -175,4 +180,5 @@ WORDS_DE: Final[Mapping[str, str]] = {
     "The message": "Die Nachricht",
     "The result": "Das Ergebnis",
     "The first value": "Der erste Wert",
+    "One of the values": "Einer der Werte",
 }

@@ -52,6 +52,9 @@ TEXTS: Final[Mapping[str, Text]] = {
     "wrong_type": ("error", "{subject} needs {wanted}, and this is {given}."),
     "not_comparable": ("error", "{left} and {right} cannot be compared by {operator}."),
     "wrong_unit": ("error", "{subject} is in {wanted}, and this value is in {given}."),
+    "plain_number": ("error", "{subject} is in {wanted}, and this is a plain number. Say its unit."),
+    "unit_not_taken": ("error", "{subject} is a plain number, and this value is in {given}. Say what it counts in."),
+    "no_such_product": ("error", "{left} {operator} {right} measures nothing. Use a plain number for one of them."),
     "out_of_range": ("error", "{subject} must be {range}."),
     "not_an_option": ("error", "{subject} is one of: {options}."),
     "quantity_not_positive": ("error", "The quantity must be a whole number above 0."),
@@ -145,6 +148,8 @@ TEXTS: Final[Mapping[str, Text]] = {
 
 FIX_TEXTS: Final[Mapping[str, str]] = {
     "set_to": "Set to {value}",
+    "take_in": "Take it in {value}",
+    "number_of": "Take the number of {value}",
     "choose": "Choose {value}",
     "remove": "Remove {value}",
     "join_at_end": "Join it at the end of the program",

@@ -7,6 +7,7 @@ import ast
 from editor.language.expressions import nodes as e
 from editor.language.expressions.declarations import ANSWER_TYPES, normal_answer
 from editor.language.expressions.nodes import AnswerSpec
+from editor.language.expressions.units import unit_code
 from editor.language.parsing.expressions import Refused, Scope, parse_expression, parse_scalar, quoted
 from editor.language.tree import nodes as n
 
@@ -37,6 +38,8 @@ def _answer(call: ast.Call, named: dict[str | None, ast.expr]) -> AnswerSpec:
             given["options"] = [parse_scalar(item) for item in value.elts]
         elif name is not None:
             given[name] = parse_scalar(value)
+    if isinstance(given.get("unit"), str):
+        given["unit"] = unit_code(str(given["unit"]))
     answer = normal_answer(given)
     said = {"type": answer.type, "unit": answer.unit or None, "minimum": answer.minimum, "maximum": answer.maximum}
     known = {

@@ -18,7 +18,6 @@ from editor.language.messages.diagnostics import Diagnostic, Problem, put_into_w
 from editor.language.messages.syntax_errors import count_characters, explain_syntax
 from editor.language.parsing.bindings import Entry, parse_parameters, parse_run, read_type
 from editor.language.parsing.expressions import Refused, Scope, attribute_of_self, calls_in, quoted, robots_driven
-from editor.language.parsing.lines import parse_lines
 from editor.language.parsing.steps import Parser
 from editor.language.parsing.variables import check_local, names_assigned
 from editor.language.site.surroundings import Surroundings
@@ -41,23 +40,10 @@ def parse_script(text: str, surroundings: Surroundings) -> Parsed:
     if len(text) > LONGEST_SCRIPT:
         return Parsed(None, (_diagnostic("not_python", 1, 1, {"detail": "The script is too long."}),))
     with paused_collector():
-        return _parse_by_lines(text, surroundings) or parse_whole(text, surroundings)
+        return _parse(text, surroundings)
 
 
-def _parse_by_lines(text: str, surroundings: Surroundings) -> Parsed | None:
-    """Return what a script means; None where something is wrong with it, or its lines cannot be read one by one."""
-    module = parse_lines(text)
-    if module is None:
-        return None
-    try:
-        parsed = _parse_module(module, surroundings)
-    except (Refused, RecursionError):
-        return None
-    return None if parsed.tree is None else parsed
-
-
-def parse_whole(text: str, surroundings: Surroundings) -> Parsed:
-    """Return what a script means, read as a whole, so that everything in it knows where it stands."""
+def _parse(text: str, surroundings: Surroundings) -> Parsed:
     try:
         module = count_characters(ast.parse(text), text)
     except SyntaxError as error:

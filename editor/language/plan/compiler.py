@@ -7,13 +7,15 @@ from dataclasses import replace
 from typing import Any
 
 from editor.language.expressions import nodes as e
+from editor.language.expressions.unit_conversion import into_unit
 from editor.language.expressions.values import rename_roles
 from editor.language.plan import control_flow as flow
 from editor.language.plan import instructions as p
 from editor.language.plan.builder import Builder, Compiler, Leaves
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
-from editor.language.tree.variables import local_variables, program_variables, types_in_function, types_in_program
+from editor.language.tree.variable_types import types_in_function, types_in_program
+from editor.language.tree.variables import local_variables, program_variables
 
 
 def _move(builder: Builder, node: n.Move, leaves: Leaves) -> None:
@@ -72,8 +74,18 @@ def _call(builder: Builder, node: n.Call, leaves: Leaves) -> None:
         )
     result = builder.name(node.result) if node.result else None
     invoke = p.Invoke(0, function.name or function.method, arguments, result, builder.is_shared(node.result))
-    address = builder.add(invoke, node, enters=(node.step,), leaves=leaves)
+    settle = _settle(builder, node.result, function.result_unit)
+    address = builder.add(invoke, node, enters=(node.step,), leaves=() if settle else leaves)
     builder.calls.append((address, node.function))
+    if settle:
+        builder.add(settle, node, leaves=leaves)
+
+
+def _settle(builder: Builder, variable: str, unit: str) -> p.Assign | None:
+    """Return what brings a result that was given in this unit into that of its variable, if it is another one."""
+    result = e.Variable(builder.name(variable))
+    settled = into_unit(result, unit, builder.unit_of(variable)) if variable else result
+    return None if settled is result else p.Assign(result.name, settled, builder.is_shared(variable))
 
 
 def _set(builder: Builder, node: n.Set, leaves: Leaves) -> None:
@@ -85,7 +97,11 @@ def _set(builder: Builder, node: n.Set, leaves: Leaves) -> None:
 def _ask(builder: Builder, node: n.Ask, leaves: Leaves) -> None:
     result, shared = builder.name(node.variable) or None, builder.is_shared(node.variable)
     question, timeout = builder.value(node.question), builder.given(node.timeout_s, "SEC")
-    builder.add(p.AskPerson(question, node.answer, result, shared, timeout), node, enters=(node.step,), leaves=leaves)
+    settle = _settle(builder, node.variable, node.answer.unit)
+    ask = p.AskPerson(question, node.answer, result, shared, timeout)
+    builder.add(ask, node, enters=(node.step,), leaves=() if settle else leaves)
+    if settle:
+        builder.add(settle, node, leaves=leaves)
 
 
 def _notify(builder: Builder, node: n.Notify, leaves: Leaves) -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from editor.language.expressions import nodes as e
-from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker
 from editor.language.plan import instructions as p
 from editor.language.plan.builder import Around, Builder, Composite, Guard, Leaves, Loop
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
+from editor.language.tree.variable_types import type_of_items
 
 _LEAVE = frozenset({n.Return, n.Break})
 _ONE = e.Constant(1)
@@ -52,8 +52,7 @@ def compile_repeat(builder: Builder, node: n.Repeat, leaves: Leaves) -> None:
 
 def compile_for_each(builder: Builder, node: n.ForEach, leaves: Leaves) -> None:
     """Compile a For-each: a hidden variable counts, and tells which item comes next."""
-    checker = TypeChecker(builder.surroundings, builder.types, [])
-    value_type = checker.type_of(node.items[0]) if node.items else UNKNOWN_TYPE
+    value_type = type_of_items(node.items, builder.types, builder.surroundings)
     items = [builder.value(item, value_type.unit) for item in node.items]
     index = e.Variable(builder.hide("item"))
     builder.add(p.Assign(index.name, _ZERO), node, enters=(node.step,))

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from editor.language.expressions.names import member_name
 from editor.language.expressions.nodes import PlaceRef
 from editor.language.expressions.printing import quote, scalar_text
+from editor.language.expressions.units import unit_symbol
 from editor.language.printing.writer import Printer, point_text
 from editor.language.tree.nodes import (
     ERROR_CLASSES,
@@ -163,7 +164,7 @@ def _ask(printer: Printer, node: Ask, depth: int) -> None:
     answer = node.answer
     limits = {"minimum": answer.minimum, "maximum": answer.maximum}
     given = [printer.value(node.question), f"type={quote(answer.type)}"]
-    given += [f"unit={quote(answer.unit)}"] if answer.unit else []
+    given += [f"unit={quote(unit_symbol(answer.unit))}"] if answer.unit else []
     given += [f"{name}={scalar_text(limit)}" for name, limit in limits.items() if limit is not None]
     given += [f"options=[{', '.join(map(quote, answer.options))}]"] if answer.options else []
     given += [] if node.timeout_s is None else [f"timeout={printer.value(node.timeout_s)}"]

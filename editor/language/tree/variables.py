@@ -1,14 +1,12 @@
-"""The variables of a program: which steps set and read them, who sees each of them, and what they hold."""
+"""The variables of a program: which steps set and read them, and who sees each of them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Final
 
 from editor.language.expressions.nodes import Expression, PlaceRef, Variable
-from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker, ValueType, plain_type
 from editor.language.expressions.values import parts_of
-from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import Block, ForEach, Function, Tree, blocks_of, walk
 from editor.language.tree.traversal import callees_first
@@ -119,54 +117,3 @@ def _names_set_in(block: Block, loops: frozenset[str]) -> Iterator[str]:
         inside = loops | {node.variable} if isinstance(node, ForEach) else loops
         for inner in blocks_of(node):
             yield from _names_set_in(inner, inside)
-
-
-Types = Mapping[str, ValueType]
-
-
-def types_of_parameters(parameters: Iterable[n.Parameter]) -> dict[str, ValueType]:
-    """Return what parameters hold, by their names."""
-    return {p.name: ValueType(plain_type(p.type), p.unit) for p in parameters}
-
-
-def types_in_program(tree: n.Tree, shared: frozenset[str], surroundings: Surroundings) -> dict[str, ValueType]:
-    """Return what the program's parameters and variables hold."""
-    known = types_of_parameters(tree.parameters)
-    bodies = (tree.body, *(event.body for event in tree.events))
-    return {**_types_set_in(bodies, shared, known, tree, surroundings), **known} if shared else known
-
-
-def types_in_function(
-    tree: n.Tree, function: n.Function, outside: Types, surroundings: Surroundings
-) -> dict[str, ValueType]:
-    """Return what can be seen in a function; `outside` is what the program's parameters and variables hold."""
-    known = {**outside, **types_of_parameters(function.parameters)}
-    own = frozenset(map(set_by, walk(function.body))) - known.keys() - {""}
-    return {**_types_set_in((function.body,), own, known, tree, surroundings), **known} if own else known
-
-
-def _types_set_in(
-    bodies: Iterable[n.Block], wanted: frozenset[str], known: Types, tree: n.Tree, surroundings: Surroundings
-) -> dict[str, ValueType]:
-    """Return the types of the wanted variables, each by the first step that tells it."""
-    found: dict[str, ValueType] = {}
-    functions = {function.method: function for function in tree.functions}
-    for body in bodies:
-        for node in walk(body):
-            name = set_by(node)
-            if name in wanted and name not in known and not found.get(name, UNKNOWN_TYPE).type:
-                found[name] = _type_set_by(node, {**known, **found}, functions, surroundings)
-    return found
-
-
-def _type_set_by(
-    node: n.Node, known: Types, functions: Mapping[str, n.Function], surroundings: Surroundings
-) -> ValueType:
-    match node:
-        case n.Set(value=value):
-            return TypeChecker(surroundings, known, []).type_of(value)
-        case n.Ask(answer=answer):
-            return ValueType("text" if answer.type == "choice" else answer.type, answer.unit)
-        case n.Call(function=method) if method in functions:
-            return ValueType(plain_type(functions[method].result_type), functions[method].result_unit)
-    return UNKNOWN_TYPE

@@ -18,6 +18,7 @@ from vipo_device.protocol.description import ParameterSpec
 
 EMPTY = "class Task(object):\n    def new_task(self):\n        pass\n"
 CARRY = {"role": "robot", "object": "box", "quantity": 1}
+TIMES = [{"quantity": [1, "SEC"]}, {"quantity": [2, "SEC"]}]
 SHELF, BOOTH = {"device": "itemInventory01"}, {"device": "paintMachine01"}
 
 
@@ -253,7 +254,7 @@ def test_a_script_may_be_long_but_not_endless() -> None:
 
 
 def test_only_the_variable_of_the_loop_belongs_to_the_loop() -> None:
-    document = program(("for_each", {"variable": "minutes", "items": [1, 2]}))
+    document = program(("for_each", {"variable": "minutes", "items": TIMES}))
     place = ["s0", "body", "V"]
     document["steps"]["a"] = {"kind": "set", "place": place, "params": {"variable": "count", "value": 1}}
     document["steps"]["b"] = {"kind": "set", "place": place, "params": {"variable": "minutes", "value": 3}}
@@ -281,7 +282,7 @@ def test_a_step_without_a_role_drives_the_robot_whose_place_can_be_asked_for() -
 def test_a_loop_hides_what_is_known_of_a_name() -> None:
     parameters = {"p": {"name": "minutes", "type": "text"}}
     wait = {"duration": {"param": "minutes"}}
-    document = program(("for_each", {"variable": "minutes", "items": [1, 2]}))
+    document = program(("for_each", {"variable": "minutes", "items": TIMES}))
     document["steps"]["w"] = {"kind": "wait", "place": ["s0", "body", "V"], "params": wait}
     assert codes({**document, "parameters": parameters}) == []
     assert codes({**program(("wait", wait)), "parameters": parameters}) == [("s0", "wrong_type")]

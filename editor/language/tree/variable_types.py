@@ -1,0 +1,188 @@
+"""What the variables of a program hold: type and unit, found together for all that are worked out from each other.
+
+A variable is kept in one unit: that of the first step that gives it one. What is never given a unit is a plain
+number. So a value's unit is known wherever it is read, and no step can make of minutes a mere number.
+"""
+
+from __future__ import annotations
+
+from collections import ChainMap, deque
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from editor.language.expressions.nodes import Expression, Variable
+from editor.language.expressions.units import PLAIN, UNSAID, is_measure
+from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
+from editor.language.expressions.values import parts_of
+from editor.language.site.surroundings import Surroundings
+from editor.language.tree import nodes as n
+from editor.language.tree.nodes import blocks_of
+from editor.language.tree.variables import read_by, set_by
+
+Types = Mapping[str, ValueType]
+_Loops = tuple[n.ForEach, ...]
+
+
+def types_of_parameters(parameters: Iterable[n.Parameter]) -> dict[str, ValueType]:
+    """Return what parameters hold, by their names."""
+    return {p.name: declared_type(p.type, p.unit) for p in parameters}
+
+
+def types_in_program(tree: n.Tree, shared: frozenset[str], surroundings: Surroundings) -> dict[str, ValueType]:
+    """Return what the program's parameters and variables hold."""
+    known = types_of_parameters(tree.parameters)
+    bodies = (tree.body, *(event.body for event in tree.events))
+    return _with_types_set_in(bodies, shared, known, tree, surroundings)
+
+
+def types_in_function(tree: n.Tree, function: n.Function, outside: Types, surroundings: Surroundings) -> Types:
+    """Return what can be seen in a function; `outside` is what the program's parameters and variables hold."""
+    known = {**outside, **types_of_parameters(function.parameters)}
+    own = frozenset(map(set_by, n.walk(function.body))) - known.keys() - {""}
+    return _with_types_set_in((function.body,), own, known, tree, surroundings)
+
+
+def type_of_items(items: Sequence[Expression], types: Types, surroundings: Surroundings) -> ValueType:
+    """Return what the variable of a loop over these values holds."""
+    found = _joined(TypeChecker(surroundings, types, []).type_of(item) for item in items)
+    return UNKNOWN_TYPE if found is None else _settled(found)
+
+
+def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings) -> dict[int, Types]:
+    """Return what can be seen where loops over values hide other names, by the identity of the steps there."""
+    found: dict[int, Types] = {}
+    inside: dict[_Loops, Types] = {(): types}
+    for node, loops in _with_loops(block):
+        if loops not in inside:
+            around, loop = inside[loops[:-1]], loops[-1]
+            inside[loops] = {**around, loop.variable: type_of_items(loop.items, around, surroundings)}
+        if loops:
+            found[id(node)] = inside[loops]
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class _Setter:
+    """A step that sets a variable, with the loops over values that it stands in."""
+
+    node: n.Node
+    loops: _Loops
+
+    def reads(self) -> Iterator[str]:
+        """Yield the names of variables on whose types the type that it sets depends."""
+        hidden: set[str] = set()
+        for loop in self.loops:
+            yield from (name for name in _names_in(loop.items) if name not in hidden)
+            hidden.add(loop.variable)
+        yield from (name for name in read_by(self.node) if name not in hidden)
+
+
+@dataclass(slots=True)
+class _Inference:
+    """The types that are known so far; each may become more exact, in a few steps, and never less."""
+
+    functions: Mapping[str, n.Function]
+    surroundings: Surroundings
+    wanted: Collection[str]
+    types: dict[str, ValueType]
+    setters: dict[str, list[_Setter]] = field(default_factory=dict)
+
+    def run(self) -> None:
+        """Find the types of all wanted variables; what is set from a variable is looked at again with it."""
+        dependents: dict[str, set[str]] = {}
+        for name, setters in self.setters.items():
+            for setter in setters:
+                for read in setter.reads():
+                    dependents.setdefault(read, set()).add(name)
+        left = deque(self.setters)
+        waiting = set(left)
+        while left:
+            name = left.popleft()
+            waiting.discard(name)
+            found = self._type_of_variable(name)
+            if found is not None and found != self.types.get(name):
+                self.types[name] = found
+                again = sorted(dependents.get(name, set()) - waiting)
+                left.extend(again)
+                waiting.update(again)
+
+    def _type_of_variable(self, name: str) -> ValueType | None:
+        ready = (setter for setter in self.setters[name] if not any(map(self._is_open, setter.reads())))
+        return _joined(map(self._type_set_by, ready))
+
+    def _is_open(self, name: str) -> bool:
+        return name in self.wanted and name not in self.types
+
+    def _type_set_by(self, setter: _Setter) -> ValueType:
+        match setter.node:
+            case n.Set(value=value):
+                return TypeChecker(self.surroundings, self._types_at(setter.loops), []).type_of(value)
+            case n.Ask(answer=answer):
+                return declared_type("text" if answer.type == "choice" else answer.type, answer.unit)
+            case n.Call(function=method) if method in self.functions:
+                return declared_type(self.functions[method].result_type, self.functions[method].result_unit)
+        return UNKNOWN_TYPE
+
+    def _types_at(self, loops: _Loops) -> Types:
+        types: Types = self.types
+        for loop in loops:
+            checker = TypeChecker(self.surroundings, types, [])
+            item = _joined(map(checker.type_of, loop.items)) or UNKNOWN_TYPE
+            types = ChainMap({loop.variable: item}, types)  # type: ignore[arg-type]  # only read
+        return types
+
+
+def _with_types_set_in(
+    bodies: Iterable[n.Block], wanted: frozenset[str], known: dict[str, ValueType], tree: n.Tree, site: Surroundings
+) -> dict[str, ValueType]:
+    """Return what is known with the types of the wanted variables."""
+    wanted = wanted - known.keys()
+    if not wanted:
+        return known
+    functions = {function.method: function for function in tree.functions}
+    inference = _Inference(functions, site, wanted, dict(known))
+    for body in bodies:
+        for node, loops in _with_loops(body):
+            name = set_by(node)
+            if name in wanted and all(loop.variable != name for loop in loops):
+                inference.setters.setdefault(name, []).append(_Setter(node, loops))
+    inference.run()
+    return {name: found if name in known else _settled(found) for name, found in inference.types.items()}
+
+
+def _with_loops(block: n.Block, loops: _Loops = ()) -> Iterator[tuple[n.Node, _Loops]]:
+    """Yield the steps of a block in reading order, each with the loops over values around it."""
+    for node in block:
+        yield node, loops
+        inside = (*loops, node) if isinstance(node, n.ForEach) else loops
+        for inner in blocks_of(node):
+            yield from _with_loops(inner, inside)
+
+
+def _names_in(values: Iterable[Expression]) -> Iterator[str]:
+    return (part.name for value in values for part in parts_of(value) if isinstance(part, Variable))
+
+
+def _joined(found: Iterable[ValueType]) -> ValueType | None:
+    """Return the type of what may be any of these: the first that is known, in the first unit that is measured."""
+    joined: ValueType | None = None
+    for each in found:
+        other = each if each.type else ValueType("", UNSAID)
+        if joined is None or (not joined.type and other.type and other.type != "number"):
+            joined = other
+        elif {joined.type, other.type} <= {"number", ""}:
+            unit = max(joined.unit, other.unit, key=_exactness)
+            joined = ValueType(joined.type or other.type, unit)
+    return joined
+
+
+def _exactness(unit: str) -> int:
+    """Return how much a unit says; the first of two measures counts."""
+    if is_measure(unit):
+        return 3
+    return {UNSAID: 2, PLAIN: 1}.get(unit, 0)
+
+
+def _settled(found: ValueType) -> ValueType:
+    """Return the type of a variable of which all is known: what was given no unit is a plain number."""
+    return declared_type(found.type, found.unit) if found.type == "number" else ValueType(found.type)
