@@ -1,4 +1,4 @@
-"""A thousand devices on one gateway: states taken in, kept and fanned out; descriptions; a newcomer; a command.
+"""A thousand devices on one gateway: states taken in, kept and fanned out; descriptions; a new device; a command.
 
 Everything is real: Mosquitto, PostgreSQL, Redis, and the gateway as a process of its own, whose processor time counts.
 Beside it the same flow into a bare paho loop that only reads the JSON, and into Node-RED.

@@ -33,7 +33,7 @@ from vipo_device.protocol.messages import down_topic, up_topic  # noqa: E402
 from vipo_device.protocol.mqtt_client import Message, MqttClient  # noqa: E402
 
 SITE = "hall"
-NEWCOMERS = 5000
+NEW_DEVICES = 5000
 AT_ONCE = 200
 TRIES = range(100)
 MILLISECOND = timedelta(milliseconds=1)
@@ -115,8 +115,8 @@ def measure_delays(port: int, password: str) -> Iterator[dict[str, object]]:
     client.start()
     client.wait_connected(10)
     time.sleep(1)
-    newcomers = [_newcomer(client, heard, number) for number in TRIES]
-    yield {"what": "from a new device's description to the browsers", "ms": newcomers}
+    new_devices = [_new_device(client, heard, number) for number in TRIES]
+    yield {"what": "from a new device's description to the browsers", "ms": new_devices}
     site = Device.objects.values_list("site_id", flat=True)[0]
     asked: dict[UUID, datetime] = {}
     heard_ms = [_ask(heard, site, n, asked) for n in TRIES]
@@ -131,8 +131,8 @@ def _about(message: Mapping[str, Any]) -> str:
     return str(message["device"]["id"]) if message.get("type") == "device" else ""
 
 
-def _newcomer(client: MqttClient, heard: Queue[tuple[str, float]], number: int) -> float:
-    description = describe(NEWCOMERS + number)
+def _new_device(client: MqttClient, heard: Queue[tuple[str, float]], number: int) -> float:
+    description = describe(NEW_DEVICES + number)
     payload = write_description(description).encode()
     began = time.perf_counter()
     client.publish(up_topic(description.id, "desc"), payload, retain=True)

@@ -14,7 +14,7 @@ def _hot(index: int) -> Json:
     return {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 30 + index % 97 / 2]}
 
 
-def _errand(index: int) -> Json:
+def _task(index: int) -> Json:
     source, target = {"device": "itemInventory01"}, {"device": "dropOff01"}
     route = [[3 + index % 41 / 4, -3 - index % 19 / 4]]
     return {"source": source, "target": target, "object": "box", "quantity": 1, "route": route}
@@ -30,12 +30,12 @@ def _minutes(index: int) -> Json:
 
 KINDS: tuple[tuple[str, Callable[[int], Json], str], ...] = (
     ("if", lambda index: {"condition": _hot(index)}, "then"),
-    ("pick_and_drop", _errand, ""),
+    ("pick_and_drop", _task, ""),
     ("operate", lambda index: {"device": OVEN, "method": "curePaint", "args": _minutes(index)}, ""),
     ("wait", lambda index: {"duration": 5 + index}, ""),
     ("while", lambda index: {"condition": _hot(index)}, "body"),
     ("wait", lambda index: {"until": _hot(index), "timeout": 60 + index}, ""),
-    ("pick_and_drop", _errand, ""),
+    ("pick_and_drop", _task, ""),
     ("try", lambda index: {"kinds": []}, "body"),
     ("move", _point, ""),
     ("operate", lambda index: {"device": MIXER, "method": "mixPaint", "args": _minutes(index)}, ""),
@@ -44,7 +44,7 @@ KINDS: tuple[tuple[str, Callable[[int], Json], str], ...] = (
 
 
 def make_program(count: int) -> Json:
-    """Return a sound document of that many steps: errands, machines, conditions, loops and a Try, over and over."""
+    """Return a sound document of that many steps: tasks, machines, conditions, loops and a Try, over and over."""
     steps: Json = {}
     parent, branch = "program", "body"
     for index in range(count):

@@ -186,7 +186,7 @@ def _version_view(row: Version) -> VersionView:
     )
 
 
-_SEEDS = (("Paint order", "paint-order.json"), ("First errand", None))
+_SEEDS = (("Paint order", "paint-order.json"), ("First task", None))
 
 
 def seed_programs(*, site: str) -> None:

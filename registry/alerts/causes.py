@@ -60,7 +60,7 @@ CAUSES: Mapping[AlertCode, Cause] = {
     "messages_refused": Cause("warning", "Messages of it were refused", quiet=SOON),
     "flapping": Cause("warning", "It comes and leaves all the time", quiet=SOON),
     "wrong_key": Cause("warning", "Somebody tried to come in as it with a wrong key", quiet=timedelta(hours=1)),
-    "foreign_knock": Cause("warning", "Somebody knocked as it with another key", quiet=timedelta(hours=1)),
+    "foreign_knock": Cause("warning", "Somebody wanted to enrol as it with another key", quiet=timedelta(hours=1)),
     "command_rejected": Cause("warning", "It refused {method}", quiet=timedelta(days=1), anew=timedelta(minutes=1)),
     "command_failed": Cause("error", "It did not finish {method}", quiet=timedelta(days=1), anew=timedelta(minutes=1)),
     "command_timed_out": Cause(

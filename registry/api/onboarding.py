@@ -40,7 +40,7 @@ class ExpectedDevice(Schema):
 
 
 class Door(Schema):
-    """A site's new join key, told this once; the one before has ended."""
+    """A site's new enrolment key, told this once; the one before has ended."""
 
     site: str
     join_key: str

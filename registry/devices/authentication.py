@@ -70,12 +70,12 @@ def check_device_password(*, username: str, password: str) -> Principal | None:
     if device and device.lifecycle != Device.Lifecycle.PENDING:
         return None
     site = Site.objects.filter(join_key_hash=offered).first()
-    if site is None or not (device.site_id == site.pk if device else _make_newcomer(site, username)):
+    if site is None or not (device.site_id == site.pk if device else _make_pending(site, username)):
         return None
     return Principal(username, True, site=site.slug)
 
 
-def _make_newcomer(site: Site, device_id: str) -> bool:
+def _make_pending(site: Site, device_id: str) -> bool:
     """Let a device that nobody knows belong to the site whose key it has; False where it cannot be its id, or is full.
 
     So nothing that it says later can bring it to another site.

@@ -32,7 +32,7 @@ SENTENCES: Mapping[str, str] = {
     "readmitted": "May come back",
     "revoked": "Its key was revoked",
     "credential": "Got a new key",
-    "knocked": "Knocked with the join key and brought a key of its own",
+    "knocked": "Enrolled with the enrolment key and brought a key of its own",
     "online": "Came online",
     "offline": "Left",
     "silent": "HistoryText nothing for {seconds} s",

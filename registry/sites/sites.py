@@ -34,7 +34,7 @@ class BadName(RegistryError):
 
 
 class NoEnrolmentKey(RegistryError):
-    """A site's join key that cannot be shown."""
+    """A site's enrolment key that cannot be shown."""
 
     code = "no_join_key"
     status = 404
@@ -173,7 +173,7 @@ def set_site_stop(*, site: str, active: bool, by: str, at: datetime) -> None:
 def set_enrolment_key(*, site: str, key: str) -> None:
     """Set the key with which devices that have none of their own may enrol at the site."""
     if len(key) < 20:
-        raise BadName("A join key needs at least 20 characters; make it at random.")
+        raise BadName("An enrolment key needs at least 20 characters; make it at random.")
     with transaction.atomic():
         row = Site.objects.select_for_update().get(pk=find_site(site).pk)
         if row.join_key_hash != secret_hash(key) or not row.join_broker_hash or not _unsealed(row):
@@ -187,7 +187,7 @@ def get_enrolment_key(*, site: str) -> str:
     key = _unsealed(find_site(site))
     if not key:
         raise NoEnrolmentKey(
-            f"The join key of {site} cannot be shown: it was made by an earlier version, or with another "
+            f"The enrolment key of {site} cannot be shown: it was made by an earlier version, or with another "
             "VIPO_SECRET_KEY. Devices still enrol with it; --new makes another one."
         )
     return key

@@ -11,7 +11,7 @@ from tests.kit.files import ROOT
 
 THIN_SPACE = "\u202f"
 SITE = "/api/sites/painting-factory"
-ERRAND = "Pick-and-Drop, 1 \u00d7 box from Item Inventory to Painting Machine"
+TASK = "Pick-and-Drop, 1 \u00d7 box from Item Inventory to Painting Machine"
 
 
 def ask(page: Page, path: str) -> Any:
@@ -61,7 +61,7 @@ def chip(page: Page, name: str) -> Locator:
     return the_map(page).get_by_role("group", name=re.compile(f"^{re.escape(name)}"))
 
 
-def draw_errand(
+def draw_task(
     page: Page, source: str = "Item Inventory", target: str = "Painting Machine", load: str = "1 \u00d7 box"
 ) -> None:
     """Draw a Pick-and-Drop as a novice does: one key, three clicks."""

@@ -9,13 +9,13 @@ from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.e2e.conftest import SignIn, listen
 from tests.e2e.screens import (
-    ERRAND,
     SITE,
+    TASK,
     ask,
     chip,
     click_floor,
     device,
-    draw_errand,
+    draw_task,
     machine,
     make_program,
     open_program,
@@ -65,11 +65,11 @@ def test_a_wrong_password_is_refused_in_a_sentence_and_the_right_one_opens_home(
     expect(page.get_by_role("heading", name="Home")).to_be_visible()
     expect(page.get_by_role("heading", name="Painting Factory", exact=True)).to_be_visible()
     expect(page.get_by_role("link", name="Paint order", exact=True)).to_be_visible()
-    expect(page.get_by_role("link", name="First errand", exact=True)).to_be_visible()
+    expect(page.get_by_role("link", name="First task", exact=True)).to_be_visible()
     context.close()
 
 
-def test_the_newcomer_takes_part_once_an_admin_has_approved_it(sign_in: SignIn) -> None:
+def test_the_new_device_takes_part_once_an_admin_has_approved_it(sign_in: SignIn) -> None:
     admin, author = sign_in("admin"), sign_in("author", "/sites/painting-factory/devices/paintMixer03")
     expect(author.get_by_text("An admin of this site can approve it.")).to_be_visible()
     admin.get_by_role("link", name=re.compile("^Devices")).click()
@@ -100,11 +100,11 @@ def test_every_device_of_the_factory_is_online(sign_in: SignIn) -> None:
 def test_two_people_draw_one_program(sign_in: SignIn) -> None:
     author, admin = sign_in("author"), sign_in("admin")
     for page in (author, admin):
-        open_program(page, "First errand")
-    draw_errand(author)
-    shared = chip(admin, f"1, {ERRAND}")
+        open_program(page, "First task")
+    draw_task(author)
+    shared = chip(admin, f"1, {TASK}")
     expect(shared).to_be_visible()
-    expect(chip(author, f"1, {ERRAND}")).to_contain_text("Move added for you")
+    expect(chip(author, f"1, {TASK}")).to_contain_text("Move added for you")
     expect(shared.get_by_text("OB", exact=True)).to_be_visible()
     see_the_pointer(author, admin)
     edit_both_at_once(author, admin)
@@ -134,7 +134,7 @@ def edit_both_at_once(author: Page, admin: Page) -> None:
     assert steps_in_list(author) == steps_in_list(admin)
     assert sorted(step[3:] for step in steps_in_list(author)) == [
         "Operate, Paint · 2 min at Painting Machine",
-        ERRAND,
+        TASK,
         "Wait, wait 5 s",
     ]
 
@@ -162,8 +162,8 @@ def test_a_novice_needs_one_key_and_three_clicks(sign_in: SignIn) -> None:
     page.evaluate(
         "presses = 0; for (const kind of ['pointerdown', 'keydown']) addEventListener(kind, () => presses++, true)"
     )
-    draw_errand(page)
-    expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+    draw_task(page)
+    expect(chip(page, f"1, {TASK}")).to_be_visible()
     expect(page.get_by_text("Nothing to fix")).to_be_visible()
     assert page.evaluate("presses") == 4
 
@@ -171,11 +171,11 @@ def test_a_novice_needs_one_key_and_three_clicks(sign_in: SignIn) -> None:
 def test_the_script_has_the_papers_lines_and_leads_to_its_steps(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "Script and drawing")
-    draw_errand(page)
+    draw_task(page)
     expect(page.get_by_text("self.robot.drop").first).to_be_visible()
     lines = script_lines(page)
     assert lines[: len(PAPERS_LINES)] == PAPERS_LINES
-    draw_errand(page, "Painting Machine", "Curing Oven")
+    draw_task(page, "Painting Machine", "Curing Oven")
     second = chip(page, "2, Pick-and-Drop, 1 \u00d7 box from Painting Machine to Curing Oven")
     expect(second).to_be_visible()
     expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Step 2")
@@ -190,7 +190,7 @@ def test_the_script_has_the_papers_lines_and_leads_to_its_steps(sign_in: SignIn)
 def test_a_missing_value_is_marked_everywhere_and_its_button_mends_it(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "Something is missing")
-    draw_errand(page, load="Other")
+    draw_task(page, load="Other")
     marked = chip(page, "1, Pick-and-Drop, ? \u00d7 box")
     expect(marked).to_be_visible()
     expect(marked).to_have_attribute("aria-label", re.compile(", 1 error$"))
@@ -200,7 +200,7 @@ def test_a_missing_value_is_marked_everywhere_and_its_button_mends_it(sign_in: S
     expect(row).to_have_count(1)
     expect(page.get_by_role("banner").get_by_role("button", name="Run", exact=True)).to_be_disabled()
     row.get_by_role("button", name=re.compile("1$")).click()
-    expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+    expect(chip(page, f"1, {TASK}")).to_be_visible()
     expect(quantity).to_have_value("1")
     expect(page.get_by_text("Nothing to fix")).to_be_visible()
     expect(page.get_by_role("banner").get_by_role("button", name="Run", exact=True)).to_be_enabled()
@@ -209,7 +209,7 @@ def test_a_missing_value_is_marked_everywhere_and_its_button_mends_it(sign_in: S
 def test_a_rehearsal_is_shown_on_the_map_and_in_3d_at_the_same_moment(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "To be rehearsed")
-    draw_errand(page)
+    draw_task(page)
     expect(page.get_by_text("Nothing to fix")).to_be_visible()
     page.get_by_role("button", name="Simulate").click()
     expect(page.get_by_role("progressbar")).to_be_visible()
@@ -235,7 +235,7 @@ def test_a_rehearsal_is_shown_on_the_map_and_in_3d_at_the_same_moment(sign_in: S
 def test_a_run_carries_the_box_to_the_painting_machine(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "To be run")
-    draw_errand(page)
+    draw_task(page)
     expect(page.get_by_text("Nothing to fix")).to_be_visible()
     stock = reading(page, "itemInventory01", "stock")
     start_run(page)
@@ -261,7 +261,7 @@ def test_a_run_carries_the_box_to_the_painting_machine(sign_in: SignIn) -> None:
 def test_a_run_pauses_resumes_is_stopped_for_everybody_and_cancelled(sign_in: SignIn) -> None:
     author, admin = sign_in("author"), sign_in("admin")
     make_program(author, "To be held")
-    draw_errand(author)
+    draw_task(author)
     expect(author.get_by_text("Nothing to fix")).to_be_visible()
     start_run(author)
     expect(run_state(author)).to_contain_text("Running")
@@ -294,8 +294,8 @@ def hold(button: Locator) -> None:
 def test_a_function_is_made_saved_found_by_another_person_and_used(sign_in: SignIn) -> None:
     author, admin = sign_in("author"), sign_in("admin")
     make_program(author, "Where a function comes from")
-    draw_errand(author)
-    draw_errand(author, "Painting Machine", "Curing Oven")
+    draw_task(author)
+    draw_task(author, "Painting Machine", "Curing Oven")
     author.keyboard.press("Control+a")
     expect(author.get_by_text("2 steps selected")).to_be_visible()
     author.keyboard.press("Control+g")

@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.e2e.conftest import SignIn
-from tests.e2e.screens import ERRAND, SITE, ask, chip, draw_errand, make_program, saved, tell, violations
+from tests.e2e.screens import SITE, TASK, ask, chip, draw_task, make_program, saved, tell, violations
 
 pytestmark = pytest.mark.browser
 
@@ -39,18 +39,18 @@ def test_a_pick_and_drop_by_keyboard_alone(sign_in: SignIn) -> None:
     page.keyboard.press("Enter")
     expect(page.get_by_role("button", name="1 \u00d7 box", exact=True)).to_be_focused()
     page.keyboard.press("Enter")
-    expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+    expect(chip(page, f"1, {TASK}")).to_be_visible()
     page.keyboard.press("Delete")
-    expect(chip(page, f"1, {ERRAND}")).to_have_count(0)
+    expect(chip(page, f"1, {TASK}")).to_have_count(0)
     page.keyboard.press("Control+z")
-    expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+    expect(chip(page, f"1, {TASK}")).to_be_visible()
 
 
 def test_the_list_of_steps_is_walked_by_arrows(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "By arrows")
-    draw_errand(page)
-    draw_errand(page, "Painting Machine", "Curing Oven")
+    draw_task(page)
+    draw_task(page, "Painting Machine", "Curing Oven")
     page.get_by_role("tab", name="Steps").click()
     rows = page.get_by_role("treeitem")
     rows.first.focus()
@@ -91,7 +91,7 @@ def screens(page: Page, things: dict[str, str]) -> list[Screen]:
         Screen("a new site", "/sites/new", "main form, main p"),
         Screen("paint order", things["paint order"], "[data-shape]"),
         Screen("empty program", things["empty"], ".react-flow__node"),
-        Screen("program", things["errand"], "[data-shape]"),
+        Screen("program", things["task"], "[data-shape]"),
         Screen("simulation", things["rehearsal"], "canvas[data-engine]"),
         Screen("run", things["run"], "[data-state]"),
         Screen("nowhere", "/no/such/page", "main, h1, h2"),
@@ -101,18 +101,18 @@ def screens(page: Page, things: dict[str, str]) -> list[Screen]:
 def make_things(page: Page) -> dict[str, str]:
     empty = make_program(page, "Nothing in it")
     page.goto(page.url.split("/programs/")[0])
-    errand = make_program(page, "To look at")
-    draw_errand(page)
+    task = make_program(page, "To look at")
+    draw_task(page)
     expect(page.get_by_text("Nothing to fix")).to_be_visible()
     saved(page)
-    rehearsal = tell(page, f"/api{errand}/rehearsals")["id"]
-    run = tell(page, f"/api{errand}/runs")["id"]
+    rehearsal = tell(page, f"/api{task}/rehearsals")["id"]
+    run = tell(page, f"/api{task}/runs")["id"]
     programs = {each["name"]: each["id"] for each in ask(page, f"{SITE}/programs")}
     return {
         "empty": empty,
-        "errand": errand,
+        "task": task,
         "paint order": f"/programs/{programs['Paint order']}",
-        "rehearsal": f"{errand}/simulate/{rehearsal}",
+        "rehearsal": f"{task}/simulate/{rehearsal}",
         "run": f"/runs/{run}",
     }
 

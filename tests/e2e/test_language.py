@@ -11,7 +11,7 @@ from tests.e2e.conftest import SignIn
 from tests.e2e.screens import (
     SITE,
     ask,
-    draw_errand,
+    draw_task,
     editor,
     make_program,
     open_script,
@@ -109,7 +109,7 @@ def test_an_armed_program_starts_when_its_condition_becomes_true(sign_in: SignIn
     row.get_by_role("switch", name=re.compile("^Starts by itself")).click(force=True)
     expect(row.get_by_role("switch")).to_be_checked()
     make_program(page, "Takes a box")
-    draw_errand(page)
+    draw_task(page)
     start_run(page)
     expect(operator.get_by_text(f"Fewer than {boxes} boxes are left")).to_be_visible(timeout=LONG_MS)
     expect(run_state(page)).to_contain_text("Finished", timeout=LONG_MS)

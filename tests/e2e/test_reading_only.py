@@ -60,8 +60,8 @@ def test_who_may_only_look_changes_nothing(sign_in: SignIn) -> None:
     expect(page.get_by_role("toolbar", name="Tools").get_by_role("button")).to_have_count(2)
     for name in ("Simulate", "Run"):
         expect(page.get_by_role("banner").get_by_role("button", name=name, exact=True)).to_be_disabled()
-    errand = chip(page, "2, Pick-and-Drop")
-    errand.click()
+    task = chip(page, "2, Pick-and-Drop")
+    task.click()
     expect(page.get_by_role("complementary", name="Selected step")).to_contain_text("Step 2")
     expect(page.get_by_role("combobox", name="Quantity")).to_be_disabled()
     expect(page.locator("[data-form] :is(input, textarea, button):enabled")).to_have_count(0)

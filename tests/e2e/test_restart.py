@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Browser, expect
 
 from tests.e2e.conftest import sign_in_by_form
-from tests.e2e.screens import ERRAND, chip, draw_errand, open_program, saved
+from tests.e2e.screens import TASK, chip, draw_task, open_program, saved
 from tests.kit.demo import Demo, running_demo, stop_process_group
 
 pytestmark = pytest.mark.browser
@@ -35,9 +35,9 @@ def draw_and_leave(chromium: Browser, demo: Demo) -> None:
     context = chromium.new_context(locale="en-GB", storage_state=sign_in_by_form(chromium, demo, "author"))
     page = context.new_page()
     page.goto(demo.url)
-    open_program(page, "First errand")
-    draw_errand(page)
-    expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+    open_program(page, "First task")
+    draw_task(page)
+    expect(chip(page, f"1, {TASK}")).to_be_visible()
     saved(page)
     context.close()
 
@@ -54,6 +54,6 @@ def test_a_drawing_survives_ctrl_c_and_nothing_is_left_running(chromium: Browser
         context = chromium.new_context(locale="en-GB", storage_state=sign_in_by_form(chromium, demo, "author"))
         page = context.new_page()
         page.goto(demo.url)
-        open_program(page, "First errand")
-        expect(chip(page, f"1, {ERRAND}")).to_be_visible()
+        open_program(page, "First task")
+        expect(chip(page, f"1, {TASK}")).to_be_visible()
         context.close()

@@ -11,7 +11,7 @@ from tests.e2e.conftest import SignIn
 from tests.e2e.screens import (
     ask,
     chip,
-    draw_errand,
+    draw_task,
     editor,
     make_program,
     open_program,
@@ -52,7 +52,7 @@ def path_of(page: Page) -> str:
 def test_what_an_author_types_is_drawn(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "Typed")
-    draw_errand(page)
+    draw_task(page)
     open_script(page)
     expect(editor(page)).to_contain_text("self.robot.drop(")
     before = document(page)
@@ -70,7 +70,7 @@ def test_what_an_author_types_is_drawn(sign_in: SignIn) -> None:
 def test_a_device_that_is_completed_is_given_in_run(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "Completed")
-    draw_errand(page)
+    draw_task(page)
     open_script(page)
     expect(editor(page)).to_contain_text("self.robot.drop(")
     type_behind(page, "self.robot.drop(", "self.curing")
@@ -84,7 +84,7 @@ def test_a_device_that_is_completed_is_given_in_run(sign_in: SignIn) -> None:
 def test_an_invalid_script_marks_the_place_and_leaves_the_map(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "Invalid")
-    draw_errand(page)
+    draw_task(page)
     open_script(page)
     expect(editor(page)).to_contain_text("self.robot.drop(")
     type_behind(page, "self.robot.drop(", "import os")
@@ -104,14 +104,14 @@ def test_an_invalid_script_marks_the_place_and_leaves_the_map(sign_in: SignIn) -
 def test_one_types_while_another_draws_and_nothing_is_lost(sign_in: SignIn) -> None:
     author, admin = sign_in("author"), sign_in("admin")
     make_program(author, "Both at once")
-    draw_errand(author)
+    draw_task(author)
     open_program(admin, "Both at once")
     expect(chip(admin, "1, Pick-and-Drop")).to_be_visible()
     open_script(author)
     expect(editor(author)).to_contain_text("self.robot.drop(")
     type_behind(author, "self.robot.drop(", "self.wait(60")
     expect(strip(author)).to_be_visible()
-    draw_errand(admin, "Paint Inventory", "Painting Machine", "1 \u00d7 can")
+    draw_task(admin, "Paint Inventory", "Painting Machine", "1 \u00d7 can")
     expect(editor(author)).to_contain_text("self.robot.move(self.paint_inventory.location)")
     expect(editor(author)).to_contain_text("self.wait(60")
     author.keyboard.insert_text(")")
@@ -123,7 +123,7 @@ def test_one_types_while_another_draws_and_nothing_is_lost(sign_in: SignIn) -> N
 def test_the_keyboard_gets_out_of_the_script_and_the_step_follows_the_cursor(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "Keys")
-    draw_errand(page)
+    draw_task(page)
     open_script(page)
     expect(editor(page)).to_contain_text("self.robot.drop(")
     page.get_by_role("tab", name="Steps").focus()
@@ -141,7 +141,7 @@ def test_the_keyboard_gets_out_of_the_script_and_the_step_follows_the_cursor(sig
 def test_script_pasted_on_the_map_becomes_steps(sign_in: SignIn) -> None:
     page = sign_in("author")
     make_program(page, "Pasted")
-    draw_errand(page)
+    draw_task(page)
     expect(editor(page)).to_contain_text("self.robot.drop(")
     page.evaluate("navigator.clipboard.writeText('self.wait(7)\\nself.curing_oven.cure_paint(4)')")
     the_map(page).focus()

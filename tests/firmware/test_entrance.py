@@ -54,7 +54,7 @@ def restart_with(bus: Any, key: str) -> None:
 
 
 @pytest.fixture(params=["amqtt", "mosquitto"])
-def newcomer(request: pytest.FixtureRequest, micropython: str, tmp_path: Path) -> Iterator[Running]:
+def new_device(request: pytest.FixtureRequest, micropython: str, tmp_path: Path) -> Iterator[Running]:
     with open_bus(request.param, tmp_path) as bus, Ear(bus.port, ACCOUNTS["server"], "vipo/v1/#") as ear:
         command = interpreter_command(micropython)
         process = start_firmware(command, tmp_path, bus, password="", join_key=JOIN_KEY)
@@ -65,34 +65,34 @@ def newcomer(request: pytest.FixtureRequest, micropython: str, tmp_path: Path) -
             running.end()
 
 
-def test_a_new_device_enrols_with_a_key_of_its_own_and_takes_new_ones(newcomer: Running, tmp_path: Path) -> None:
+def test_a_new_device_enrols_with_a_key_of_its_own_and_takes_new_ones(new_device: Running, tmp_path: Path) -> None:
     kept = tmp_path / "key"
-    enrolled = newcomer.ear.wait(lambda h: h.topic == f"vipo/v1/join/hall/{DEVICE}", LIMIT_S)
+    enrolled = new_device.ear.wait(lambda h: h.topic == f"vipo/v1/join/hall/{DEVICE}", LIMIT_S)
     own = enrolled.json["key"]
     assert (list(enrolled.json), len(own), kept.read_text()) == (["key"], 48, own)
     assert JOIN_KEY not in own
-    restart_with(newcomer.bus, own)
-    newcomer.state(lambda _state: True)
+    restart_with(new_device.bus, own)
+    new_device.state(lambda _state: True)
 
-    newcomer.tell("credential", "k1", credential="short")
-    assert "20 to 128" in newcomer.answer("k1", "REJECTED").json["why"]
-    newcomer.tell("credential", "k2", credential=NEXT_KEY)
-    newcomer.answer("k2", "DONE")
+    new_device.tell("credential", "k1", credential="short")
+    assert "20 to 128" in new_device.answer("k1", "REJECTED").json["why"]
+    new_device.tell("credential", "k2", credential=NEXT_KEY)
+    new_device.answer("k2", "DONE")
     assert kept.read_text() == f"{NEXT_KEY}\n{own}"
-    come_back(newcomer, NEXT_KEY)
+    come_back(new_device, NEXT_KEY)
     wait_for("the new key in its file", lambda: kept.read_text() == NEXT_KEY)
 
-    newcomer.tell("credential", "k3", credential=STRAY_KEY)
-    newcomer.answer("k3", "DONE")
-    come_back(newcomer, NEXT_KEY)
+    new_device.tell("credential", "k3", credential=STRAY_KEY)
+    new_device.answer("k3", "DONE")
+    come_back(new_device, NEXT_KEY)
     wait_for("the new key in its file", lambda: kept.read_text() == NEXT_KEY)
 
 
-def come_back(newcomer: Running, key: str) -> None:
+def come_back(new_device: Running, key: str) -> None:
     """Let the device in with that key alone; it tells its state anew, whether this is heard at once or kept."""
-    told = max(h.json["seq"] for h in newcomer.ear.all("/up/state"))
-    restart_with(newcomer.bus, key)
-    newcomer.state(lambda state: state["seq"] > told)
+    told = max(h.json["seq"] for h in new_device.ear.all("/up/state"))
+    restart_with(new_device.bus, key)
+    new_device.state(lambda state: state["seq"] > told)
 
 
 def test_a_board_enrols_over_tls(micropython: str, tmp_path: Path) -> None:

@@ -211,7 +211,7 @@ def test_a_configuration_that_cannot_be_used_is_said_in_a_sentence(interpreter: 
         ),
         (
             json.dumps({**good, "join_key": "key", "site": "+"}),
-            "{path} has a join key, but does not say 'site', whose key it is.",
+            "{path} has an enrolment key, but does not say 'site', whose key it is.",
         ),
         (json.dumps(good), f"There is no description file {tmp_path}/none.ttl."),
         (

@@ -198,9 +198,12 @@ WRONG = [
     ({"name": "a\x00b"}, 'The form: "Name on the map" must be a text of 1 to 100 characters.'),
     (
         {"join_key": "j" * 129},
-        """The form: "The site's join key, for a newcomer" must be empty, or a text of 1 to 128""",
+        """The form: "The site's enrolment key, for a new device" must be empty, or a text of 1 to 128""",
     ),
-    ({"join_key": "word"}, """The form has a join key, but does not say "Site (its short name)", whose key it is."""),
+    (
+        {"join_key": "word"},
+        """The form has an enrolment key, but does not say "Site (its short name)", whose key it is.""",
+    ),
     ({"ca": "no certificate"}, "The form: the certificate is not in PEM form."),
     (
         {"ca": "-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----"},

@@ -70,7 +70,7 @@ CARRY = Plan(
     ),
     ANY,
 )
-ERRAND: dict[str, Any] = {
+TASK: dict[str, Any] = {
     "format": 1,
     "start_pos": [0, 0],
     "steps": {

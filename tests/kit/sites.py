@@ -46,12 +46,12 @@ def make_hall() -> str:
 
 
 def make_mixers(*names: str) -> None:
-    """Make approved mixers of these names, and a robot `newcomer` that is not approved."""
+    """Make approved mixers of these names, and a robot `new_robot` that is not approved."""
     for name in names:
         method = replace(MIXER.methods[0], topic=f"vipo/v1/dev/{name}/down/mix")
         describe(replace(MIXER, id=name, name=f"Mixer {name}", methods=(method,)))
     Device.objects.update(lifecycle="approved")
-    describe(replace(ROBOT, id="newcomer"))
+    describe(replace(ROBOT, id="new_robot"))
 
 
 def describe(description: Description = MIXER) -> Any:

@@ -24,7 +24,7 @@ log = logging.getLogger(__name__)
 PATIENCE_S = 5.0
 PAUSE_S = (5.0, 30.0)
 """So long a device waits before it brings its key again."""
-UNKNOWN = "%s has no key that is known: write one into secrets/devices.json, or name a join key."
+UNKNOWN = "%s has no key that is known: write one into secrets/devices.json, or name an enrolment key."
 PENDING = "%s is not let in at %s: it brings a key of its own, and waits for an admin. %s"
 GIVEN_KEYS = "A key that it was given belongs into secrets/devices.json."
 

@@ -261,12 +261,14 @@ _JOINING: Mapping[str, str] = {
     ),
     "no_site": "There is no site {site!r} that the device could join, and no default site.",
     "device_id": "A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server', '.' or '..'.",
-    "knock_key": "A knock needs `key`: {least} to {most} printable ASCII characters, made at random.",
-    "newcomers": "{most} newcomers wait at this site already. Decide about some of them first.",
-    "knock_revoked": "{device} knocked, whose key was revoked. Give it a new key, or retire it and let it come back.",
+    "knock_key": "An enrolment needs `key`: {least} to {most} printable ASCII characters, made at random.",
+    "newcomers": "{most} devices wait for approval at this site already. Decide about some of them first.",
+    "knock_revoked": (
+        "{device} wanted to enrol, whose key was revoked. Give it a new key, or retire it and let it come back."
+    ),
     "knock_foreign": (
-        "Somebody knocked as {device}, which is known with another key. If it is the same device, reject or retire it "
-        "first and let it come back."
+        "Somebody wanted to enrol as {device}, which is known with another key. If it is the same device, reject or "
+        "retire it first and let it come back."
     ),
 }
 SENTENCES: Mapping[str, str] = {

@@ -1,4 +1,4 @@
-"""`vipo devices`, `vipo alerts`, `vipo approve`, `vipo join-key`: devices for whoever may read the database."""
+"""`vipo devices`, `vipo alerts`, `vipo approve`, `vipo enrolment-key`: devices for whoever may read the database."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def add_approve_arguments(sub: argparse.ArgumentParser) -> None:
 
 
 def add_enrolment_key_arguments(sub: argparse.ArgumentParser) -> None:
-    """Describe what stands behind `vipo join-key`, which is also called `vipo enrolment-key`."""
+    """Describe what stands behind `vipo enrolment-key`, which is also called `vipo enrolment-key`."""
     sub.add_argument("site", help="the site's short name")
     sub.add_argument("--new", action="store_true", help="make a new key; the old one ends")
     sub.set_defaults(run=tell_enrolment_key)

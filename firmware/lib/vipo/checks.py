@@ -59,7 +59,7 @@ def find_fault(configuration, where, needed):
 def fault_of_keys(configuration, where):
     """Return what is missing of keys, or an empty text; a configuration without an id is only a part of one."""
     if configuration.get("join_key") and configuration.get("site", "+") == "+":
-        return "%s has a join key, but does not say 'site', whose key it is." % where
+        return "%s has an enrolment key, but does not say 'site', whose key it is." % where
     if configuration.get("id") and not configuration.get("join_key") and not configuration.get("password"):
         return "%s needs 'password', the device's own key, or 'join_key', the site's." % where
     return ""

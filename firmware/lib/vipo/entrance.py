@@ -16,7 +16,7 @@ PAUSE_S = (5, 30)
 
 
 class Entrance:
-    """The keys of a client; `given` is the configuration's key, `enrolment` (site, join key) or None."""
+    """The keys of a client; `given` is the configuration's key, `enrolment` (site, enrolment key) or None."""
 
     def __init__(self, client, path, given="", enrolment=None):
         self.client, self.path, self.enrolment = client, path, enrolment

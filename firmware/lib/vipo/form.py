@@ -13,7 +13,7 @@ FIELDS = (
     ("port", "number", "Broker: port (8883 with TLS)", 5),
     ("id", "text", "This device's id", 64),
     ("site", "text", "Site (its short name)", 64),
-    ("join_key", "secret", "The site's join key, for a newcomer", 128),
+    ("join_key", "secret", "The site's enrolment key, for a new device", 128),
     ("password", "secret", "This device's own key, if it has one", 128),
     ("time_server", "text", "Time server, if not pool.ntp.org", 253),
     ("driver", "driver", "This device is a", 16),

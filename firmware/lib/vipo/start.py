@@ -30,7 +30,7 @@ def make_device(configuration, panel, identity, output=None):
 
 
 def make_entrance(configuration, client):
-    """Return the client's keys: the kept ones, the configuration's, and the site's join key for one that nobody knows."""
+    """Return the client's keys: the kept ones, the configuration's, and the site's enrolment key for one that nobody knows."""
     join_key = configuration.get("join_key")
     enrolment = (configuration["site"], join_key) if join_key else None
     return Entrance(client, configuration.get("key_file", "key.txt"), configuration.get("password"), enrolment)

@@ -114,4 +114,4 @@ def _check_keys(config: Config) -> None:
     if not all(isinstance(key, str) for key in (config.password, config.join_key)):
         raise BadConfig("password and join_key must be text.")
     if not (config.password or config.join_key):
-        raise BadConfig("password is missing; a newcomer needs join_key, the site's, instead.")
+        raise BadConfig("password is missing; a new device needs join_key, the site's, instead.")

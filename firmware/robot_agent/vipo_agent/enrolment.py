@@ -1,4 +1,4 @@
-"""How a robot that nobody gave a key brings its own: it enrols with the site's join key (docs/protocol.md, Keys)."""
+"""How a robot that nobody gave a key brings its own: by the site's enrolment key (docs/protocol.md, Keys)."""
 
 from __future__ import annotations
 

@@ -2131,7 +2131,7 @@ export interface components {
                 [key: string]: components["schemas"]["ZoneShape"];
             };
         };
-        /** @description A site's new join key, told this once; the one before has ended. */
+        /** @description A site's new enrolment key, told this once; the one before has ended. */
         Door: {
             broker: string;
             join_key: string;

@@ -60,7 +60,7 @@ def make_twin(options: dict[str, Any]) -> Twin:
     wanted = choose_devices(facts, options["only"], options["left_out"])
     speaking = frozenset(name for name in wanted if name in passwords or enrolment_key)
     for name in sorted(wanted - speaking):
-        log.warning("%s has no password in secrets/devices.json and there is no join key; it stays away.", name)
+        log.warning("%s has no password in secrets/devices.json and there is no enrolment key; it stays away.", name)
     plan = TwinPlan(
         facts=facts,
         speaking=speaking,

@@ -43,14 +43,14 @@ def device(port: int, name: str, password: str) -> Iterator[tuple[paho.Client, l
         client.loop_stop()
 
 
-def test_a_newcomer_that_talks_nonsense_is_noted_and_others_keep_working(factory: Factory) -> None:
+def test_a_new_device_that_talks_nonsense_is_noted_and_others_keep_working(factory: Factory) -> None:
     join = (factory.demo.state / "secrets" / "join").read_text().strip()
     text = MIXER_TEXT.replace("paintMixer03", "loud01").encode()
     before = factory.device("robot02")
     with device(factory.mqtt_port, "loud01", join) as (client, heard):
         up = "vipo/v1/dev/loud01/up"
         client.publish(f"{up}/desc", text, qos=1)
-        wait_for("loud01 as a newcomer", lambda: factory.device("loud01").get("status") == "pending", 20)
+        wait_for("loud01 as a new device", lambda: factory.device("loud01").get("status") == "pending", 20)
         for topic in ("vipo/v1/dev/+/up/#", "#", "vipo/v1/dev/robot02/down/#"):
             client.subscribe(topic, 1)
         client.publish("vipo/v1/dev/robot02/up/presence", json.dumps({"s": "offline", "boot": 9**9}), qos=1)

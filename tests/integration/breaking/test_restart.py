@@ -33,7 +33,7 @@ def test_a_run_survives_ctrl_c_and_kill_9_and_does_each_thing_once(tmp_path: Pat
         first = Factory(demo)
         first.wait_online("robot01", "itemInventory01", "paintMachine01")
         boxes = first.reading("itemInventory01", "stock")
-        run = first.start(first.plant({"Errand": carry_document()})["Errand"])
+        run = first.start(first.plant({"Task": carry_document()})["Task"])
         first.wait_command(run, "move", *BEGUN)
         first.close()
     assert complaints(demo.log.read_text()) == []

@@ -11,7 +11,7 @@ from tests.kit.waiting import wait_for
 
 
 def test_stop_all_holds_the_robots_and_the_run_goes_on_after_a_reset(factory: Factory) -> None:
-    run = factory.start(factory.plant({"Stopped errand": carry_document()})["Stopped errand"])
+    run = factory.start(factory.plant({"Stopped task": carry_document()})["Stopped task"])
     before = factory.poses()
     wait_for("a robot that drives", lambda: factory.poses() != before)
     stop = factory.admin.post(f"/api/sites/{SLUG}/stop").json()

@@ -59,7 +59,7 @@ def admin(db: None) -> Client:
 
 def known_values() -> dict[str, str]:
     """Return what stands in a path so that the call gets as far as it can."""
-    program = str(editor.create_program(site="hall", name="Errand").id)
+    program = str(editor.create_program(site="hall", name="Task").id)
     names = {"slug": "hall", "site": "hall", "device_id": "mixer1", "device": "mixer1", "thing": "mixer1"}
     return {**names, "program": program, "number": "1", "alert_id": "1"}
 

@@ -10,7 +10,7 @@ import pytest
 from editor import services as editor
 from execution.models import Run
 from tests.integration.execution.conftest import factory as factory
-from tests.kit.programs import ERRAND, SITE, document, step
+from tests.kit.programs import SITE, TASK, document, step
 from tests.kit.sign_in import sign_in_member
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -20,8 +20,8 @@ pytestmark = pytest.mark.django_db(transaction=True)
 def test_a_program_with_unfit_texts_is_listed_kept_as_a_version_and_run(factory: Any, unfit: str) -> None:
     said = step("notify", order="W", message=f"mind{unfit} the door", level="info")
     note = step("comment", order="0V", text=f"a comment{unfit}")
-    drawn = document({**ERRAND["steps"], "said": said, "note": note})
-    program = str(editor.create_program(site=SITE, name="Errand", document=drawn).id)
+    drawn = document({**TASK["steps"], "said": said, "note": note})
+    program = str(editor.create_program(site=SITE, name="Task", document=drawn).id)
     client = sign_in_member("operator", SITE)
     assert client.get(f"/api/sites/{SITE}/programs").status_code == 200
     answer = client.post(f"/api/programs/{program}/runs", json.dumps({}), content_type="application/json")

@@ -105,7 +105,7 @@ def test_the_demo_has_its_programs_and_seeding_again_changes_nothing(author: Any
     services.seed_programs(site="hall")
     programs = services.list_programs(site="hall")
     assert [program.id for program in programs] == first
-    assert [program.name for program in programs] == ["Paint order", "First errand"]
+    assert [program.name for program in programs] == ["Paint order", "First task"]
     assert {"pick_and_drop", "operate", "while"} <= set(programs[0].kinds)
 
 

@@ -50,7 +50,7 @@ class Shop:
         self.deliveries = 1
 
     def start(self, plan, **parameters):
-        prepared = services.Prepared(uuid4(), SITE, "Errand", 1, {}, {}, plan_to_json(plan), parameters)
+        prepared = services.Prepared(uuid4(), SITE, "Task", 1, {}, {}, plan_to_json(plan), parameters)
         return str(services.start_run(prepared=prepared, by="Ada").id)
 
     def work(self):

@@ -9,7 +9,7 @@ from django.test import Client
 from editor import services as editor
 from execution import services
 from execution.models import Rehearsal, Run
-from tests.kit.programs import ERRAND, SITE
+from tests.kit.programs import SITE, TASK
 from tests.kit.sign_in import ROLES, post_json, sign_in_member
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.django_db(transaction=True)
 
 @pytest.fixture
 def program(factory):
-    return editor.create_program(site=SITE, name="Errand", document=ERRAND).id
+    return editor.create_program(site=SITE, name="Task", document=TASK).id
 
 
 def post(client, path, body=None):
@@ -110,7 +110,7 @@ def test_routes_that_do_not_exist_are_null_among_others(factory):
 def test_a_run_over_http_reaches_its_end(factory, program):
     client = sign_in_member("operator", SITE)
     run = post_json(client, f"/api/programs/{program}/runs").json()
-    assert (run["status"], run["program"]["name"], run["version"]) == ("pending", "Errand", 1)
+    assert (run["status"], run["program"]["name"], run["version"]) == ("pending", "Task", 1)
     factory.go(lambda: client.get(f"/api/runs/{run['id']}").json()["status"] == "finished")
     view = client.get(f"/api/runs/{run['id']}").json()
     assert view["steps"]["s1"]["status"] == "done"

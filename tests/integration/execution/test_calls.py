@@ -158,12 +158,12 @@ def test_what_a_run_holds_is_not_lent_and_the_answer_says_which_run(factory):
     factory.go(lambda: Command.objects.filter(method="mixPaint").exists())
     client = sign_in_member("operator", SITE)
     answer = ask(client)
-    told = "Paint Mixer A is held by run 1 of “Errand”. Wait until it is over, or cancel it."
+    told = "Paint Mixer A is held by run 1 of “Task”. Wait until it is over, or cancel it."
     assert (answer.status_code, answer.json()["detail"]) == (409, told)
     robot = Command.objects.filter(method="move").first().device
     pick = {"method": "pick", "args": {"object": "box", "value": 1}}
     answer = ask(client, pick, f"/api/sites/{SITE}/devices/{robot}/call")
-    assert answer.json()["detail"].endswith("is held by run 1 of “Errand”. Wait until it is over, or cancel it.")
+    assert answer.json()["detail"].endswith("is held by run 1 of “Task”. Wait until it is over, or cancel it.")
     assert Command.objects.exclude(run=None).filter(method="pick").count() == 0
     services.cancel_run(run_id=run, by="Ada")
 

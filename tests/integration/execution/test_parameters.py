@@ -10,7 +10,7 @@ from django.test import Client
 
 from editor import services as editor
 from execution.models import Rehearsal, Run
-from tests.kit.programs import ERRAND, OVEN, SITE
+from tests.kit.programs import OVEN, SITE, TASK
 from tests.kit.sign_in import sign_in_member
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -28,8 +28,8 @@ FITTING = {"minutes": 2.5, "is paint dry": False, "colour": "blue", "oven": OVEN
 
 @pytest.fixture
 def program(factory: Any) -> str:
-    document = {**ERRAND, "parameters": PARAMETERS}
-    return str(editor.create_program(site=SITE, name="Errand", document=document).id)
+    document = {**TASK, "parameters": PARAMETERS}
+    return str(editor.create_program(site=SITE, name="Task", document=document).id)
 
 
 def send(client: Client, path: str, body: str) -> Any:

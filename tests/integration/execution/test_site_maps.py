@@ -15,7 +15,7 @@ from registry.floorplan.plan import Grid
 from registry.live import fanout
 from registry.models import Device, SiteMap
 from tests.kit import demo_floor
-from tests.kit.programs import ANY, CARRY, ERRAND, SITE, run_status
+from tests.kit.programs import ANY, CARRY, SITE, TASK, run_status
 from tests.kit.sign_in import ROLES, post_json, sign_in_member
 from tests.unit.robot_agent.agent import RobotGrid, write_grid
 
@@ -148,7 +148,7 @@ def test_a_map_that_is_too_long_for_planning_is_refused(factory):
 
 
 def test_programs_are_checked_anew_on_the_new_map(factory):
-    program = editor.create_program(site=SITE, name="Errand", document=ERRAND).id
+    program = editor.create_program(site=SITE, name="Task", document=TASK).id
     client = sign_in_member("admin", SITE)
     assert errors(client, program) == 0
     x, y = next((d.pose.x, d.pose.y) for d in demo_floor.devices() if d.id == "paintMachine01")

@@ -102,7 +102,7 @@ def test_who_changes_its_mind_all_the_time_has_one_alert(mixer: str) -> None:
     assert rows[0].count <= 6
 
 
-def test_a_newcomer_that_waits_long_is_told_to_admins(mixer: str) -> None:
+def test_a_new_device_that_waits_long_is_told_to_admins(mixer: str) -> None:
     describe(ROBOT)
     come("robot1")
     watch(3500)

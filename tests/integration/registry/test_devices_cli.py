@@ -75,7 +75,7 @@ def test_the_enrolment_key_is_shown_and_only_a_new_one_ends_it(
     Site.objects.update(join_key_sealed="")
     told = run_vipo(capsys, command, "hall")
     assert told[0] == 2
-    assert told[2].startswith("The join key of hall cannot be shown")
+    assert told[2].startswith("The enrolment key of hall cannot be shown")
     assert services.check_device_password(username="join:hall", password="j" * 32)
     services.set_enrolment_key(site="hall", key="j" * 32)
     assert [run_vipo(capsys, command, "hall") for _ in range(2)] == [(0, "j" * 32 + "\n", "")] * 2

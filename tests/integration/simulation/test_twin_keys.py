@@ -69,7 +69,7 @@ def kept(file: Path) -> str:
 
 def test_a_device_that_may_come_back_knocks_with_a_fresh_key_and_goes_on(keys: Path) -> None:
     decide(services.retire_device)
-    wait_for("a knock while it is out", lambda: (keys.parent / "devices-spare.json").exists())
+    wait_for("an enrolment while it is out", lambda: (keys.parent / "devices-spare.json").exists())
     assert kept(keys) == KEY
     decide(services.readmit_device)
     wait_for("the device", is_here, 40)

@@ -95,7 +95,7 @@ def test_a_device_hears_only_its_own_commands_and_its_sites_stop(broker: Embedde
     robot.stop()
 
 
-def test_a_newcomer_is_not_given_what_others_asked_for(broker: EmbeddedBroker, ear: Ear) -> None:
+def test_a_new_device_is_not_given_what_others_asked_for(broker: EmbeddedBroker, ear: Ear) -> None:
     ear.say("vipo/v1/dev/mixer01/up/desc", b"private", retain=True)
     ear.wait(lambda h: h.payload == b"private")
     with socket.create_connection(("127.0.0.1", broker.port)) as raw:

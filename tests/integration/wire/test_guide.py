@@ -76,9 +76,9 @@ def level() -> object:
 
 @pytest.mark.parametrize("bus", ["amqtt"], indirect=True)
 def test_the_guide_brings_in_a_lamp(folder: Path, gateway: Gateway) -> None:
-    describe, knock, come_in, call, _ = (folder / "commands").read_text().split("\0")
+    describe, enrol, come_in, call, _ = (folder / "commands").read_text().split("\0")
     assert shell(folder, describe).startswith("lamp.ttl: Turtle. It describes the machine lamp01, “Lamp”")
-    assert "takes part at hall from now on.\nIt keeps the key that it came with." in shell(folder, knock + come_in)
+    assert "takes part at hall from now on.\nIt keeps the key that it came with." in shell(folder, enrol + come_in)
     with running(folder, "sh", "lamp.sh"):
         assert shell(folder, call) == "lamp01: dim is done\n"
         wait_for("the level", lambda: level() == 30)

@@ -61,8 +61,8 @@ def make_agent(bus: Bus, folder: Path, name: str) -> Agent:
 
 
 def admit(name: str) -> None:
-    at, knock = datetime.now(UTC), json.dumps({"key": KEY}).encode()
-    services.enrol_device(site=SITE, device_id=name, payload=knock, at=at)
+    at, hello = datetime.now(UTC), json.dumps({"key": KEY}).encode()
+    services.enrol_device(site=SITE, device_id=name, payload=hello, at=at)
 
 
 def approve(name: str) -> None:

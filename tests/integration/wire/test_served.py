@@ -15,11 +15,11 @@ from vipo_device.protocol.mqtt_client import MqttClient, tls_context
 
 pytestmark = pytest.mark.servers
 SITE = "/api/sites/painting-factory"
-MAKE_ERRAND = """
+MAKE_TASK = """
 import json, pathlib
 from editor import services
 document = json.loads(pathlib.Path("examples/pick-and-drop.json").read_text())["document"]
-services.create_program(site="painting-factory", name="Errand", document=document)
+services.create_program(site="painting-factory", name="Task", document=document)
 """
 OVER = {"finished", "failed", "cancelled"}
 
@@ -27,7 +27,7 @@ OVER = {"finished", "failed", "cancelled"}
 @pytest.fixture(scope="module")
 def served(tmp_path_factory: pytest.TempPathFactory, module_database_url: str, shared_redis: Redis) -> Iterator[Served]:
     with running_served(tmp_path_factory.mktemp("served"), module_database_url, shared_redis.url) as running:
-        running.manage("shell", "-c", MAKE_ERRAND)
+        running.manage("shell", "-c", MAKE_TASK)
         for number in (0, 1):
             running.wait("a web process", lambda n=number: is_up(running.web_ports[n]), 200)
         yield running
@@ -44,10 +44,10 @@ def devices(client: httpx.Client) -> dict[str, Any]:
     return {device["id"]: device for device in client.get(f"{SITE}/devices").json()}
 
 
-def start_errand(served: Served, client: httpx.Client) -> str:
+def start_task(served: Served, client: httpx.Client) -> str:
     programs = client.get(f"{SITE}/programs").json()
-    errand = next(program for program in programs if program["name"] == "Errand")
-    answer = client.post(f"/api/programs/{errand['id']}/runs", json={})
+    task = next(program for program in programs if program["name"] == "Task")
+    answer = client.post(f"/api/programs/{task['id']}/runs", json={})
     assert answer.status_code in (200, 201), answer.text + served.story()
     return str(answer.json()["id"])
 
@@ -99,7 +99,7 @@ def test_messages_that_cannot_be_read_are_noted_and_harm_nobody(served: Served) 
 def test_a_pick_and_drop_runs_to_its_end_with_two_workers(served: Served) -> None:
     with served.signed_in("author", 0) as first, served.signed_in("admin", 1) as second:
         before = devices(first)
-        run = start_errand(served, first)
+        run = start_task(served, first)
         done = served.wait("the end of the run", lambda: over(second, run), 180)
         assert (done["status"], done["reason"]) == ("finished", ""), served.story()
         assert {step["status"] for step in done["steps"].values()} == {"done"}
@@ -123,7 +123,7 @@ def test_a_foreign_client_reads_observes_and_invokes_at_another_process_than_its
 
 def test_a_run_survives_the_death_of_a_worker_and_of_the_gateway(served: Served) -> None:
     with served.signed_in("author", 1) as client:
-        run = start_errand(served, client)
+        run = start_task(served, client)
         served.wait("the start", lambda: client.get(f"/api/runs/{run}").json()["status"] == "running")
         served.kill("worker-1")
         served.kill("gateway")

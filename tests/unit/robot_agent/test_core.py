@@ -191,7 +191,7 @@ def test_the_description_is_one_that_vipo_believes() -> None:
     [
         ({"id": "a/b"}, "id must be 1 to 64 letters, digits, '_', '.' or '-'."),
         ({"radius_m": 0}, "radius_m must be a number above 0."),
-        ({"password": ""}, "password is missing; a newcomer needs join_key, the site's, instead."),
+        ({"password": ""}, "password is missing; a new device needs join_key, the site's, instead."),
         ({"ros": 3}, "ros must be 1 or 2."),
         ({"name": "a\nb"}, "name must be printable text of at most 100 characters."),
         ({"capacity": 1.5}, "capacity must be a whole number from 0 to 1000."),

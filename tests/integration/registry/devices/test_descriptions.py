@@ -23,11 +23,11 @@ def many(count: int, name: str) -> list[DescriptionMessage]:
 def test_each_description_has_its_own_fate(heard: list[Any], django_capture_on_commit_callbacks: Any) -> None:
     describe()
     describe(ROBOT)
-    newcomer = replace(ROBOT, id="robot2", name="Robot Two")
+    pending = replace(ROBOT, id="robot2", name="Robot Two")
     with django_capture_on_commit_callbacks(execute=True):
         fates = services.ingest_descriptions(
             descriptions=[
-                describe_later(newcomer),
+                describe_later(pending),
                 DescriptionMessage("robot1", b"not RDF", LATER),
                 describe_later(MIXER, "foreign"),
                 describe_later(replace(MIXER, name="Mixer New"), form="td"),

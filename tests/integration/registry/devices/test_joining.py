@@ -261,7 +261,7 @@ def test_a_device_comes_in_with_its_own_key_only(hall: str) -> None:
     assert check(username="mixer2", password="") is None
 
 
-def test_the_join_key_is_for_newcomers_until_they_are_approved(hall: str) -> None:
+def test_the_join_key_is_for_new_devices_until_they_are_approved(hall: str) -> None:
     services.set_enrolment_key(site="hall", key=JOIN)
     check = services.check_device_password
     assert check(username="new1", password=JOIN) == Principal("new1", True, site="hall")
@@ -273,7 +273,7 @@ def test_the_join_key_is_for_newcomers_until_they_are_approved(hall: str) -> Non
     assert check(username="mixer1", password=JOIN) is None
 
 
-def test_no_more_than_two_hundred_newcomers_come_in_with_a_join_key_alone(hall: str) -> None:
+def test_no_more_than_two_hundred_new_devices_come_in_with_a_join_key_alone(hall: str) -> None:
     services.set_enrolment_key(site="hall", key=JOIN)
     site = Site.objects.get(slug="hall")
     Device.objects.bulk_create(Device(pk=f"n{number}", site=site) for number in range(MOST_PENDING - 1))

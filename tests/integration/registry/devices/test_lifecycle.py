@@ -21,7 +21,7 @@ KEY, OTHER, JOIN = "k" * 32, "o" * 32, "j" * 32
 WHO: dict[str, Any] = {"site": "hall", "device_id": "mixer1", "by": None, "at": NOW}
 
 
-def test_a_newcomer_with_the_join_key_gets_a_key_of_its_own_at_approval(hall: str) -> None:
+def test_a_new_device_with_the_join_key_gets_a_key_of_its_own_at_approval(hall: str) -> None:
     services.set_enrolment_key(site="hall", key=JOIN)
     credential = approve()
     assert len(credential) == 32
@@ -60,7 +60,7 @@ def test_a_revoked_key_lets_nobody_in_and_is_not_brought_back_by_the_next_start(
     assert not may_come_in(key)
     assert services.find_ended(logins={"mixer1": Login("", NOW + timedelta(days=1))}) == {"mixer1"}
     with pytest.raises(BadDevice, match="key was revoked"):
-        knock(OTHER)
+        enrol(OTHER)
     assert services.list_broker_hashes() == {}
     assert come(boot=2) is None
     assert say(boot=2, seq=5).online is False
@@ -75,14 +75,14 @@ def test_a_retired_device_stays_out_until_an_admin_lets_it_come_back(hall: str) 
     assert services.list_devices(site="hall") == ()
     assert [d.id for d in services.list_devices(site="hall", lifecycle="retired")] == ["mixer1"]
     assert (may_come_in(key), may_come_in(JOIN)) == (False, False)
-    assert not knock(OTHER)
+    assert not enrol(OTHER)
     assert not may_come_in(OTHER)
     for decide in (services.retire_device, services.rotate_credential, services.revoke_credential):
         with pytest.raises(NotApproved):
             decide(**WHO)
     assert services.readmit_device(**WHO).lifecycle == "pending"
     assert (may_come_in(key), may_come_in(JOIN)) == (False, True)
-    assert knock(OTHER)
+    assert enrol(OTHER)
     assert (may_come_in(key), may_come_in(OTHER)) == (False, True)
     assert [e.text for e in services.list_device_events(site="hall", device_id="mixer1")][1:4] == [
         "May come back",
@@ -101,7 +101,7 @@ def test_another_board_of_the_same_id_counts_its_starts_anew(hall: str, again: s
         services.retire_device(**WHO)
         services.readmit_device(**WHO)
         say(boot=57, seq=900, retained=True)
-        assert knock(OTHER)
+        assert enrol(OTHER)
         services.approve_device(**WHO)
     else:
         services.rotate_credential(**WHO)
@@ -111,18 +111,18 @@ def test_another_board_of_the_same_id_counts_its_starts_anew(hall: str, again: s
     assert say(boot=1, seq=1) is None
 
 
-def knock(key: str, device_id: str = "mixer1") -> bool:
+def enrol(key: str, device_id: str = "mixer1") -> bool:
     body = json.dumps({"key": key}).encode()
     return services.enrol_device(site="hall", device_id=device_id, payload=body, at=NOW)
 
 
 def test_a_stranger_knocks_brings_its_key_and_waits(hall: str) -> None:
-    assert knock(KEY)
-    assert not knock(KEY)
+    assert enrol(KEY)
+    assert not enrol(KEY)
     assert may_come_in(KEY)
     assert describe().lifecycle == "pending"
     with pytest.raises(BadDevice, match="known with another key"):
-        knock(OTHER)
+        enrol(OTHER)
     assert (may_come_in(KEY), may_come_in(OTHER)) == (True, False)
     assert sorted(services.list_broker_hashes()) == ["mixer1"]
 
@@ -136,12 +136,12 @@ def test_a_knock_without_a_proper_key_is_refused(hall: str, payload: bytes) -> N
 
 def test_knocks_do_not_fill_the_registry(hall: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("registry.devices.enrolment.MOST_PENDING", 2)
-    assert knock(KEY, "a")
-    assert knock(KEY, "b")
+    assert enrol(KEY, "a")
+    assert enrol(KEY, "b")
     with pytest.raises(BadDevice, match="Decide about some of them first"):
-        knock(KEY, "c")
+        enrol(KEY, "c")
     Device.objects.filter(pk="a").update(first_seen_at=NOW - timedelta(days=2))
-    assert knock(KEY, "c")
+    assert enrol(KEY, "c")
     assert sorted(Device.objects.values_list("pk", flat=True)) == ["b", "c"]
 
 

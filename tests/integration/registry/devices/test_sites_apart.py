@@ -96,7 +96,7 @@ def test_who_came_by_a_sites_join_key_stays_there_whatever_it_says(yard: str) ->
     assert [device.id for device in services.list_devices(site="hall")] == []
 
 
-def test_two_hundred_newcomers_of_one_site_leave_room_at_another(yard: str) -> None:
+def test_two_hundred_new_devices_of_one_site_leave_room_at_another(yard: str) -> None:
     site = find_person("keeper").memberships.get().site
     Device.objects.bulk_create(Device(pk=f"yard.n{n}", site=site, first_seen_at=NOW) for n in range(200))
     Device.objects.filter(site=site).update(last_seen_at=NOW)

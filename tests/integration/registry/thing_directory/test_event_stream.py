@@ -77,27 +77,27 @@ async def test_what_becomes_of_things_is_sent_and_readings_are_not(things: str) 
         await sync_to_async(say)("a", props={"jobStatus": 40}, loc=[3, 2, 0, 0])
         await rename("Left")
         assert await told(events) == ("thing_updated", {"id": f"{URN}a"})
-        await sync_to_async(services.approve_device)(site="hall", device_id="newcomer", by=None, at=NOW)
-        assert await told(events) == ("thing_created", {"id": f"{URN}newcomer"})
-        await sync_to_async(say)("newcomer", loc=[1, 2, 0, 0])
-        more = replace(ROBOT, id="newcomer", properties=(PropertySpec("heat", "number"),))
+        await sync_to_async(services.approve_device)(site="hall", device_id="new_robot", by=None, at=NOW)
+        assert await told(events) == ("thing_created", {"id": f"{URN}new_robot"})
+        await sync_to_async(say)("new_robot", loc=[1, 2, 0, 0])
+        more = replace(ROBOT, id="new_robot", properties=(PropertySpec("heat", "number"),))
         await sync_to_async(describe)(more)
-        assert await told(events) == ("thing_updated", {"id": f"{URN}newcomer"})
-        await sync_to_async(services.retire_device)(site="hall", device_id="newcomer", by=None, at=NOW)
-        assert await told(events) == ("thing_deleted", {"id": f"{URN}newcomer"})
+        assert await told(events) == ("thing_updated", {"id": f"{URN}new_robot"})
+        await sync_to_async(services.retire_device)(site="hall", device_id="new_robot", by=None, at=NOW)
+        assert await told(events) == ("thing_deleted", {"id": f"{URN}new_robot"})
 
 
 async def test_a_diff_is_a_new_thing_whole_and_a_change_as_a_merge_patch(things: str) -> None:
     async with aclosing(await stream(diff=True)) as events:
         await heard(events)
-        await sync_to_async(services.approve_device)(site="hall", device_id="newcomer", by=None, at=NOW)
+        await sync_to_async(services.approve_device)(site="hall", device_id="new_robot", by=None, at=NOW)
         name, thing = await told(events)
         assert (name, thing["title"], thing["vipo:location"][:2]) == ("thing_created", "Robot One", [2.0, 2.0])
         check_thing(thing)
-        await sync_to_async(describe)(replace(ROBOT, id="newcomer", properties=()))
+        await sync_to_async(describe)(replace(ROBOT, id="new_robot", properties=()))
         assert await told(events) == (
             "thing_updated",
-            {"properties": {"jobStatus": None}, "id": f"{URN}newcomer"},
+            {"properties": {"jobStatus": None}, "id": f"{URN}new_robot"},
         )
 
 
@@ -105,8 +105,8 @@ async def test_a_listener_may_ask_for_some_events_of_all_its_sites(things: str) 
     async with aclosing(await stream(site=None, kinds=("thing_created",))) as events:
         await heard(events)
         await rename("Left")
-        await sync_to_async(services.approve_device)(site="hall", device_id="newcomer", by=None, at=NOW)
-        assert await told(events) == ("thing_created", {"id": f"{URN}newcomer"})
+        await sync_to_async(services.approve_device)(site="hall", device_id="new_robot", by=None, at=NOW)
+        assert await told(events) == ("thing_created", {"id": f"{URN}new_robot"})
 
 
 async def test_who_comes_again_misses_nothing(things: str) -> None:

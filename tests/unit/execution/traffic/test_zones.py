@@ -146,7 +146,7 @@ def test_a_robot_that_stands_idle_in_the_zone_leaves_it_for_another():
 
 
 @pytest.mark.parametrize("seed", [3, 17, 52])
-def test_robots_with_many_errands_through_random_zones_all_arrive(seed):
+def test_robots_with_many_tasks_through_random_zones_all_arrive(seed):
     """With 17 and 52 one waits in a zone for a machine, which another has that waits for the zone."""
     rng = random.Random(seed)
     layout = demo_floor.layout()

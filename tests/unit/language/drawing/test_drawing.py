@@ -16,7 +16,7 @@ from editor.language.drawing.alignment import common_row
 from tests.kit.demo_site import factory
 from tests.unit.language.strategies import broken_documents, documents, json_values
 
-ERRAND = {
+TASK = {
     "role": "robot",
     "source": {"device": "itemInventory01"},
     "target": {"device": "paintMachine01"},
@@ -36,7 +36,7 @@ def order_of_paint() -> dict[str, Any]:
         "format": 2,
         "start_pos": [1.0, -1.0],
         "steps": {
-            "errand": step("pick_and_drop", "program", "1", {**ERRAND, "route": [[2, -3]]}),
+            "task": step("pick_and_drop", "program", "1", {**TASK, "route": [[2, -3]]}),
             "cure": step("operate", "program", "3", oven),
             "hot": step("if", "program", "5", {"condition": hot}),
             "cool": step("wait", "hot", "V", {"duration": 30}, "then"),
@@ -156,7 +156,7 @@ def test_a_new_load_stays_the_same_pick_and_drop() -> None:
     parsed = parse_script(text.replace('"value": 1', '"value": 2'), factory())
     assert parsed.tree is not None
     after = tree_to_document(parsed.tree, factory(), order_of_paint())
-    assert differences(order_of_paint(), after) == ["steps.errand.params.quantity"]
+    assert differences(order_of_paint(), after) == ["steps.task.params.quantity"]
 
 
 def test_a_function_that_is_renamed_keeps_its_steps() -> None:
@@ -198,7 +198,7 @@ def test_a_role_can_be_bound_to_a_robot() -> None:
 def test_a_role_that_is_renamed_is_one_value_of_each_step() -> None:
     before = order_of_paint()
     before["roles"]["carrier"] = {"name": "box carrier", "can": ["pick", "drop"]}
-    before["steps"]["errand"]["params"]["role"] = "carrier"
+    before["steps"]["task"]["params"]["role"] = "carrier"
     text = compile_document(before, factory()).script.replace("box_carrier", "porter")
     tree = parse_script(text, factory()).tree
     assert tree is not None
@@ -233,7 +233,7 @@ def test_events_keep_their_ids_and_bodies() -> None:
 def test_separate_picks_and_drops_stay_separate() -> None:
     before = order_of_paint()
     load = {"role": "robot", "object": "box", "quantity": 1}
-    before["steps"]["errand"] = step("pick", "program", "1", {**load, "at": {"device": "itemInventory01"}})
+    before["steps"]["task"] = step("pick", "program", "1", {**load, "at": {"device": "itemInventory01"}})
     before["steps"]["way"] = step("move", "program", "11", {"role": "robot", "to": {"device": "paintMachine01"}})
     before["steps"]["put"] = step("drop", "program", "12", {**load, "at": {"device": "paintMachine01"}})
     assert redraw(before) == before
@@ -245,7 +245,7 @@ def test_a_wait_in_the_middle_of_a_pick_and_drop_parts_it() -> None:
     after = redraw(order_of_paint(), (drop, f"        self.wait(1)\n{drop}"))
     kinds = {name: after["steps"][name]["kind"] for name in after["steps"].keys() - order_of_paint()["steps"].keys()}
     assert sorted(kinds.values()) == ["drop", "move", "pick", "wait"]
-    assert "errand" not in after["steps"]
+    assert "task" not in after["steps"]
 
 
 def test_drafts_do_not_come_into_the_program_by_the_way() -> None:

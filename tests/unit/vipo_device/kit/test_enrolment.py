@@ -47,7 +47,7 @@ def test_a_device_tries_the_key_that_was_written_meanwhile(tmp_path: Path, caplo
     assert refuse(vehicle) == "the new key"
     assert caplog.messages == [
         "The MQTT broker refused Acme-1: Not authorized.",
-        "Acme-1 has no key that is known: write one into secrets/devices.json, or name a join key.",
+        "Acme-1 has no key that is known: write one into secrets/devices.json, or name an enrolment key.",
     ]
 
 

@@ -1,4 +1,4 @@
-/** Bringing a device in: a key for one, a join key for many, and a look at a description before it is sent. */
+/** Bringing a device in: a key for one, an enrolment key for many, and a look at a description before it is sent. */
 import { Button, Modal, Tabs } from "@mantine/core";
 import { Plus } from "lucide-react";
 import { useState } from "react";

@@ -1,4 +1,4 @@
-/** A join key, with which any number of devices bring keys of their own. */
+/** An enrolment key, with which any number of devices bring keys of their own. */
 import { Button, TextInput } from "@mantine/core";
 import { useMutation } from "@tanstack/react-query";
 import { useTranslation } from "react-i18next";
@@ -21,8 +21,8 @@ export function ManyDevices({ site }: { site: Site }) {
             <TextInput
               className={styles.field}
               classNames={{ input: styles.mono }}
-              label={t("adding.joinKey")}
-              description={t("adding.joinKeyHelp", { site: site.slug })}
+              label={t("adding.enrolmentKey")}
+              description={t("adding.enrolmentKeyHelp", { site: site.slug })}
               readOnly
               value={renew.data.join_key}
               onFocus={(event) => event.currentTarget.select()}
@@ -37,7 +37,7 @@ export function ManyDevices({ site }: { site: Site }) {
         <>
           <p className={styles.once}>{t("adding.manyWarning")}</p>
           <Button className={styles.go} loading={renew.isPending} onClick={() => renew.mutate()}>
-            {t("adding.newJoinKey")}
+            {t("adding.newEnrolmentKey")}
           </Button>
         </>
       )}
