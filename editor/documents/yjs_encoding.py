@@ -45,6 +45,29 @@ class Reader:
             raise BadFrame("A number in the message is longer than 53 bits.")
         return value
 
+    @property
+    def left(self) -> int:
+        """How many bytes are left."""
+        return len(self._data) - self._at
+
+    def byte(self) -> int:
+        """Read one byte."""
+        return self._data[self.skip(1)]
+
+    def skip(self, length: int) -> int:
+        """Pass over so many bytes; return where they begin."""
+        if length > self.left:
+            raise BadFrame("The message ends before it should.")
+        self._at += length
+        return self._at - length
+
+    def signed(self) -> None:
+        """Pass over a variable-length signed integer, of which each byte but the last has its highest bit set."""
+        for _ in range(MOST_INTEGER_BYTES):
+            if self.byte() < 0x80:
+                return
+        raise BadFrame("A number in the message is longer than 53 bits.")
+
     def sized(self, limit: int) -> bytes:
         """Read a length and that many bytes."""
         length = self.integer()
