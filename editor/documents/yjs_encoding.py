@@ -28,6 +28,9 @@ class Reader:
 
     def integer(self) -> int:
         """Read a variable-length unsigned integer of at most 53 bits."""
+        if self._at < len(self._data) and self._data[self._at] < 0x80:  # most are of one byte
+            self._at += 1
+            return self._data[self._at - 1]
         value = shift = 0
         for position in range(self._at, min(self._at + MOST_INTEGER_BYTES, len(self._data))):
             byte = self._data[position]
@@ -52,7 +55,10 @@ class Reader:
 
     def byte(self) -> int:
         """Read one byte."""
-        return self._data[self.skip(1)]
+        if self._at == len(self._data):
+            raise BadFrame("The message ends before it should.")
+        self._at += 1
+        return self._data[self._at - 1]
 
     def skip(self, length: int) -> int:
         """Pass over so many bytes; return where they begin."""

@@ -63,7 +63,7 @@ HOSTILE = {
     "deletions of 2^53 clients": update([], gone=_HUGE),
     "2^53 deletions": update([], gone=b"\x01\x01" + _HUGE),
     "a deletion of 2^32": update([], gone=b"\x01\x01\x01\x00" + _OVER),
-    "half a million deletions": update([], gone=b"\x01\x01" + encode_integer(500_000) + b"\x01\x01" * 500_000),
+    "a million deletions": update([], gone=b"\x01\x01" + encode_integer(1_000_000) + b"\x01\x01" * 1_000_000),
     "a text of 2^53": _one(b"\x04" + _HUGE),
     "bytes of 2^53": _one(b"\x03" + _HUGE),
     "2^53 values": _one(b"\x08" + _HUGE),
