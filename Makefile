@@ -4,7 +4,7 @@ BIN := .venv/bin
 SOURCES := vipo_site vipo_device registry editor simulation execution connectors firmware/robot_agent tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
-.PHONY: demo test check check-static check-frontend check-units bench mutation checks-page openapi format frontend setup setup-dev servers clean
+.PHONY: demo test check check-static check-frontend check-units bench mutation audit checks-page openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
 	@exec $(BIN)/python -m vipo_site.demo
@@ -82,6 +82,13 @@ mutation: setup-dev var/mutation/bin/cosmic-ray
 var/mutation/bin/cosmic-ray:
 	@echo "Installing the mutation tester into an environment of its own"
 	@$(PYTHON) -m venv var/mutation && var/mutation/bin/pip install --quiet --disable-pip-version-check cosmic-ray==8.7.0
+
+audit: var/audit/bin/pip-audit
+	@$(PYTHON) scripts/audit.py
+
+var/audit/bin/pip-audit:
+	@echo "Installing pip-audit into an environment of its own"
+	@$(PYTHON) -m venv var/audit && var/audit/bin/pip install --quiet --disable-pip-version-check pip-audit==2.10.1
 
 clean:
 	rm -rf .venv frontend/node_modules frontend/dist var

@@ -1,7 +1,8 @@
 #!/bin/sh
 # Installs what the tests start for themselves, as Debian packages: PostgreSQL, Redis, Mosquitto and its clients,
-# nginx, Chromium and ROS 1. Nothing is enabled or left running by the tests; each starts its own servers on free ports.
-# ROS is not in every distribution: without it the tests of the robot agent's rospy shell are skipped, and say so.
+# nginx, Chromium and ROS 1, and fetches MicroPython into var. Nothing is enabled or left running by the tests; each
+# starts its own servers on free ports. ROS and MicroPython are not in every distribution: on Debian the tests that need
+# them fail without them, elsewhere they are skipped, and say so.
 set -eu
 
 missing=""
@@ -16,6 +17,8 @@ if ! /usr/bin/python3 -c "import rospy, rosmaster, actionlib, move_base_msgs, na
     ros="python3-rosmaster python3-rospy python3-actionlib python3-move-base-msgs python3-nav-msgs"
     ros="$ros python3-sensor-msgs python3-paho-mqtt"
 fi
+here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd)
+sh "$here/micropython.sh" "$here/../var/micropython" >/dev/null || true
 [ -z "$missing$ros" ] && exit 0
 
 command -v apt-get >/dev/null || {
@@ -39,4 +42,4 @@ install() {
 echo "Installing for the tests, with apt-get:$missing $ros"
 $as_root apt-get update -qq
 [ -z "$missing" ] || install "$missing"
-[ -z "$ros" ] || install "$ros" || echo "ROS 1 could not be installed; the tests that need it will be skipped." >&2
+[ -z "$ros" ] || install "$ros" || echo "ROS 1 could not be installed; on Debian the tests that need it will fail." >&2

@@ -21,6 +21,8 @@ from vipo_device.protocol.texts import cleaned, cleaned_json, find_unfit, normal
 ROOTS = ("meta", "steps", "functions", "roles", "parameters", "zones")
 _CONTENT = ROOTS[1:]
 EMPTY_UPDATE = b"\x00\x00"
+DEEPEST = 32
+"""How deep shared parts may stand in each other: each way to read them goes down by calling itself."""
 _LOG_LIMIT_BYTES = 1024 * 1024
 _LOG_LIMIT_ENTRIES = 2000
 _SHARED = (Array, Map, Text)
@@ -43,16 +45,21 @@ class SharedDocument:
         self._steps: dict[str, Any] = {}
         """The steps in their plain form, but for those that changed since it was asked for last."""
         self._changed: set[str] = set()
+        self._deepest = 0
         self._document = self._restored()
 
     def apply(self, update: bytes) -> list[bytes]:
         """Apply an update; returns what it changed, as the document itself says. Raises BadUpdate."""
         self._events.clear()
+        self._deepest = 0
         try:
             self._document.apply_update(update)
         except (ValueError, RuntimeError, MemoryError) as error:
             self._document = self._restored()
             raise BadUpdate(str(error)) from error
+        if self._deepest > DEEPEST:
+            self._document = self._restored()
+            raise BadUpdate("Parts of it stand too deep in each other.")
         changes = [event for event in self._events if event != EMPTY_UPDATE]
         self._events.clear()
         self._note(changes)
@@ -73,13 +80,19 @@ class SharedDocument:
         document.observe(self._on_change)
         steps = document.get("steps", type=Map)
         self._steps, self._changed = {}, set(steps.keys())
-        self._watching = steps, steps.observe_deep(self._on_steps)  # it ends with the last reference to it
+        others = [document.get(name, type=Map) for name in _CONTENT if name != "steps"]
+        watched = [(root, root.observe_deep(self._note_depth)) for root in others]
+        self._watching = steps, steps.observe_deep(self._on_steps), watched  # it ends with the last reference to it
         return document
 
     def _on_change(self, event: TransactionEvent) -> None:
         self._events.append(event.update)
 
+    def _note_depth(self, events: list[Any]) -> None:
+        self._deepest = max(self._deepest, *(len(event.path) for event in events))
+
     def _on_steps(self, events: list[Any]) -> None:
+        self._note_depth(events)
         for event in events:
             self._changed.update(event.path[:1] or event.keys)
 

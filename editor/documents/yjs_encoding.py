@@ -28,6 +28,9 @@ class Reader:
 
     def integer(self) -> int:
         """Read a variable-length unsigned integer of at most 53 bits."""
+        if self._at < len(self._data) and self._data[self._at] < 0x80:  # most are of one byte
+            self._at += 1
+            return self._data[self._at - 1]
         value = shift = 0
         for position in range(self._at, min(self._at + MOST_INTEGER_BYTES, len(self._data))):
             byte = self._data[position]
@@ -44,6 +47,32 @@ class Reader:
         if value > _MOST_INTEGER:
             raise BadFrame("A number in the message is longer than 53 bits.")
         return value
+
+    @property
+    def left(self) -> int:
+        """How many bytes are left."""
+        return len(self._data) - self._at
+
+    def byte(self) -> int:
+        """Read one byte."""
+        if self._at == len(self._data):
+            raise BadFrame("The message ends before it should.")
+        self._at += 1
+        return self._data[self._at - 1]
+
+    def skip(self, length: int) -> int:
+        """Pass over so many bytes; return where they begin."""
+        if length > self.left:
+            raise BadFrame("The message ends before it should.")
+        self._at += length
+        return self._at - length
+
+    def signed(self) -> None:
+        """Pass over a variable-length signed integer, of which each byte but the last has its highest bit set."""
+        for _ in range(MOST_INTEGER_BYTES):
+            if self.byte() < 0x80:
+                return
+        raise BadFrame("A number in the message is longer than 53 bits.")
 
     def sized(self, limit: int) -> bytes:
         """Read a length and that many bytes."""

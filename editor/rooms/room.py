@@ -6,8 +6,9 @@ from collections import deque
 from collections.abc import Callable
 
 from editor.documents import yjs_encoding
-from editor.documents.shared_document import EMPTY_UPDATE, BadUpdate, SharedDocument
+from editor.documents.shared_document import EMPTY_UPDATE, ROOTS, BadUpdate, SharedDocument
 from editor.documents.store import Change
+from editor.documents.yjs_updates import check_update
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
 from editor.rooms.member import MIB, Close, Member
@@ -18,6 +19,7 @@ MOST_READERS, MOST_WRITERS = 50, 50
 MOST_OF_PERSON = 10
 MOST_DOCUMENT_BYTES = 8 * MIB
 MOST_STEPS = 5000
+_ROOTS = frozenset(root.encode() for root in ROOTS)
 INTERRUPTED = "The program could not be reached just now. What was typed stays in the browser and follows."
 TOO_LARGE = "The program is full: it may have 8 MiB and 5,000 steps. Remove steps, or make a second program of a part."
 
@@ -121,6 +123,7 @@ class Room:
             return
         if not member.is_sure():
             raise Close(Close.COME_AGAIN, INTERRUPTED)
+        check_update(update, _ROOTS)
         if self._leaves_a_hole(update):
             member.ask_for_state(self.document.state())
             return

@@ -25,9 +25,10 @@ MOST_CHARACTERS = 65_536
 
 
 class NewDevice(Asked):
-    """The id of a device that will come."""
+    """The id of a device that will come; `again` gives another key to one that was added and has not come yet."""
 
     id: Line = Field(max_length=64)
+    again: bool = False
 
 
 class ExpectedDevice(Schema):
@@ -98,11 +99,15 @@ class LookShape(Schema):
 
 @router.post("/sites/{slug}/newcomers", response={201: ExpectedDevice})
 def reserve_device(request: HttpRequest, response: HttpResponse, slug: str, body: NewDevice) -> dict[str, Any]:
-    """Reserve an id for a device that will come, and tell its key this once; it still waits for approval then."""
+    """Reserve an id for a device that will come, and tell its key this once; it still waits for approval then.
+
+    Where it has a key already that is refused (409), and says who made it; with `again` that key ends.
+    """
     user = signed_in(request)
     require(user, slug, "admin")
+    made = services.reserve_device(site=slug, device_id=body.id.strip(), by=user, at=timezone.now(), again=body.again)
     response["Cache-Control"] = "no-store"
-    return asdict(services.reserve_device(site=slug, device_id=body.id.strip(), by=user, at=timezone.now()))
+    return asdict(made)
 
 
 @router.post("/sites/{slug}/join-key", response=Door)

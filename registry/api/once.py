@@ -18,6 +18,7 @@ from django.utils import timezone
 
 from registry.errors import RegistryError
 from registry.models import User
+from registry.people.access import noting_needs, require
 from registry.people.keyed_requests import KeptAnswer, begin_request, end_request
 
 SAFE = ("GET", "HEAD", "OPTIONS")
@@ -38,7 +39,7 @@ class BadKey(RegistryError):
 
 
 def begin_once(call: Callable[..., Any]) -> Callable[..., Any]:
-    """Let a call be carried out unless its key came before: then give the answer of that time."""
+    """Let a call be carried out unless its key came before: then give the answer of that time to who may have it."""
 
     @functools.wraps(call)
     def call_once(request: HttpRequest, *args: Any, **values: Any) -> Any:
@@ -51,9 +52,12 @@ def begin_once(call: Callable[..., Any]) -> Callable[..., Any]:
         owner = f"{user.pk}:{user.grant.token_id if user.grant else 0}"
         kept = begin_request(owner=owner, key=found[1], fingerprint=_fingerprint(request), now=timezone.now())
         if kept is not None:
+            for need in kept.needs:
+                require(user, need.site, need.role, need.scope)
             return HttpResponse(kept.body, status=kept.status, headers={**kept.headers, "Idempotency-Replayed": "true"})
-        setattr(request, _BEGUN, (owner, found[1], call.__name__ in TELLS_SECRETS))
-        return call(request, *args, **values)
+        with noting_needs() as needs:
+            setattr(request, _BEGUN, (owner, found[1], call.__name__ in TELLS_SECRETS, needs))
+            return call(request, *args, **values)
 
     return call_once
 
@@ -78,11 +82,11 @@ def _end(request: HttpRequest, response: HttpResponseBase) -> None:
     begun = getattr(request, _BEGUN, None)
     if begun is None:
         return
-    owner, key, is_secret = begun
+    owner, key, is_secret, needs = begun
     body = response.content if isinstance(response, HttpResponse) else b""
     headers = {name: response[name] for name in KEPT_HEADERS if name in response}
     is_secret = is_secret or "no-store" in response.get("Cache-Control", "")
-    answer = KeptAnswer(response.status_code, headers, body)
+    answer = KeptAnswer(response.status_code, headers, body, needs)
     end_request(owner=owner, key=key, answer=answer, is_secret=is_secret)
 
 

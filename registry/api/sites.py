@@ -35,12 +35,14 @@ def upload_site(
     image: File[UploadedFile | None] = None,
 ) -> dict[str, Any]:
     """Make a site from a ROS map; the asker becomes its admin."""
+    user = signed_in(request)
     site = services.create_site_from_map(
         name=name,
         yaml=_read_upload(yaml, MAX_YAML_BYTES, "The .yaml file"),
         image=_read_upload(image, MAX_IMAGE_BYTES, "The map's image") if image else None,
-        admin=signed_in(request),
+        admin=user,
     )
+    require(user, site.slug, "admin")  # noted: an answer that is given again is given to members of the new site
     return site_to_json(site)
 
 

@@ -20,6 +20,7 @@ from django.db import transaction
 from registry.broker.accounts import Account, accounts
 from registry.broker.mosquitto_file import ENROLMENT
 from registry.devices.authentication import list_broker_hashes
+from registry.devices.enrolment import JUST_NOW
 from registry.devices.history import history_text, write_event
 from registry.devices.rows import STARTS, announce, forget_starts, lock_device
 from registry.devices.views import DeviceView, view_of
@@ -70,10 +71,6 @@ def deliver_key(*, device_id: str, credential: str) -> bool:
 
 DELIVERY_LIMIT = timedelta(seconds=CONNECT_LIMIT_S + ANSWER_LIMIT_S + 5)
 """Whoever tells a device a key and has not come back after so long has died over it."""
-
-
-JUST_NOW = timedelta(seconds=10)
-"""So long after a key was given nobody else gives another: whoever was told the first would hold one that has ended."""
 
 
 class KeyChanged(RegistryError):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hmac
 from dataclasses import dataclass
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 
 from django.conf import settings
 from django.db import transaction
@@ -18,7 +18,8 @@ from registry.alerts.buffer import note_alert
 from registry.broker.accounts import Account, accounts
 from registry.devices.history import history_text, write_event
 from registry.devices.rows import STARTS, BadDevice, check_id, forget_starts
-from registry.models import Device, Site, User
+from registry.errors import RegistryError
+from registry.models import Device, DeviceEvent, Site, User
 from registry.sites.namespaces import OF_IDS, may_name
 from registry.sites.sites import find_site
 from vipo_device.protocol.credentials import (
@@ -34,6 +35,15 @@ from vipo_device.protocol.messages import BadMessage, parse_json
 
 MOST_PENDING = 200
 FORGOTTEN_AFTER = timedelta(days=1)
+JUST_NOW = timedelta(seconds=10)
+"""So long after a key was given nobody else gives another: whoever was told the first would hold one that has ended."""
+
+
+class AlreadyReserved(RegistryError):
+    """An id that has a key already, which nobody ends unless they say so, and not within seconds."""
+
+    code = "already_reserved"
+    status = 409
 
 
 class NotOfSite(BadDevice):
@@ -122,13 +132,14 @@ class ReservedDevice:
     broker: str
 
 
-def reserve_device(*, site: str, device_id: str, by: User, at: datetime) -> ReservedDevice:
+def reserve_device(*, site: str, device_id: str, by: User, at: datetime, again: bool = False) -> ReservedDevice:
     """Reserve an id for a device that will come, and make its key, told this once.
 
-    It still waits for approval once it has described itself; whoever does not come within a day is forgotten. A
-    second call for a device that has not come yet makes a new key, and the one before ends.
+    It still waits for approval once it has described itself; whoever does not come within a day is forgotten. With
+    `again` a device that has not come yet gets another key, and the one before ends; not within seconds of that.
 
     Raises:
+        AlreadyReserved: somebody else has added it, or it has brought a key of its own, and `again` does not hold.
         BadDevice: the id cannot be, is not the site's, belongs to a device that is known, or 200 devices wait already.
         NotAMember, BrokerAway.
     """
@@ -139,6 +150,7 @@ def reserve_device(*, site: str, device_id: str, by: User, at: datetime) -> Rese
         device = _find_own(row, device_id)
         device = device or make_pending_device(device_id, row.pk, at)
         _require_unknown(device)
+        _require_no_key_of_others(device, at, again=again)
         device.credential_hash, device.broker_hash = secret_hash(credential), broker_hash(credential)
         device.first_seen_at = at
         device.save(update_fields=["credential_hash", "broker_hash", "first_seen_at"])
@@ -151,6 +163,23 @@ def _require_unknown(device: Device) -> None:
     waits = device.lifecycle == Device.Lifecycle.PENDING
     if not waits or device.description is not None or device.last_seen_at is not None:
         raise BadDevice(f"{device.pk} is known at this site already. Choose another id, or give that device a new key.")
+
+
+def _require_no_key_of_others(device: Device, at: datetime, *, again: bool) -> None:
+    """Refuse to end a key that somebody was told, in words that say who has it and since when."""
+    if not device.credential_hash:
+        return
+    event = DeviceEvent.objects.filter(device=device, kind__in=_BRINGS_KEY).order_by("-pk").first()
+    given_at = event.at if event else device.first_seen_at
+    if again and (given_at is None or abs(at - given_at) >= JUST_NOW):
+        return
+    who = event.by.display_name if event and event.by else ""
+    when = given_at.astimezone(UTC).strftime("%Y-%m-%d %H:%M") if given_at else "?"
+    why = "reserved_just_now" if again else "reserved_before" if who else "knocked_before"
+    raise AlreadyReserved(*refusal_facts(why, device=device.pk, by=who or device.pk, at=when))
+
+
+_BRINGS_KEY = ("expected", "knocked")
 
 
 def expect_device(*, site: str, device_id: str, credential: str, approved: bool = True) -> None:

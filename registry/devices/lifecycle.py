@@ -12,7 +12,15 @@ from datetime import datetime
 
 from django.db import transaction
 
-from registry.devices.credentials import Decided, deliver_key, give_key, lock_out, replace_key, require_approved
+from registry.devices.credentials import (
+    Decided,
+    NotApproved,
+    deliver_key,
+    give_key,
+    lock_out,
+    replace_key,
+    require_approved,
+)
 from registry.devices.history import HistoryText, history_text, write_event
 from registry.devices.legacy_topics import claim_again, release_topics
 from registry.devices.rows import STARTS, BadDevice, announce, forget_starts, lock_device
@@ -122,13 +130,15 @@ def _require_pending(device: Device) -> None:
 def update_device(
     *, site: str, device_id: str, name: str | None = None, pose: Pose | None = None, by: User | None, at: datetime
 ) -> DeviceView:
-    """Give a device another name (empty: its own again) or place. Raises NoSuchDevice, BadDevice."""
+    """Give a device another name (empty: its own again) or place. Raises NoSuchDevice, BadDevice, NotApproved."""
     if name is not None and (len(name.strip()) > 100 or find_unfit(name, is_line=True)):
         raise BadDevice("A device's name has at most 100 characters, all of which can be printed.")
     if pose is not None and not all(abs(v) <= 1e6 for v in (pose.x, pose.y, pose.z, pose.theta)):
         raise BadDevice("A device's place must lie within a million metres.")
     with transaction.atomic():
         device = lock_device(site, device_id)
+        if device.lifecycle == Lifecycle.RETIRED:
+            raise NotApproved(f"{device_id} was taken out; it is retired. Let it come back first.")
         before = view_of(device, site)
         if name is not None:
             device.name_override = normal(name.strip())

@@ -8,7 +8,8 @@ from django.db import models
 class KeyedRequest(models.Model):
     """A request with an Idempotency-Key: under way, or with the answer that it was given.
 
-    `owner` is the person, and the token if one was shown. `status` is 0 while it is under way.
+    `owner` is the person, and the token if one was shown. `status` is 0 while it is under way. `needs` are the site,
+    role and scope of each right that it required; None where that was not kept.
     """
 
     owner = models.CharField(max_length=48)
@@ -18,6 +19,7 @@ class KeyedRequest(models.Model):
     status = models.PositiveSmallIntegerField(default=0)
     headers = models.JSONField(default=dict)
     body = models.BinaryField(null=True)
+    needs = models.JSONField(null=True)
 
     class Meta:
         """The first request with a key is the only one; which are old is found by when they began."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -94,6 +97,29 @@ def find_access(user: AbstractBaseUser | AnonymousUser, site: str | Site) -> Acc
     return access_of(user, member) if member else None
 
 
+@dataclass(frozen=True, slots=True)
+class Need:
+    """What was required of somebody: a role and a token's scope at a site."""
+
+    site: str
+    role: str
+    scope: str
+
+
+_noted: ContextVar[list[Need] | None] = ContextVar("noted_needs", default=None)
+
+
+@contextmanager
+def noting_needs() -> Iterator[list[Need]]:
+    """Give the list of what is required and granted within the block, so that it can be required again later."""
+    needs: list[Need] = []
+    token = _noted.set(needs)
+    try:
+        yield needs
+    finally:
+        _noted.reset(token)
+
+
 def require(user: AbstractBaseUser | AnonymousUser, site: str | Site, role: str, scope: str = "") -> Access:
     """Return the user's standing, or raise NotAMember (404), NotAllowed or OutOfScope (403).
 
@@ -107,6 +133,8 @@ def require(user: AbstractBaseUser | AnonymousUser, site: str | Site, role: str,
         raise OutOfScope(f"This token is not for this; make one with the scope {wanted} (docs/api.md, Tokens).")
     if not access.allows(role, wanted):
         raise NotAllowed(f"You are {access.role} of this site; this needs the role {role}. Ask an admin for it.")
+    if (noted := _noted.get()) is not None:
+        noted.append(Need(access.site, role, wanted))
     return access
 
 

@@ -1,19 +1,21 @@
 """Requests with an Idempotency-Key: the first is carried out, its answer kept for a day and given again.
 
-The row is written before anything happens and is unique, so of two requests at once one goes on. Whatever ends the
-process between the effect and the answer leaves a row without one: the request is never carried out a second time.
+It is given to who may still do what was asked then. The row is written before anything happens and is unique, so of
+two requests at once one goes on. Whatever ends the process between the effect and the answer leaves a row without one:
+the request is never carried out a second time.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass
 from datetime import datetime, timedelta
 
 from django.db import IntegrityError, transaction
 
 from registry.errors import RegistryError
 from registry.models import KeyedRequest
+from registry.people.access import Need
 
 KEPT_FOR = timedelta(hours=24)
 LONGEST = timedelta(minutes=5)
@@ -60,11 +62,12 @@ class TooManyKeys(RegistryError):
 
 @dataclass(frozen=True, slots=True)
 class KeptAnswer:
-    """What the first request with a key was answered."""
+    """What the first request with a key was answered; `needs` is what it required of who asked."""
 
     status: int
     headers: Mapping[str, str]
     body: bytes
+    needs: Sequence[Need] = ()
 
 
 def begin_request(*, owner: str, key: str, fingerprint: str, now: datetime) -> KeptAnswer | None:
@@ -101,12 +104,12 @@ def _answer_of(row: KeyedRequest, fingerprint: str, now: datetime) -> KeptAnswer
             "The first request with this Idempotency-Key was cut off; it may have taken effect, and is not carried out "
             "again. Look what holds now, then send what is left with a new key."
         )
-    if row.body is None:
+    if row.body is None or row.needs is None:
         raise AnswerNotKept(
             "This was done when the key first came; what it was answered was not kept, since it held a secret or was "
             "long. Look what holds now."
         )
-    return KeptAnswer(row.status, row.headers, bytes(row.body))
+    return KeptAnswer(row.status, row.headers, bytes(row.body), tuple(Need(*need) for need in row.needs))
 
 
 def _make_room(owner: str) -> None:
@@ -129,7 +132,8 @@ def end_request(*, owner: str, key: str, answer: KeptAnswer, is_secret: bool) ->
         mine.delete()
         return
     body = None if is_secret or len(answer.body) > MOST_BYTES else answer.body
-    mine.update(status=answer.status, headers=dict(answer.headers), body=body)
+    needs = [astuple(need) for need in dict.fromkeys(answer.needs)]
+    mine.update(status=answer.status, headers=dict(answer.headers), body=body, needs=needs)
 
 
 def prune_keyed_requests(*, now: datetime) -> int:

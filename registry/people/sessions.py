@@ -18,7 +18,7 @@ from django.utils.crypto import constant_time_compare
 
 from registry.models import User
 from registry.people.access import allows
-from registry.people.tokens import expiry_of_token, read_standing_roles
+from registry.people.tokens import read_standing_roles
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,8 +28,6 @@ class Session:
     key: str
     person: int
     token: int = 0
-    until: datetime | None = None
-    """When the token ends by itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +45,7 @@ def session_of(request: HttpRequest) -> Session:
     """Return the session of a request that is signed in, or comes with a token."""
     user = request.user
     if isinstance(user, User) and user.grant:
-        return Session("", user.pk, user.grant.token_id, expiry_of_token(token_id=user.grant.token_id))
+        return Session("", user.pk, user.grant.token_id)
     return Session(request.session.session_key or "", int(request.session[SESSION_KEY]))
 
 

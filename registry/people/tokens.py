@@ -172,11 +172,6 @@ def read_standing_roles(*, token_ids: Collection[int], now: datetime) -> dict[in
     return roles
 
 
-def expiry_of_token(*, token_id: int) -> datetime | None:
-    """Return when a token ends if nobody revokes it; None when it has gone."""
-    return ApiToken.objects.filter(pk=token_id).values_list("expires_at", flat=True).first()
-
-
 def prune_tokens(*, now: datetime) -> int:
     """Forget those that ended long ago; returns how many."""
     return ApiToken.objects.filter(expires_at__lt=now - KEPT_EXPIRED).delete()[0]

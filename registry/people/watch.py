@@ -95,7 +95,7 @@ class Watch:
         finally:
             stop = await hearing
             stop()
-            await self._loop.run_in_executor(self._thread, connection.close)
+            await self._loop.run_in_executor(self._thread, _close_connection)
 
     def _hear(self, _site: str, message: Message) -> None:
         """Called on a foreign thread for every live message."""
@@ -125,6 +125,7 @@ class Watch:
 
 
 def _close_connection() -> None:
+    """Close the connection of the thread that calls this; `connection.close` would be looked up by another one."""
     with suppress(Error):
         connection.close()
 

@@ -160,9 +160,15 @@ def set_member(*, site: str, email: str, role: str) -> None:
 
 
 def remove_member(*, site: str, email: str) -> None:
-    """End a membership; the person's open pages of the site are closed."""
-    Membership.objects.filter(site=find_site(site), user__email=email.strip().lower()).delete()
-    transaction.on_commit(lambda: publish(site, {"type": "members"}))
+    """End a membership and its tokens; the person's open pages of the site are closed.
+
+    The row is locked before its tokens are looked for: one that is being made meanwhile ends, too.
+    """
+    members = Membership.objects.filter(site=find_site(site), user__email=email.strip().lower())
+    with transaction.atomic():
+        locked = list(members.select_for_update(of=("self",)).values_list("pk", flat=True))
+        Membership.objects.filter(pk__in=locked).delete()
+        transaction.on_commit(lambda: publish(site, {"type": "members"}))
 
 
 def set_site_stop(*, site: str, active: bool, by: str, at: datetime) -> None:

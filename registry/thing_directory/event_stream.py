@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from asgiref.sync import sync_to_async
-from django.utils import timezone
 
 from registry.devices.things import THINGS, ThingNews, is_kept_since, newest_news, read_news
 from registry.errors import RegistryError
@@ -92,7 +91,7 @@ async def stream_events(listener: Listener, last_id: str) -> AsyncIterator[bytes
 
     A stream that ends is opened anew by its listener, who names the last event it heard and misses nothing.
     """
-    until, left = time.monotonic() + min(MOST_SECONDS, lasts_s(listener.session)), MOST_BYTES
+    until, left = time.monotonic() + MOST_SECONDS, MOST_BYTES
     with suppress(TooManyStreams), counted(listener.session.person):
         async with bell(_may_be_news) as rung, seated(listener.session, rung.set) as seat:
             heard = await _begin(listener, seat, last_id)
@@ -126,11 +125,6 @@ async def bell(is_wanted: Callable[[str, Message], bool]) -> AsyncIterator[async
         yield rung
     finally:
         stop()
-
-
-def lasts_s(session: Session) -> float:
-    """Return how long a token lasts from now on; a session has no end that is known beforehand."""
-    return (session.until - timezone.now()).total_seconds() if session.until else MOST_SECONDS
 
 
 async def wait_for(rung: asyncio.Event, most_s: float) -> bool:

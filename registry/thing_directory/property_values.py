@@ -30,7 +30,6 @@ from registry.thing_directory.event_stream import (
     TooManyStreams,
     bell,
     counted,
-    lasts_s,
     wait_for,
 )
 from vipo_device.protocol.arguments import is_number
@@ -116,7 +115,7 @@ def _is_fit(spec: PropertySpec, value: Scalar) -> bool:
 
 async def stream_values(observer: Observer) -> AsyncIterator[bytes]:
     """Give a property's value and each that follows as server-sent events, until the observer may see no more."""
-    until = time.monotonic() + min(MOST_SECONDS, lasts_s(observer.session))
+    until = time.monotonic() + MOST_SECONDS
     with suppress(TooManyStreams, NoSuchDevice, NoSuchProperty, NotAMember), counted(observer.session.person):
         async with bell(_hears(observer)) as rung, seated(observer.session, rung.set) as seat:
             yield f"retry: {RETRY_MS}\n\n".encode()

@@ -1,4 +1,4 @@
-"""The real MicroPython, fetched once; without it the tests that need it are left out, with the reason."""
+"""The real MicroPython, fetched once."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import pytest
 
 from tests.firmware.rig import interpreter_command
 from tests.kit.files import ROOT
+from tests.kit.servers import must_be_installed
 from vipo_site.demo.firmware_process import find_micropython
 
 
@@ -13,7 +14,7 @@ from vipo_site.demo.firmware_process import find_micropython
 def micropython() -> str:
     path, why = find_micropython(ROOT / "var")
     if path is None:
-        pytest.skip(why)
+        must_be_installed("MicroPython", why)
     return path
 
 

@@ -1,4 +1,7 @@
-"""The one table of who may do what over HTTP: for each operation the role that it needs, and the scope of a token."""
+"""The one table of who may do what, over HTTP and over sockets.
+
+For each operation, socket and stream it has the role that it needs, and the scope of a token.
+"""
 
 from __future__ import annotations
 
@@ -56,3 +59,36 @@ _NAMES = {
 RIGHTS = {name: right for right, names in _NAMES.items() for name in names.split()}
 """What each operation asks; whoever adds an operation adds it here."""
 assert len(RIGHTS) == sum(len(names.split()) for names in _NAMES.values()), "An operation stands in two rows."
+
+SOCKETS = {
+    "ws/site/<slug:slug>": Right("viewer", "session"),
+    "ws/program/<uuid:program>": Right("viewer", "session"),
+}
+"""Who may open each socket, by its route; only who may draw is heard there, and no token opens one."""
+DRAWS = Right("author", "session")
+"""Whose changes are taken in a program's room."""
+STREAMS = {
+    "watch_things": "",
+    "watch_value": "",
+    "current": "?interval=1000",
+    "sample": "?interval=1000",
+    "current_of_device": "?interval=1000",
+    "sample_of_device": "?interval=1000",
+}
+"""Operations that answer with a stream, and how they are asked for one; their rights stand in RIGHTS."""
+STREAMED = ("text/event-stream", "multipart/x-mixed-replace")
+_PERSON = Right("person", "read")
+DIRECTORY = {
+    "GET /.well-known/wot": Right("anybody", "anybody"),
+    **dict.fromkeys(("OPTIONS /things", "OPTIONS /things/{thing}"), Right("anybody", "anybody")),
+    **dict.fromkeys(("GET /things", "GET /events", "GET /events/{kind}"), _PERSON),
+    **dict.fromkeys(("GET /search/{kind}", "POST /search/{kind}"), _PERSON),
+    **dict.fromkeys((f"{method} /things" for method in ("POST", "PUT", "PATCH", "DELETE")), _PERSON),
+    **dict.fromkeys((f"{method} /things/{{thing}}" for method in ("POST", "PUT", "DELETE")), _PERSON),
+    "GET /things/{thing}": Right("viewer", "read"),
+    "PATCH /things/{thing}": Right("admin", "admin"),
+}
+"""The directory of Things outside of /api; what a person lists and hears there is of their own sites alone.
+
+That nothing is made or searched there is told to every person alike.
+"""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import platform
 import pwd
 import secrets
 import shutil
@@ -18,6 +19,9 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NoReturn
+
+import pytest
 
 from registry.broker.mosquitto_file import EVERY_SITE, account_file
 from tests.kit.files import ROOT
@@ -150,6 +154,17 @@ class Mosquitto:
 
     def _story(self) -> str:
         return (self.folder / "mosquitto.log").read_text()
+
+
+def must_be_installed(what: str, why: str) -> NoReturn:
+    """Fail over a part that is missing, with the command that installs it; skip where that command cannot.
+
+    ROS 1 and MicroPython come as Debian's packages.
+    """
+    with suppress(OSError):
+        if platform.freedesktop_os_release().get("ID") == "debian":
+            raise ServerMissing(f"{what} is not here: {why} Run `make servers`, then try again.")
+    pytest.skip(f"{what} comes from Debian's packages, which this system does not have: {why}")
 
 
 def find_program(name: str, *places: str) -> str:

@@ -20,7 +20,7 @@ from registry.floorplan.map_message import join_parts, read_grid_part
 from registry.floorplan.plan import Grid
 from tests.kit.files import ROOT
 from tests.kit.mqtt import Ear, ServerSide
-from tests.kit.servers import Mosquitto, answers, free_port, run_mosquitto, wait_ready
+from tests.kit.servers import Mosquitto, answers, free_port, must_be_installed, run_mosquitto, wait_ready
 from tests.robot_agent.bridge_stand_in import BridgeStandIn
 from tests.robot_agent.pretend_robot import HEIGHT, WIDTH, map_cells
 from vipo_device.descriptions.reader import read_description
@@ -56,9 +56,7 @@ def ros1(broker: Mosquitto, ear: Ear, tmp_path_factory: pytest.TempPathFactory) 
     """Run rosmaster, the stand-in for move_base, and the agent."""
     found = subprocess.run([DEBIAN_PYTHON, "-c", f"import {PACKAGES}"], capture_output=True, text=True)
     if found.returncode:
-        pytest.skip(
-            f"Debian's ROS packages could not be installed (scripts/install-test-servers.sh): {found.stderr[-200:]}"
-        )
+        must_be_installed("ROS 1", found.stderr.strip()[-200:])
     folder, port = tmp_path_factory.mktemp("ros1"), free_port()
     environment = {
         "PATH": "/usr/bin:/bin",

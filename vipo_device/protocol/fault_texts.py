@@ -263,6 +263,18 @@ _JOINING: Mapping[str, str] = {
     "device_id": "A device's id must be 1 to 64 letters, digits, '_', '.' or '-', and not 'server', '.' or '..'.",
     "knock_key": "An enrolment needs `key`: {least} to {most} printable ASCII characters, made at random.",
     "newcomers": "{most} devices wait for approval at this site already. Decide about some of them first.",
+    "reserved_before": (
+        "{by} added {device} at {at} (UTC), and has its key; it has not come yet. Ask them for the key, choose another "
+        "id, or make another key: then the first one ends."
+    ),
+    "reserved_just_now": (
+        "{by} was told a key of {device} at {at} (UTC), seconds ago. Ask for that one, or wait ten seconds: another "
+        "key would end it."
+    ),
+    "knocked_before": (
+        "{device} brought a key of its own at {at} (UTC), and has not described itself yet. Wait until it does, choose "
+        "another id, or make another key: then its own one ends."
+    ),
     "knock_revoked": (
         "{device} wanted to enrol, whose key was revoked. Give it a new key, or retire it and let it come back."
     ),

@@ -1546,6 +1546,8 @@ export interface paths {
         /**
          * Reserve Device
          * @description Reserve an id for a device that will come, and tell its key this once; it still waits for approval then.
+         *
+         *     Where it has a key already that is refused (409), and says who made it; with `again` that key ends.
          */
         post: operations["reserve_device"];
         delete?: never;
@@ -2387,8 +2389,10 @@ export interface components {
             credential: string;
             taken: boolean;
         };
-        /** @description The id of a device that will come. */
+        /** @description The id of a device that will come; `again` gives another key to one that was added and has not come yet. */
         NewDevice: {
+            /** @default false */
+            again: boolean;
             id: string;
         };
         /** @description The password that somebody has, and the one that they want. */

@@ -18,6 +18,8 @@ from registry.api import once
 from registry.models import ApiToken, KeyedRequest
 from registry.people import keyed_requests
 from registry.people.keyed_requests import KeptAnswer, begin_request, end_request
+from tests.kit.api_calls import ask, make_one_of_each, undone
+from tests.kit.api_rights import OPERATIONS, RIGHTS
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
 from tests.kit.sign_in import find_person, signed_in
@@ -93,6 +95,45 @@ def test_a_request_that_is_under_way_was_cut_off_or_failed(hall: str, monkeypatc
     monkeypatch.setattr("editor.services.create_program", lambda **asked: 1 / 0)
     assert [make(author, key="k3").json()["code"] for _ in range(2)] == ["failed", "outcome_unknown"]
     assert Program.objects.count() == 1
+
+
+@pytest.mark.usefixtures("impatient")
+@pytest.mark.parametrize("role", ["none", "viewer"])
+def test_no_answer_is_given_again_to_who_may_not_do_it_any_more(hall: str, role: str) -> None:
+    ids, odd, given_again = {**make_one_of_each("hall"), "token_id": "0" * 16}, {}, 0
+    services.set_site_quota(email="admin@vipo.example", sites=1)
+    changing = [(method, path) for path, calls in OPERATIONS.items() for method in calls if method != "get"]
+    for method, path in changing:
+        name = OPERATIONS[path][method]["operationId"]
+        if RIGHTS[name].role in ("anybody", "person"):
+            continue
+        with undone():
+            admin = signed_in("admin", headers={"Idempotency-Key": "k1"})
+            first, again = (ask(admin, method, path, name, ids) for _ in range(2))
+            given_again += "Idempotency-Replayed" in again
+            for site in services.list_slugs():
+                move(site, role)
+            later = ask(admin, method, path, name, ids)
+            allowed = role == "viewer" and RIGHTS[name].role == "viewer"
+            if (later.status_code < 400 and not allowed) or first.status_code >= 500:
+                odd[name] = (first.status_code, later.status_code, later.content[:200])
+    assert odd == {}
+    assert given_again >= 15
+
+
+def move(site: str, role: str) -> None:
+    """Give the admin another role at a site."""
+    if role == "none":
+        services.remove_member(site=site, email="admin@vipo.example")
+    else:
+        services.set_member(site=site, email="admin@vipo.example", role=role)
+
+
+def test_an_answer_of_an_earlier_version_is_given_to_nobody(hall: str) -> None:
+    first = make(signed_in("author"))
+    KeyedRequest.objects.update(needs=None)
+    again = make(signed_in("author"))
+    assert (first.status_code, again.status_code, again.json()["code"]) == (201, 409, "answer_not_kept")
 
 
 @pytest.mark.parametrize("key", ["", '""', "a b", "a" * 256, "ä", "\0"])

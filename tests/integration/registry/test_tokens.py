@@ -203,7 +203,7 @@ def open_stream(days_left: float = 1.0) -> tuple[str, AsyncIterator[bytes]]:
     until = datetime.now(UTC) + timedelta(days=days_left)
     ApiToken.objects.update(expires_at=until)
     row = ApiToken.objects.get(public_id=made["id"])
-    session = Session("", find_person("viewer").pk, row.pk, until)
+    session = Session("", find_person("viewer").pk, row.pk)
     return made["id"], stream_events(Listener(session, "hall", ("thing_updated",), diff=False), "")
 
 

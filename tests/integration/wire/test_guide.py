@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -18,6 +17,7 @@ from execution.gateway.gateway import Gateway
 from registry import services
 from tests.integration.wire.bus import SITE, Bus
 from tests.kit.files import ROOT
+from tests.kit.servers import find_program
 from tests.kit.waiting import wait_for
 
 LIMIT_S = 120
@@ -27,8 +27,7 @@ pytestmark = pytest.mark.servers
 @pytest.fixture
 def folder(bus: Bus, database: Path, tmp_path: Path) -> Path:
     """A folder with the guide's files, for this broker and site; `vipo` finds the same database."""
-    if shutil.which("mosquitto_pub") is None:
-        pytest.skip("mosquitto_pub is not here; scripts/install-test-servers.sh installs it")
+    find_program("mosquitto_pub")
     made = tmp_path / "lamp"
     made.mkdir()
     secrets = tmp_path / "secrets"

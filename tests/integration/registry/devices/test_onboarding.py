@@ -13,7 +13,7 @@ from rdflib import Graph
 
 from registry import services
 from registry.devices.enrolment import FORGOTTEN_AFTER, MOST_PENDING, reserve_device
-from registry.models import Device, Site
+from registry.models import Device, DeviceEvent, Site
 from registry.services import BadDevice
 from tests.kit.sign_in import ROLES, post_json, signed_in
 from tests.kit.sites import MIXER, NOW, ROBOT, come, describe, may_come_in
@@ -71,13 +71,30 @@ def test_an_added_device_that_comes_before_it_describes_itself_stays_there_too(h
     assert describe().site == "hall"
 
 
-def test_a_second_key_ends_the_first_until_the_device_has_come(hall: str) -> None:
-    first, second = (send("admin", "newcomers").json()["credential"] for _ in range(2))
+def test_a_key_that_somebody_was_told_ends_only_if_an_admin_says_so_and_not_within_seconds(hall: str) -> None:
+    first = send("admin", "newcomers").json()["credential"]
+    refused = send("admin", "newcomers")
+    assert (refused.status_code, refused.json()["code"]) == (409, "already_reserved")
+    assert refused.json()["detail"].startswith("Admin Person added mixer1 at 20")
+    at_once = send("admin", "newcomers", {"id": "mixer1", "again": True})
+    assert (at_once.status_code, at_once.json()["code"]) == (409, "already_reserved")
+    assert "another key would end it" in at_once.json()["detail"]
+    assert may_come_in(first, "mixer1")
+    DeviceEvent.objects.update(at=NOW)
+    second = send("admin", "newcomers", {"id": "mixer1", "again": True}).json()["credential"]
     assert (may_come_in(first, "mixer1"), may_come_in(second, "mixer1")) == (False, True)
     describe()
-    refused = send("admin", "newcomers")
+    refused = send("admin", "newcomers", {"id": "mixer1", "again": True})
     assert (refused.status_code, refused.json()["code"]) == (422, "bad_device")
     assert may_come_in(second, "mixer1")
+
+
+def test_a_key_that_a_device_brought_itself_is_not_ended_by_adding_it(hall: str) -> None:
+    services.enrol_device(site="hall", device_id="mixer1", payload=json.dumps({"key": "k" * 32}).encode(), at=NOW)
+    refused = send("admin", "newcomers")
+    assert (refused.status_code, refused.json()["code"]) == (409, "already_reserved")
+    assert refused.json()["detail"].startswith("mixer1 brought a key of its own at 2026-11-21 12:00 (UTC)")
+    assert may_come_in("k" * 32, "mixer1")
 
 
 def test_ids_of_other_sites_and_ids_that_cannot_be_are_refused(hall: str) -> None:

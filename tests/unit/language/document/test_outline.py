@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 from editor.language.document.outline import make_outline
-from tests.cases.make_outline_cases import FOLDER, cases, text_of
+from tests.cases.make_outline_cases import CASES, FOLDER
+from tests.cases.outline_case import text_of
 
 FILES = sorted(FOLDER.glob("*.json"))
 
@@ -23,5 +24,5 @@ def test_a_document_is_read_as_its_case_says(path: Path) -> None:
 
 
 def test_the_folder_is_what_the_script_writes() -> None:
-    assert {path.stem: path.read_text() for path in FILES} == {name: text_of(each) for name, each in cases().items()}
+    assert {path.stem: path.read_text() for path in FILES} == {name: text_of(each) for name, each in CASES.items()}
     assert len(FILES) >= 40

@@ -3,7 +3,7 @@ import { Button, SegmentedControl, TextInput } from "@mantine/core";
 import { useMutation } from "@tanstack/react-query";
 import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
-import { api } from "@/api/client";
+import { ApiProblem, api } from "@/api/client";
 import type { ExpectedDevice } from "@/api/types";
 import type { Site } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
@@ -26,13 +26,14 @@ function Name({ site, then }: { site: Site; then: (device: ExpectedDevice) => vo
   const name = id.trim();
   const wrong = name !== "" && !ID.test(name);
   const add = useMutation({
-    mutationFn: () => api.post<ExpectedDevice>(`/sites/${site.slug}/newcomers`, { id: name }),
+    mutationFn: (again: boolean) => api.post<ExpectedDevice>(`/sites/${site.slug}/newcomers`, { id: name, again }),
     onSuccess: then,
   });
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    if (name && !wrong) add.mutate();
+    if (name && !wrong) add.mutate(false);
   };
+  const hasKey = add.error instanceof ApiProblem && add.error.code === "already_reserved";
   const problem = add.isError ? problemText(add.error, t("shell.problem.screen")) : null;
   return (
     <form onSubmit={submit} className={styles.stack}>
@@ -56,6 +57,11 @@ function Name({ site, then }: { site: Site; then: (device: ExpectedDevice) => vo
       <Button type="submit" className={styles.go} disabled={!name || wrong} loading={add.isPending}>
         {t("adding.makeKey")}
       </Button>
+      {hasKey && (
+        <Button variant="default" className={styles.go} onClick={() => add.mutate(true)}>
+          {t("adding.makeAnother")}
+        </Button>
+      )}
     </form>
   );
 }
