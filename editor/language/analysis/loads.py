@@ -1,13 +1,15 @@
 """What each robot carries, followed along all paths through the program.
 
 For every role and kind of object two numbers are kept: how many it carries at least and at most. Where paths meet
-the range widens; in a loop, and after a failure, what changed is not known any more and nothing is said of it.
+the range widens. A loop that is counted is followed round by round; in any other what grows with each round has no
+end. After a failure what changed is not known any more and nothing is said of it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from math import inf
 
 from editor.language.analysis.memo import Findings, Memo
 from editor.language.expressions.nodes import Constant, Expression, Variable
@@ -19,13 +21,17 @@ from editor.language.tree.nodes import walk
 from editor.language.tree.variables import set_by
 
 ANY = (0, None)
-Range = tuple[int, int | None]
-"""At least, at most; None: nobody can tell."""
+Range = tuple[int, float | None]
+"""At least, at most; without end where each round of a loop brings more, None: nobody can tell."""
 Carried = Mapping[tuple[str, str], Range]
 """(role, object) → how many; what is not in it is not carried."""
 MOST_CALLS = 500
 """Function calls that are followed; beyond them nothing is known, which is better than slow."""
 DEEPEST_CALL = 12
+MOST_ROUNDS = 2000
+"""Rounds of loops that are followed in all; in the loops after that nothing is known of what they change."""
+MOST_COUNTED = 100
+"""A loop of more rounds is followed as one that nobody has counted."""
 _EVERYTHING = "*"
 
 
@@ -47,6 +53,10 @@ class _Follower:
     memo: Memo | None = None
     met: int = 0
     """Calls that were met, also those that were not followed."""
+    rounds: int = 0
+    """Rounds that were followed within the outermost loop or call that is being followed."""
+    nested: int = 0
+    """Loops and calls around the step that is being followed."""
 
     def block(self, block: n.Block, carried: Carried, values: Mapping[str, Expression]) -> Carried | None:
         """Return what is carried after a block; None where its end is never reached."""
@@ -76,6 +86,11 @@ class _Follower:
         else:
             self.found.extend(known[1])
         return known[0]
+
+    def enter(self) -> None:
+        """Begin to count rounds anew where no other loop or call is around: nothing depends on what came before."""
+        if not self.nested:
+            self.rounds = 0
 
     def report(self, node: n.Pick | n.Drop, code: str, args: dict[str, Argument]) -> None:
         if not self.silent:
@@ -117,14 +132,13 @@ def _pick(follower: _Follower, node: n.Pick, carried: Carried, values: Mapping[s
         elif most is not None and most + quantity > capacity and (node.role, _EVERYTHING) not in carried:
             follower.report(node, "may_carry_too_much", {"capacity": capacity})
     before = _count(carried, key)
-    after = (min(before[0] + quantity, capacity or quantity), None if before[1] is None else before[1] + quantity)
-    return {**carried, key: after}
+    most_after = None if before[1] is None else min(before[1] + quantity, capacity or inf)
+    return {**carried, key: (min(before[0] + quantity, capacity or quantity), most_after)}
 
 
 def _total(counts: Iterable[Range]) -> Range:
     """Return how many there are in all."""
-    least, most = 0, 0
-    known = True
+    least, most, known = 0, 0.0, True
     for count in counts:
         least += count[0]
         most += count[1] or 0
@@ -155,35 +169,80 @@ def _if(follower: _Follower, node: n.If, carried: Carried, values: Mapping[str, 
 def _loop(
     follower: _Follower, node: n.While | n.Repeat | n.ForEach, carried: Carried, values: Mapping[str, Expression]
 ) -> Carried | None:
-    """Walk the body once in silence to see what it changes, then with what is known in every round."""
+    """Follow a loop: each of its rounds where they are counted, else one in which all is known that ever holds."""
+    follower.enter()
+    hidden = {node.variable} if isinstance(node, n.ForEach) else set()
+    values = {name: value for name, value in values.items() if name not in hidden}
+    rounds = _rounds(node, values)
+    if rounds is None or follower.rounds + len(rounds) > MOST_ROUNDS:
+        return _uncounted(follower, node, carried, values)
+    after: Carried | None = carried
+    over: Carried | None = None
+    for known in rounds:
+        if after is None:
+            break
+        after, exits = _round(follower, node.body, after, {**values, **known})
+        for at_exit in exits:
+            over = _either(over, at_exit)
+    return _either(over, after)
+
+
+def _rounds(
+    node: n.While | n.Repeat | n.ForEach, values: Mapping[str, Expression]
+) -> list[Mapping[str, Expression]] | None:
+    """Return for each round what is known of the loop's variable; None where nobody can say how many there are."""
     if isinstance(node, n.ForEach):
-        values = {name: value for name, value in values.items() if name != node.variable}
-    if follower.silent:
+        known = (item if isinstance(item, Constant) else None for item in node.items)
+        rounds: list[Mapping[str, Expression]] = [{node.variable: item} if item else {} for item in known]
+        return rounds if len(rounds) <= MOST_COUNTED else None
+    times = _known(node.times, values) if isinstance(node, n.Repeat) else None
+    return [{}] * int(times) if is_number(times) and 0 <= times <= MOST_COUNTED else None
+
+
+def _uncounted(
+    follower: _Follower, node: n.While | n.Repeat | n.ForEach, carried: Carried, values: Mapping[str, Expression]
+) -> Carried | None:
+    """Walk the body in silence until nothing widens any more, then once more to report."""
+    if follower.rounds >= MOST_ROUNDS:
         return _forget(carried, _roles(follower, node.body))
-    follower.silent = True
-    once, _ = _round(follower, node.body, carried, values)
-    follower.silent = False
-    entry = carried if once is None else _in_every_round(carried, once)
+    silent, follower.silent = follower.silent, True
+    entry = carried
+    while follower.rounds < MOST_ROUNDS:
+        once, _ = _round(follower, node.body, entry, values)
+        widened = entry if once is None else _in_every_round(entry, once)
+        if widened == entry:
+            break
+        entry = widened
+    follower.silent = silent
     after, exits = _round(follower, node.body, entry, values)
-    over = _either(entry, after)
+    over = _either(carried, after)
     for at_exit in exits:
         over = _either(over, at_exit)
     return over
 
 
 def _in_every_round(before: Carried, after: Carried) -> Carried:
-    """Return what is known at the beginning of a round, given what one round changes."""
-    steady = {key: count if _count(after, key) == count else ANY for key, count in before.items()}
-    grown = {key: ANY for key, count in after.items() if key not in before and count != (0, 0)}
-    return {**steady, **grown}
+    """Return what holds at the beginning of every round, given what one round makes of it."""
+    return {key: _widened(_count(before, key), _count(after, key)) for key in {**before, **after}}
+
+
+def _widened(before: Range, after: Range) -> Range:
+    """Return a range that more rounds do not leave: what falls may fall to nothing, what grows has no end."""
+    least = before[0] if after[0] >= before[0] else 0
+    if before[1] is None or after[1] is None:
+        return least, None
+    return least, before[1] if after[1] <= before[1] else inf
 
 
 def _round(
     follower: _Follower, body: n.Block, carried: Carried, values: Mapping[str, Expression]
 ) -> tuple[Carried | None, list[Carried]]:
     """Return what is carried after one round, and where a step leaves the loop."""
+    follower.rounds += 1
+    follower.nested += 1
     follower.breaks.append([])
     after = follower.block(body, carried, values)
+    follower.nested -= 1
     return after, follower.breaks.pop()
 
 
@@ -230,8 +289,10 @@ def _call(follower: _Follower, node: n.Call, carried: Carried, values: Mapping[s
     defaults = {p.name: Constant(p.default) for p in function.parameters if p.default is not None}
     changed = {set_by(inner) for inner in walk(function.body)}
     known = {name: value for name, value in {**defaults, **given}.items() if name not in changed}
+    follower.enter()
     follower.calls += 1
     follower.depth += 1
+    follower.nested += 1
     breaks, follower.breaks = follower.breaks, []
     follower.returns.append([])
     result = follower.block(function.body, carried, known)
@@ -239,6 +300,7 @@ def _call(follower: _Follower, node: n.Call, carried: Carried, values: Mapping[s
         result = _either(result, returned)
     follower.breaks = breaks
     follower.depth -= 1
+    follower.nested -= 1
     return result
 
 
