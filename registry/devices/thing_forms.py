@@ -26,9 +26,9 @@ TOKEN: Mapping[str, Any] = {
 }
 BROKER_TOKEN: Mapping[str, Any] = {
     "scheme": "basic",
-    "in": "auto",
     "description": "A token that was made for the broker, too: user name token:ID, password the token.",
 }
+"""Without saying where in a packet: clients of version 1.0 of the standard know no `auto`."""
 CONTEXTS = (TD_CONTEXT_1_0, TD_CONTEXT)
 """Both, as the standard wants it of Things that clients of its version 1.0 may read, too, such as node-wot 0.8."""
 CALL_ID = {"call": {"type": "string", "format": "uuid", "title": "The call, as `href` names it at its end"}}
