@@ -130,7 +130,7 @@ def observing(address: str, made: dict[str, Any], folder: Path, authority: str =
             yield Observer(process, out)
         finally:
             process.kill()
-            process.wait()
+            process.communicate()
 
 
 def check_observer(admin: httpx.Client, address: str, folder: Path, authority: str = "") -> None:

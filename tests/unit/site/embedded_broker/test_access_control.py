@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import json
 
 import pytest
 
-from registry.broker.mosquitto_file import role_of
+from registry.broker.mosquitto_file import account_file, role_of
 from vipo_device.protocol.credentials import broker_hash
 from vipo_site.embedded_broker.access_control import may_publish, may_subscribe
 
@@ -99,6 +100,15 @@ def test_a_token_hears_its_sites_things_and_stop(topic_filter: str, allowed: boo
 )
 def test_a_token_publishes_nothing(topic: str) -> None:
     assert not may_publish("token:0a", topic)
+
+
+def test_mosquittos_file_has_the_tokens_with_the_site_of_each() -> None:
+    hashes = {"server": broker_hash("word"), "token:0a": broker_hash("a"), "token:0b": broker_hash("b")}
+    written = json.loads(account_file(hashes, {"token:0a": "hall", "token:0b": "yard"}, server="server"))
+    roles = {role["rolename"]: {acl["topic"] for acl in role["acls"]} for role in written["roles"]}
+    assert roles["reader 0b"] == {"vipo/v1/site/yard/things/#", "vipo/v1/site/yard/stop"}
+    clients = {client["username"]: client["roles"][0]["rolename"] for client in written["clients"]}
+    assert clients == {"server": "server", "token:0a": "reader 0a", "token:0b": "reader 0b"}
 
 
 def test_mosquitto_is_given_the_same_rights_of_a_token() -> None:
