@@ -16,6 +16,8 @@ from registry.alerts.watch import watch_devices
 from registry.bounds.places import Claim, Places
 from registry.broker.accounts import wait_account_change
 from registry.broker.mosquitto_file import account_file
+from registry.dashboards.accounts import broker_of, create_token, end_readers, revoke_token
+from registry.dashboards.values import list_heard_sites, read_told
 from registry.demo.devices import SITE as DEMO_SITE
 from registry.demo.devices import read_demo_descriptions
 from registry.demo.factory import get_demo_grid
@@ -24,8 +26,8 @@ from registry.devices.authentication import (
     Principal,
     check_device_password,
     find_ended,
+    list_account_sites,
     list_broker_hashes,
-    list_device_sites,
 )
 from registry.devices.credentials import (
     Decided,
@@ -105,12 +107,10 @@ from registry.people.sign_in import (
 from registry.people.throttle import forget_attempts
 from registry.people.tokens import (
     TokenView,
-    create_token,
     find_bearer,
     find_member,
     list_tokens,
     prune_tokens,
-    revoke_token,
 )
 from registry.people.watch import Seat, watch_of_this_loop
 from registry.sites.quota import set_site_quota
@@ -181,6 +181,7 @@ __all__ = [
     "account_file",
     "alert_to_json",
     "approve_device",
+    "broker_of",
     "change_password",
     "check_device_password",
     "check_sign_in",
@@ -196,6 +197,7 @@ __all__ = [
     "drop_expired",
     "end_alert",
     "end_alerts",
+    "end_readers",
     "enrol_device",
     "expect_device",
     "find_access",
@@ -227,14 +229,15 @@ __all__ = [
     "ingest_state",
     "ingest_states",
     "is_known",
+    "list_account_sites",
     "list_alerts",
     "list_broker_hashes",
     "list_delivery_facts",
     "list_device_events",
     "list_device_ids",
-    "list_device_sites",
     "list_devices",
     "list_granted_topics",
+    "list_heard_sites",
     "list_map_versions",
     "list_open_alerts",
     "list_placed",
@@ -260,6 +263,7 @@ __all__ = [
     "raise_alerts",
     "read_demo_descriptions",
     "read_history",
+    "read_told",
     "readmit_device",
     "reconcile_accounts",
     "record_problem",

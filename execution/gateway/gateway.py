@@ -20,6 +20,7 @@ from django.db import DatabaseError, InterfaceError, connection
 
 from execution.commands.claim import claim_commands, mark_commands_sent
 from execution.floor.stops import list_stops
+from execution.gateway.dashboards import Dashboards
 from execution.gateway.ingest import ENROLMENT, Ingester
 from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
 from registry import services as registry
@@ -52,6 +53,7 @@ class Gateway:
     def __init__(self, settings: Any) -> None:
         # The same name after a restart takes over the session of the one that died, with the answers kept in it.
         self._client = MqttClient.from_settings(settings.VIPO_MQTT, client_id=settings.VIPO_GATEWAY, keep_session=True)
+        self._dashboards = Dashboards(self._client, settings)
         self._pulse = Pulse(settings.VIPO_PULSE)
         self._inbox = Inbox()
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
@@ -70,9 +72,14 @@ class Gateway:
         self._client.subscribe_handled(EVERYTHING, 1, self._arrived)
         self._client.subscribe_handled(ENROLMENTS, 1, self._arrived)
         self._client.on_connected(self._greeting_due.set)
+        self._client.on_connected(self._dashboards.forget_broker)
         self._client.start()
-        sender = threading.Thread(target=self._send_until, args=(stopping,), name="gateway-sender", daemon=True)
-        sender.start()
+        threads = [
+            threading.Thread(target=run, args=(stopping,), name=f"gateway-{name}", daemon=True)
+            for name, run in (("sender", self._send_until), ("dashboards", self._dashboards.run_until))
+        ]
+        for thread in threads:
+            thread.start()
         try:
             while not stopping.is_set():
                 self._pulse.beat()
@@ -85,7 +92,8 @@ class Gateway:
                 registry.flush_alerts()
         finally:
             stopping.set()
-            sender.join(5)
+            for thread in threads:
+                thread.join(5)
             self._client.stop()
             registry.flush_samples(all_of_it=True)
             connection.close()

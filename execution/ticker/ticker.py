@@ -14,15 +14,15 @@ from django.db import DatabaseError, connection, transaction
 from execution import mailbox
 from execution.commands.manual_calls import expire_calls
 from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
+from execution.lease import HeldLease
 from execution.machine.messages import TimerFired
-from execution.models import Lease, Run, Timer
+from execution.models import Run, Timer
 from execution.rehearsals.rehearsals import sweep_rehearsals
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
 from registry import services as registry
 from vipo_device.kit.pulse import Pulse
 
-LEASE_S = 5.0
 TICK_SITES_S = 0.5
 SWEEP_S = 1.0
 PRUNE_S = 600.0
@@ -35,14 +35,13 @@ class Ticker:
     """Called every 0.1 to 0.25 s; does each thing as often as it needs, while it holds the lease."""
 
     def __init__(self, holder: str = HOLDER) -> None:
-        self._holder = holder
-        self._lease_until: datetime | None = None
+        self._lease = HeldLease("ticker", holder)
         self._done_at: dict[str, datetime] = {}
         self._leads_since: datetime | None = None
 
     def tick(self, now: datetime) -> bool:
         """Do what is due; False when another process has the lease."""
-        if not self._hold_lease(now):
+        if not self._lease.hold(now):
             self._leads_since = None
             return False
         self._leads_since = self._leads_since or now
@@ -73,17 +72,6 @@ class Ticker:
             return False
         self._done_at[what] = now
         return True
-
-    def _hold_lease(self, now: datetime) -> bool:
-        """Take or renew the lease; it is renewed when half of it is over, so that ticks cost no write."""
-        if self._lease_until is not None and now < self._lease_until - timedelta(seconds=LEASE_S / 2):
-            return True
-        until = now + timedelta(seconds=LEASE_S)
-        Lease.objects.get_or_create(name="ticker", defaults={"holder": self._holder, "until": until})
-        mine = Lease.objects.filter(name="ticker", holder=self._holder).update(until=until)
-        free = mine or Lease.objects.filter(name="ticker", until__lt=now).update(holder=self._holder, until=until)
-        self._lease_until = until if free else None
-        return bool(free)
 
 
 def fire_timers(now: datetime) -> int:

@@ -11,6 +11,7 @@ from ninja import Field, Router, Schema
 from ninja.responses import Status
 
 from registry.api.authentication import session_only
+from registry.dashboards import accounts
 from registry.models import User
 from registry.people import tokens
 from registry.people.access import require
@@ -18,7 +19,7 @@ from registry.people.tokens import MOST_DAYS, MOST_NAME, TokenView
 from registry.shapes import Asked, Line, signed_in
 
 router = Router(tags=["registry"])
-Scope = Literal["read", "operate", "run", "admin"]
+Scope = Literal["read", "operate", "run", "admin", "broker"]
 
 
 class TokenShape(Schema):
@@ -36,17 +37,26 @@ class TokenShape(Schema):
 
 
 class NewToken(Asked):
-    """What a token is for, what it may do, and how long."""
+    """What a token is for, what it may do, and how long; `broker`, with `read` alone, lets it in over MQTT, too."""
 
     name: Line = Field(min_length=1, max_length=MOST_NAME)
     scopes: list[Scope] = Field(min_length=1, max_length=4)
     days: int = Field(90, ge=1, le=MOST_DAYS)
 
 
+class BrokerWay(Schema):
+    """How a program comes in to MQTT by a token, its password, and what it may hear; `address` is empty if unknown."""
+
+    address: str
+    username: str
+    topics: str
+
+
 class MadeToken(TokenShape):
     """A new token; `token` is its text, told this once."""
 
     token: str
+    broker: BrokerWay | None
 
 
 @router.get("/sites/{slug}/tokens", response=list[TokenShape], auth=session_only)
@@ -63,11 +73,11 @@ def create_token(request: HttpRequest, response: HttpResponse, slug: str, body: 
     """Make a token by which a program asks as the asker at this site, and tell it this once."""
     user = signed_in(request)
     require(user, slug, "viewer")
-    view, text = tokens.create_token(
+    view, text = accounts.create_token(
         user=user, site=slug, name=body.name, scopes=body.scopes, days=body.days, now=timezone.now()
     )
     response["Cache-Control"] = "no-store"
-    return Status(201, {**_to_json(view, user), "token": text})
+    return Status(201, {**_to_json(view, user), "token": text, "broker": accounts.broker_of(view=view)})
 
 
 @router.delete("/sites/{slug}/tokens/{token_id}", response={204: None}, auth=session_only)
@@ -75,7 +85,7 @@ def revoke_token(request: HttpRequest, slug: str, token_id: str) -> Status[None]
     """End one of the asker's tokens at once, as an admin of the site anybody's."""
     user = signed_in(request)
     access = require(user, slug, "viewer")
-    tokens.revoke_token(token_id=token_id, site=slug, user=None if access.allows("admin") else user)
+    accounts.revoke_token(token_id=token_id, site=slug, user=None if access.allows("admin") else user)
     return Status(204, None)
 
 

@@ -39,7 +39,10 @@ class BrokerAway(RegistryError):
 
 @dataclass(frozen=True, slots=True)
 class Account:
-    """Who may come in: a device's id (or `join:<site>` to enrol at a site), the key, and a device's site and topics."""
+    """Who may come in, and with which key: a device by its id, `join:<site>` to enrol there, `token:<id>` to hear.
+
+    `site` is a device's or a token's, `topics` are a device's legacy ones.
+    """
 
     name: str
     key: str

@@ -1,4 +1,4 @@
-"""Mosquitto's accounts as its dynamic security plugin reads them: one role with literal topics for each device.
+"""Mosquitto's accounts as its dynamic security plugin reads them: one role with literal topics for each of them.
 
 The plugin of Mosquitto 2.0 puts no user's name into a topic, so each account has a role of its own.
 """
@@ -8,6 +8,8 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
+
+from vipo_device.protocol.topics import READER, is_reader, stop_topic, things_prefix
 
 Acl = dict[str, object]
 Role = dict[str, Any]
@@ -26,19 +28,23 @@ def device_role(device_id: str, site: str, topics: Sequence[str] = ()) -> Role:
     `topics` are legacy ones that an admin has confirmed for it.
     """
     own = f"vipo/v1/dev/{device_id}"
-    heard = (f"{own}/down/#", _stop_of(site), SERVER_STATUS, *topics)
-    acls = [_allow("publishClientSend", f"{own}/up/#")]
-    acls += [_allow(act, topic) for topic in heard for act in ("publishClientReceive", "subscribePattern")]
-    return {"rolename": f"{_DEVICE}{device_id}", "acls": acls}
+    heard = (f"{own}/down/#", stop_topic(site), SERVER_STATUS, *topics)
+    return {"rolename": f"{_DEVICE}{device_id}", "acls": [_allow("publishClientSend", f"{own}/up/#"), *_hears(heard)]}
 
 
-def _stop_of(site: str) -> str:
-    return f"vipo/v1/site/{site}/stop"
+def reader_role(name: str, site: str) -> Role:
+    """Return what a member's program may do by a token: hear how its site's Things are, and its stop; say nothing."""
+    acls = _hears((f"{things_prefix(site)}#", stop_topic(site)))
+    return {"rolename": f"reader {name.removeprefix(READER)}", "acls": acls}
+
+
+def _hears(topics: Sequence[str]) -> list[Acl]:
+    return [_allow(act, topic) for topic in topics for act in ("publishClientReceive", "subscribePattern")]
 
 
 def find_hearing_all_stops(roles: Sequence[Role]) -> frozenset[str]:
     """Return the devices among these roles that hear the stops of all sites."""
-    wide = [role["rolename"] for role in roles if any(acl["topic"] == _stop_of(EVERY_SITE) for acl in role["acls"])]
+    wide = [role["rolename"] for role in roles if any(acl["topic"] == stop_topic(EVERY_SITE) for acl in role["acls"])]
     return frozenset(name.removeprefix(_DEVICE) for name in wide if name.startswith(_DEVICE))
 
 
@@ -74,7 +80,7 @@ def account_file(
     *,
     server: str,
 ) -> str:
-    """Return the plugin's file for {name: `$7$rounds$salt$hash`}, {device: its site} and {device: confirmed topics}.
+    """Return the plugin's file for {name: `$7$rounds$salt$hash`}, {name: its site} and {device: confirmed topics}.
 
     `server` is the name of VIPO's own account.
     """
@@ -88,7 +94,9 @@ def account_file(
 
 
 def role_of(name: str, site: str = "", topics: Sequence[str] = ()) -> Role:
-    """Return the role of a device's account, or of a site's for enrolment, by its name."""
+    """Return the role of a device's account, a token's, or a site's for enrolment, by its name."""
+    if is_reader(name):
+        return reader_role(name, site)
     return enrolment_role(name) if name.startswith(ENROLMENT) else device_role(name, site, topics)
 
 

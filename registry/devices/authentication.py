@@ -1,4 +1,4 @@
-"""Who may connect to the broker as a device: by its own key, or by the enrolment key of a site.
+"""Who may connect to the broker: a device by its own key or the enrolment key of a site, a program by its token.
 
 The embedded broker asks here with each connection; Mosquitto is given the same as accounts (registry/broker).
 """
@@ -18,9 +18,11 @@ from registry.broker.mosquitto_file import ENROLMENT
 from registry.devices.enrolment import make_pending_device
 from registry.devices.rows import RESERVED_IDS, BadDevice
 from registry.models import Device, Site
+from registry.people.tokens import find_reader, list_readers
 from registry.sites.namespaces import OF_IDS, may_name
 from vipo_device.protocol.credentials import secret_hash
 from vipo_device.protocol.messages import is_device_id
+from vipo_device.protocol.topics import is_reader
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +49,7 @@ class Login:
 
 
 def check_device_password(*, username: str, password: str) -> Principal | None:
-    """Return who may connect with this: a device by its own key, or one that enrols by a site's enrolment key.
+    """Return who may connect with this: a device by its key, one that enrols by its site's, a program by its token.
 
     The enrolment key is for the user name `join:<site>`, under which devices bring a key of their own; the embedded
     broker also takes it from a device whose id has no key yet: one of that site, or a new one, which is that site's
@@ -56,6 +58,9 @@ def check_device_password(*, username: str, password: str) -> Principal | None:
     offered = secret_hash(password)
     if username.startswith(ENROLMENT):
         return _check_enrolment(username, offered)
+    if is_reader(username):
+        reader = find_reader(username=username, password=password, now=timezone.now())
+        return Principal(username, False, offered, site=reader.site) if reader else None
     if not is_device_id(username) or username in RESERVED_IDS:
         return None
     device = Device.objects.filter(pk=username).select_related("site").first()
@@ -97,24 +102,32 @@ def _check_enrolment(username: str, offered: str) -> Principal | None:
 
 
 def list_broker_hashes() -> dict[str, str]:
-    """Return who has an account at the broker, with the hash that it keeps: devices by id, sites by `join:<site>`."""
+    """Return who has an account at the broker, with the hash that it keeps: by the accounts' names."""
     devices = Device.objects.exclude(broker_hash="").exclude(lifecycle=Device.Lifecycle.RETIRED)
     sites = Site.objects.exclude(join_broker_hash="").values_list("slug", "join_broker_hash")
-    return {**{ENROLMENT + slug: hashed for slug, hashed in sites}, **dict(devices.values_list("pk", "broker_hash"))}
+    readers = {reader.name: reader.broker_hash for reader in list_readers(now=timezone.now())}
+    joins = {ENROLMENT + slug: hashed for slug, hashed in sites}
+    return {**readers, **joins, **dict(devices.values_list("pk", "broker_hash"))}
 
 
-def list_device_sites() -> dict[str, str]:
-    """Return the site of each device."""
-    return dict(Device.objects.values_list("pk", "site__slug"))
+def list_account_sites() -> dict[str, str]:
+    """Return the site of each device and of each token that opens the broker, by the names of their accounts."""
+    readers = {reader.name: reader.site for reader in list_readers(now=timezone.now())}
+    return {**readers, **dict(Device.objects.values_list("pk", "site__slug"))}
 
 
 def find_ended(*, logins: Mapping[str, Login]) -> frozenset[str]:
-    """Return which of these connections, by user name, must end: taken out, with another key, or other topics."""
+    """Return which of these connections, by user name, must end.
+
+    Those of devices that were taken out, or have another key or other topics, and of keys and tokens that have ended.
+    """
     facts = ("pk", "lifecycle", "credential_hash", "ends_before", "granted")
     rows = Device.objects.filter(pk__in=list(logins)).values_list(*facts)
     sites = Site.objects.filter(slug__in=[n.removeprefix(ENROLMENT) for n in logins if n.startswith(ENROLMENT)])
     keys = {ENROLMENT + slug: key for slug, key in sites.values_list("slug", "join_key_hash")}
     ended = {name for name, login in logins.items() if name.startswith(ENROLMENT) and keys.get(name) != login.key}
+    if readers := {name for name in logins if is_reader(name)}:
+        ended |= readers - {reader.name for reader in list_readers(now=timezone.now())}
     for name, lifecycle, key, ends_before, granted in rows:
         login = logins[name]
         is_out = lifecycle == Device.Lifecycle.RETIRED or (lifecycle == Device.Lifecycle.APPROVED and not key)

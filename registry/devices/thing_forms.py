@@ -1,17 +1,21 @@
 """A device as the Thing that programs use: over HTTP, with a token, every value as its schema says.
 
 What a device says of itself names its own MQTT topics; those are for VIPO alone, so that runs, stops and people's calls
-meet at one place. Addresses are relative to the Thing's `base`, since what became of Things is kept for every reader.
+meet at one place. Addresses are relative to the Thing's `base`, since what became of Things is kept for every reader;
+values are also told on topics of VIPO's own, at the broker of VIPO_BROKER_URL.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
+
+from django.conf import settings
 
 from vipo_device.descriptions.forms import TD_CONTEXT, TD_CONTEXT_1_0
 from vipo_device.descriptions.thing_description import schema_of, thing_of
 from vipo_device.protocol.description import Description, MethodSpec, PropertySpec
+from vipo_device.protocol.topics import property_topic
 
 TOKEN: Mapping[str, Any] = {
     "scheme": "bearer",
@@ -20,6 +24,11 @@ TOKEN: Mapping[str, Any] = {
     "format": "opaque",
     "description": "A token that a member has made for a program, on VIPO's pages.",
 }
+BROKER_TOKEN: Mapping[str, Any] = {
+    "scheme": "basic",
+    "description": "A token that was made for the broker, too: user name token:ID, password the token.",
+}
+"""Without saying where in a packet: clients of version 1.0 of the standard know no `auto`."""
 CONTEXTS = (TD_CONTEXT_1_0, TD_CONTEXT)
 """Both, as the standard wants it of Things that clients of its version 1.0 may read, too, such as node-wot 0.8."""
 CALL_ID = {"call": {"type": "string", "format": "uuid", "title": "The call, as `href` names it at its end"}}
@@ -47,12 +56,17 @@ def consumed_thing(said: Description, site: str) -> dict[str, Any]:
     address = things_address(site, said.id)
     described = thing_of(said)
     everything = {"op": "readallproperties", **_form("GET", f"{address}/properties")}
+    broker = str(settings.VIPO_BROKER_URL)
+    tokens = {"token": dict(TOKEN), **({"broker_token": dict(BROKER_TOKEN)} if broker else {})}
     return {
         **described,
         "@context": [*CONTEXTS, *described["@context"][1:]],
-        "securityDefinitions": {"token": dict(TOKEN)},
+        "securityDefinitions": tokens,
         "security": ["token"],
-        "properties": {spec.name: _property_of(spec, address) for spec in said.properties},
+        "properties": {
+            spec.name: _property_of(spec, address, _told(broker, property_topic(site, said.id, spec.name)))
+            for spec in said.properties
+        },
         "actions": {method.name: _action_of(method, address) for method in said.methods},
         "forms": [everything],
     }
@@ -62,8 +76,15 @@ def _form(method: str, href: str) -> dict[str, Any]:
     return {"href": href, "htv:methodName": method, "contentType": "application/json"}
 
 
-def _property_of(spec: PropertySpec, address: str) -> dict[str, Any]:
-    """Return a property; of the two ways to observe it the first is the one that carries a token everywhere.
+def _told(broker: str, topic: str) -> list[dict[str, Any]]:
+    """Return the form by which a value is heard at the broker, if it is known where that is."""
+    subscribe = {"mqv:controlPacket": "subscribe", "mqv:filter": topic, "mqv:qos": "0", "mqv:retain": True}
+    form = {"href": f"{broker.rstrip('/')}/{topic}", "contentType": "application/json", "security": ["broker_token"]}
+    return [{"op": ["observeproperty", "unobserveproperty"], **form, **subscribe}] if broker else []
+
+
+def _property_of(spec: PropertySpec, address: str, told: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return a property; of the ways to observe it the first is the one that carries a token everywhere.
 
     That form names no method: node-wot asks by HEAD first, unless a method is named.
     """
@@ -74,6 +95,7 @@ def _property_of(spec: PropertySpec, address: str) -> dict[str, Any]:
         {"op": "readproperty", **_form("GET", here)},
         {**observe, "href": f"{here}/next", "contentType": "application/json", "subprotocol": "longpoll"},
         {**observe, **_form("GET", f"{here}/events"), "subprotocol": "sse"},
+        *told,
     ]
     return {**title, **value_schema(spec), "readOnly": True, "observable": True, "forms": forms}
 

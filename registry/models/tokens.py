@@ -11,7 +11,7 @@ class ApiToken(models.Model):
     """A program's way in: it asks as a member of one site, and ends with the membership.
 
     Of the token itself only the SHA-256 of its secret part is kept; that part is random, so that a slow hash would
-    add nothing.
+    add nothing. One that also opens the broker has in `broker_hash` what Mosquitto keeps of it.
     """
 
     membership = models.ForeignKey(Membership, on_delete=models.CASCADE, related_name="tokens")
@@ -22,6 +22,7 @@ class ApiToken(models.Model):
     created_at = models.DateTimeField()
     expires_at = models.DateTimeField()
     last_used_at = models.DateTimeField(null=True)
+    broker_hash = models.CharField(max_length=160, blank=True)
 
     class Meta:
         """Those that are long over are found by when they ended."""

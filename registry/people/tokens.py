@@ -17,6 +17,8 @@ from registry.live.fanout import publish
 from registry.models import ApiToken, Membership, User
 from registry.models.people import Grant
 from registry.people.access import ROLES, SCOPES, NotAllowed, NotAMember, access_of
+from vipo_device.protocol.credentials import broker_hash
+from vipo_device.protocol.topics import reader_name
 
 MARK = "vipo"
 MOST_OF_MEMBER = 20
@@ -25,7 +27,9 @@ MOST_DAYS = 366
 MOST_NAME = 100
 USE_NOTED_EVERY = timedelta(minutes=1)
 KEPT_EXPIRED = timedelta(days=30)
-_LEAST_ROLE = {"read": "viewer", "operate": "viewer", "run": "operator", "admin": "admin"}
+BROKER = "broker"
+"""The scope that lets a token in at the MQTT broker, too; it goes with `read` alone and says nothing of roles."""
+_LEAST_ROLE = {"read": "viewer", "operate": "viewer", "run": "operator", "admin": "admin", BROKER: "viewer"}
 """Who may give a token which scope; viewers operate nothing but the stop, which everybody may press."""
 
 
@@ -72,13 +76,27 @@ class TokenView:
     expires_at: datetime
     last_used_at: datetime | None
 
+    @property
+    def opens_broker(self) -> bool:
+        """Whether the broker lets somebody in by it."""
+        return BROKER in self.scopes
 
-def create_token(
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """Whom the broker lets in by a token: the user name there, the site, and what Mosquitto keeps of the token."""
+
+    name: str
+    site: str
+    broker_hash: str
+
+
+def keep_token(
     *, user: User, site: str, name: str, scopes: Collection[str], days: int, now: datetime
 ) -> tuple[TokenView, str]:
-    """Make a token of a member; return it, and its text, which nobody can be told again.
+    """Keep a new token of a member; return it, and its text, which nobody can be told again.
 
-    Raises NotAMember, NotAllowed, BadToken, TooManyTokens.
+    One for the broker opens that once it has the account. Raises NotAMember, NotAllowed, BadToken, TooManyTokens.
     """
     name = " ".join(name.split())
     if not 0 < len(name) <= MOST_NAME or not name.isprintable():
@@ -86,6 +104,7 @@ def create_token(
     if not 1 <= days <= MOST_DAYS:
         raise BadToken(f"A token lasts 1 to {MOST_DAYS} days, not {days}.")
     public_id, secret = secrets.token_hex(8), secrets.token_urlsafe(32)
+    text = f"{MARK}_{public_id}_{secret}"
     with transaction.atomic():
         member = _lock_member(user, site)
         _check_scopes(scopes, member.role)
@@ -96,11 +115,12 @@ def create_token(
             public_id=public_id,
             secret_hash=_hash(secret),
             name=name,
-            scopes=" ".join(scope for scope in SCOPES if scope in scopes),
+            scopes=" ".join(scope for scope in SCOPES if scope in scopes) or "read",
             created_at=now,
             expires_at=now + timedelta(days=days),
+            broker_hash=broker_hash(text) if BROKER in scopes else "",
         )
-    return _view(row), f"{MARK}_{public_id}_{secret}"
+    return _view(row), text
 
 
 def _lock_member(user: User, site: str) -> Membership:
@@ -112,8 +132,10 @@ def _lock_member(user: User, site: str) -> Membership:
 
 
 def _check_scopes(scopes: Collection[str], role: str) -> None:
-    if not scopes or not set(scopes) <= set(SCOPES):
-        raise BadToken(f"A token has one or more of the scopes {', '.join(SCOPES)}.")
+    if not scopes or not set(scopes) <= _LEAST_ROLE.keys():
+        raise BadToken(f"A token has one or more of the scopes {', '.join(_LEAST_ROLE)}.")
+    if BROKER in scopes and not set(scopes) <= {"read", BROKER}:
+        raise BadToken("A token that opens the broker is for read alone. Make another one for what else is to be done.")
     for scope in scopes:
         if ROLES.index(role) < ROLES.index(_LEAST_ROLE[scope]):
             raise NotAllowed(f"You are {role} of this site; a token for {scope} needs the role {_LEAST_ROLE[scope]}.")
@@ -138,7 +160,7 @@ def list_tokens(*, site: str, user: User | None = None) -> tuple[TokenView, ...]
     return tuple(_view(row) for row in rows.order_by("-created_at", "-id")[:MOST_LISTED])
 
 
-def revoke_token(*, token_id: str, site: str = "", user: User | None = None) -> TokenView:
+def drop_token(*, token_id: str, site: str = "", user: User | None = None) -> TokenView:
     """End a token at once, with the streams opened by it; of one site or person only, if named. Raises NoSuchToken."""
     rows = _rows().filter(public_id=token_id.replace("\0", ""))
     if site:
@@ -153,14 +175,43 @@ def revoke_token(*, token_id: str, site: str = "", user: User | None = None) -> 
 
 def find_bearer(*, token: str, now: datetime) -> User:
     """Return the person whose token this is, who has no more rights than it grants. Raises InvalidToken."""
+    row = _find_row(token, now)
+    if row is None:
+        raise InvalidToken("This token is not valid: it has ended, was revoked, or never was one. Make another one.")
+    _note_use(row, now)
+    return _person(row)
+
+
+def _find_row(token: str, now: datetime) -> ApiToken | None:
     mark, _, rest = token.partition("_")
     public_id, _, secret = rest.partition("_")
     looks_like_one = mark == MARK and len(token) < 100 and token.isascii() and token.isprintable()
     row = _standing(now).filter(public_id=public_id).first() if looks_like_one else None
-    if not hmac.compare_digest(_hash(secret), row.secret_hash if row else _hash("")) or row is None:
-        raise InvalidToken("This token is not valid: it has ended, was revoked, or never was one. Make another one.")
+    is_right = hmac.compare_digest(_hash(secret), row.secret_hash if row else _hash(""))
+    return row if is_right else None
+
+
+def find_reader(*, username: str, password: str, now: datetime) -> Reader | None:
+    """Return whom the broker lets in by this user name and token; None for nobody."""
+    row = _find_row(password, now)
+    if row is None or not row.broker_hash or reader_name(row.public_id) != username:
+        return None
     _note_use(row, now)
-    return _person(row)
+    return _reader(row)
+
+
+def list_readers(*, now: datetime) -> tuple[Reader, ...]:
+    """Return all tokens that open the broker at this moment."""
+    return tuple(_reader(row) for row in _standing(now).exclude(broker_hash=""))
+
+
+def stands_locked(*, token_id: str) -> bool:
+    """Tell whether nobody has revoked a token, and let nobody do so before the transaction ends."""
+    return ApiToken.objects.select_for_update().filter(public_id=token_id).first() is not None
+
+
+def _reader(row: ApiToken) -> Reader:
+    return Reader(reader_name(row.public_id), row.membership.site.slug, row.broker_hash)
 
 
 def read_standing_roles(*, token_ids: Collection[int], now: datetime) -> dict[int, dict[str, str]]:
@@ -208,7 +259,7 @@ def _view(row: ApiToken) -> TokenView:
         id=row.public_id,
         site=member.site.slug,
         name=row.name,
-        scopes=tuple(row.scopes.split()),
+        scopes=(*row.scopes.split(), *((BROKER,) if row.broker_hash else ())),
         person_id=member.user_id,
         person=member.user.display_name,
         email=member.user.email,

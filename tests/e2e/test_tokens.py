@@ -40,6 +40,39 @@ def test_a_token_is_made_shown_once_used_and_revoked_by_keyboard(demo: Demo, sig
     assert httpx.get(f"{demo.url}/api/sites", headers=asked).status_code == 401
 
 
+@pytest.mark.parametrize(("language", "dark"), [("en", False), ("de", True)])
+def test_a_token_for_the_broker_is_for_reading_alone_and_says_how_a_dashboard_comes_in(
+    sign_in: SignIn, language: str, dark: bool
+) -> None:
+    words = {
+        "en": ("New token", "What it is for", "At the broker", "Operate", "User name", "Topics", "I have it", "Revoke"),
+        "de": (
+            *("Neue Zugangsmarke", "Wofür sie ist", "Am Broker", "Bedienen", "Benutzername", "Themen (Topics)"),
+            *("Ich habe sie", "Widerrufen"),
+        ),
+    }
+    new, name, broker, operate, username, topics, done, revoke = words[language]
+    page = sign_in("author", PAGE, dark=dark, language=language)
+    page.get_by_role("button", name=new).press("Enter")
+    page.get_by_label(name).fill("Wall display")
+    page.get_by_role("checkbox", name=operate).press("Space")
+    expect(page.get_by_role("checkbox", name=broker)).to_be_disabled()
+    page.get_by_role("checkbox", name=operate).press("Space")
+    page.get_by_role("checkbox", name=broker).press("Space")
+    expect(page.get_by_role("checkbox", name=operate)).to_be_disabled()
+    page.get_by_label(name).press("Enter")
+    told = page.get_by_role("dialog")
+    assert told.get_by_label(username).input_value().startswith("token:")
+    assert told.get_by_label(topics).input_value() == "vipo/v1/site/painting-factory/things/#"
+    assert violations(page) == []
+    page.get_by_role("button", name=done).press("Enter")
+    row = page.get_by_role("row", name="Wall display")
+    expect(row).to_contain_text(broker)
+    row.get_by_role("button").press("Enter")
+    page.get_by_role("dialog").get_by_role("button", name=revoke).press("Enter")
+    expect(page.get_by_role("row", name="Wall display")).to_have_count(0)
+
+
 @pytest.mark.parametrize(
     ("language", "dark", "width", "height"),
     [("en", False, 1600, 1000), ("de", True, 1600, 1000), ("de", False, 820, 1180), ("en", True, 820, 1180)],

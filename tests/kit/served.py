@@ -100,6 +100,7 @@ def settings_for(state: Path, database_url: str, redis_url: str, mosquitto: Mosq
         "VIPO_MQTT_TLS": "1",
         "VIPO_MQTT_CA": mosquitto.authority,
         "VIPO_MQTT_PASSWORD": mosquitto.accounts["server"],
+        "VIPO_BROKER_URL": f"mqtts://localhost:{mosquitto.device_port}/",
         "VIPO_DEMO": "1",
         "VIPO_LOG": "INFO",
         "PYTHONUNBUFFERED": "1",

@@ -1,4 +1,6 @@
-"""Pure: which topics a device may name for its methods: its own, or a legacy one that an admin has to confirm."""
+"""Pure: which topics a device may name for its methods (its own, or a legacy one that an admin has to confirm), and
+those on which programs of members hear how a site's Things are.
+"""
 
 from __future__ import annotations
 
@@ -19,6 +21,35 @@ RESERVED = "vipo"
 """Everything below this first level belongs to VIPO."""
 _LEVEL = re.compile(r"[A-Za-z0-9_.@=~-]+")
 _METHOD = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
+
+
+READER = "token:"
+"""Before a token's id: the user name by which a member's program comes in to hear, and to say nothing."""
+
+
+def reader_name(token_id: str) -> str:
+    """Return by which user name a token comes in to the broker."""
+    return f"{READER}{token_id}"
+
+
+def is_reader(username: str) -> bool:
+    """Tell whether this is the user name of a token."""
+    return username.startswith(READER)
+
+
+def stop_topic(site: str) -> str:
+    """Return where a site's devices and programs hear its stop."""
+    return f"vipo/v1/site/{site}/stop"
+
+
+def things_prefix(site: str) -> str:
+    """Return what the topics begin with on which VIPO tells how a site's Things are."""
+    return f"vipo/v1/site/{site}/things/"
+
+
+def property_topic(site: str, device_id: str, name: str) -> str:
+    """Return where VIPO tells a property's value, alone."""
+    return f"{things_prefix(site)}{device_id}/properties/{name}"
 
 
 def own_prefix(device_id: str) -> str:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from registry.services import TokenView
 
 WHAT = "Make a token by which a program asks as a member of a site, printed this once; list them, or revoke one."
-SCOPES = ("read", "operate", "run", "admin")
+SCOPES = ("read", "operate", "run", "admin", "broker")
 COLUMNS = ("id", "name", "site", "person", "scopes", "until", "last used")
 
 
@@ -23,7 +23,8 @@ def add_token_arguments(sub: argparse.ArgumentParser) -> None:
     create.add_argument("email", help="the member as whom the program asks")
     create.add_argument("--site", required=True, help="the only site where it may ask")
     create.add_argument("--name", required=True, help="what it is for")
-    create.add_argument("--scope", action="append", choices=SCOPES, help="what it may do (read); can be said again")
+    may = "what it may do (read); can be said again, broker (to hear values over MQTT, too) with read alone"
+    create.add_argument("--scope", action="append", choices=SCOPES, help=may)
     create.add_argument("--days", type=int, default=90, help="how long it lasts (90)")
     create.set_defaults(run=create_token)
     listed = actions.add_parser("list", help="list them, without their secrets")
@@ -54,6 +55,9 @@ def create_token(options: argparse.Namespace) -> int:
         return complain(error.detail)
     write(f"{view.name} asks as {view.email} at {view.site} until {view.expires_at:%Y-%m-%d}: {' '.join(view.scopes)}.")
     write(f"The token, shown this once: {text}")
+    if way := services.broker_of(view=view):
+        where = way["address"] or "the address that whoever serves VIPO knows"
+        write(f"The MQTT broker: {where}, user name {way['username']}, password the token; topics {way['topics']}")
     return CLEAN
 
 

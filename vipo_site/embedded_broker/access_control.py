@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from django.db import close_old_connections
 
+from vipo_device.protocol.topics import is_reader, stop_topic, things_prefix
+
 if TYPE_CHECKING:
     from registry.services import Login
 
@@ -20,7 +22,7 @@ Line = tuple[str, str, Mapping[str, Any]]
 """For a device's history: its id, an English sentence, and what a screen says that from."""
 ENROLMENT = "join:"
 """Before a site's name: the user name of who enrols there (docs/protocol.md)."""
-LOOK_EVERY_S = 2.0
+LOOK_EVERY_S = 1.0
 _ENROL = re.compile(r"vipo/v1/join/([a-zA-Z0-9_-]+)/[A-Za-z0-9_.-]{1,64}")
 _STOP = re.compile(r"vipo/v1/site/[^/#]+/stop")
 EVERY_SITE = "+"
@@ -45,7 +47,7 @@ class AccessControl(Protocol):
         """Return which connections, by user name, must end now."""
 
     def wait(self) -> None:
-        """Return when it is time to look for ended ones: soon after a change, every 2 s at the latest."""
+        """Return when it is time to look for ended ones: soon after a change, every second at the latest."""
 
     def record(self, dropped: Mapping[str, int], lines: Sequence[Line]) -> None:
         """Note how many messages of each device were dropped, and (device, line) for their histories."""
@@ -117,7 +119,9 @@ class RegistryAccess:
 
 
 def may_publish(username: str, topic: str) -> bool:
-    """Say whether somebody may write to a topic: a device under its own `up/`, who enrols at its own site."""
+    """Say whether somebody may write to a topic: a device under its own `up/`, who enrols at its site, no token."""
+    if is_reader(username):
+        return False
     if username.startswith(ENROLMENT):
         enrolment = _ENROL.fullmatch(topic)
         return enrolment is not None and enrolment[1] == username.removeprefix(ENROLMENT)
@@ -127,11 +131,13 @@ def may_publish(username: str, topic: str) -> bool:
 def may_subscribe(username: str, topic_filter: str, site: str, topics: Collection[str] = ()) -> bool:
     """Say whether somebody may ask for a filter: a device its own `down/`, its site's stop and the server's births.
 
-    `topics` are the legacy ones that an admin has confirmed for it.
+    `topics` are the legacy ones that an admin has confirmed for it. A token may ask for its site's Things and stop.
     """
+    if is_reader(username):
+        return topic_filter.startswith(things_prefix(site)) or topic_filter == stop_topic(site)
     if username.startswith(ENROLMENT):
         return False
     if topic_filter.startswith(f"vipo/v1/dev/{username}/down/") or topic_filter in topics:
         return True
-    is_stop = _STOP.fullmatch(topic_filter) and (site == EVERY_SITE or topic_filter == f"vipo/v1/site/{site}/stop")
+    is_stop = _STOP.fullmatch(topic_filter) and (site == EVERY_SITE or topic_filter == stop_topic(site))
     return bool(is_stop) or topic_filter == "vipo/v1/srv/status"

@@ -25,9 +25,10 @@ from amqtt.mqtt.connack import NOT_AUTHORIZED, SERVER_UNAVAILABLE, UNACCEPTABLE_
 from django.db import DatabaseError
 
 from vipo_device.protocol.faults import printable
+from vipo_device.protocol.topics import is_reader
 from vipo_site.embedded_broker.access_control import AccessControl, Admitted, may_publish
 from vipo_site.embedded_broker.arrivals import Arrivals
-from vipo_site.embedded_broker.client_queue import DEVICE_ROOM, SERVER_ROOM, Outbox
+from vipo_site.embedded_broker.client_queue import DEVICE_ROOM, READER_ROOM, SERVER_ROOM, Outbox, Room
 from vipo_site.embedded_broker.connection import (
     PROTOCOL_LEVEL,
     UNREADABLE,
@@ -51,6 +52,8 @@ COMPLAINT_EVERY_S = 60.0
 MOST_COMPLAINTS = 1000
 MOST_SHOWN = 80
 MOST_CONNECTIONS = 800
+MOST_READERS = 100
+"""Programs that look on, of all connections: the rest is for devices."""
 MOST_NOT_ADMITTED = 100
 MOST_ABSENT = 1000
 FORGET_AFTER_S = 3600
@@ -125,8 +128,12 @@ class VipoBroker(SpreadingBroker):
         except UNREADABLE as error:
             await writer.close()
             raise MQTTError(f"No proper CONNECT from {remote_address}:{remote_port}: {error}") from error
-        if not self._arrivals.may_come(session.username or "", remote_address, time.monotonic()):
-            self._complain(session, "it comes again and again")
+        if is_reader(session.username or ""):
+            # the broker's clients have one connection by one name, and nothing waits for a program that is away
+            session.client_id, session.clean_session = session.username, True
+        is_calm = self._arrivals.may_come(session.username or "", remote_address, time.monotonic())
+        if not is_calm or not self._has_room(session.username or ""):
+            self._complain(session, "it comes again and again" if not is_calm else "too many programs look on")
             await refuse(writer, SERVER_UNAVAILABLE)
             raise MQTTError("Too many connections.")
         if fault := await self._find_fault(session):
@@ -138,9 +145,14 @@ class VipoBroker(SpreadingBroker):
         self._not_admitted.pop(writer._writer, None)
         session = await self._take_over(session)
         session.keep_alive = math.ceil(session.keep_alive * 1.5)
-        session.attributes.setdefault("outbox", Outbox(SERVER_ROOM if session.username == SERVER else DEVICE_ROOM))
+        session.attributes.setdefault("outbox", Outbox(_room_of(session.username or "")))
         handler.receive, handler.complain = self._receive, self._drop
         return handler, session
+
+    def _has_room(self, username: str) -> bool:
+        """Tell whether somebody may be one more connection: programs that look on leave most room to devices."""
+        there = [n for n, (s, _) in self._sessions.items() if is_reader(n) and s.transitions.state == "connected"]
+        return not is_reader(username) or username in there or len(there) < MOST_READERS
 
     def _complain(self, session: Any, fault: str) -> None:
         """Say that somebody was refused; of one who comes again and again, once a minute."""
@@ -243,6 +255,12 @@ class VipoBroker(SpreadingBroker):
         ]
         for _, name in sorted(away)[: max(0, len(away) - MOST_ABSENT)]:
             await self._cleanup_session(name)
+
+
+def _room_of(username: str) -> Room:
+    if username == SERVER:
+        return SERVER_ROOM
+    return READER_ROOM if is_reader(username) else DEVICE_ROOM
 
 
 def _topics(session: Any) -> frozenset[str]:

@@ -26,6 +26,8 @@ class Room:
 
 
 DEVICE_ROOM = Room(1_000, 2**20, 20)
+READER_ROOM = Room(5_000, 2**21, 20)
+"""For a program that looks on: it asks for all values of a site at once."""
 SERVER_ROOM = Room(100_000, 2**26, 1_000)
 
 

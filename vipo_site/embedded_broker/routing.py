@@ -14,13 +14,17 @@ from typing import Any
 from amqtt.broker import Broker
 from amqtt.contexts import Action
 
-from execution.gateway.queue import Complaints, with_others
+from execution.gateway.queue import Complaints, TokenBucket, with_others
 from vipo_device.protocol.faults import Fault, facts_of, fault
+from vipo_device.protocol.topics import is_reader
 from vipo_site.embedded_broker.access_control import Line, may_publish, may_subscribe
 from vipo_site.embedded_broker.client_queue import Letter
 from vipo_site.embedded_broker.connection import Publication
 from vipo_site.embedded_broker.subscriptions import (
+    ASKS_AT_ONCE,
+    ASKS_PER_S,
     MOST_FILTERS,
+    MOST_FILTERS_OF_READER,
     MOST_KEPT,
     MOST_KEPT_IN_ALL,
     MOST_LEVELS,
@@ -60,13 +64,16 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
         return may_subscribe(username, topic, session.attributes.get("site", ""), session.attributes.get("topics", ()))
 
     async def add_subscription(self, subscription: tuple[str, int], session: Any) -> int:
-        """Let a session hear a filter, at QoS 1 at most; 128 when it may not, or holds too many."""
+        """Let a session hear a filter, at QoS 1 at most (a token's: 0); 128 when it may not, or holds too many."""
         topic_filter, qos = subscription
         held = session.attributes.setdefault("filters", set())
-        if topic_filter.count("/") >= MOST_LEVELS or (topic_filter not in held and len(held) >= MOST_FILTERS):
-            self._drop(session, fault("many_subscriptions", most=MOST_FILTERS))
+        looks_on = is_reader(session.username or "")
+        most = MOST_FILTERS_OF_READER if looks_on else MOST_FILTERS
+        is_too_many = topic_filter not in held and len(held) >= most
+        if topic_filter.count("/") >= MOST_LEVELS or is_too_many or (looks_on and not _may_ask(session)):
+            self._drop(session, fault("many_subscriptions", most=most))
             return REFUSED
-        granted: int = await super().add_subscription((topic_filter, min(qos, 1)), session)
+        granted: int = await super().add_subscription((topic_filter, min(qos, 0 if looks_on else 1)), session)
         if granted != REFUSED:
             held.add(topic_filter)
         return granted
@@ -138,3 +145,9 @@ class SpreadingBroker(Broker):  # type: ignore[misc]  # amqtt has no types
             line = with_others(why.text, others)
             log.warning("MQTT: %s: %s", session.client_id, line)
             self._lines.append((name, line, {**facts_of([why]), "more": others}))
+
+
+def _may_ask(session: Any) -> bool:
+    now = time.monotonic()
+    bucket = session.attributes.setdefault("asks", TokenBucket(ASKS_PER_S, ASKS_AT_ONCE, ASKS_AT_ONCE, now))
+    return bool(bucket.take(now))

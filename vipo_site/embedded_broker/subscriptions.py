@@ -8,6 +8,9 @@ from typing import Any
 
 MOST_LEVELS = 200
 MOST_FILTERS = 500
+MOST_FILTERS_OF_READER = 100
+ASKS_PER_S, ASKS_AT_ONCE = 2.0, 200.0
+"""How often a program that looks on may ask: each time all that is kept is gone through."""
 MOST_KEPT = 64
 MOST_KEPT_IN_ALL = 20_000
 MOST_KEPT_BYTES = 2**26

@@ -1929,6 +1929,12 @@ export interface components {
             initials: string;
             name: string;
         };
+        /** @description How a program comes in to MQTT by a token, its password, and what it may hear; `address` is empty if unknown. */
+        BrokerWay: {
+            address: string;
+            topics: string;
+            username: string;
+        };
         /** @description A method of a device, and its arguments by name. */
         CallMethod: {
             /** @default {} */
@@ -2308,6 +2314,7 @@ export interface components {
         };
         /** @description A new token; `token` is its text, told this once. */
         MadeToken: {
+            broker: components["schemas"]["BrokerWay"] | null;
             /** Format: date-time */
             created_at: string;
             expired: boolean;
@@ -2318,7 +2325,7 @@ export interface components {
             mine: boolean;
             name: string;
             person: string;
-            scopes: ("read" | "operate" | "run" | "admin")[];
+            scopes: ("read" | "operate" | "run" | "admin" | "broker")[];
             token: string;
         };
         /** @description What changes when the robot's map (`version`) replaces the site's (`replaces`, 0: none), in square metres. */
@@ -2400,12 +2407,12 @@ export interface components {
             new: string;
             old: string;
         };
-        /** @description What a token is for, what it may do, and how long. */
+        /** @description What a token is for, what it may do, and how long; `broker`, with `read` alone, lets it in over MQTT, too. */
         NewToken: {
             /** @default 90 */
             days: number;
             name: string;
-            scopes: ("read" | "operate" | "run" | "admin")[];
+            scopes: ("read" | "operate" | "run" | "admin" | "broker")[];
         };
         /** @description An operator with what it is applied to. */
         Operation: {
@@ -2938,7 +2945,7 @@ export interface components {
             mine: boolean;
             name: string;
             person: string;
-            scopes: ("read" | "operate" | "run" | "admin")[];
+            scopes: ("read" | "operate" | "run" | "admin" | "broker")[];
         };
         /** @description A topic that a device asks for, exactly as it names it. */
         Topic: {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import base64
 import logging
 import time
 from collections.abc import AsyncIterator
@@ -12,17 +13,21 @@ from typing import Any
 
 import pytest
 from asgiref.sync import sync_to_async
+from django.conf import LazySettings, settings
 from django.db import connection
 from django.test import Client
 
 from registry import services
+from registry.broker import accounts
 from registry.models import ApiToken
 from registry.people import tokens
 from registry.people.sessions import Session
 from registry.thing_directory.event_stream import Listener, stream_events
 from tests.kit.command_line import run_vipo
+from tests.kit.servers import free_port
 from tests.kit.sign_in import find_person, post_json, signed_in
 from tests.kit.sites import make_mixers
+from vipo_device.protocol.credentials import broker_hash, secret_hash
 
 TOKENS = "/api/sites/hall/tokens"
 
@@ -103,6 +108,51 @@ def test_the_secret_is_compared_in_constant_time_also_where_there_is_no_such_tok
     assert compared == [(64, 64)] * 4
 
 
+def test_a_token_for_the_broker_says_how_to_come_in_and_reads_over_http_as_others_do(hall: str) -> None:
+    made = make("operator", "broker", "read")
+    assert made["scopes"] == ["read", "broker"]
+    assert made["broker"] == {
+        "address": settings.VIPO_BROKER_URL,
+        "username": f"token:{made['id']}",
+        "topics": "vipo/v1/site/hall/things/#",
+    }
+    assert make()["broker"] is None
+    assert bearer(made["token"]).get("/api/sites/hall").json()["role"] == "viewer"
+    refused = bearer(made["token"]).post("/api/sites/hall/stop")
+    assert (refused.status_code, refused.json()["code"]) == (403, "insufficient_scope")
+    check = services.check_device_password
+    asked = {"username": made["broker"]["username"], "password": made["token"]}
+    assert check(**asked) == services.Principal(asked["username"], False, secret_hash(made["token"]), site="hall")
+    other = make("viewer", "broker")
+    for username, password in (
+        (asked["username"], other["token"]),
+        (asked["username"], made["token"] + "x"),
+        (f"token:{made['id'].upper()}x", made["token"]),
+        ("mixer1", made["token"]),
+        (f"token:{make()['id']}", make()["token"]),
+    ):
+        assert check(username=username, password=password) is None
+    assert set(services.list_broker_hashes()) == {asked["username"], other["broker"]["username"]}
+    kept = services.list_broker_hashes()[asked["username"]]
+    salt = base64.b64decode(kept.split("$")[3])
+    assert kept == broker_hash(made["token"], salt)
+
+
+def test_a_broker_that_does_not_take_the_account_leaves_no_token(
+    hall: str, settings: LazySettings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings.VIPO_BROKER_ACCOUNTS = "registry.broker.accounts.DynamicSecurity"
+    settings.VIPO_MQTT = {**settings.VIPO_MQTT, "port": free_port()}
+    monkeypatch.setattr(accounts, "ANSWER_LIMIT_S", 0.5)
+    accounts.accounts.cache_clear()
+    try:
+        answer = post_json(signed_in("viewer"), TOKENS, {"name": "a", "scopes": ["broker"]})
+    finally:
+        accounts.accounts.cache_clear()
+    assert (answer.status_code, answer.json()["code"]) == (503, "broker_away")
+    assert ApiToken.objects.count() == 0
+
+
 def test_people_see_and_end_their_own_and_admins_all_of_their_site(hall: str) -> None:
     services.create_site(name="Shed", slug="shed")
     services.set_member(site="shed", email="stranger@vipo.example", role="admin")
@@ -132,6 +182,9 @@ def test_people_see_and_end_their_own_and_admins_all_of_their_site(hall: str) ->
         ("viewer", {"name": "a", "scopes": ["run"]}, 403, "not_allowed"),
         ("author", {"name": "a", "scopes": ["admin"]}, 403, "not_allowed"),
         ("viewer", {"name": "a", "scopes": ["operate"]}, 201, None),
+        ("viewer", {"name": "a", "scopes": ["broker"]}, 201, None),
+        ("admin", {"name": "a", "scopes": ["broker", "operate"]}, 422, "bad_token"),
+        ("admin", {"name": "a", "scopes": ["read", "broker", "admin"]}, 422, "bad_token"),
         ("admin", {"name": "a", "scopes": []}, 422, "bad_request"),
         ("admin", {"name": "a", "scopes": ["everything"]}, 422, "bad_request"),
         ("admin", {"name": " ", "scopes": ["read"]}, 422, "bad_token"),

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -71,3 +76,81 @@ def check_story(said: list[dict[str, Any]]) -> None:
     assert all(isinstance(value, int | float) for value in told["observed"])
     assert any(0 < value <= 100 for value in told["observed"])
     assert told["refused"][0].startswith("Client error")
+
+
+@dataclass(frozen=True)
+class Observer:
+    """node-wot as it observes over MQTT; `said` grows."""
+
+    process: subprocess.Popen[str]
+    out: Path
+
+    def said(self, name: str) -> list[Any]:
+        """Return what it has told under a name so far."""
+        lines = [json.loads(line) for line in self.out.read_text().splitlines() if line.startswith("{")]
+        return [line[name] for line in lines if name in line]
+
+    def wait(self, name: str) -> Any:
+        """Return what it tells under a name first."""
+
+        def ended() -> str:
+            return "" if self.process.poll() is None else f"node ended with {self.process.returncode}"
+
+        return wait_for(name, lambda: self.said(name), 60, every_s=0.05, story=self.out.read_text, hopeless=ended)[0]
+
+    def try_what_is_not_allowed(self) -> None:
+        """Let the library under it come in by the same account, in its place, and try."""
+        assert self.process.stdin
+        self.process.stdin.write("now\n")
+        self.process.stdin.flush()
+
+
+def make_broker_token(admin: httpx.Client) -> dict[str, Any]:
+    """Make a token that opens the broker, and return what its person is told."""
+    admin.headers["X-CSRFToken"] = admin.get("/api/me").json()["csrf"]
+    asked = {"name": "Dashboard", "scopes": ["read", "broker"], "days": 1}
+    made: dict[str, Any] = admin.post(f"/api/sites/{SITE}/tokens", json=asked).json()
+    return made
+
+
+@contextmanager
+def observing(address: str, made: dict[str, Any], folder: Path, authority: str = "") -> Iterator[Observer]:
+    """Let node-wot observe the mixer at the broker, with a token as its person was told it."""
+    install_packages(HERE)
+    asked = {"address": address, "token": made["token"], "username": made["broker"]["username"]}
+    wanted = json.dumps({**asked, "title": "Paint Mixer A", "property": "jobStatus"})
+    out = folder / "observer.log"
+    trust = {"NODE_EXTRA_CA_CERTS": authority} if authority else {}
+    with out.open("w") as log:
+        process = subprocess.Popen(
+            [find_program("node"), "observer.mjs", wanted], cwd=HERE, env={**os.environ, **trust},
+            stdin=subprocess.PIPE, stdout=log, stderr=log, text=True,
+        )  # fmt: skip
+        try:
+            yield Observer(process, out)
+        finally:
+            process.kill()
+            process.communicate()
+
+
+def check_observer(admin: httpx.Client, address: str, folder: Path, authority: str = "") -> None:
+    """Hold what node-wot hears over MQTT, and may do there, against what it must; then revoke its token."""
+    made = make_broker_token(admin)
+    with observing(address, made, folder, authority) as seen:
+        seen.wait("observing")
+        call = {"method": "mixPaint", "arguments": {"time": 1}}
+        asked = admin.post(f"/api/sites/{SITE}/things/paintMixer01/actions/mixPaint", json=call["arguments"])
+        assert asked.status_code in (200, 202), asked.text
+        wait_for("values", lambda: any(0 < value <= 100 for value in seen.said("observed")), story=seen.out.read_text)
+        assert all(isinstance(value, int | float) for value in seen.said("observed"))
+        assert seen.said("error") == []
+        seen.try_what_is_not_allowed()
+        seen.wait("tried")
+        assert [is_granted for _, is_granted in seen.said("granted")] == [False, False, False, True]
+        time.sleep(1)
+        assert seen.said("echo") == []
+        since = time.time()
+        assert admin.delete(f"/api/sites/{SITE}/tokens/{made['id']}").status_code == 204
+        wait_for("the end", lambda: [at for at in seen.said("closed") if at > since], 10, story=seen.out.read_text)
+        assert min(at for at in seen.said("closed") if at > since) - since < 3
+        wait_for("the refusal", lambda: seen.said("refused"), 10, story=seen.out.read_text)

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
-from tests.integration.web_of_things.node_wot import check_story, make_token, run_client, wait_for_mixer
+from tests.integration.web_of_things.node_wot import (
+    check_observer,
+    check_story,
+    make_token,
+    run_client,
+    wait_for_mixer,
+)
 from tests.kit.served import WORKER, Served, running_served
 from tests.kit.servers import Redis
 from vipo_device.protocol.mqtt_client import MqttClient, tls_context
@@ -119,6 +126,13 @@ def test_a_foreign_client_reads_observes_and_invokes_at_another_process_than_its
         wait_for_mixer(admin)
         token = make_token(admin, "operate")
     check_story(run_client(f"http://127.0.0.1:{served.web_ports[1]}", token, sse=sse))
+
+
+def test_a_foreign_client_observes_over_mqtt_and_may_do_nothing_else_there(served: Served, tmp_path: Path) -> None:
+    with served.signed_in("admin", 0) as admin:
+        wait_for_mixer(admin)
+        address = f"http://127.0.0.1:{served.web_ports[1]}"
+        check_observer(admin, address, tmp_path, served.mosquitto.authority)
 
 
 def test_a_run_survives_the_death_of_a_worker_and_of_the_gateway(served: Served) -> None:

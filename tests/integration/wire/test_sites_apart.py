@@ -73,7 +73,7 @@ def test_a_join_key_enrols_at_its_own_site_only(bus: Bus, gateway: Gateway, yard
     wait_for("the last of them", lambda: bus.lets_in("yard.mixer01", KEYS["yard.mixer01"]))
     door.stop()
     assert not bus.lets_in("mixer01", KEYS["mixer01"])
-    assert services.list_device_sites() == {"yard.mixer01": "yard"}
+    assert services.list_account_sites() == {"yard.mixer01": "yard"}
 
 
 @pytest.mark.parametrize("bus", ["mosquitto"], indirect=True)

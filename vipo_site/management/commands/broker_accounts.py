@@ -33,7 +33,7 @@ class Command(BaseCommand):
         with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
             file.write(
                 services.account_file(
-                    hashes, services.list_device_sites(), services.list_granted_topics(), server=server
+                    hashes, services.list_account_sites(), services.list_granted_topics(), server=server
                 )
             )
         part.replace(path)

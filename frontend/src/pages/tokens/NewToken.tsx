@@ -8,7 +8,7 @@ import { useReturnFocus } from "@/design/useReturnFocus";
 import { problemText } from "@/shell/LoadProblem";
 import pages from "../pages.module.css";
 import styles from "./tokens.module.css";
-import { scopesOf, useMakeToken } from "./tokens";
+import { isFixed, scopesOf, useMakeToken } from "./tokens";
 
 const DAYS = [7, 30, 90, 365];
 
@@ -51,7 +51,7 @@ export function NewToken({ site, onMade, onClose }: Props) {
               <Checkbox
                 key={scope}
                 value={scope}
-                disabled={scope === "read"}
+                disabled={isFixed(scope, chosen)}
                 label={t(`tokens.scope.${scope}`)}
                 description={t(`tokens.about.${scope}`)}
               />
@@ -75,6 +75,31 @@ export function NewToken({ site, onMade, onClose }: Props) {
         </div>
       </form>
     </Modal>
+  );
+}
+
+/** How a dashboard comes in to the broker; its password is the token. */
+function BrokerWay({ way }: { way: NonNullable<MadeToken["broker"]> }) {
+  const { t } = useTranslation();
+  const fields = [
+    ["address", way.address || t("tokens.broker.unknown")],
+    ["username", way.username],
+    ["topics", way.topics],
+  ] as const;
+  return (
+    <>
+      <p>{t("tokens.broker.text")}</p>
+      {fields.map(([name, value]) => (
+        <TextInput
+          key={name}
+          classNames={{ input: styles.mono }}
+          label={t(`tokens.broker.${name}`)}
+          readOnly
+          value={value}
+          onFocus={(event) => event.currentTarget.select()}
+        />
+      ))}
+    </>
   );
 }
 
@@ -112,6 +137,7 @@ export function TokenShown({ token, onClose }: { token: MadeToken; onClose: () =
             )}
           </CopyButton>
         </div>
+        {token.broker ? <BrokerWay way={token.broker} /> : null}
         <Button onClick={onClose}>{t("tokens.close")}</Button>
       </div>
     </Modal>

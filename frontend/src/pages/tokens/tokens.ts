@@ -26,11 +26,18 @@ export function useRevokeToken(slug: string) {
 }
 
 const GIVEN_BY: Record<Role, readonly TokenScope[]> = {
-  viewer: ["read", "operate"],
-  operator: ["read", "operate", "run"],
-  author: ["read", "operate", "run"],
-  admin: ["read", "operate", "run", "admin"],
+  viewer: ["read", "operate", "broker"],
+  operator: ["read", "operate", "run", "broker"],
+  author: ["read", "operate", "run", "broker"],
+  admin: ["read", "operate", "run", "admin", "broker"],
 };
 
 /** What somebody of a role may give a token. */
 export const scopesOf = (role: Role): readonly TokenScope[] => GIVEN_BY[role];
+
+/** Whether a scope cannot be chosen now: reading is part of all, and the broker goes with nothing else. */
+export const isFixed = (scope: TokenScope, chosen: readonly TokenScope[]): boolean => {
+  if (scope === "read") return true;
+  const others = chosen.filter((one) => one !== "read" && one !== scope);
+  return scope === "broker" ? others.length > 0 : others.includes("broker");
+};

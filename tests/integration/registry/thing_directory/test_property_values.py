@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 from asgiref.sync import sync_to_async
+from django.conf import settings
 from django.db import connections
 from django.test import Client
 
@@ -70,7 +71,14 @@ def test_a_value_is_sent_alone_and_as_its_schema_says(mixer: str) -> None:
         "hot": "boolean",
         "at": "string",
     }
-    assert [form.get("subprotocol") for form in thing["properties"]["heat"]["forms"]] == [None, "longpoll", "sse"]
+    assert [form.get("subprotocol") for form in thing["properties"]["heat"]["forms"]] == [
+        *(None, "longpoll", "sse"),
+        None,
+    ]
+    by_mqtt = thing["properties"]["heat"]["forms"][3]
+    assert (by_mqtt["op"], by_mqtt["security"]) == (["observeproperty", "unobserveproperty"], ["broker_token"])
+    assert by_mqtt["href"] == settings.VIPO_BROKER_URL + by_mqtt["mqv:filter"]
+    assert by_mqtt["mqv:filter"] == "vipo/v1/site/hall/things/mixer1/properties/heat"
     assert client.get(thing["properties"]["heat"]["forms"][0]["href"]).json() == 40
 
 

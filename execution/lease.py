@@ -1,0 +1,28 @@
+"""A job that only one of several processes may do at a time: whoever holds the lease on it."""
+
+from __future__ import annotations
+
+from datetime import datetime, timedelta
+
+from execution.models import Lease
+
+LEASE_S = 5.0
+
+
+class HeldLease:
+    """One process's hold on a job, as far as it has it; a holder that dies loses it after 5 s."""
+
+    def __init__(self, job: str, holder: str) -> None:
+        self._job, self._holder = job, holder
+        self._until: datetime | None = None
+
+    def hold(self, now: datetime) -> bool:
+        """Take or renew the lease; it is renewed when half of it is over, so that asking often costs no write."""
+        if self._until is not None and now < self._until - timedelta(seconds=LEASE_S / 2):
+            return True
+        until = now + timedelta(seconds=LEASE_S)
+        Lease.objects.get_or_create(name=self._job, defaults={"holder": self._holder, "until": until})
+        mine = Lease.objects.filter(name=self._job, holder=self._holder).update(until=until)
+        free = mine or Lease.objects.filter(name=self._job, until__lt=now).update(holder=self._holder, until=until)
+        self._until = until if free else None
+        return bool(free)
