@@ -35,7 +35,7 @@ SENTENCES: Mapping[str, str] = {
     "knocked": "Enrolled with the enrolment key and brought a key of its own",
     "online": "Came online",
     "offline": "Left",
-    "silent": "HistoryText nothing for {seconds} s",
+    "silent": "Said nothing for {seconds} s",
     "flapping": "Comes and leaves all the time; not every time is written down",
     "error": "Reports an error: {text}",
     "recovered": "Reports no error any more",
