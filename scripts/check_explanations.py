@@ -61,6 +61,7 @@ _VALUES: Final = {
     "divided by minutes are one, too.",
     "no_such_product": "Speed times time is a length, and a share of anything is one of its kind; minutes times "
     "minutes are nothing.",
+    "divided_by_zero": "The divisor is 0, or a variable that is never anything else.",
     "out_of_range": "The number is below or above what the description declares.",
     "not_an_option": "The description lists the values that are allowed.",
     "quantity_not_positive": "Nobody can carry none, or half an object.",

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import cast
 
 from editor.language.analysis.loads import follow_loads
 from editor.language.analysis.memo import Findings, Memos
+from editor.language.analysis.value_ranges import Scope, Types, find_ranges, ranges_at
 from editor.language.checks.context import Context
 from editor.language.checks.devices import check_floor, check_load_place, check_place, check_role, usable_device
 from editor.language.checks.flow import check_flow, check_leaving
@@ -20,11 +21,13 @@ from editor.language.checks.values import (
     check_quantity,
     check_value,
     has_missing,
+    range_in,
 )
 from editor.language.checks.variables import check_variables
 from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
-from editor.language.expressions.nodes import Constant
+from editor.language.expressions.nodes import Expression
+from editor.language.expressions.ranges import Range
 from editor.language.expressions.units import PLAIN
 from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value, declared_type
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
@@ -34,8 +37,14 @@ from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
 from editor.language.tree.traversal import needed_of_roles
-from editor.language.tree.variable_types import type_of_items, types_in_function, types_in_loops, types_in_program
-from editor.language.tree.variables import program_variables
+from editor.language.tree.variable_types import (
+    type_of_items,
+    types_in_function,
+    types_in_loops,
+    types_in_program,
+    with_loops,
+)
+from editor.language.tree.variables import SETTERS, local_variables, program_variables, read_by
 from editor.language.tree.zones import read_zones
 from vipo_device.protocol.description import ParameterSpec
 
@@ -76,17 +85,33 @@ def check(
 def _check_steps(context: Context) -> None:
     """Check every step for itself, with what is known where it stands."""
     tree, site = context.tree, context.surroundings
-    types = types_in_program(tree, program_variables(tree), site)
+    shared = program_variables(tree)
+    types = types_in_program(tree, shared, site)
+    scopes = [_scope(context, PROGRAM, body, types) for body in (tree.body, *(event.body for event in tree.events))]
+    for function in tree.functions:
+        own = frozenset(p.name for p in function.parameters) | frozenset(local_variables(function, shared))
+        inside = types_in_function(tree, function, types, site)
+        scopes.append(_scope(context, function.method, function.body, inside, own))
+    worked_out = tree.holds(*SETTERS, n.ForEach)
+    ranges = find_ranges(tree, scopes, site) if worked_out else {}
     if context.memos is not None:
         context.memos.begin_checks(_all_around(context))
-    _check_block(context, PROGRAM, tree.body, types)
-    for event in tree.events:
-        _check_block(context, event.step, event.body, types)
+    first, *others = [_Checked(scope, ranges) for scope in scopes]
+    _check_block(context, first)
+    for event, checked in zip(tree.events, others, strict=False):
+        _check_block(context, checked, event.step)
         check_condition(context, cast("n.Node", event), event.condition, "condition")  # an event has a step as nodes do
-    for function in tree.functions:
+    for function, checked in zip(tree.functions, others[len(tree.events) :], strict=True):
         context.result = declared_type(function.result_type, function.result_unit)
-        _check_block(context, function.method, function.body, types_in_function(tree, function, types, site))
+        _check_block(context, checked)
     context.result = ValueType()
+
+
+def _scope(
+    context: Context, name: str, body: n.Block, types: Types, own: frozenset[str] = frozenset()
+) -> Scope:  # fmt: skip
+    in_loops = types_in_loops(body, types, context.surroundings) if context.tree.holds(n.ForEach) else {}
+    return Scope("" if name == PROGRAM else name, body, types, in_loops, own)
 
 
 def _all_around(context: Context) -> object:
@@ -96,13 +121,33 @@ def _all_around(context: Context) -> object:
     return functions, roles, context.zones, what_programs_see(context.surroundings)
 
 
-def _check_block(context: Context, name: str, block: n.Block, types: Mapping[str, ValueType]) -> None:
-    nodes = context.tree.walked(block)
-    in_loops = types_in_loops(block, types, context.surroundings) if context.tree.holds(n.ForEach) else {}
-    memo = context.memos.of_block(name, (types, context.result)) if context.memos is not None else None
-    for node in nodes:
-        context.variables = in_loops.get(id(node), types)
-        inside = context.variables if in_loops else None
+@dataclass(slots=True)
+class _Checked:
+    """A body that is being checked, with the ranges that can be seen in it."""
+
+    scope: Scope
+    ranges: Mapping[tuple[object, str], Range]
+    _seen: dict[tuple[int, ...], dict[str, Range]] = field(default_factory=dict)
+
+    def seen(self, loops: tuple[n.ForEach, ...]) -> dict[str, Range]:
+        """Return the ranges that can be seen within these loops over values."""
+        key = tuple(map(id, loops))
+        if key not in self._seen:
+            self._seen[key] = ranges_at(self.ranges, self.scope, loops) if self.ranges else {}
+        return self._seen[key]
+
+
+def _check_block(context: Context, checked: _Checked, name: str = "") -> None:
+    scope = checked.scope
+    memo = (
+        context.memos.of_block(name or scope.name or PROGRAM, (scope.types, context.result)) if context.memos else None
+    )
+    plain = not scope.types_in_loops
+    nodes = ((node, ()) for node in context.tree.walked(scope.body)) if plain else with_loops(scope.body)
+    for node, loops in nodes:
+        context.variables = scope.types_in_loops.get(id(node), scope.types)
+        context.ranges = checked.seen(loops)
+        inside = (context.variables if loops else None, _read_there(node, context.ranges)) if memo else None
         reported: Findings | None = memo.get(node, inside) if memo is not None else None
         if reported is not None:
             context.found.extend(reported)
@@ -111,6 +156,11 @@ def _check_block(context: Context, name: str, block: n.Block, types: Mapping[str
         CHECKS[type(node)](context, node)
         if memo is not None and not _looks_around(node):
             memo.put(node, tuple(context.found[before:]), inside)
+
+
+def _read_there(node: n.Node, ranges: Mapping[str, Range]) -> tuple[tuple[str, Range], ...]:
+    """Return the ranges on which the check of a step depends."""
+    return tuple((name, ranges[name]) for name in read_by(node) if name in ranges) if ranges else ()
 
 
 _LOOK_AROUND = (n.Call, n.Parallel)
@@ -184,8 +234,8 @@ def _wait_until(context: Context, node: n.WaitUntil) -> None:
         _check_time(context, node, node.timeout_s, "timeout", "The time limit")
 
 
-def _check_time(context: Context, node: n.Node, value: object, field: str, subject: str) -> None:
-    if isinstance(value, Constant) and isinstance(value.value, int | float) and value.value < 0:
+def _check_time(context: Context, node: n.Node, value: Expression, field: str, subject: str) -> None:
+    if range_in(context, value, "SEC").most < 0:
         context.report(node, "out_of_range", field, {"subject": subject, "range": Span(0, None, "s")})
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import Memos
 from editor.language.expressions import nodes as e
+from editor.language.expressions.ranges import Range
 from editor.language.expressions.value_types import UNKNOWN_TYPE, ValueType
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Driver, Robot
@@ -26,6 +27,8 @@ class Context:
     surroundings: Surroundings
     variables: Mapping[str, ValueType] = field(default_factory=dict)
     """What is known of the parameters and variables that can be seen in the block being checked."""
+    ranges: Mapping[str, Range] = field(default_factory=dict)
+    """Between which numbers those lie of which that is known."""
     result: ValueType = UNKNOWN_TYPE
     """What the function being checked gives back."""
     zones: frozenset[str] = frozenset()

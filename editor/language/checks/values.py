@@ -8,7 +8,7 @@ from editor.language.checks.context import Context
 from editor.language.checks.devices import check_readings, known_device
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading
-from editor.language.expressions.ranges import first_limited_reading, possible
+from editor.language.expressions.ranges import Range, first_limited_reading, possible, range_of
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.units import PLAIN, UNITS, declared_unit, is_measure, same_dimension
 from editor.language.expressions.value_types import (
@@ -48,6 +48,7 @@ def check_value(
     if not isinstance(value, Constant):
         parts = parts_of(value)
         check_readings(context, node, parts, field)
+        _check_divisors(context, node, parts, field)
         _check_things(context, node, parts, field)
     checker = TypeChecker(context.surroundings, context.variables, [])
     value_type = checker.type_of(value)
@@ -59,6 +60,15 @@ def check_value(
     elif value_type.type == "number" == wanted.type:
         _check_unit(context, node, value, field, (value_type.unit, wanted.unit), subject)
     return len(context.found) == before
+
+
+def _check_divisors(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
+    """Tell of what is divided by nothing else than 0."""
+    for part in parts:
+        if isinstance(part, Operation) and part.operator == "/":
+            divisor = range_in(context, part.arguments[1], "")
+            if divisor.least == divisor.most == 0:
+                context.report(node, "divided_by_zero", field)
 
 
 def _check_unit(
@@ -119,6 +129,11 @@ def _check_things(context: Context, node: n.Node, parts: Sequence[Expression], f
 def converted(context: Context, value: Expression, unit: str) -> Expression:
     """Return a value as it is in a unit when the program runs."""
     return convert_units(value, unit, TypeChecker(context.surroundings, context.variables, []))
+
+
+def range_in(context: Context, value: Expression, unit: str) -> Range:
+    """Return between which numbers a value lies whenever it is asked for, in this unit."""
+    return range_of(converted(context, value, unit), context.surroundings, context.ranges)
 
 
 def check_condition(context: Context, node: n.Node, condition: Expression, field: str) -> None:
@@ -191,6 +206,12 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
     value = converted(context, value, parameter.unit)
     if isinstance(value, Constant):
         _check_limits(context, node, parameter, value, field)
+    elif parameter.type == "number":
+        found = range_of(value, context.surroundings, context.ranges)
+        least, most = parameter.minimum, parameter.maximum
+        if (least is not None and found.most < least) or (most is not None and found.least > most):
+            limits = Span(least, most, unit_word(parameter.unit))
+            context.report(node, "out_of_range", field, {"subject": parameter.name.capitalize(), "range": limits})
 
 
 def _check_limits(context: Context, node: n.Node, parameter: ParameterSpec, value: Constant, field: str) -> None:
@@ -225,12 +246,11 @@ def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
         return
     if not check_value(context, node, node.quantity, "quantity", NUMBER, "The quantity"):
         return
-    quantity = node.quantity.value if isinstance(node.quantity, Constant) else None
-    if not is_number(quantity):
-        return
-    if quantity <= 0 or quantity != int(quantity):
+    written = node.quantity.value if isinstance(node.quantity, Constant) else None
+    found = range_in(context, node.quantity, "")
+    if found.most <= 0 or (is_number(written) and written != int(written)):
         context.report(node, "quantity_not_positive", "quantity", {}, fix_value(node.step, "quantity", 1))
-    elif capacity and quantity > capacity:
+    elif capacity and found.least > capacity:
         fix = fix_value(node.step, "quantity", capacity)
         context.report(node, "quantity_above_capacity", "quantity", {"robot": robot, "range": Amounts(capacity)}, fix)
 

@@ -52,18 +52,20 @@ def possible(
     return _truth(convert_units(expression, "", checker), surroundings)
 
 
-def range_of(expression: Expression, surroundings: Surroundings) -> Range:
+def range_of(expression: Expression, surroundings: Surroundings, variables: Mapping[str, Range] | None = None) -> Range:
     """Return between which numbers the value of an expression without quantities lies."""
     if isinstance(expression, Constant):
         value = expression.value
         return Range(value, value) if is_number(value) else ANY
     if isinstance(expression, Reading):
         return _declared(expression, surroundings)
+    if isinstance(expression, Variable):
+        return ANY if variables is None else variables.get(expression.name, ANY)
     if isinstance(expression, Operation):
         name, arguments = expression.operator, expression.arguments
         if name in {"count", "now", "distance"}:
             return _counted(name, arguments, surroundings)
-        return _computed(name, [range_of(argument, surroundings) for argument in arguments])
+        return _computed(name, [range_of(argument, surroundings, variables) for argument in arguments])
     return ANY
 
 

@@ -53,6 +53,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "plain_number": "{subject} ist in {wanted}, und das ist eine bloße Zahl. Geben Sie ihre Einheit an.",
     "unit_not_taken": "{subject} ist eine bloße Zahl, und dieser Wert ist in {given}. Geben Sie an, worin er zählt.",
     "no_such_product": "{left} {operator} {right} misst nichts. Nehmen Sie für eines davon eine bloße Zahl.",
+    "divided_by_zero": "Hier wird durch 0 geteilt. Geben Sie eine andere Zahl ein, oder prüfen Sie sie vorher.",
     "out_of_range": "{subject} muss {range} sein.",
     "not_an_option": "{subject} ist eines von: {options}.",
     "quantity_not_positive": "Die Menge muss eine ganze Zahl über 0 sein.",

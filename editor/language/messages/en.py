@@ -55,6 +55,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "plain_number": ("error", "{subject} is in {wanted}, and this is a plain number. Say its unit."),
     "unit_not_taken": ("error", "{subject} is a plain number, and this value is in {given}. Say what it counts in."),
     "no_such_product": ("error", "{left} {operator} {right} measures nothing. Use a plain number for one of them."),
+    "divided_by_zero": ("error", "This divides by 0. Enter another number, or check it first."),
     "out_of_range": ("error", "{subject} must be {range}."),
     "not_an_option": ("error", "{subject} is one of: {options}."),
     "quantity_not_positive": ("error", "The quantity must be a whole number above 0."),

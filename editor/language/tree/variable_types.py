@@ -52,7 +52,7 @@ def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings) -> 
     """Return what can be seen where loops over values hide other names, by the identity of the steps there."""
     found: dict[int, Types] = {}
     inside: dict[_Loops, Types] = {(): types}
-    for node, loops in _with_loops(block):
+    for node, loops in with_loops(block):
         if loops not in inside:
             around, loop = inside[loops[:-1]], loops[-1]
             inside[loops] = {**around, loop.variable: type_of_items(loop.items, around, surroundings)}
@@ -142,7 +142,7 @@ def _with_types_set_in(
     functions = {function.method: function for function in tree.functions}
     inference = _Inference(functions, site, wanted, dict(known))
     for body in bodies:
-        for node, loops in _with_loops(body):
+        for node, loops in with_loops(body):
             name = set_by(node)
             if name in wanted and all(loop.variable != name for loop in loops):
                 inference.setters.setdefault(name, []).append(_Setter(node, loops))
@@ -150,13 +150,13 @@ def _with_types_set_in(
     return {name: found if name in known else _settled(found) for name, found in inference.types.items()}
 
 
-def _with_loops(block: n.Block, loops: _Loops = ()) -> Iterator[tuple[n.Node, _Loops]]:
+def with_loops(block: n.Block, loops: _Loops = ()) -> Iterator[tuple[n.Node, _Loops]]:
     """Yield the steps of a block in reading order, each with the loops over values around it."""
     for node in block:
         yield node, loops
         inside = (*loops, node) if isinstance(node, n.ForEach) else loops
         for inner in blocks_of(node):
-            yield from _with_loops(inner, inside)
+            yield from with_loops(inner, inside)
 
 
 def _names_in(values: Iterable[Expression]) -> Iterator[str]:
