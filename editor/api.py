@@ -68,6 +68,12 @@ class VersionShape(Schema):
     script: str
 
 
+class WholeVersionShape(VersionShape):
+    """A version with its document."""
+
+    document: Document
+
+
 class VersionMessage(Asked):
     """What a version is about."""
 
@@ -197,11 +203,19 @@ def list_versions(request: HttpRequest, program: UUID) -> list[VersionView]:
     return list(services.list_versions(program_id=program))
 
 
-@router.post("/programs/{program}/versions", response={201: VersionShape})
+@router.post("/programs/{program}/versions", response={200: VersionShape, 201: VersionShape})
 def pin_version(request: HttpRequest, program: UUID, body: VersionMessage) -> Status[VersionView]:
-    """Make the program as it is now a version."""
+    """Make the program as it is now a version; the answer is 200 with the last one if nothing has changed since."""
     _program(request, program, "author")
-    return Status(201, services.pin_version(program_id=program, user=request.user, message=body.message))
+    pinned = services.pin_version(program_id=program, user=request.user, message=body.message)
+    return Status(201 if pinned.made else 200, pinned)
+
+
+@router.get("/programs/{program}/versions/{number}", response=WholeVersionShape)
+def show_version(request: HttpRequest, program: UUID, number: int) -> VersionView:
+    """Show a program as it was when it was pinned under a number, with its document."""
+    _program(request, program, "viewer")
+    return services.find_version(program_id=program, number=number)
 
 
 @router.get("/library", response=list[LibraryShape])

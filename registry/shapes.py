@@ -18,6 +18,12 @@ from registry.devices.views import Status
 from registry.models import User
 from vipo_device.protocol.texts import cleaned_json, normal, normal_json, refusal_of, unfit_texts
 
+LOCATION = {
+    "description": "The address of what was made.",
+    "schema": {"type": "string", "format": "uri-reference"},
+}
+"""How the OpenAPI file describes the header `Location`."""
+
 
 def sends(*content_types: str) -> dict[str, Any]:
     """Say in the OpenAPI file that a call answers with something else than JSON."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from uuid import UUID
@@ -102,6 +103,15 @@ def get_version(*, version_id: UUID | str) -> VersionView:
     return _version_view(row)
 
 
+def find_version(*, program_id: UUID | str, number: int) -> VersionView:
+    """Return a program's version by its number. Raises NoSuchProgram."""
+    rows = Version.objects.select_related("author", "program__site")
+    row = rows.filter(program_id=program_id, number=number).first()
+    if row is None:
+        raise NoSuchProgram(f"The program has no version {number}.")
+    return _version_view(row)
+
+
 def pin_version(*, program_id: UUID | str, user: Any, message: str = "") -> VersionView:
     """Make the document as it is now a version; the last one is returned if nothing has changed since.
 
@@ -115,9 +125,10 @@ def pin_version(*, program_id: UUID | str, user: Any, message: str = "") -> Vers
         if program is None:
             raise NoSuchProgram(_GONE)
         last = program.versions.order_by("-number").first()
-        if last is None or last.digest != digest or (message and message != last.message):
+        made = last is None or last.digest != digest or bool(message and message != last.message)
+        if made or last is None:
             last = _add_version(program, user, message[:300], document, script)
-    return get_version(version_id=last.pk)
+    return replace(get_version(version_id=last.pk), made=made)
 
 
 def _add_version(program: Program, user: Any, message: str, document: dict[str, Any], script: str) -> Version:

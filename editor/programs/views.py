@@ -35,7 +35,7 @@ class ProgramView:
 
 @dataclass(frozen=True, slots=True)
 class VersionView:
-    """A program as it was when it was pinned."""
+    """A program as it was when it was pinned; `made` is True in the answer to who pinned just this one."""
 
     id: UUID
     program: UUID
@@ -46,6 +46,7 @@ class VersionView:
     document: Mapping[str, Any]
     script: str
     created_at: datetime
+    made: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,8 @@ from ninja import NinjaAPI, Schema
 from ninja.openapi.schema import OpenAPISchema
 from ninja.operation import Operation
 
+from vipo_site.http.making import describe_place
+
 
 class FieldProblem(Schema):
     """A field of the request that does not fit, and why."""
@@ -90,6 +92,7 @@ class DescribedAPI(NinjaAPI):
                 told = {
                     each: {"$ref": f"#/components/responses/Refused{each}"} for each in _refused(path, method, call)
                 }
+                describe_place(call)
                 call["responses"].update(told, default=refusal)
                 if method != "get" and "security" in call:
                     call["parameters"] = [*call.get("parameters", []), _KEY]
