@@ -24,7 +24,7 @@ from editor.shapes import (
 )
 from registry import services as registry
 from registry.services import NotAMember, require
-from registry.shapes import Asked, Line, Repaired
+from registry.shapes import Asked, Line, Repaired, refuses
 
 router = Router(tags=["editor"])
 
@@ -179,7 +179,7 @@ def show_compiled(request: HttpRequest, program: UUID) -> dict[str, Any]:
     return services.get_compiled(program_id=program)
 
 
-@router.post("/programs/{program}/script", response=DrawnScriptShape)
+@router.post("/programs/{program}/script", response=DrawnScriptShape, openapi_extra=refuses(413))
 def draw_script(request: HttpRequest, program: UUID, body: ScriptText) -> services.DrawnScript:
     """Draw a script: the document that it would make of the program, or where it leaves the language."""
     _program(request, program, "author")

@@ -26,8 +26,19 @@ LOCATION = {
 
 
 def sends(*content_types: str) -> dict[str, Any]:
-    """Say in the OpenAPI file that a call answers with something else than JSON."""
-    return {"responses": {200: {"content": {name: {"schema": {"type": "string"}} for name in content_types}}}}
+    """Say in the OpenAPI file that a call answers with something else than JSON of a shape."""
+    return {"responses": {200: {"content": {name: {"schema": {"type": _type_of(name)}} for name in content_types}}}}
+
+
+def _type_of(content_type: str) -> str | list[str]:
+    if content_type == "application/ld+json":
+        return ["object", "array"]
+    return "object" if content_type.endswith(("json", "yaml")) else "string"
+
+
+def refuses(*statuses: int) -> dict[str, Any]:
+    """Say in the OpenAPI file that a call may be refused with statuses that others are not."""
+    return {"responses": {status: {} for status in statuses}}
 
 
 def signed_in(request: HttpRequest) -> User:

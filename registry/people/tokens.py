@@ -57,7 +57,7 @@ class NoSuchToken(RegistryError):
     status = 404
 
 
-_NO_TOKEN = "There is no such token here. It may have been revoked already."
+_ABSENT = "There is no such token here. It may have been revoked already."
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,7 +148,7 @@ def find_token(*, token_id: str, site: str = "", user: User | None = None) -> To
         rows = rows.filter(membership__site__slug=site)
     row = (rows if user is None else rows.filter(membership__user_id=user.pk)).first()
     if row is None:
-        raise NoSuchToken(_NO_TOKEN)
+        raise NoSuchToken(_ABSENT)
     return _view(row)
 
 
@@ -156,7 +156,7 @@ def revoke_token(*, token_id: str, site: str = "", user: User | None = None) -> 
     """End a token at once, with the streams opened by it; of one site or person only, if named. Raises NoSuchToken."""
     view = find_token(token_id=token_id, site=site, user=user)
     if not ApiToken.objects.filter(public_id=view.id).delete()[0]:
-        raise NoSuchToken(_NO_TOKEN)
+        raise NoSuchToken(_ABSENT)
     transaction.on_commit(lambda: publish(view.site, {"type": "members"}))
     return view
 

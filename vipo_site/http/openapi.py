@@ -47,24 +47,43 @@ _REFUSALS = {
     403: "The role or the token's scope does not suffice, or X-CSRFToken is missing.",
     404: "It does not exist, or the asker is no member of its site.",
     409: "Not in the state that things are in.",
+    412: "It is not any more what the asker knows (If-Match).",
+    413: "It is longer than it may be.",
+    415: "Its content type is not one that is taken here.",
     422: "The request does not fit; `fields` says which part of it, and why.",
     429: "Too much at once: wait as long as the header Retry-After says.",
     500: "A fault of VIPO's own.",
+    501: "The standard knows it, and VIPO does not offer it.",
     503: "What it takes is away; nothing was changed.",
 }
-"""What calls are refused with; some have others of their own, which are told as any other refusal (`default`)."""
+"""What calls are refused with; `default` says how any other refusal would be told."""
+_RARE = (412, 413, 415, 501)
+"""Only of calls that say so themselves (`refuses`)."""
 
 
 def _refused(path: str, method: str, call: dict[str, Any]) -> list[int]:
     """Return the statuses with which a call may be refused, by what it asks for."""
+    names = {each["name"] for each in call.get("parameters", ())}
     holds = {
         401: "security" in call or call["operationId"] == "sign_in",
         403: "security" in call or method != "get",
-        404: "{" in path,
+        404: "{" in path or "site" in names,
         409: method != "get",
-        422: method != "get" or bool(call.get("parameters")),
+        422: method != "get" or bool(names),
+        **dict.fromkeys(_RARE, False),
     }
-    return [status for status in _REFUSALS if holds.get(status, True)]
+    return [status for status in _REFUSALS if holds.get(status, True) or status in call["responses"]]
+
+
+def _refusals_of(path: str, method: str, call: dict[str, Any], refusal: dict[str, Any]) -> dict[int, Any]:
+    """Return how a call's refusals look; some calls tell them in a form of their own, too."""
+    told = {}
+    for status in _refused(path, method, call):
+        own = call["responses"].get(status, {}).get("content")
+        shared = {"$ref": f"#/components/responses/Refused{status}"}
+        both = {"description": _REFUSALS[status], "content": {**refusal["content"], **(own or {})}}
+        told[status] = both if own else shared
+    return told
 
 
 class DescribedAPI(NinjaAPI):
@@ -89,11 +108,8 @@ class DescribedAPI(NinjaAPI):
         }
         for path, methods in schema["paths"].items():
             for method, call in methods.items():
-                told = {
-                    each: {"$ref": f"#/components/responses/Refused{each}"} for each in _refused(path, method, call)
-                }
                 describe_place(call)
-                call["responses"].update(told, default=refusal)
+                call["responses"].update(_refusals_of(path, method, call, refusal), default=refusal)
                 if method != "get" and "security" in call:
                     call["parameters"] = [*call.get("parameters", []), _KEY]
         return schema

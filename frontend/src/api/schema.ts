@@ -3085,6 +3085,33 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
+        /** @description It is not any more what the asker knows (If-Match). */
+        Refused412: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description It is longer than it may be. */
+        Refused413: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Its content type is not one that is taken here. */
+        Refused415: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
         /** @description The request does not fit; `fields` says which part of it, and why. */
         Refused422: {
             headers: {
@@ -3105,6 +3132,15 @@ export interface components {
         };
         /** @description A fault of VIPO's own. */
         Refused500: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description The standard knows it, and VIPO does not offer it. */
+        Refused501: {
             headers: {
                 [name: string]: unknown;
             };
@@ -3196,6 +3232,7 @@ export interface operations {
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -3836,6 +3873,7 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            413: components["responses"]["Refused413"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -5698,7 +5736,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/yaml": string;
+                    "application/yaml": Record<string, never>;
                 };
             };
             400: components["responses"]["Refused400"];
@@ -5820,9 +5858,9 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/ld+json": string;
+                    "application/ld+json": Record<string, never> | unknown[];
                     "application/n-triples": string;
-                    "application/td+json": string;
+                    "application/td+json": Record<string, never>;
                     "text/plain": string;
                     "text/turtle": string;
                 };
@@ -6261,7 +6299,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/yaml": string;
+                    "application/yaml": Record<string, never>;
                 };
             };
             400: components["responses"]["Refused400"];
@@ -6484,12 +6522,39 @@ export interface operations {
                     "multipart/x-mixed-replace": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6523,12 +6588,39 @@ export interface operations {
                     "application/xml": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6569,12 +6661,39 @@ export interface operations {
                     "multipart/x-mixed-replace": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6614,12 +6733,39 @@ export interface operations {
                     "multipart/x-mixed-replace": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6654,12 +6800,39 @@ export interface operations {
                     "application/xml": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6701,12 +6874,39 @@ export interface operations {
                     "multipart/x-mixed-replace": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6877,9 +7077,9 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/ld+json": string;
+                    "application/ld+json": Record<string, never> | unknown[];
                     "application/n-triples": string;
-                    "application/sparql-results+json": string;
+                    "application/sparql-results+json": Record<string, never>;
                     "application/sparql-results+xml": string;
                     "text/csv": string;
                     "text/turtle": string;
@@ -6926,9 +7126,9 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/ld+json": string;
+                    "application/ld+json": Record<string, never> | unknown[];
                     "application/n-triples": string;
-                    "application/sparql-results+json": string;
+                    "application/sparql-results+json": Record<string, never>;
                     "application/sparql-results+xml": string;
                     "text/csv": string;
                     "text/turtle": string;
@@ -6977,7 +7177,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/ld+json": Record<string, never>;
+                    "application/ld+json": Record<string, never> | unknown[];
                 };
             };
             400: components["responses"]["Refused400"];
@@ -6987,6 +7187,7 @@ export interface operations {
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
+            501: components["responses"]["Refused501"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
             default: {
@@ -7019,7 +7220,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/event-stream": Record<string, never>;
+                    "text/event-stream": string;
                 };
             };
             400: components["responses"]["Refused400"];
@@ -7108,6 +7309,8 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            412: components["responses"]["Refused412"];
+            415: components["responses"]["Refused415"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -7223,7 +7426,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/event-stream": Record<string, never>;
+                    "text/event-stream": string;
                 };
             };
             400: components["responses"]["Refused400"];
