@@ -106,6 +106,7 @@ def on_http_error(request: HttpRequest, error: HttpError) -> HttpResponse:
 
 api.add_decorator(note_place, mode="operation")
 api.add_decorator(begin_once, mode="operation")
+api.add_decorator(api.refuse_unknown_names, mode="operation")
 api.add_decorator(name_place, mode="view")
 api.add_decorator(watch_request, mode="view")
 api.add_router("", people_router)

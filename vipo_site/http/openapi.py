@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import functools
 import json
+from collections.abc import Callable
+from functools import cached_property
 from http import HTTPStatus
 from typing import Any
 
+from django.http import HttpRequest
 from ninja import NinjaAPI, Schema
+from ninja.errors import ValidationError
 from ninja.openapi.schema import OpenAPISchema
 from ninja.operation import Operation
 
@@ -69,7 +74,6 @@ def _refused(path: str, method: str, call: dict[str, Any]) -> list[int]:
         403: "security" in call or method != "get",
         404: "{" in path or "site" in names,
         409: method != "get",
-        422: method != "get" or bool(names),
         **dict.fromkeys(_RARE, False),
     }
     return [status for status in _REFUSALS if holds.get(status, True) or status in call["responses"]]
@@ -86,8 +90,40 @@ def _refusals_of(path: str, method: str, call: dict[str, Any], refusal: dict[str
     return told
 
 
+_READ_ELSEWHERE = dict.fromkeys(("ask", "post_query"), ("default-graph-uri", "named-graph-uri"))
+"""Names in addresses that a call knows without taking them: it says itself why not."""
+
+
 class DescribedAPI(NinjaAPI):
-    """An API whose description also says what refusals look like, and names calls whatever module they stand in."""
+    """An API whose description also says what refusals look like, and names calls whatever module they stand in.
+
+    What an address may say after its `?` is what the description names; a call is told of any other name.
+    """
+
+    @cached_property
+    def query_names(self) -> dict[str, frozenset[str]]:
+        """What may stand after the `?` of each call's address."""
+        calls = [call for methods in self.get_openapi_schema()["paths"].values() for call in methods.values()]
+        return {
+            call["operationId"]: frozenset(
+                [each["name"] for each in call.get("parameters", ()) if each["in"] == "query"]
+            ).union(_READ_ELSEWHERE.get(call["operationId"], ()))
+            for call in calls
+        }
+
+    def refuse_unknown_names(self, call: Callable[..., Any]) -> Callable[..., Any]:
+        """Let a call be carried out if it knows every name in its address; goes around the call's own function."""
+
+        @functools.wraps(call)
+        def call_if_known(request: HttpRequest, *args: Any, **values: Any) -> Any:
+            known = self.query_names.get(call.__name__, frozenset())
+            if unknown := sorted(request.GET.keys() - known):
+                may = f"known are {', '.join(sorted(known))}" if known else "the address takes none"
+                why = f"There is no such name here; {may}."
+                raise ValidationError([{"loc": ("query", name[:64]), "msg": why} for name in unknown[:20]])
+            return call(request, *args, **values)
+
+        return call_if_known
 
     def get_openapi_operation_id(self, operation: Operation) -> str:
         """Return the name of the call's function, by which programs made from the description call it."""
