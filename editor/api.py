@@ -6,8 +6,8 @@ from datetime import datetime
 from typing import Annotated, Any
 from uuid import UUID
 
-from django.http import HttpRequest
-from ninja import Field, Router, Schema
+from django.http import HttpRequest, HttpResponse
+from ninja import Field, Query, Router, Schema
 from ninja.responses import Status
 
 from editor import services
@@ -24,7 +24,7 @@ from editor.shapes import (
 )
 from registry import services as registry
 from registry.services import NotAMember, require
-from registry.shapes import Asked, Line, Repaired, refuses
+from registry.shapes import Asked, Line, PartAsked, Repaired, refuses, tell_rest
 
 router = Router(tags=["editor"])
 
@@ -49,6 +49,19 @@ class ProgramShape(Schema):
     edited_by: Author | None
     errors: int
     warnings: int
+
+
+class ProgramsAsked(PartAsked):
+    """Which programs are asked for: those whose names have all words of `q`."""
+
+    q: Line = Field("", max_length=200)
+
+
+class LibraryAsked(PartAsked):
+    """Which functions are asked for: those whose name or description has all words of `q`, of one site if named."""
+
+    q: Line = Field("", max_length=200)
+    site: Line = Field("", max_length=100)
 
 
 class ProgramName(Asked):
@@ -131,10 +144,12 @@ def _require(request: HttpRequest, site: str, role: str) -> None:
 
 
 @router.get("/sites/{slug}/programs", response=list[ProgramShape])
-def list_programs(request: HttpRequest, slug: str) -> list[ProgramView]:
-    """List a site's programs, the last edited first."""
+def list_programs(
+    request: HttpRequest, response: HttpResponse, slug: str, asked: Query[ProgramsAsked]
+) -> list[ProgramView]:
+    """List a site's programs, the last edited first; the header `Link` names the next part."""
     require(request.user, slug, "viewer")
-    return list(services.list_programs(site=slug))
+    return tell_rest(request, response, services.list_programs(site=slug, part=asked.part(), words=asked.q))
 
 
 @router.post("/sites/{slug}/programs", response={201: ProgramShape})
@@ -197,10 +212,12 @@ def read_expression(request: HttpRequest, program: UUID, body: ExpressionToRead)
 
 
 @router.get("/programs/{program}/versions", response=list[VersionShape])
-def list_versions(request: HttpRequest, program: UUID) -> list[VersionView]:
-    """List a program's versions, the newest first."""
+def list_versions(
+    request: HttpRequest, response: HttpResponse, program: UUID, asked: Query[PartAsked]
+) -> list[VersionView]:
+    """List a program's versions, the newest first; the header `Link` names the next part."""
     _program(request, program, "viewer")
-    return list(services.list_versions(program_id=program))
+    return tell_rest(request, response, services.list_versions(program_id=program, part=asked.part()))
 
 
 @router.post("/programs/{program}/versions", response={200: VersionShape, 201: VersionShape})
@@ -219,14 +236,17 @@ def show_version(request: HttpRequest, program: UUID, number: int) -> VersionVie
 
 
 @router.get("/library", response=list[LibraryShape])
-def search_library(request: HttpRequest, q: str = "", site: str = "") -> list[LibraryView]:
-    """Search the functions of one site, or of all sites of which the asker is a member."""
-    if site:
-        require(request.user, site, "viewer")
-        return list(services.search_library(sites=[site], query=q))
+def search_library(request: HttpRequest, response: HttpResponse, asked: Query[LibraryAsked]) -> list[LibraryView]:
+    """Search the functions of one site, or of all sites of which the asker is a member, by name.
+
+    The header `Link` names the next part.
+    """
     mine: Any = request.user
-    sites = [each.slug for each in registry.list_sites(user=mine)]
-    return list(services.search_library(sites=sites, query=q))
+    if asked.site:
+        require(mine, asked.site, "viewer")
+    sites = [asked.site] if asked.site else [each.slug for each in registry.list_sites(user=mine)]
+    found = services.search_library(sites=sites, query=asked.q, part=asked.part())
+    return tell_rest(request, response, found)
 
 
 @router.post("/sites/{slug}/library", response={201: LibraryShape})

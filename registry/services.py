@@ -13,6 +13,7 @@ from registry.alerts.inbox import (
 )
 from registry.alerts.views import AlertView, alert_to_json
 from registry.alerts.watch import watch_devices
+from registry.bounds.parts import FIRST, Listed, Part, take_part
 from registry.bounds.places import Claim, Places
 from registry.broker.accounts import wait_account_change
 from registry.broker.mosquitto_file import account_file
@@ -133,6 +134,7 @@ from registry.sparql.queries import QueryAnswer, run_query
 __all__ = [
     "DEMO_SITE",
     "EVERY_SITE",
+    "FIRST",
     "Access",
     "AlertCode",
     "AlertView",
@@ -143,6 +145,7 @@ __all__ = [
     "DescriptionMessage",
     "DeviceEventView",
     "DeviceView",
+    "Listed",
     "Login",
     "MapChanged",
     "MapVersionView",
@@ -157,6 +160,7 @@ __all__ = [
     "NotPending",
     "NotRetired",
     "Outage",
+    "Part",
     "PlaceView",
     "Places",
     "PointView",
@@ -284,6 +288,7 @@ __all__ = [
     "set_site_stop",
     "show_enrolment_key",
     "site_to_json",
+    "take_part",
     "update_device",
     "use_robot_map",
     "wait_account_change",

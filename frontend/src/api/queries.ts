@@ -104,6 +104,11 @@ function useGet<T>(key: readonly unknown[], path: string | null) {
   return useQuery({ queryKey: key, queryFn: path === null ? skipToken : () => api.get<T>(path) });
 }
 
+/** The same for a list that the server gives in parts. */
+function useAll<T>(key: readonly unknown[], path: string | null) {
+  return useQuery({ queryKey: key, queryFn: path === null ? skipToken : () => api.all<T>(path) });
+}
+
 type Maybe = string | undefined;
 const at = (id: Maybe, path: (id: string) => string) => (id ? path(encodeURIComponent(id)) : null);
 
@@ -131,7 +136,7 @@ export const useRetiredDevices = (slug: Maybe) =>
     at(slug, (s) => `/sites/${s}/devices?lifecycle=retired`),
   );
 export const usePrograms = (slug: Maybe) =>
-  useGet<Program[]>(
+  useAll<Program>(
     keys.programs(slug ?? ""),
     at(slug, (s) => `/sites/${s}/programs`),
   );
@@ -173,7 +178,7 @@ export const useRun = (id: Maybe) =>
 export const useRunEvents = (id: Maybe) =>
   useQuery({ queryKey: keys.runEvents(id ?? ""), queryFn: id ? () => getRunEvents(id) : skipToken });
 export const useLibrary = (q: string) =>
-  useGet<LibraryFunction[]>(keys.library(q), `/library?q=${encodeURIComponent(q)}`);
+  useAll<LibraryFunction>(keys.library(q), `/library?q=${encodeURIComponent(q)}`);
 export const useLibraryFunction = (id: Maybe) =>
   useGet<LibraryFunction>(
     keys.libraryFunction(id ?? ""),

@@ -33,7 +33,9 @@ export interface paths {
         };
         /**
          * Search Library
-         * @description Search the functions of one site, or of all sites of which the asker is a member.
+         * @description Search the functions of one site, or of all sites of which the asker is a member, by name.
+         *
+         *     The header `Link` names the next part.
          */
         get: operations["search_library"];
         put?: never;
@@ -321,7 +323,7 @@ export interface paths {
         };
         /**
          * List Versions
-         * @description List a program's versions, the newest first.
+         * @description List a program's versions, the newest first; the header `Link` names the next part.
          */
         get: operations["list_versions"];
         put?: never;
@@ -835,7 +837,7 @@ export interface paths {
         };
         /**
          * List Alerts
-         * @description List a site's alerts, the latest first: those that are not over, or those in one `state`; 1,000 at most.
+         * @description List a site's alerts, the latest first; the header `Link` names the next part.
          */
         get: operations["list_alerts"];
         put?: never;
@@ -1583,7 +1585,7 @@ export interface paths {
         };
         /**
          * List Programs
-         * @description List a site's programs, the last edited first.
+         * @description List a site's programs, the last edited first; the header `Link` names the next part.
          */
         get: operations["list_programs"];
         put?: never;
@@ -1869,6 +1871,16 @@ export interface components {
             /** @enum {string} */
             state: "open" | "seen" | "over";
             text: string;
+        };
+        /** @description Which alerts are asked for: those that are not over, or those in one `state`; of one device, if it is named. */
+        AlertsAsked: {
+            /** @default  */
+            before: string;
+            /** @default  */
+            device: string;
+            /** @default 200 */
+            limit: number;
+            state?: ("open" | "seen" | "over") | null;
         };
         /** @description The answer: yes or no, a number, a text, or one of the options. */
         AnswerQuestion: {
@@ -2264,6 +2276,17 @@ export interface components {
             /** Format: uuid */
             program: string;
         };
+        /** @description Which functions are asked for: those whose name or description has all words of `q`, of one site if named. */
+        LibraryAsked: {
+            /** @default  */
+            before: string;
+            /** @default 200 */
+            limit: number;
+            /** @default  */
+            q: string;
+            /** @default  */
+            site: string;
+        };
         /** @description A library function at one of its versions. */
         LibraryShape: {
             author: components["schemas"]["Author"] | null;
@@ -2478,6 +2501,13 @@ export interface components {
         ParameterUse: {
             param: string;
         };
+        /** @description Which part of a long list is asked for; `before` is as the header `Link` of the part before it names it. */
+        PartAsked: {
+            /** @default  */
+            before: string;
+            /** @default 200 */
+            limit: number;
+        };
         /** @description Somebody who is signed in. */
         Person: {
             email: string;
@@ -2562,6 +2592,15 @@ export interface components {
             name: string;
             site: string;
             warnings: number;
+        };
+        /** @description Which programs are asked for: those whose names have all words of `q`. */
+        ProgramsAsked: {
+            /** @default  */
+            before: string;
+            /** @default 200 */
+            limit: number;
+            /** @default  */
+            q: string;
         };
         /** @description How a device's property is written behind the device's name and a dot. */
         PropertyName: {
@@ -3211,6 +3250,8 @@ export interface operations {
     search_library: {
         parameters: {
             query?: {
+                limit?: number;
+                before?: string;
                 q?: string;
                 site?: string;
             };
@@ -3892,7 +3933,10 @@ export interface operations {
     };
     list_versions: {
         parameters: {
-            query?: never;
+            query?: {
+                limit?: number;
+                before?: string;
+            };
             header?: never;
             path: {
                 program: string;
@@ -5126,7 +5170,10 @@ export interface operations {
     list_alerts: {
         parameters: {
             query?: {
+                limit?: number;
+                before?: string;
                 state?: ("open" | "seen" | "over") | null;
+                device?: string;
             };
             header?: never;
             path: {
@@ -6973,7 +7020,11 @@ export interface operations {
     };
     list_programs: {
         parameters: {
-            query?: never;
+            query?: {
+                limit?: number;
+                before?: string;
+                q?: string;
+            };
             header?: never;
             path: {
                 slug: string;
