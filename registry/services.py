@@ -94,7 +94,8 @@ from registry.maps.site_maps import (
 )
 from registry.people.access import Access, NotAMember, find_access, require
 from registry.people.keyed_requests import prune_keyed_requests
-from registry.people.sessions import Session, Standing, drop_expired, session_of_socket
+from registry.people.open_sessions import drop_expired
+from registry.people.sessions import Session, Standing, session_of_socket
 from registry.people.sign_in import (
     change_password,
     check_sign_in,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any
 from uuid import UUID
@@ -46,7 +46,7 @@ class VersionView:
     document: Mapping[str, Any]
     script: str
     created_at: datetime
-    made: bool = False
+    made: bool = field(default=False, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

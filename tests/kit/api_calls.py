@@ -76,7 +76,7 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         "alert_id": DeviceAlert.objects.create(device_id=device, code="offline", first_at=NOW, last_at=NOW).pk,
     }
     named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
-    named |= {"name": "jobStatus", "action": "mix"}
+    named |= {"name": "jobStatus", "action": "mix", "session": "0"}
     return {**named, **{name: str(key) for name, key in made.items()}}
 
 

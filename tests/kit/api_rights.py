@@ -31,7 +31,7 @@ class Right:
 
 _NAMES = {
     Right("anybody", "anybody"): "show_me sign_in",
-    Right("person", "session"): "sign_out change_my_password sign_out_everywhere",
+    Right("person", "session"): "sign_out change_my_password sign_out_everywhere list_my_sessions end_my_session",
     Right("maker", "session"): "upload_site",
     Right("person", "read"): "list_sites search_library",
     Right("viewer", "session"): "list_tokens show_token create_token revoke_token",

@@ -7,6 +7,7 @@ import type {
   Device,
   LibraryFunction,
   Me,
+  OwnSession,
   Program,
   ProgramDocument,
   Question,
@@ -22,6 +23,7 @@ import type {
 /** The names of the caches. */
 export const keys = {
   me: ["me"] as const,
+  mySessions: ["my-sessions"] as const,
   sites: ["sites"] as const,
   site: (slug: string) => ["site", slug] as const,
   map: (slug: string) => ["map", slug] as const,
@@ -113,6 +115,7 @@ type Maybe = string | undefined;
 const at = (id: Maybe, path: (id: string) => string) => (id ? path(encodeURIComponent(id)) : null);
 
 export const useMe = () => useQuery({ queryKey: keys.me, queryFn: getMe, staleTime: Infinity });
+export const useMySessions = (ending: boolean) => useAll<OwnSession>(keys.mySessions, ending ? null : "/me/sessions");
 export const useSites = () => useGet<Site[]>(keys.sites, "/sites");
 export const useSite = (slug: Maybe) =>
   useGet<Site>(

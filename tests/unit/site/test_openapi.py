@@ -58,6 +58,7 @@ def test_every_answer_has_a_shape():
     }
     assert len(answers) > 80
     assert [key for key, answer in answers.items() if not has_shape(answer)] == [
+        ("delete", "/api/me/sessions/{session}", "204"),
         ("delete", "/api/programs/{program}", "204"),
         ("patch", "/api/sites/{slug}/things/{thing}", "204"),
         ("delete", "/api/sites/{slug}/tokens/{token_id}", "204"),
