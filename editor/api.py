@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from datetime import datetime
 from typing import Annotated, Any
 from uuid import UUID
 
 from django.http import HttpRequest, HttpResponse
 from ninja import Field, Query, Router, Schema
+from ninja.params.functions import Header
 from ninja.responses import Status
+from pydantic import ValidationError
 
 from editor import services
 from editor.programs.views import LibraryView, ProgramView, VersionView
+from editor.rooms.writing import read_content, write_document, write_script
 from editor.shapes import (
     Compiled,
     Definition,
     Document,
+    DocumentShape,
     DrawnScriptShape,
     ExpressionShape,
     ExpressionToRead,
@@ -24,9 +29,29 @@ from editor.shapes import (
 )
 from registry import services as registry
 from registry.services import NotAMember, require
-from registry.shapes import Asked, Line, PartAsked, Repaired, refuses, tell_rest
+from registry.shapes import Asked, Line, PartAsked, Repaired, refuses, signed_in, tell_rest
+from vipo_device.protocol.messages import BadMessage, parse_plain_json
+from vipo_device.protocol.texts import cleaned, cleaned_json
 
 router = Router(tags=["editor"])
+
+
+MOST_DOCUMENT = 8 * 1024 * 1024
+IF_MATCH: Any = Header(alias="If-Match", description="The ETag of what was read, as it is.")
+TAG = {"description": "Another once the content changes.", "schema": {"type": "string"}}
+TEXT: dict[str, Any] = {"type": "string"}
+DOCUMENT: dict[str, Any] = {"$ref": "#/components/schemas/DocumentShape"}
+TAGGED: dict[str, Any] = {"responses": {200: {"headers": {"ETag": TAG}}}}
+_TELLS_SCRIPT: dict[str, Any] = {
+    "responses": {200: {"content": {"text/plain": {"schema": TEXT}}, "headers": {"ETag": TAG}}}
+}
+
+
+def _takes(content_type: str, schema: dict[str, Any]) -> dict[str, Any]:
+    """Say in the OpenAPI file what a call that writes content takes, and how it may refuse it."""
+    body = {"required": True, "content": {content_type: {"schema": schema}}}
+    told = {204: {"headers": {"ETag": TAG}}, **refuses(412, 413, 428)["responses"]}
+    return {"requestBody": body, "responses": told}
 
 
 class Author(Schema):
@@ -180,11 +205,63 @@ def delete_program(request: HttpRequest, program: UUID) -> Status[None]:
     return Status(204, None)
 
 
-@router.get("/programs/{program}/document", response=Document)
-def show_document(request: HttpRequest, program: UUID) -> dict[str, Any]:
-    """Show a program's document as it is now."""
+@router.get("/programs/{program}/document", response=Document, openapi_extra=TAGGED)
+def show_document(request: HttpRequest, response: HttpResponse, program: UUID) -> Mapping[str, Any]:
+    """Show a program's document as it is now; the header `ETag` is what it is written with."""
     _program(request, program, "viewer")
-    return services.get_document(program_id=program)
+    content = read_content(program_id=program)
+    response["ETag"] = content.tag
+    return content.document
+
+
+@router.put("/programs/{program}/document", response={204: None}, openapi_extra=_takes("application/json", DOCUMENT))
+def put_document(
+    request: HttpRequest, response: HttpResponse, program: UUID, if_match: Annotated[str, IF_MATCH] = ""
+) -> Status[None]:
+    """Make a document the program's, if it is still what was read; what others change meanwhile is merged."""
+    _program(request, program, "author")
+    content = write_document(
+        program_id=program, document=_read_document(request.body), tag=if_match, author=signed_in(request).pk
+    )
+    response["ETag"] = content.tag
+    return Status(204, None)
+
+
+@router.get("/programs/{program}/script", openapi_extra=_TELLS_SCRIPT)
+def show_script(request: HttpRequest, program: UUID) -> HttpResponse:
+    """Send a program's script as it is now; the header `ETag` is what it is written with."""
+    _program(request, program, "viewer")
+    content = read_content(program_id=program)
+    return HttpResponse(content.script, content_type="text/plain; charset=utf-8", headers={"ETag": content.tag})
+
+
+@router.put("/programs/{program}/script", response={204: None}, openapi_extra=_takes("text/plain", TEXT))
+def put_script(
+    request: HttpRequest, response: HttpResponse, program: UUID, if_match: Annotated[str, IF_MATCH] = ""
+) -> Status[None]:
+    """Make a script the program's, if it is still what was read; `args.diagnostics` says where it is none."""
+    _program(request, program, "author")
+    try:
+        text = cleaned(request.body.decode())
+    except UnicodeDecodeError as error:
+        raise services.BadRequest("The script is not UTF-8. Send it as text/plain in UTF-8.") from error
+    content = write_script(program_id=program, text=text, tag=if_match, author=signed_in(request).pk)
+    response["ETag"] = content.tag
+    return Status(204, None)
+
+
+def _read_document(body: bytes) -> dict[str, Any]:
+    """Return a document that has its shape. Raises BadRequest."""
+    try:
+        plain: Any = parse_plain_json(body, max_bytes=MOST_DOCUMENT, max_depth=60)
+        DocumentShape.model_validate(plain)
+    except BadMessage as error:
+        raise services.BadRequest(error.fault.about("The document").sentence) from error
+    except ValidationError as error:
+        where = error.errors(include_url=False)[0]
+        path = ".".join(map(str, where["loc"]))
+        raise services.BadRequest(f"The document does not fit: {path}: {where['msg']}") from error
+    return dict(cleaned_json(plain))
 
 
 @router.get("/programs/{program}/compiled", response=Compiled)

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from django.core import signing
 from django.db.models import Model, Q, QuerySet
 
-from registry.errors import RegistryError
+from vipo_device.protocol.errors import VipoError
 
 MOST_AT_ONCE = 200
 _SALT = "vipo.part"
@@ -21,7 +21,7 @@ Row = TypeVar("Row", bound=Model)
 View = TypeVar("View")
 
 
-class BadMark(RegistryError):
+class BadMark(VipoError):
     """A mark that no list has told, or that another one has."""
 
     code = "bad_mark"

@@ -56,13 +56,14 @@ _REFUSALS = {
     413: "It is longer than it may be.",
     415: "Its content type is not one that is taken here.",
     422: "The request does not fit; `fields` says which part of it, and why.",
+    428: "The header If-Match is missing.",
     429: "Too much at once: wait as long as the header Retry-After says.",
     500: "A fault of VIPO's own.",
     501: "The standard knows it, and VIPO does not offer it.",
     503: "What it takes is away; nothing was changed.",
 }
 """What calls are refused with; `default` says how any other refusal would be told."""
-_RARE = (412, 413, 415, 501)
+_RARE = (412, 413, 415, 428, 501)
 """Only of calls that say so themselves (`refuses`)."""
 
 

@@ -60,6 +60,8 @@ def test_every_answer_has_a_shape():
     assert [key for key, answer in answers.items() if not has_shape(answer)] == [
         ("delete", "/api/me/sessions/{session}", "204"),
         ("delete", "/api/programs/{program}", "204"),
+        ("put", "/api/programs/{program}/document", "204"),
+        ("put", "/api/programs/{program}/script", "204"),
         ("patch", "/api/sites/{slug}/things/{thing}", "204"),
         ("delete", "/api/sites/{slug}/tokens/{token_id}", "204"),
     ]

@@ -7,11 +7,19 @@ from typing import Any
 import pytest
 
 from registry.models import Site
+from registry.thing_directory import property_values
 from tests.kit.api_calls import make_one_of_each, undone
 from tests.kit.api_rights import OPERATIONS
 from tests.kit.sign_in import post_json, signed_in
+from tests.kit.sites import make_hall
 
-pytestmark = pytest.mark.usefixtures("impatient")
+pytestmark = pytest.mark.django_db
+
+
+@pytest.fixture
+def hall(monkeypatch: pytest.MonkeyPatch) -> str:
+    monkeypatch.setattr(property_values, "MOST_POLL_S", 0.0)
+    return make_hall()
 
 
 def test_a_name_that_is_misspelt_is_refused_and_those_that_are_known_are_said(hall: str) -> None:
