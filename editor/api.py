@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from datetime import datetime
 from typing import Annotated, Any
 from uuid import UUID
 
-from django.http import HttpRequest
-from ninja import Field, Router, Schema
+from django.http import HttpRequest, HttpResponse
+from ninja import Field, Query, Router, Schema
+from ninja.params.functions import Header
 from ninja.responses import Status
+from pydantic import ValidationError
 
 from editor import services
 from editor.programs.views import LibraryView, ProgramView, VersionView
+from editor.rooms.writing import read_content, write_document, write_script
 from editor.shapes import (
     Compiled,
     Definition,
     Document,
+    DocumentShape,
     DrawnScriptShape,
     ExpressionShape,
     ExpressionToRead,
@@ -24,9 +29,29 @@ from editor.shapes import (
 )
 from registry import services as registry
 from registry.services import NotAMember, require
-from registry.shapes import Asked, Line, Repaired
+from registry.shapes import Asked, Line, PartAsked, Repaired, refuses, signed_in, tell_rest
+from vipo_device.protocol.messages import BadMessage, parse_plain_json
+from vipo_device.protocol.texts import cleaned, cleaned_json
 
 router = Router(tags=["editor"])
+
+
+MOST_DOCUMENT = 8 * 1024 * 1024
+IF_MATCH: Any = Header(alias="If-Match", description="The ETag of what was read, as it is.")
+TAG = {"description": "Another once the content changes.", "schema": {"type": "string"}}
+TEXT: dict[str, Any] = {"type": "string"}
+DOCUMENT: dict[str, Any] = {"$ref": "#/components/schemas/DocumentShape"}
+TAGGED: dict[str, Any] = {"responses": {200: {"headers": {"ETag": TAG}}}}
+_TELLS_SCRIPT: dict[str, Any] = {
+    "responses": {200: {"content": {"text/plain": {"schema": TEXT}}, "headers": {"ETag": TAG}}}
+}
+
+
+def _takes(content_type: str, schema: dict[str, Any]) -> dict[str, Any]:
+    """Say in the OpenAPI file what a call that writes content takes, and how it may refuse it."""
+    body = {"required": True, "content": {content_type: {"schema": schema}}}
+    told = {204: {"headers": {"ETag": TAG}}, **refuses(412, 413, 428)["responses"]}
+    return {"requestBody": body, "responses": told}
 
 
 class Author(Schema):
@@ -51,6 +76,19 @@ class ProgramShape(Schema):
     warnings: int
 
 
+class ProgramsAsked(PartAsked):
+    """Which programs are asked for: those whose names have all words of `q`."""
+
+    q: Line = Field("", max_length=200)
+
+
+class LibraryAsked(PartAsked):
+    """Which functions are asked for: those whose name or description has all words of `q`, of one site if named."""
+
+    q: Line = Field("", max_length=200)
+    site: Line = Field("", max_length=100)
+
+
 class ProgramName(Asked):
     """A name for a program."""
 
@@ -66,6 +104,12 @@ class VersionShape(Schema):
     message: str
     created_at: datetime
     script: str
+
+
+class WholeVersionShape(VersionShape):
+    """A version with its document."""
+
+    document: Document
 
 
 class VersionMessage(Asked):
@@ -125,10 +169,12 @@ def _require(request: HttpRequest, site: str, role: str) -> None:
 
 
 @router.get("/sites/{slug}/programs", response=list[ProgramShape])
-def list_programs(request: HttpRequest, slug: str) -> list[ProgramView]:
-    """List a site's programs, the last edited first."""
+def list_programs(
+    request: HttpRequest, response: HttpResponse, slug: str, asked: Query[ProgramsAsked]
+) -> list[ProgramView]:
+    """List a site's programs, the last edited first; the header `Link` names the next part."""
     require(request.user, slug, "viewer")
-    return list(services.list_programs(site=slug))
+    return tell_rest(request, response, services.list_programs(site=slug, part=asked.part(), words=asked.q))
 
 
 @router.post("/sites/{slug}/programs", response={201: ProgramShape})
@@ -159,11 +205,63 @@ def delete_program(request: HttpRequest, program: UUID) -> Status[None]:
     return Status(204, None)
 
 
-@router.get("/programs/{program}/document", response=Document)
-def show_document(request: HttpRequest, program: UUID) -> dict[str, Any]:
-    """Show a program's document as it is now."""
+@router.get("/programs/{program}/document", response=Document, openapi_extra=TAGGED)
+def show_document(request: HttpRequest, response: HttpResponse, program: UUID) -> Mapping[str, Any]:
+    """Show a program's document as it is now; the header `ETag` is what it is written with."""
     _program(request, program, "viewer")
-    return services.get_document(program_id=program)
+    content = read_content(program_id=program)
+    response["ETag"] = content.tag
+    return content.document
+
+
+@router.put("/programs/{program}/document", response={204: None}, openapi_extra=_takes("application/json", DOCUMENT))
+def put_document(
+    request: HttpRequest, response: HttpResponse, program: UUID, if_match: Annotated[str, IF_MATCH] = ""
+) -> Status[None]:
+    """Make a document the program's, if it is still what was read; what others change meanwhile is merged."""
+    _program(request, program, "author")
+    content = write_document(
+        program_id=program, document=_read_document(request.body), tag=if_match, author=signed_in(request).pk
+    )
+    response["ETag"] = content.tag
+    return Status(204, None)
+
+
+@router.get("/programs/{program}/script", openapi_extra=_TELLS_SCRIPT)
+def show_script(request: HttpRequest, program: UUID) -> HttpResponse:
+    """Send a program's script as it is now; the header `ETag` is what it is written with."""
+    _program(request, program, "viewer")
+    content = read_content(program_id=program)
+    return HttpResponse(content.script, content_type="text/plain; charset=utf-8", headers={"ETag": content.tag})
+
+
+@router.put("/programs/{program}/script", response={204: None}, openapi_extra=_takes("text/plain", TEXT))
+def put_script(
+    request: HttpRequest, response: HttpResponse, program: UUID, if_match: Annotated[str, IF_MATCH] = ""
+) -> Status[None]:
+    """Make a script the program's, if it is still what was read; `args.diagnostics` says where it is none."""
+    _program(request, program, "author")
+    try:
+        text = cleaned(request.body.decode())
+    except UnicodeDecodeError as error:
+        raise services.BadRequest("The script is not UTF-8. Send it as text/plain in UTF-8.") from error
+    content = write_script(program_id=program, text=text, tag=if_match, author=signed_in(request).pk)
+    response["ETag"] = content.tag
+    return Status(204, None)
+
+
+def _read_document(body: bytes) -> dict[str, Any]:
+    """Return a document that has its shape. Raises BadRequest."""
+    try:
+        plain: Any = parse_plain_json(body, max_bytes=MOST_DOCUMENT, max_depth=60)
+        DocumentShape.model_validate(plain)
+    except BadMessage as error:
+        raise services.BadRequest(error.fault.about("The document").sentence) from error
+    except ValidationError as error:
+        where = error.errors(include_url=False)[0]
+        path = ".".join(map(str, where["loc"]))
+        raise services.BadRequest(f"The document does not fit: {path}: {where['msg']}") from error
+    return dict(cleaned_json(plain))
 
 
 @router.get("/programs/{program}/compiled", response=Compiled)
@@ -173,7 +271,7 @@ def show_compiled(request: HttpRequest, program: UUID) -> dict[str, Any]:
     return services.get_compiled(program_id=program)
 
 
-@router.post("/programs/{program}/script", response=DrawnScriptShape)
+@router.post("/programs/{program}/script", response=DrawnScriptShape, openapi_extra=refuses(413))
 def draw_script(request: HttpRequest, program: UUID, body: ScriptText) -> services.DrawnScript:
     """Draw a script: the document that it would make of the program, or where it leaves the language."""
     _program(request, program, "author")
@@ -191,28 +289,41 @@ def read_expression(request: HttpRequest, program: UUID, body: ExpressionToRead)
 
 
 @router.get("/programs/{program}/versions", response=list[VersionShape])
-def list_versions(request: HttpRequest, program: UUID) -> list[VersionView]:
-    """List a program's versions, the newest first."""
+def list_versions(
+    request: HttpRequest, response: HttpResponse, program: UUID, asked: Query[PartAsked]
+) -> list[VersionView]:
+    """List a program's versions, the newest first; the header `Link` names the next part."""
     _program(request, program, "viewer")
-    return list(services.list_versions(program_id=program))
+    return tell_rest(request, response, services.list_versions(program_id=program, part=asked.part()))
 
 
-@router.post("/programs/{program}/versions", response={201: VersionShape})
+@router.post("/programs/{program}/versions", response={200: VersionShape, 201: VersionShape})
 def pin_version(request: HttpRequest, program: UUID, body: VersionMessage) -> Status[VersionView]:
-    """Make the program as it is now a version."""
+    """Make the program as it is now a version; the answer is 200 with the last one if nothing has changed since."""
     _program(request, program, "author")
-    return Status(201, services.pin_version(program_id=program, user=request.user, message=body.message))
+    pinned = services.pin_version(program_id=program, user=request.user, message=body.message)
+    return Status(201 if pinned.made else 200, pinned)
+
+
+@router.get("/programs/{program}/versions/{number}", response=WholeVersionShape)
+def show_version(request: HttpRequest, program: UUID, number: int) -> VersionView:
+    """Show a program as it was when it was pinned under a number, with its document."""
+    _program(request, program, "viewer")
+    return services.find_version(program_id=program, number=number)
 
 
 @router.get("/library", response=list[LibraryShape])
-def search_library(request: HttpRequest, q: str = "", site: str = "") -> list[LibraryView]:
-    """Search the functions of one site, or of all sites of which the asker is a member."""
-    if site:
-        require(request.user, site, "viewer")
-        return list(services.search_library(sites=[site], query=q))
+def search_library(request: HttpRequest, response: HttpResponse, asked: Query[LibraryAsked]) -> list[LibraryView]:
+    """Search the functions of one site, or of all sites of which the asker is a member, by name.
+
+    The header `Link` names the next part.
+    """
     mine: Any = request.user
-    sites = [each.slug for each in registry.list_sites(user=mine)]
-    return list(services.search_library(sites=sites, query=q))
+    if asked.site:
+        require(mine, asked.site, "viewer")
+    sites = [asked.site] if asked.site else [each.slug for each in registry.list_sites(user=mine)]
+    found = services.search_library(sites=sites, query=asked.q, part=asked.part())
+    return tell_rest(request, response, found)
 
 
 @router.post("/sites/{slug}/library", response={201: LibraryShape})

@@ -47,7 +47,7 @@ from execution.views import (
 )
 from registry import services as registry
 from registry.services import NotAMember, require
-from registry.shapes import Stop, link_to_next, signed_in
+from registry.shapes import LOCATION, Stop, link_to_next, signed_in
 from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])
@@ -78,7 +78,7 @@ def _who(request: HttpRequest) -> str:
     return str(getattr(request.user, "display_name", "") or request.user)
 
 
-@router.post("/programs/{uuid:program}/rehearsals", response=RehearsalShape)
+@router.post("/programs/{uuid:program}/rehearsals", response={202: RehearsalShape})
 def start_rehearsal(request: HttpRequest, program: UUID, body: StartRehearsal | None = None) -> dict[str, Any]:
     """Queue a rehearsal of a program as it is drawn now."""
     _require_here(request, site_of_program(program_id=program), "operator", "program")
@@ -96,7 +96,7 @@ def get_rehearsal(request: HttpRequest, rehearsal: UUID) -> dict[str, Any]:
     return rehearsal_to_json(view)
 
 
-@router.post("/programs/{uuid:program}/runs", response=RunSummaryShape)
+@router.post("/programs/{uuid:program}/runs", response={202: RunSummaryShape})
 def start_run(request: HttpRequest, program: UUID, body: StartRun | None = None) -> dict[str, Any]:
     """Start a run of a program as it is drawn now."""
     _require_here(request, site_of_program(program_id=program), "operator", "program")
@@ -151,7 +151,7 @@ def cancel_run(request: HttpRequest, run: UUID) -> dict[str, Any]:
     return run_to_json(services.cancel_run(run_id=run, by=_who(request)))
 
 
-@router.post("/sites/{slug:site}/devices/{device_id}/call", response=CallShape)
+@router.post("/sites/{slug:site}/devices/{device_id}/call", response={202: CallShape})
 def call_method(request: HttpRequest, site: str, device_id: str, body: CallMethod) -> dict[str, Any]:
     """Tell a device to carry out one of its methods, outside of any run; follow what comes of it by its id."""
     _require(request, site, "operator")
@@ -179,6 +179,7 @@ def cancel_call(request: HttpRequest, site: str, call: UUID) -> dict[str, Any]:
     "/sites/{slug:site}/things/{thing}/actions/{action}",
     response={200: ActionStatus, 202: ActionStatus},
     exclude_unset=True,
+    openapi_extra={"responses": {status: {"headers": {"Location": LOCATION}} for status in (200, 202)}},
 )
 def invoke_action(
     request: HttpRequest, response: HttpResponse, site: str, thing: str, action: str, body: ActionInput | None = None
@@ -286,7 +287,7 @@ def plan_routes(request: HttpRequest, site: str, body: AskRoutes) -> list[dict[s
     return [route_to_json(route) if route else None for route in routes]
 
 
-@router.post("/sites/{slug}/map/from-device", response=ChangedMap)
+@router.post("/sites/{slug}/map/from-device", response={201: ChangedMap})
 def use_robot_map(request: HttpRequest, slug: str, body: UseRobotMap) -> dict[str, Any]:
     """Make a robot's map the site's, as a new version; places and devices stay. Refused while anything is under way."""
     user = signed_in(request)
@@ -300,7 +301,7 @@ def use_robot_map(request: HttpRequest, slug: str, body: UseRobotMap) -> dict[st
     return {"version": changed.version}
 
 
-@router.post("/sites/{slug}/map/restore", response=ChangedMap)
+@router.post("/sites/{slug}/map/restore", response={201: ChangedMap})
 def restore_map(request: HttpRequest, slug: str, body: RestoreMap) -> dict[str, Any]:
     """Use an older version of the site's map again, as a new version. Refused while anything is under way."""
     user = signed_in(request)

@@ -13,6 +13,7 @@ from registry.alerts.inbox import (
 )
 from registry.alerts.views import AlertView, alert_to_json
 from registry.alerts.watch import watch_devices
+from registry.bounds.parts import FIRST, Listed, Part, take_part
 from registry.bounds.places import Claim, Places
 from registry.broker.accounts import wait_account_change
 from registry.broker.mosquitto_file import account_file
@@ -95,7 +96,8 @@ from registry.maps.site_maps import (
 )
 from registry.people.access import Access, NotAMember, find_access, require
 from registry.people.keyed_requests import prune_keyed_requests
-from registry.people.sessions import Session, Standing, drop_expired, session_of_socket
+from registry.people.open_sessions import drop_expired
+from registry.people.sessions import Session, Standing, session_of_socket
 from registry.people.sign_in import (
     change_password,
     check_sign_in,
@@ -133,6 +135,7 @@ from registry.sparql.queries import QueryAnswer, run_query
 __all__ = [
     "DEMO_SITE",
     "EVERY_SITE",
+    "FIRST",
     "Access",
     "AlertCode",
     "AlertView",
@@ -143,6 +146,7 @@ __all__ = [
     "DescriptionMessage",
     "DeviceEventView",
     "DeviceView",
+    "Listed",
     "Login",
     "MapChanged",
     "MapVersionView",
@@ -157,6 +161,7 @@ __all__ = [
     "NotPending",
     "NotRetired",
     "Outage",
+    "Part",
     "PlaceView",
     "Places",
     "PointView",
@@ -288,6 +293,7 @@ __all__ = [
     "set_site_stop",
     "show_enrolment_key",
     "site_to_json",
+    "take_part",
     "update_device",
     "use_robot_map",
     "wait_account_change",

@@ -8,20 +8,38 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from django.http import HttpRequest
+from django.http import HttpRequest, HttpResponse
 from ninja import Field, Schema
 from ninja.schema import DjangoGetter
 from pydantic import AfterValidator, ConfigDict, GetCoreSchemaHandler, Strict, ValidationError, model_validator
 from pydantic_core import CoreSchema, InitErrorDetails, PydanticCustomError, core_schema
 
+from registry.bounds.parts import MOST_AT_ONCE, Listed, Part
 from registry.devices.views import Status
 from registry.models import User
 from vipo_device.protocol.texts import cleaned_json, normal, normal_json, refusal_of, unfit_texts
 
+LOCATION = {
+    "description": "The address of what was made.",
+    "schema": {"type": "string", "format": "uri-reference"},
+}
+"""How the OpenAPI file describes the header `Location`."""
+
 
 def sends(*content_types: str) -> dict[str, Any]:
-    """Say in the OpenAPI file that a call answers with something else than JSON."""
-    return {"responses": {200: {"content": {name: {"schema": {"type": "string"}} for name in content_types}}}}
+    """Say in the OpenAPI file that a call answers with something else than JSON of a shape."""
+    return {"responses": {200: {"content": {name: {"schema": {"type": _type_of(name)}} for name in content_types}}}}
+
+
+def _type_of(content_type: str) -> str | list[str]:
+    if content_type == "application/ld+json":
+        return ["object", "array"]
+    return "object" if content_type.endswith(("json", "yaml")) else "string"
+
+
+def refuses(*statuses: int) -> dict[str, Any]:
+    """Say in the OpenAPI file that a call may be refused with statuses that others are not."""
+    return {"responses": {status: {} for status in statuses}}
 
 
 def signed_in(request: HttpRequest) -> User:
@@ -113,6 +131,24 @@ def _read_field(name: str, value: Any, marks: list[Any]) -> Any:
         why = PydanticCustomError("text", "This text {refusal}", {"refusal": refusal_of(text)})
         raise ValidationError.from_exception_data("text", [InitErrorDetails(type=why, loc=where, input=None)])
     return read
+
+
+class PartAsked(Asked):
+    """Which part of a long list is asked for; `before` is as the header `Link` of the part before it names it."""
+
+    limit: int = Field(MOST_AT_ONCE, ge=1, le=MOST_AT_ONCE)
+    before: str = Field("", max_length=4000)
+
+    def part(self) -> Part:
+        """Return the part that is meant."""
+        return Part(self.limit, self.before)
+
+
+def tell_rest(request: HttpRequest, response: HttpResponse, listed: Listed[Any]) -> list[Any]:
+    """Return a part of a list for its answer, whose header `Link` names the next one, if there is one."""
+    if listed.rest:
+        response["Link"] = link_to_next(request, before=listed.rest)
+    return list(listed)
 
 
 Role = Literal["viewer", "operator", "author", "admin"]

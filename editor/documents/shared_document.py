@@ -152,6 +152,24 @@ class SharedDocument:
         self.apply(copy.get_update(self.state()))
         return True
 
+    def change_to(self, wanted: Mapping[str, Any]) -> None:
+        """Become what a plain document says, by no more changes than that takes, so that other edits merge."""
+        before, copy = self.to_json(), _document_with(self.encode())
+        with copy.transaction():
+            meta, steps = copy.get("meta", type=Map), copy.get("steps", type=Map)
+            _set_all(meta, {**meta.to_py(), "format": FORMAT, "start_pos": wanted.get("start_pos")})
+            for name in [name for name in steps.keys() if name not in wanted["steps"]]:  # noqa: SIM118 - a Yjs map
+                del steps[name]
+            for name, step in wanted["steps"].items():
+                known = before["steps"].get(name)
+                if known is None or {**known, "params": 0} != {**step, "params": 0}:
+                    steps[name] = Map({**step, "params": Map(dict(step.get("params", {})))})
+                elif known != step:
+                    _rewrite(steps, name, step)
+            for root in _CONTENT[1:]:
+                _set_all(copy.get(root, type=Map), wanted.get(root, {}))
+        self.apply(copy.get_update(self.state()))
+
     def digest(self) -> str:
         """Return a hash of the content: two documents that hold the same have the same."""
         return digest_of(self.to_json())

@@ -18,6 +18,7 @@ from editor.models import LibraryFunction, LibraryVersion, Program
 from editor.programs.checking import build_surroundings
 from editor.programs.views import LibraryView, view_author
 from registry import services as registry
+from registry.services import FIRST, Listed, Part
 
 MOST_NAME, MOST_DESCRIPTION = 120, 500
 
@@ -88,12 +89,17 @@ def print_function(definition: Mapping[str, Any], site: str) -> str:
     return compile_document(document, build_surroundings(site=site)).script
 
 
-def search_library(*, sites: Iterable[str], query: str = "") -> tuple[LibraryView, ...]:
-    """Return the functions of the sites whose name or description has every word of the query, by name."""
-    rows = _rows().filter(site__slug__in=list(sites), last_version__gt=0).order_by("name", "pk")
+def search_library(*, sites: Iterable[str], query: str = "", part: Part = FIRST) -> Listed[LibraryView]:
+    """Return the functions of the sites whose name or description has every word of the query, by name.
+
+    Raises BadMark.
+    """
+    rows = _rows().filter(site__slug__in=list(sites), last_version__gt=0)
     for word in query.split()[:10]:
         rows = rows.filter(Q(name__icontains=word) | Q(description__icontains=word))
-    return tuple(_view(row, _version(row, row.last_version)) for row in rows[:200])
+    return registry.take_part(
+        rows=rows, by="name", part=part, view=lambda row: _view(row, _version(row, row.last_version))
+    )
 
 
 def get_function(*, function_id: UUID | str, version: int | None = None) -> LibraryView:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from uuid import UUID
@@ -26,7 +27,7 @@ from editor.models import Program, Snapshot, Version
 from editor.programs.checking import build_surroundings, check_program, compiled_json, fingerprint_of, new_revision
 from editor.programs.views import ProgramView, VersionView, view_author
 from registry import services as registry
-from registry.services import publish
+from registry.services import FIRST, Listed, Part, publish
 from vipo_device.protocol.texts import find_unfit, normal
 
 MOST_NAME = 120
@@ -34,13 +35,19 @@ MOST_CHECKED_AT_ONCE = 100
 _GONE = "There is no such program. It may have been deleted."
 
 
-def list_programs(*, site: str) -> tuple[ProgramView, ...]:
-    """Return a site's programs, the last edited first; counts that the site's devices have outdated are renewed."""
-    rows = Program.objects.filter(site__slug=site).select_related("site", "edited_by").order_by("-edited_at", "name")
+def list_programs(*, site: str, part: Part = FIRST, words: str = "") -> Listed[ProgramView]:
+    """Return a site's programs whose names have these words, the last edited first.
+
+    Counts that the site's devices have outdated are renewed. Raises BadMark.
+    """
+    rows = Program.objects.filter(site__slug=site).select_related("site", "edited_by")
+    for word in words.split()[:10]:
+        rows = rows.filter(name__icontains=word)
     current = fingerprint_of(build_surroundings(site=site))
-    for stale in rows.exclude(checked_against=current).values_list("pk", flat=True)[:MOST_CHECKED_AT_ONCE]:
-        get_compiled(program_id=stale)
-    return tuple(_view(row) for row in rows.all())
+    stale = rows.exclude(checked_against=current).order_by("-edited_at")
+    for program in stale.values_list("pk", flat=True)[:MOST_CHECKED_AT_ONCE]:
+        get_compiled(program_id=program)
+    return registry.take_part(rows=rows, by="-edited_at", part=part, view=_view)
 
 
 def get_program(*, program_id: UUID | str) -> ProgramView:
@@ -87,11 +94,10 @@ def get_compiled(*, program_id: UUID | str) -> dict[str, Any]:
     return check_program(program_id=str(program_id), document=get_document(program_id=program_id), revision=revision)
 
 
-def list_versions(*, program_id: UUID | str) -> tuple[VersionView, ...]:
-    """Return a program's versions, the newest first. Raises NoSuchProgram."""
-    program = _find(program_id)
-    rows = program.versions.select_related("author", "program__site").order_by("-number")
-    return tuple(_version_view(row) for row in rows)
+def list_versions(*, program_id: UUID | str, part: Part = FIRST) -> Listed[VersionView]:
+    """Return a program's versions, the newest first. Raises NoSuchProgram, BadMark."""
+    rows = _find(program_id).versions.select_related("author", "program__site")
+    return registry.take_part(rows=rows, by="-number", part=part, view=_version_view)
 
 
 def get_version(*, version_id: UUID | str) -> VersionView:
@@ -99,6 +105,15 @@ def get_version(*, version_id: UUID | str) -> VersionView:
     row = Version.objects.select_related("author", "program__site").filter(pk=version_id).first()
     if row is None:
         raise NoSuchProgram("There is no such version. Its program may have been deleted.")
+    return _version_view(row)
+
+
+def find_version(*, program_id: UUID | str, number: int) -> VersionView:
+    """Return a program's version by its number. Raises NoSuchProgram."""
+    rows = Version.objects.select_related("author", "program__site")
+    row = rows.filter(program_id=program_id, number=number).first()
+    if row is None:
+        raise NoSuchProgram(f"The program has no version {number}.")
     return _version_view(row)
 
 
@@ -115,9 +130,10 @@ def pin_version(*, program_id: UUID | str, user: Any, message: str = "") -> Vers
         if program is None:
             raise NoSuchProgram(_GONE)
         last = program.versions.order_by("-number").first()
-        if last is None or last.digest != digest or (message and message != last.message):
+        made = last is None or last.digest != digest or bool(message and message != last.message)
+        if made or last is None:
             last = _add_version(program, user, message[:300], document, script)
-    return get_version(version_id=last.pk)
+    return replace(get_version(version_id=last.pk), made=made)
 
 
 def _add_version(program: Program, user: Any, message: str, document: dict[str, Any], script: str) -> Version:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any
 from uuid import UUID
@@ -35,7 +35,7 @@ class ProgramView:
 
 @dataclass(frozen=True, slots=True)
 class VersionView:
-    """A program as it was when it was pinned."""
+    """A program as it was when it was pinned; `made` is True in the answer to who pinned just this one."""
 
     id: UUID
     program: UUID
@@ -46,6 +46,7 @@ class VersionView:
     document: Mapping[str, Any]
     script: str
     created_at: datetime
+    made: bool = field(default=False, compare=False)
 
 
 @dataclass(frozen=True, slots=True)

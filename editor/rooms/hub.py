@@ -38,7 +38,7 @@ class Hub:
     def __init__(self, stream: RoomStream) -> None:
         self.loop = asyncio.get_running_loop()
         self._origin = uuid.uuid4().hex
-        self._stream = stream
+        self.stream = stream
         self._open: dict[str, OpenRoom] = {}
         self._locks: defaultdict[str, asyncio.Lock] = defaultdict(asyncio.Lock)
         self._background: set[asyncio.Task[None]] = set()
@@ -69,7 +69,7 @@ class Hub:
             return opened.room
 
     async def _open_room(self, program_id: str) -> OpenRoom:
-        opened = await open_room(program_id, self._origin, self._stream, self._drop)
+        opened = await open_room(program_id, self._origin, self.stream, self._drop)
         self._open[program_id] = opened
         return opened
 
@@ -173,9 +173,13 @@ def hub_of_this_loop() -> Hub:
 
 def flush_program(program_id: str) -> None:
     """Write into the database what this process's room of a program still holds; not to be called on an event loop."""
-    for loop, hub in list(_hubs.items()):
-        if loop.is_running() and not _is_on(loop):
-            asyncio.run_coroutine_threadsafe(hub.flush(program_id), loop).result(FLUSH_LIMIT_S)
+    for loop, hub in hubs_elsewhere():
+        asyncio.run_coroutine_threadsafe(hub.flush(program_id), loop).result(FLUSH_LIMIT_S)
+
+
+def hubs_elsewhere() -> list[tuple[asyncio.AbstractEventLoop, Hub]]:
+    """Return the hubs of this process's other event loops, which are running."""
+    return [(loop, hub) for loop, hub in list(_hubs.items()) if loop.is_running() and not _is_on(loop)]
 
 
 def _is_on(loop: asyncio.AbstractEventLoop) -> bool:

@@ -9,13 +9,14 @@ from django.db import transaction
 
 from registry.alerts.causes import AlertCode
 from registry.alerts.views import AlertState, AlertView, publish_alerts, readable, view_of
+from registry.bounds.parts import Listed, Part, take_part
 from registry.errors import RegistryError
 from registry.models import DeviceAlert, Site, User
 from registry.sites.sites import find_site
 
 KEPT_FOR = timedelta(days=30)
 KEPT_AT_MOST = 1000
-MOST_LISTED = 1000
+ALL = Part(limit=1000)
 
 
 class NoSuchAlert(RegistryError):
@@ -33,12 +34,16 @@ def list_open_alerts(*, codes: Collection[AlertCode]) -> tuple[AlertView, ...]:
     return tuple(view_of(row) for row in readable("admin").filter(code__in=codes, over_at=None))
 
 
-def list_alerts(*, site: str, state: AlertState | None = None, role: str = "admin") -> tuple[AlertView, ...]:
+def list_alerts(
+    *, site: str, state: AlertState | None = None, role: str = "admin", device: str = "", part: Part = ALL
+) -> Listed[AlertView]:
     """Return the site's alerts that concern this role, the latest first; those that are not over unless `state` says.
 
-    Raises NotAMember where there is no such site.
+    Of one device, if it is named. Raises NotAMember where there is no such site, BadMark.
     """
-    rows = readable(role).filter(device__site=find_site(site)).order_by("-last_at", "-pk")
+    rows = readable(role).filter(device__site=find_site(site))
+    if device:
+        rows = rows.filter(device=device)
     match state:
         case "over":
             rows = rows.exclude(over_at=None)
@@ -48,7 +53,7 @@ def list_alerts(*, site: str, state: AlertState | None = None, role: str = "admi
             rows = rows.filter(over_at=None, seen_at=None)
         case _:
             rows = rows.filter(over_at=None)
-    return tuple(view_of(row) for row in rows[:MOST_LISTED])
+    return take_part(rows=rows, by="-last_at", part=part, view=view_of)
 
 
 def find_alert(*, alert_id: int) -> AlertView:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from django.http import HttpRequest
+from django.http import HttpRequest, HttpResponse
 from django.utils import timezone
-from ninja import Router, Schema
+from ninja import Field, Query, Router, Schema
 
 from registry import services
 from registry.alerts.causes import AlertCode, Severity
 from registry.alerts.inbox import NoSuchAlert
 from registry.alerts.views import AlertState
 from registry.people.access import find_access, require
-from registry.shapes import Unchecked, signed_in
+from registry.shapes import Line, PartAsked, Unchecked, signed_in, tell_rest
 
 router = Router(tags=["registry"])
 
@@ -40,11 +40,21 @@ class AlertShape(Schema):
     seen_at: str | None
 
 
+class AlertsAsked(PartAsked):
+    """Which alerts are asked for: those that are not over, or those in one `state`; of one device, if it is named."""
+
+    state: AlertState | None = None
+    device: Line = Field("", max_length=64)
+
+
 @router.get("/sites/{slug}/alerts", response=list[AlertShape])
-def list_alerts(request: HttpRequest, slug: str, state: AlertState | None = None) -> list[dict[str, Any]]:
-    """List a site's alerts, the latest first: those that are not over, or those in one `state`; 1,000 at most."""
+def list_alerts(
+    request: HttpRequest, response: HttpResponse, slug: str, asked: Query[AlertsAsked]
+) -> list[dict[str, Any]]:
+    """List a site's alerts, the latest first; the header `Link` names the next part."""
     access = require(signed_in(request), slug, "viewer")
-    return [services.alert_to_json(a) for a in services.list_alerts(site=slug, state=state, role=access.role)]
+    found = services.list_alerts(site=slug, state=asked.state, role=access.role, device=asked.device, part=asked.part())
+    return [services.alert_to_json(alert) for alert in tell_rest(request, response, found)]
 
 
 @router.post("/sites/{slug}/alerts/seen", response=list[AlertShape])

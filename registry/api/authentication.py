@@ -6,10 +6,12 @@ from typing import Any
 
 from django.http import HttpRequest
 from django.utils import timezone
-from ninja.security import HttpBearer, SessionAuth
+from ninja import security
+from ninja.security import HttpBearer
 
 from registry.errors import RegistryError
 from registry.models import User
+from registry.people.open_sessions import note_session
 from registry.people.tokens import find_bearer
 
 
@@ -27,6 +29,18 @@ class BearerToken(HttpBearer):
         """Return the token's person, whose rights at the token's site it bounds. Raises InvalidToken."""
         request.user = find_bearer(token=token, now=timezone.now())
         return request.user
+
+
+class SessionAuth(security.SessionAuth):
+    """A session's cookie; that it is in use is noted for its person."""
+
+    def authenticate(self, request: HttpRequest, key: str | None) -> Any:
+        """Return who is signed in, None if nobody is."""
+        user = super().authenticate(request, key)
+        if isinstance(user, User) and request.session.session_key:
+            agent = request.headers.get("User-Agent", "")
+            note_session(key=request.session.session_key, user=user, agent=agent, now=timezone.now())
+        return user
 
 
 class SessionOnly(SessionAuth):

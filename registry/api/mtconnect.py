@@ -20,10 +20,10 @@ from registry.shapes import signed_in
 
 router = Router(tags=["mtconnect"])
 XML, STREAM = "application/xml", "multipart/x-mixed-replace"
-_SENDS: dict[str, Any] = {"responses": {200: {"content": {XML: {"schema": {"type": "string"}}}}}}
-_STREAMS: dict[str, Any] = {
-    "responses": {200: {"content": {XML: {"schema": {"type": "string"}}, STREAM: {"schema": {"type": "string"}}}}}
-}
+_TEXT: dict[str, Any] = {"schema": {"type": "string"}}
+_ERRORS: dict[int, Any] = {status: {"content": {XML: _TEXT}} for status in (400, 404, 429)}
+_SENDS: dict[str, Any] = {"responses": {200: {"content": {XML: _TEXT}}, **_ERRORS}}
+_STREAMS: dict[str, Any] = {"responses": {200: {"content": {XML: _TEXT, STREAM: _TEXT}}, **_ERRORS}}
 _STATUS: dict[ErrorCode, int] = {"NO_DEVICE": 404, "TOO_MANY": 429}
 Write = Callable[[Agent, Question], Answer]
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+from datetime import datetime
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Any
@@ -12,8 +14,9 @@ from django.db import transaction
 from django.http import HttpRequest, HttpResponse
 from django.middleware.csrf import get_token
 from django.utils import timezone
-from ninja import Router
+from ninja import Query, Router, Schema
 from ninja.errors import HttpError
+from ninja.responses import Status
 from ninja.utils import check_csrf
 
 from registry.api.authentication import session_only
@@ -22,9 +25,10 @@ from registry.devices.things import call_listeners
 from registry.live.fanout import EVERY_SITE, publish
 from registry.models import User
 from registry.people.known_browsers import find_device, remember_browser
+from registry.people.open_sessions import end_session, follow_session, list_open_sessions, note_session
 from registry.people.sign_in import change_password, check_own_password, check_sign_in
 from registry.people.sign_in import sign_out_everywhere as end_all_sessions
-from registry.shapes import Me, NewPassword, SignIn, signed_in
+from registry.shapes import Me, NewPassword, PartAsked, SignIn, signed_in, tell_rest
 from registry.sites.quota import may_create_sites
 
 router = Router(tags=["registry"])
@@ -72,6 +76,13 @@ def sign_in(request: HttpRequest, response: HttpResponse, body: SignIn) -> dict[
         device=find_device(request, body.email),
     )
     login(request, user)
+    request.session.save()
+    note_session(
+        key=str(request.session.session_key),
+        user=user,
+        agent=request.headers.get("User-Agent", ""),
+        now=timezone.now(),
+    )
     remember_browser(request, response, user.email)
     return _me(request)
 
@@ -96,10 +107,12 @@ def change_my_password(request: HttpRequest, body: NewPassword) -> dict[str, Any
     user = signed_in(request)
     check_own_password(user=user, password=body.old, address=client_address(request), now=timezone.now())
     with transaction.atomic():
+        former = str(request.session.session_key)
         change_password(email=user.email, password=body.new)
         user.refresh_from_db(fields=["password"])
         update_session_auth_hash(request, user)
         request.session.save()
+        follow_session(old=former, new=str(request.session.session_key))
     return _me(request)
 
 
@@ -109,3 +122,33 @@ def sign_out_everywhere(request: HttpRequest) -> dict[str, Any]:
     end_all_sessions(user=signed_in(request))
     logout(request)
     return _me(request)
+
+
+class OwnSession(Schema):
+    """One of the asker's sessions; `here` marks the one that asks. `browser` and `system` may be empty.
+
+    `begun_at` is when it signed in, `seen_at` when it last asked for something, to the minute.
+    """
+
+    id: int
+    browser: str
+    system: str
+    begun_at: datetime
+    seen_at: datetime
+    here: bool
+
+
+@router.get("/me/sessions", response=list[OwnSession], auth=session_only)
+def list_my_sessions(request: HttpRequest, response: HttpResponse, asked: Query[PartAsked]) -> list[dict[str, Any]]:
+    """List the asker's own sessions, the one that began last first; the header `Link` names the next part."""
+    found = list_open_sessions(user=signed_in(request), part=asked.part())
+    here = request.session.session_key
+    return [{**asdict(view), "here": view.key == here} for view in tell_rest(request, response, found)]
+
+
+@router.delete("/me/sessions/{session}", response={204: None}, auth=session_only)
+def end_my_session(request: HttpRequest, session: int) -> Status[None]:
+    """End one of the asker's own sessions; its sockets and streams close within 3 s."""
+    end_session(user=signed_in(request), session_id=session)
+    call_listeners()
+    return Status(204, None)

@@ -10,7 +10,7 @@ from ninja import Router
 
 from registry import services
 from registry.people.access import require
-from registry.shapes import signed_in
+from registry.shapes import sends, signed_in
 from registry.sparql.queries import MOST_QUERY_CHARACTERS, BadQuery
 
 router = Router(tags=["registry"])
@@ -27,10 +27,7 @@ _ACCEPTED: dict[str, ResultForm] = {
 }
 _ELSEWHERE = ("default-graph-uri", "named-graph-uri")
 """Fields of the SPARQL Protocol that ask for other graphs, as FROM and FROM NAMED do."""
-_CONTENT = {
-    name: {"schema": {"type": "string"}} for name in _ACCEPTED if name not in ("application/json", "application/xml")
-}
-_SENDS = {"responses": {200: {"content": _CONTENT}}}
+_SENDS = sends(*(name for name in _ACCEPTED if name not in ("application/json", "application/xml")))
 
 
 @router.get("/sites/{slug}/sparql", openapi_extra=_SENDS)

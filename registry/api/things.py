@@ -10,7 +10,7 @@ from registry.devices.rows import NoSuchDevice
 from registry.devices.thing_forms import things_address
 from registry.devices.things import EVENTS, EventName, device_id_of
 from registry.people.access import require
-from registry.shapes import signed_in
+from registry.shapes import refuses, sends, signed_in
 from registry.thing_directory.answers import (
     answer_thing,
     answer_value,
@@ -20,16 +20,16 @@ from registry.thing_directory.answers import (
     open_stream,
     open_values,
     root_of,
-    sends,
 )
 from registry.thing_directory.pages import Page, answer_page, list_page
 from registry.thing_directory.property_values import await_value, get_thing, read_value, read_values
 
 router = Router(tags=["things"])
+LIST = {"responses": {**sends("application/ld+json")["responses"], **refuses(501)["responses"]}}
 VALUE = {"responses": {200: {"content": {"application/json": {"schema": {"type": ["number", "string", "boolean"]}}}}}}
 
 
-@router.get("/sites/{slug}/things", openapi_extra=sends("application/ld+json"))
+@router.get("/sites/{slug}/things", openapi_extra=LIST)
 def list_things(request: HttpRequest, slug: str, page: Query[Page]) -> HttpResponse:
     """List the site's approved devices as Thing Descriptions, a part at a time; the header Link names the next part."""
     require(signed_in(request), slug, "viewer")
@@ -60,7 +60,7 @@ def show_thing(request: HttpRequest, slug: str, thing: str) -> HttpResponse:
     return answer_thing(request, view)
 
 
-@router.patch("/sites/{slug}/things/{thing}", response={204: None})
+@router.patch("/sites/{slug}/things/{thing}", response={204: None}, openapi_extra=refuses(412, 415))
 def patch_thing(request: HttpRequest, slug: str, thing: str) -> HttpResponse:
     """Change a Thing's `title` or `vipo:location` by a JSON merge patch; the rest the device says itself."""
     return change_thing(request, signed_in(request), slug, device_id_of(thing))

@@ -80,6 +80,15 @@ def create_token(request: HttpRequest, response: HttpResponse, slug: str, body: 
     return Status(201, {**_to_json(view, user), "token": text, "broker": accounts.broker_of(view=view)})
 
 
+@router.get("/sites/{slug}/tokens/{token_id}", response=TokenShape, auth=session_only)
+def show_token(request: HttpRequest, slug: str, token_id: str) -> dict[str, Any]:
+    """Show one of the asker's tokens, to an admin of the site anybody's."""
+    user = signed_in(request)
+    access = require(user, slug, "viewer")
+    found = tokens.find_token(token_id=token_id, site=slug, user=None if access.allows("admin") else user)
+    return _to_json(found, user)
+
+
 @router.delete("/sites/{slug}/tokens/{token_id}", response={204: None}, auth=session_only)
 def revoke_token(request: HttpRequest, slug: str, token_id: str) -> Status[None]:
     """End one of the asker's tokens at once, as an admin of the site anybody's."""

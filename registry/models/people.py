@@ -94,6 +94,25 @@ class SignInFailure(models.Model):
         return f"{self.email} from {self.address}"
 
 
+class OpenSession(models.Model):
+    """Whose a session is, and from where it is used; Django keeps the session itself, by the same key."""
+
+    user = models.ForeignKey(User, models.CASCADE, related_name="open_sessions")
+    key = models.CharField(max_length=40, unique=True)
+    browser = models.CharField(max_length=40, blank=True)
+    system = models.CharField(max_length=40, blank=True)
+    begun_at = models.DateTimeField()
+    seen_at = models.DateTimeField()
+
+    class Meta:
+        """Listed for one person, the newest first."""
+
+        indexes = [models.Index(fields=["user", "-begun_at"])]
+
+    def __str__(self) -> str:
+        return f"{self.user_id}: {self.browser}"
+
+
 def initials_of(name: str) -> str:
     """Return up to two capital letters that stand for a name."""
     words = [w for w in name.split() if w]

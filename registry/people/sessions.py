@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from datetime import datetime
 from functools import lru_cache
 from typing import Any
 
@@ -106,8 +105,3 @@ def _is_of(text: str, person: User) -> bool:
 def _decode(text: str) -> tuple[str, str]:
     kept = SessionStore().decode(text)
     return str(kept.get(SESSION_KEY, "")), str(kept.get(HASH_SESSION_KEY, ""))
-
-
-def drop_expired(*, now: datetime) -> int:
-    """Remove the sessions that have expired; returns how many."""
-    return KeptSession.objects.filter(expire_date__lt=now).delete()[0]

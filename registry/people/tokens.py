@@ -61,6 +61,9 @@ class NoSuchToken(RegistryError):
     status = 404
 
 
+_ABSENT = "There is no such token here. It may have been revoked already."
+
+
 @dataclass(frozen=True, slots=True)
 class TokenView:
     """A token without its secret; `id` is the public part of it."""
@@ -160,15 +163,22 @@ def list_tokens(*, site: str, user: User | None = None) -> tuple[TokenView, ...]
     return tuple(_view(row) for row in rows.order_by("-created_at", "-id")[:MOST_LISTED])
 
 
-def drop_token(*, token_id: str, site: str = "", user: User | None = None) -> TokenView:
-    """End a token at once, with the streams opened by it; of one site or person only, if named. Raises NoSuchToken."""
+def find_token(*, token_id: str, site: str = "", user: User | None = None) -> TokenView:
+    """Return a token, of one site or person only, if named. Raises NoSuchToken."""
     rows = _rows().filter(public_id=token_id.replace("\0", ""))
     if site:
         rows = rows.filter(membership__site__slug=site)
     row = (rows if user is None else rows.filter(membership__user_id=user.pk)).first()
-    if row is None or not ApiToken.objects.filter(pk=row.pk).delete()[0]:
-        raise NoSuchToken("There is no such token here. It may have been revoked already.")
-    view = _view(row)
+    if row is None:
+        raise NoSuchToken(_ABSENT)
+    return _view(row)
+
+
+def drop_token(*, token_id: str, site: str = "", user: User | None = None) -> TokenView:
+    """End a token at once, with the streams opened by it; of one site or person only, if named. Raises NoSuchToken."""
+    view = find_token(token_id=token_id, site=site, user=user)
+    if not ApiToken.objects.filter(public_id=view.id).delete()[0]:
+        raise NoSuchToken(_ABSENT)
     transaction.on_commit(lambda: publish(view.site, {"type": "members"}))
     return view
 

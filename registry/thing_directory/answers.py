@@ -47,11 +47,6 @@ class Changed(RegistryError):
     status = 412
 
 
-def sends(media_type: str) -> dict[str, Any]:
-    """Say in the OpenAPI file that a call answers in this media type."""
-    return {"responses": {200: {"content": {media_type: {"schema": {"type": "object"}}}}}}
-
-
 def root_of(request: HttpRequest) -> str:
     """Return where VIPO is served, as who asks has found it."""
     return request.build_absolute_uri("/")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from itertools import count
 
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
@@ -15,14 +16,20 @@ from tests.kit.demo import Demo
 from tests.kit.files import ROOT
 
 pytestmark = pytest.mark.browser
-EMAIL, SECOND = "own.account@vipo.example", "four words of mine"
+NUMBERS = count(1)
+SECOND = "four words of mine"
 SIZES = [(1600, 1000, "light"), (1600, 1000, "dark"), (820, 1180, "light"), (820, 1180, "dark")]
 
 
 @pytest.fixture
-def password(demo: Demo) -> str:
+def email() -> str:
+    return f"own.account{next(NUMBERS)}@vipo.example"
+
+
+@pytest.fixture
+def password(demo: Demo, email: str) -> str:
     """Somebody with an account of their own, whose password is told."""
-    command = [sys.executable, "-m", "vipo_site.cli.main", "account", EMAIL, "--site", "painting-factory"]
+    command = [sys.executable, "-m", "vipo_site.cli.main", "account", email, "--site", "painting-factory"]
     environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state)}
     environment.pop("DJANGO_SETTINGS_MODULE", None)
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
@@ -30,11 +37,11 @@ def password(demo: Demo) -> str:
     return done.stdout.splitlines()[1].removeprefix("The password, shown this once: ")
 
 
-def come_in(context: BrowserContext, demo: Demo, password: str) -> Page:
+def come_in(context: BrowserContext, demo: Demo, email: str, password: str) -> Page:
     page = context.new_page()
     page.set_default_timeout(PATIENCE_MS)
     page.goto(f"{demo.url}/sign-in?next=/account")
-    page.get_by_label("Email address").fill(EMAIL)
+    page.get_by_label("Email address").fill(email)
     page.get_by_label("Password", exact=True).fill(password)
     page.keyboard.press("Enter")
     expect(page.get_by_role("heading", name="Your account")).to_be_visible()
@@ -42,11 +49,11 @@ def come_in(context: BrowserContext, demo: Demo, password: str) -> Page:
 
 
 def test_an_own_password_is_changed_and_all_sessions_are_ended(
-    demo: Demo, chromium: Browser, password: str, faults: list[str]
+    demo: Demo, chromium: Browser, email: str, password: str, faults: list[str]
 ) -> None:
     here, there = (chromium.new_context(locale="en-GB") for _ in range(2))
     listen(here, faults)
-    page, other = come_in(here, demo, password), come_in(there, demo, password)
+    page, other = come_in(here, demo, email, password), come_in(there, demo, email, password)
     page.get_by_label("Password that you have now").fill(password)
     page.keyboard.press("Tab")
     page.get_by_label("New password").fill("own.account")
@@ -59,12 +66,32 @@ def test_an_own_password_is_changed_and_all_sessions_are_ended(
     expect(other.get_by_role("button", name="Sign in", exact=True)).to_be_visible()
     page.reload()
     third = chromium.new_context(locale="en-GB")
-    elsewhere = come_in(third, demo, SECOND)
+    elsewhere = come_in(third, demo, email, SECOND)
     page.get_by_role("button", name="Sign out everywhere").focus()
     page.keyboard.press("Enter")
     for each in (page, elsewhere):
         expect(each.get_by_role("button", name="Sign in", exact=True)).to_be_visible()
     for context in (here, there, third):
+        context.close()
+
+
+def test_one_session_is_ended_from_the_list_by_keyboard(
+    demo: Demo, chromium: Browser, email: str, password: str, faults: list[str]
+) -> None:
+    here, there = (chromium.new_context(locale="en-GB") for _ in range(2))
+    listen(here, faults)
+    page, other = come_in(here, demo, email, password), come_in(there, demo, email, password)
+    page.reload()
+    listed = page.get_by_role("list", name="Where you are signed in").get_by_role("listitem")
+    expect(listed).to_have_count(2)
+    expect(listed.filter(has_text="This one")).to_have_count(1)
+    assert violations(page) == []
+    page.get_by_role("button", name="Sign out: ").focus()
+    page.keyboard.press("Enter")
+    expect(listed).to_have_count(1)
+    expect(page.get_by_role("heading", name="Where you are signed in")).to_be_focused()
+    expect(other.get_by_role("button", name="Sign in", exact=True)).to_be_visible()
+    for context in (here, there):
         context.close()
 
 
@@ -74,6 +101,8 @@ def test_the_page_is_sound_in_both_themes_sizes_and_languages(sign_in: SignIn) -
             page = sign_in("author", "/account", width=width, height=height, dark=scheme == "dark", language=language)
             expect(page.get_by_role("heading", name=title)).to_be_visible()
             assert violations(page) == []
+            if shots := os.environ.get("VIPO_SHOTS"):
+                page.screenshot(path=f"{shots}/account-{width}-{scheme}-{language}.png")
             assert page.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
             assert "account." not in page.locator("main").inner_text()
 

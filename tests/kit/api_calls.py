@@ -61,7 +61,8 @@ def make_one_of_each(slug: str) -> dict[str, str]:
     function = editor.save_function(
         site=slug, program_id=program, function="f", name="Greet", description="", user=None
     ).id
-    run = Run.objects.create(site=site, number=1, program=program, program_name="Mix", created_at=NOW)
+    content = {"document": editor.get_document(program_id=program), "compiled": editor.get_compiled(program_id=program)}
+    run = Run.objects.create(site=site, number=1, program=program, program_name="Mix", created_at=NOW, **content)
     call = Command.objects.create(
         id=uuid4(), site=site, position=1, device=device, method="mix", by="Me", send_after=NOW, created_at=NOW
     )
@@ -69,13 +70,13 @@ def make_one_of_each(slug: str) -> dict[str, str]:
         "program": program,
         "run": run.pk,
         "question": Question.objects.create(run=run, number=1, text="Go?", answer=ANSWER, asked_at=NOW).pk,
-        "rehearsal": Rehearsal.objects.create(site=site, program=program, created_at=NOW).pk,
+        "rehearsal": Rehearsal.objects.create(site=site, program=program, created_at=NOW, **content).pk,
         "function": function,
         "call": call.pk,
         "alert_id": DeviceAlert.objects.create(device_id=device, code="offline", first_at=NOW, last_at=NOW).pk,
     }
     named = {"device_id": device, "device": device, "thing": device, "slug": slug, "site": slug, "number": "1"}
-    named |= {"name": "jobStatus", "action": "mix"}
+    named |= {"name": "jobStatus", "action": "mix", "session": "0"}
     return {**named, **{name: str(key) for name, key in made.items()}}
 
 

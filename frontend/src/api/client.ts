@@ -75,9 +75,27 @@ async function sendJson<T>(method: string, path: string, body?: unknown): Promis
   return receive<T>(await send(method, path, payload, payload && "application/json"));
 }
 
+/** Where the next part of a list is, as its header `Link` says. */
+function nextOf(response: Response): string | undefined {
+  const next = /<\/api([^>]*)>; rel="next"/.exec(response.headers.get("Link") ?? "");
+  return next?.[1];
+}
+
+/** A whole list, which the server gives in parts. */
+async function receiveAll<T>(path: string): Promise<T[]> {
+  const all: T[] = [];
+  for (let part: string | undefined = path; part !== undefined;) {
+    const response = await send("GET", part);
+    all.push(...(await receive<T[]>(response)));
+    part = nextOf(response);
+  }
+  return all;
+}
+
 /** Paths begin after `/api`. Every call throws ApiProblem on a refusal. */
 export const api = {
   get: <T>(path: string) => sendJson<T>("GET", path),
+  all: receiveAll,
   post: <T = void>(path: string, body?: unknown) => sendJson<T>("POST", path, body),
   patch: <T = void>(path: string, body: unknown) => sendJson<T>("PATCH", path, body),
   delete: <T = void>(path: string) => sendJson<T>("DELETE", path),

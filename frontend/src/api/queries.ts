@@ -7,6 +7,7 @@ import type {
   Device,
   LibraryFunction,
   Me,
+  OwnSession,
   Program,
   ProgramDocument,
   Question,
@@ -22,6 +23,7 @@ import type {
 /** The names of the caches. */
 export const keys = {
   me: ["me"] as const,
+  mySessions: ["my-sessions"] as const,
   sites: ["sites"] as const,
   site: (slug: string) => ["site", slug] as const,
   map: (slug: string) => ["map", slug] as const,
@@ -104,10 +106,16 @@ function useGet<T>(key: readonly unknown[], path: string | null) {
   return useQuery({ queryKey: key, queryFn: path === null ? skipToken : () => api.get<T>(path) });
 }
 
+/** The same for a list that the server gives in parts. */
+function useAll<T>(key: readonly unknown[], path: string | null) {
+  return useQuery({ queryKey: key, queryFn: path === null ? skipToken : () => api.all<T>(path) });
+}
+
 type Maybe = string | undefined;
 const at = (id: Maybe, path: (id: string) => string) => (id ? path(encodeURIComponent(id)) : null);
 
 export const useMe = () => useQuery({ queryKey: keys.me, queryFn: getMe, staleTime: Infinity });
+export const useMySessions = (ending: boolean) => useAll<OwnSession>(keys.mySessions, ending ? null : "/me/sessions");
 export const useSites = () => useGet<Site[]>(keys.sites, "/sites");
 export const useSite = (slug: Maybe) =>
   useGet<Site>(
@@ -131,7 +139,7 @@ export const useRetiredDevices = (slug: Maybe) =>
     at(slug, (s) => `/sites/${s}/devices?lifecycle=retired`),
   );
 export const usePrograms = (slug: Maybe) =>
-  useGet<Program[]>(
+  useAll<Program>(
     keys.programs(slug ?? ""),
     at(slug, (s) => `/sites/${s}/programs`),
   );
@@ -173,7 +181,7 @@ export const useRun = (id: Maybe) =>
 export const useRunEvents = (id: Maybe) =>
   useQuery({ queryKey: keys.runEvents(id ?? ""), queryFn: id ? () => getRunEvents(id) : skipToken });
 export const useLibrary = (q: string) =>
-  useGet<LibraryFunction[]>(keys.library(q), `/library?q=${encodeURIComponent(q)}`);
+  useAll<LibraryFunction>(keys.library(q), `/library?q=${encodeURIComponent(q)}`);
 export const useLibraryFunction = (id: Maybe) =>
   useGet<LibraryFunction>(
     keys.libraryFunction(id ?? ""),

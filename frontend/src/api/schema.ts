@@ -33,7 +33,9 @@ export interface paths {
         };
         /**
          * Search Library
-         * @description Search the functions of one site, or of all sites of which the asker is a member.
+         * @description Search the functions of one site, or of all sites of which the asker is a member, by name.
+         *
+         *     The header `Link` names the next part.
          */
         get: operations["search_library"];
         put?: never;
@@ -119,6 +121,46 @@ export interface paths {
          */
         post: operations["change_my_password"];
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/me/sessions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List My Sessions
+         * @description List the asker's own sessions, the one that began last first; the header `Link` names the next part.
+         */
+        get: operations["list_my_sessions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/me/sessions/{session}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * End My Session
+         * @description End one of the asker's own sessions; its sockets and streams close within 3 s.
+         */
+        delete: operations["end_my_session"];
         options?: never;
         head?: never;
         patch?: never;
@@ -221,10 +263,14 @@ export interface paths {
         };
         /**
          * Show Document
-         * @description Show a program's document as it is now.
+         * @description Show a program's document as it is now; the header `ETag` is what it is written with.
          */
         get: operations["show_document"];
-        put?: never;
+        /**
+         * Put Document
+         * @description Make a document the program's, if it is still what was read; what others change meanwhile is merged.
+         */
+        put: operations["put_document"];
         post?: never;
         delete?: never;
         options?: never;
@@ -299,8 +345,16 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
-        put?: never;
+        /**
+         * Show Script
+         * @description Send a program's script as it is now; the header `ETag` is what it is written with.
+         */
+        get: operations["show_script"];
+        /**
+         * Put Script
+         * @description Make a script the program's, if it is still what was read; `args.diagnostics` says where it is none.
+         */
+        put: operations["put_script"];
         /**
          * Draw Script
          * @description Draw a script: the document that it would make of the program, or where it leaves the language.
@@ -321,15 +375,35 @@ export interface paths {
         };
         /**
          * List Versions
-         * @description List a program's versions, the newest first.
+         * @description List a program's versions, the newest first; the header `Link` names the next part.
          */
         get: operations["list_versions"];
         put?: never;
         /**
          * Pin Version
-         * @description Make the program as it is now a version.
+         * @description Make the program as it is now a version; the answer is 200 with the last one if nothing has changed since.
          */
         post: operations["pin_version"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/programs/{program}/versions/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Version
+         * @description Show a program as it was when it was pinned under a number, with its document.
+         */
+        get: operations["show_version"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -815,7 +889,7 @@ export interface paths {
         };
         /**
          * List Alerts
-         * @description List a site's alerts, the latest first: those that are not over, or those in one `state`; 1,000 at most.
+         * @description List a site's alerts, the latest first; the header `Link` names the next part.
          */
         get: operations["list_alerts"];
         put?: never;
@@ -1565,7 +1639,7 @@ export interface paths {
         };
         /**
          * List Programs
-         * @description List a site's programs, the last edited first.
+         * @description List a site's programs, the last edited first; the header `Link` names the next part.
          */
         get: operations["list_programs"];
         put?: never;
@@ -1779,7 +1853,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        get?: never;
+        /**
+         * Show Token
+         * @description Show one of the asker's tokens, to an admin of the site anybody's.
+         */
+        get: operations["show_token"];
         put?: never;
         post?: never;
         /**
@@ -1847,6 +1925,16 @@ export interface components {
             /** @enum {string} */
             state: "open" | "seen" | "over";
             text: string;
+        };
+        /** @description Which alerts are asked for: those that are not over, or those in one `state`; of one device, if it is named. */
+        AlertsAsked: {
+            /** @default  */
+            before: string;
+            /** @default  */
+            device: string;
+            /** @default 200 */
+            limit: number;
+            state?: ("open" | "seen" | "over") | null;
         };
         /** @description The answer: yes or no, a number, a text, or one of the options. */
         AnswerQuestion: {
@@ -2248,6 +2336,17 @@ export interface components {
             /** Format: uuid */
             program: string;
         };
+        /** @description Which functions are asked for: those whose name or description has all words of `q`, of one site if named. */
+        LibraryAsked: {
+            /** @default  */
+            before: string;
+            /** @default 200 */
+            limit: number;
+            /** @default  */
+            q: string;
+            /** @default  */
+            site: string;
+        };
         /** @description A library function at one of its versions. */
         LibraryShape: {
             author: components["schemas"]["Author"] | null;
@@ -2425,6 +2524,21 @@ export interface components {
             y: number;
             yaw: number;
         };
+        /**
+         * @description One of the asker's sessions; `here` marks the one that asks. `browser` and `system` may be empty.
+         *
+         *     `begun_at` is when it signed in, `seen_at` when it last asked for something, to the minute.
+         */
+        OwnSession: {
+            /** Format: date-time */
+            begun_at: string;
+            browser: string;
+            here: boolean;
+            id: number;
+            /** Format: date-time */
+            seen_at: string;
+            system: string;
+        };
         /** @description Which part of the Things, in which form and order. */
         Page: {
             /**
@@ -2464,6 +2578,13 @@ export interface components {
         /** @description A variable: a parameter of the program or the function, or what a step has set. */
         ParameterUse: {
             param: string;
+        };
+        /** @description Which part of a long list is asked for; `before` is as the header `Link` of the part before it names it. */
+        PartAsked: {
+            /** @default  */
+            before: string;
+            /** @default 200 */
+            limit: number;
         };
         /** @description Somebody who is signed in. */
         Person: {
@@ -2549,6 +2670,15 @@ export interface components {
             name: string;
             site: string;
             warnings: number;
+        };
+        /** @description Which programs are asked for: those whose names have all words of `q`. */
+        ProgramsAsked: {
+            /** @default  */
+            before: string;
+            /** @default 200 */
+            limit: number;
+            /** @default  */
+            q: string;
         };
         /** @description How a device's property is written behind the device's name and a dot. */
         PropertyName: {
@@ -2993,6 +3123,18 @@ export interface components {
         Whereabouts: {
             at: components["schemas"]["Place"] | components["schemas"]["RoleUse"];
         };
+        /** @description A version with its document. */
+        WholeVersionShape: {
+            author: components["schemas"]["Author"] | null;
+            /** Format: date-time */
+            created_at: string;
+            document: components["schemas"]["DocumentShape"];
+            /** Format: uuid */
+            id: string;
+            message: string;
+            number: number;
+            script: string;
+        };
         /** @description A sentence in each language of the screens. */
         Words: {
             de: string;
@@ -3060,8 +3202,44 @@ export interface components {
                 "application/problem+json": components["schemas"]["Problem"];
             };
         };
+        /** @description It is not any more what the asker knows (If-Match). */
+        Refused412: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description It is longer than it may be. */
+        Refused413: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description Its content type is not one that is taken here. */
+        Refused415: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
         /** @description The request does not fit; `fields` says which part of it, and why. */
         Refused422: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description The header If-Match is missing. */
+        Refused428: {
             headers: {
                 [name: string]: unknown;
             };
@@ -3080,6 +3258,15 @@ export interface components {
         };
         /** @description A fault of VIPO's own. */
         Refused500: {
+            headers: {
+                [name: string]: unknown;
+            };
+            content: {
+                "application/problem+json": components["schemas"]["Problem"];
+            };
+        };
+        /** @description The standard knows it, and VIPO does not offer it. */
+        Refused501: {
             headers: {
                 [name: string]: unknown;
             };
@@ -3150,6 +3337,8 @@ export interface operations {
     search_library: {
         parameters: {
             query?: {
+                limit?: number;
+                before?: string;
                 q?: string;
                 site?: string;
             };
@@ -3171,6 +3360,7 @@ export interface operations {
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -3284,6 +3474,7 @@ export interface operations {
                 };
             };
             400: components["responses"]["Refused400"];
+            422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
@@ -3326,6 +3517,86 @@ export interface operations {
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_my_sessions: {
+        parameters: {
+            query?: {
+                limit?: number;
+                before?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OwnSession"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    end_my_session: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                session: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
@@ -3609,6 +3880,8 @@ export interface operations {
             /** @description OK */
             200: {
                 headers: {
+                    /** @description Another once the content changes. */
+                    ETag?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -3620,6 +3893,58 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    put_document: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The ETag of what was read, as it is. */
+                "If-Match"?: string;
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DocumentShape"];
+            };
+        };
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    /** @description Another once the content changes. */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            412: components["responses"]["Refused412"];
+            413: components["responses"]["Refused413"];
+            422: components["responses"]["Refused422"];
+            428: components["responses"]["Refused428"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
@@ -3699,9 +4024,11 @@ export interface operations {
             };
         };
         responses: {
-            /** @description OK */
-            200: {
+            /** @description Accepted */
+            202: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -3746,9 +4073,11 @@ export interface operations {
             };
         };
         responses: {
-            /** @description OK */
-            200: {
+            /** @description Accepted */
+            202: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -3761,6 +4090,99 @@ export interface operations {
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
             422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_script: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    /** @description Another once the content changes. */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    put_script: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description The ETag of what was read, as it is. */
+                "If-Match"?: string;
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                program: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "text/plain": string;
+            };
+        };
+        responses: {
+            /** @description No Content */
+            204: {
+                headers: {
+                    /** @description Another once the content changes. */
+                    ETag?: string;
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            412: components["responses"]["Refused412"];
+            413: components["responses"]["Refused413"];
+            422: components["responses"]["Refused422"];
+            428: components["responses"]["Refused428"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
@@ -3807,6 +4229,7 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            413: components["responses"]["Refused413"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -3824,7 +4247,10 @@ export interface operations {
     };
     list_versions: {
         parameters: {
-            query?: never;
+            query?: {
+                limit?: number;
+                before?: string;
+            };
             header?: never;
             path: {
                 program: string;
@@ -3879,9 +4305,22 @@ export interface operations {
             };
         };
         responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VersionShape"];
+                };
+            };
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -3893,6 +4332,46 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_version: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                program: string;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WholeVersionShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -4305,6 +4784,7 @@ export interface operations {
             400: components["responses"]["Refused400"];
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
+            422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
@@ -4343,6 +4823,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -4510,9 +4992,11 @@ export interface operations {
             };
         };
         responses: {
-            /** @description OK */
-            200: {
+            /** @description Accepted */
+            202: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -4831,6 +5315,8 @@ export interface operations {
             /** @description OK */
             200: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -4840,6 +5326,8 @@ export interface operations {
             /** @description Accepted */
             202: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -4996,7 +5484,10 @@ export interface operations {
     list_alerts: {
         parameters: {
             query?: {
+                limit?: number;
+                before?: string;
                 state?: ("open" | "seen" | "over") | null;
+                device?: string;
             };
             header?: never;
             path: {
@@ -5608,7 +6099,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/yaml": string;
+                    "application/yaml": Record<string, never>;
                 };
             };
             400: components["responses"]["Refused400"];
@@ -5730,9 +6221,9 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/ld+json": string;
+                    "application/ld+json": Record<string, never> | unknown[];
                     "application/n-triples": string;
-                    "application/td+json": string;
+                    "application/td+json": Record<string, never>;
                     "text/plain": string;
                     "text/turtle": string;
                 };
@@ -6048,6 +6539,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6169,7 +6662,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/yaml": string;
+                    "application/yaml": Record<string, never>;
                 };
             };
             400: components["responses"]["Refused400"];
@@ -6248,9 +6741,11 @@ export interface operations {
             };
         };
         responses: {
-            /** @description OK */
-            200: {
+            /** @description Created */
+            201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6295,9 +6790,11 @@ export interface operations {
             };
         };
         responses: {
-            /** @description OK */
-            200: {
+            /** @description Created */
+            201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6388,12 +6885,39 @@ export interface operations {
                     "multipart/x-mixed-replace": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6427,12 +6951,39 @@ export interface operations {
                     "application/xml": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6473,12 +7024,39 @@ export interface operations {
                     "multipart/x-mixed-replace": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6518,12 +7096,39 @@ export interface operations {
                     "multipart/x-mixed-replace": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6558,12 +7163,39 @@ export interface operations {
                     "application/xml": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6605,12 +7237,39 @@ export interface operations {
                     "multipart/x-mixed-replace": string;
                 };
             };
-            400: components["responses"]["Refused400"];
+            /** @description It cannot be read. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             401: components["responses"]["Refused401"];
             403: components["responses"]["Refused403"];
-            404: components["responses"]["Refused404"];
+            /** @description It does not exist, or the asker is no member of its site. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             422: components["responses"]["Refused422"];
-            429: components["responses"]["Refused429"];
+            /** @description Too much at once: wait as long as the header Retry-After says. */
+            429: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                    "application/xml": string;
+                };
+            };
             500: components["responses"]["Refused500"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
@@ -6645,6 +7304,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6673,7 +7334,11 @@ export interface operations {
     };
     list_programs: {
         parameters: {
-            query?: never;
+            query?: {
+                limit?: number;
+                before?: string;
+                q?: string;
+            };
             header?: never;
             path: {
                 slug: string;
@@ -6731,6 +7396,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -6777,9 +7444,9 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/ld+json": string;
+                    "application/ld+json": Record<string, never> | unknown[];
                     "application/n-triples": string;
-                    "application/sparql-results+json": string;
+                    "application/sparql-results+json": Record<string, never>;
                     "application/sparql-results+xml": string;
                     "text/csv": string;
                     "text/turtle": string;
@@ -6826,9 +7493,9 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/ld+json": string;
+                    "application/ld+json": Record<string, never> | unknown[];
                     "application/n-triples": string;
-                    "application/sparql-results+json": string;
+                    "application/sparql-results+json": Record<string, never>;
                     "application/sparql-results+xml": string;
                     "text/csv": string;
                     "text/turtle": string;
@@ -6877,7 +7544,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/ld+json": Record<string, never>;
+                    "application/ld+json": Record<string, never> | unknown[];
                 };
             };
             400: components["responses"]["Refused400"];
@@ -6887,6 +7554,7 @@ export interface operations {
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
+            501: components["responses"]["Refused501"];
             503: components["responses"]["Refused503"];
             /** @description A refusal */
             default: {
@@ -6919,7 +7587,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/event-stream": Record<string, never>;
+                    "text/event-stream": string;
                 };
             };
             400: components["responses"]["Refused400"];
@@ -7008,6 +7676,8 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            412: components["responses"]["Refused412"];
+            415: components["responses"]["Refused415"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];
@@ -7123,7 +7793,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/event-stream": Record<string, never>;
+                    "text/event-stream": string;
                 };
             };
             400: components["responses"]["Refused400"];
@@ -7246,6 +7916,8 @@ export interface operations {
             /** @description Created */
             201: {
                 headers: {
+                    /** @description The address of what was made. */
+                    Location?: string;
                     [name: string]: unknown;
                 };
                 content: {
@@ -7257,6 +7929,46 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_token: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                slug: string;
+                token_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

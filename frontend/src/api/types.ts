@@ -45,6 +45,7 @@ export type ExpectedDevice = Schemas["ExpectedDevice"];
 export type Enrolment = Schemas["Door"];
 export type DescriptionLook = Schemas["LookShape"];
 
+export type OwnSession = Schemas["OwnSession"];
 export type Token = Schemas["TokenShape"];
 export type TokenScope = Token["scopes"][number];
 export type NewToken = Schemas["NewToken"];

@@ -72,7 +72,7 @@ class Factory:
 
     def start(self, program: str) -> str:
         answer = self.admin.post(f"/api/programs/{program}/runs", json={})
-        assert answer.status_code == 200, answer.text
+        assert answer.status_code == 202, answer.text
         return str(answer.json()["id"])
 
     def run(self, run: str) -> dict[str, Any]:

@@ -151,6 +151,9 @@ def attempts(
     if "application/json" in content:
         for body in poisoned(example(content["application/json"]["schema"]), poison):
             yield json.dumps(body)[:300], send(client, method, address(path, known), json.dumps(body))
+    elif "text/plain" in content:
+        body = text.encode(errors="surrogatepass")
+        yield "body", client.generic(method.upper(), address(path, known), body, content_type="text/plain")
     elif content:
         form = example(next(iter(content.values()))["schema"])
         for name in form:

@@ -62,7 +62,7 @@ def test_what_does_not_fit_is_refused_by_name(program: str, kind: str, name: str
 
 def test_what_is_left_out_has_its_default_and_names_are_those_of_the_document(program: str) -> None:
     answer = send(sign_in_member("operator", SITE), f"/programs/{program}/runs", json.dumps({"parameters": FITTING}))
-    assert answer.status_code == 200, answer.json()
+    assert answer.status_code == 202, answer.json()
     kept = Run.objects.get().parameters
     assert kept == {
         "minutes": 2.5, "is_paint_dry": False, "colour": "blue", "oven": OVEN, "where": OVEN, "note": "", "count": 3,

@@ -103,7 +103,7 @@ def test_a_stop_goes_on_over_the_new_map(factory):
     services.press_stop(site=SITE, by="Ada")
     factory.work()
     say_map(widened())
-    assert use(sign_in_member("admin", SITE)).status_code == 200
+    assert use(sign_in_member("admin", SITE)).status_code == 201
     factory.work()
     state = FloorState.objects.get(site__slug=SITE).state
     assert (state["stopped"], services.is_stopped(site=SITE)) == (True, True)
@@ -123,7 +123,7 @@ def test_nothing_changes_while_a_run_is_open_or_a_device_is_at_work(factory):
     assert refused.json()["args"] == {"why": "map_busy", "device": "paintMixer02"}
     assert SiteMap.objects.count() == 1
     Command.objects.filter(id=call.id).update(status="done")
-    assert use(client).status_code == 200
+    assert use(client).status_code == 201
 
 
 def test_what_was_not_looked_at_is_not_taken(factory):
@@ -153,9 +153,9 @@ def test_programs_are_checked_anew_on_the_new_map(factory):
     assert errors(client, program) == 0
     x, y = next((d.pose.x, d.pose.y) for d in demo_floor.devices() if d.id == "paintMachine01")
     say_map(walled(x - 3.0, y - 3.0, x + 3.0, y + 3.0))
-    assert use(client).status_code == 200
+    assert use(client).status_code == 201
     assert errors(client, program) > 0
-    assert post_json(client, f"/api/sites/{SITE}/map/restore", {"version": 1, "replaces": 2}).status_code == 200
+    assert post_json(client, f"/api/sites/{SITE}/map/restore", {"version": 1, "replaces": 2}).status_code == 201
     assert errors(client, program) == 0
 
 
@@ -185,7 +185,7 @@ def test_each_call_is_open_to_its_role_and_above(factory, role):
     seen = [client.get(path).status_code for path in (*shown, f"/api/sites/{SITE}/map/versions")]
     assert set(seen) == {{"nobody": 401, "stranger": 404}.get(role, 200)}
     changed = [use(client), post_json(client, f"/api/sites/{SITE}/map/restore", {"version": 1, "replaces": 2})]
-    wanted = {"nobody": 401, "stranger": 404, "admin": 200}.get(role, 403)
+    wanted = {"nobody": 401, "stranger": 404, "admin": 201}.get(role, 403)
     assert [answer.status_code for answer in changed] == [wanted] * 2
     assert SiteMap.objects.count() == (3 if role == "admin" else 1)
 

@@ -1,4 +1,4 @@
-/** One's own account: another password, and an end of all sessions. */
+/** One's own account: another password, where one is signed in, and an end of that. */
 import { Button, PasswordInput } from "@mantine/core";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { Check, CircleAlert, LogOut } from "lucide-react";
@@ -12,6 +12,7 @@ import { Panel } from "@/design/Panel";
 import { problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import styles from "./account.module.css";
+import { SessionList } from "./SessionList";
 
 const EMPTY = { old: "", new: "" };
 
@@ -115,10 +116,8 @@ function Sessions() {
   return (
     <Panel className={styles.card}>
       <div className={styles.form}>
-        <div>
-          <h2>{t("pages.account.everywhere")}</h2>
-          <p>{t("pages.account.everywhereText")}</p>
-        </div>
+        <SessionList ending={end.isPending || end.isSuccess} />
+        <p>{t("pages.account.everywhereText")}</p>
         {end.isError ? <Told error={end.error} done={false} /> : null}
         <Button
           variant="default"

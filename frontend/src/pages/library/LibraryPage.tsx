@@ -24,7 +24,7 @@ import { TableSkeleton } from "../TableSkeleton";
 function useFound(query: string) {
   return useQuery({
     queryKey: keys.library(query),
-    queryFn: () => api.get<LibraryFunction[]>(`/library?q=${encodeURIComponent(query)}`),
+    queryFn: () => api.all<LibraryFunction>(`/library?q=${encodeURIComponent(query)}`),
     placeholderData: keepPreviousData,
   });
 }

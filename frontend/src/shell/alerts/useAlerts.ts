@@ -17,7 +17,7 @@ export function useAlerts(slug: string | undefined) {
   const role = useSite(slug).data?.role;
   const query = useQuery({
     queryKey: keys.alerts(slug ?? ""),
-    queryFn: slug ? () => api.get<Alert[]>(`/sites/${encodeURIComponent(slug)}/alerts`) : skipToken,
+    queryFn: slug ? () => api.all<Alert>(`/sites/${encodeURIComponent(slug)}/alerts`) : skipToken,
   });
   const all = query.data ?? NONE;
   const alerts = useMemo(() => all.filter((alert) => concerns(alert, role)), [all, role]);
@@ -28,7 +28,7 @@ export function useAlerts(slug: string | undefined) {
 export function useOverAlerts(slug: string, wanted: boolean) {
   return useQuery({
     queryKey: keys.overAlerts(slug),
-    queryFn: wanted ? () => api.get<Alert[]>(`/sites/${encodeURIComponent(slug)}/alerts?state=over`) : skipToken,
+    queryFn: wanted ? () => api.all<Alert>(`/sites/${encodeURIComponent(slug)}/alerts?state=over`) : skipToken,
   });
 }
 

@@ -14,20 +14,20 @@ SHARE = "def share(self, n: Number) -> Number:\n    return 10 / n"
 @pytest.mark.parametrize(
     ("body", "functions", "codes"),
     [
-        ('self.t = quantity(99, "min")\nself.curing_oven.cure_paint(self.t)', "", ["out_of_range"]),
-        ('self.t = quantity(90, "s")\nself.curing_oven.cure_paint(self.t)', "", []),
+        ('self.t = quantity(99, "min")\nCURE(self.t)', "", ["out_of_range"]),
+        ('self.t = quantity(90, "s")\nCURE(self.t)', "", []),
         (
-            'self.a = quantity(9, "min")\nself.b = self.a * 20\nself.curing_oven.cure_paint(self.b)',
+            'self.a = quantity(9, "min")\nself.b = self.a * 20\nCURE(self.b)',
             "",
             ["out_of_range"],
         ),
         ('self.t = quantity(1, "s") - quantity(5, "s")\nself.wait(self.t)', "", ["out_of_range"]),
         (
-            'for t in [quantity(70, "min"), quantity(80, "min")]:\n    self.curing_oven.cure_paint(t)',
+            'for t in [quantity(70, "min"), quantity(80, "min")]:\n    CURE(t)',
             "",
             ["out_of_range"],
         ),
-        ('for t in [quantity(7, "min"), quantity(80, "min")]:\n    self.curing_oven.cure_paint(t)', "", []),
+        ('for t in [quantity(7, "min"), quantity(80, "min")]:\n    CURE(t)', "", []),
         ("self.rest(t=0 - 5)", WAIT, ["out_of_range"]),
         ("self.rest(t=5)", WAIT, []),
         ("self.rest(t=0 - 5)\nself.rest(t=5)", WAIT, []),
@@ -40,7 +40,7 @@ SHARE = "def share(self, n: Number) -> Number:\n    return 10 / n"
     ],
 )
 def test_what_is_wrong_in_every_run_is_told(body: str, functions: str, codes: list[str]) -> None:
-    document = document_of(script(body, functions))
+    document = document_of(script(body.replace("CURE(", "self.curing_oven.cure_paint("), functions))
     program = EditedProgram()
     for _ in range(2):
         told = [each.code for each in program.compile(document, site()).diagnostics]

@@ -1,0 +1,117 @@
+"""Long lists over HTTP are given in parts, which `Link` joins: nothing is missed, nothing comes twice."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from datetime import timedelta
+from typing import Any
+
+import pytest
+from django.test import Client
+
+from editor import services as editor
+from registry.models import DeviceAlert
+from tests.kit.programs import document
+from tests.kit.sign_in import signed_in
+from tests.kit.sites import NOW, make_mixers
+
+pytestmark = pytest.mark.django_db
+COUNT = 7
+
+
+def next_of(answer: Any) -> str:
+    found = re.fullmatch(r'<(.+)>; rel="next"', answer.headers.get("Link", ""))
+    return found[1] if found else ""
+
+
+def read_parts(client: Client, address: str, meanwhile: Callable[[], object] = lambda: None) -> list[list[Any]]:
+    parts = []
+    while address:
+        answer = client.get(address)
+        assert answer.status_code == 200, answer.content
+        parts.append(answer.json())
+        address = next_of(answer)
+        meanwhile()
+    return parts
+
+
+def make_programs(site: str) -> None:
+    for number in range(COUNT):
+        editor.create_program(site=site, name=f"Program {number}")
+
+
+def make_versions(site: str) -> str:
+    program = editor.create_program(site=site, name="Pinned").id
+    for number in range(COUNT):
+        editor.pin_version(program_id=program, user=None, message=f"Version {number}")
+    return str(program)
+
+
+def make_functions(site: str) -> None:
+    drawn = document({}, functions={"f": {"name": "Greet", "parameters": []}})
+    program = editor.create_program(site=site, name="Source", document=drawn).id
+    for number in range(COUNT):
+        editor.save_function(site=site, program_id=program, function="f", name=f"F{number}", description="", user=None)
+
+
+def make_alerts() -> None:
+    make_mixers("mixer1", "mixer2")
+    for number in range(COUNT):
+        # Two of each moment: the order is that of the rows then.
+        at = NOW + timedelta(minutes=number // 2)
+        DeviceAlert.objects.create(device_id="mixer1", code="offline", first_at=at, last_at=at, over_at=at)
+    DeviceAlert.objects.create(device_id="mixer2", code="offline", first_at=NOW, last_at=NOW, over_at=NOW)
+
+
+def test_programs_come_in_parts_and_one_that_is_made_meanwhile_moves_nothing(hall: str) -> None:
+    make_programs("hall")
+    client = signed_in("viewer")
+    parts = read_parts(
+        client,
+        "/api/sites/hall/programs?limit=3&q=program",
+        lambda: editor.create_program(site="hall", name="New program"),
+    )
+    assert [[each["name"] for each in part] for part in parts] == [
+        ["Program 6", "Program 5", "Program 4"],
+        ["Program 3", "Program 2", "Program 1"],
+        ["Program 0"],
+    ]
+    assert [each["name"] for each in client.get("/api/sites/hall/programs?q=6%20PROG").json()] == ["Program 6"]
+
+
+def test_versions_of_a_program_come_in_parts(hall: str) -> None:
+    program = make_versions("hall")
+    parts = read_parts(signed_in("viewer"), f"/api/programs/{program}/versions?limit=3")
+    assert [[each["number"] for each in part] for part in parts] == [[7, 6, 5], [4, 3, 2], [1]]
+
+
+def test_the_library_comes_in_parts_by_name(hall: str) -> None:
+    make_functions("hall")
+    parts = read_parts(signed_in("viewer"), "/api/library?limit=4&site=hall")
+    assert [[each["name"] for each in part] for part in parts] == [["F0", "F1", "F2", "F3"], ["F4", "F5", "F6"]]
+
+
+def test_alerts_of_one_moment_are_neither_missed_nor_doubled(hall: str) -> None:
+    make_alerts()
+    client = signed_in("viewer")
+    parts = read_parts(client, "/api/sites/hall/alerts?state=over&device=mixer1&limit=2")
+    keys = [each["id"] for part in parts for each in part]
+    assert [len(part) for part in parts] == [2, 2, 2, 1]
+    assert keys == sorted(keys, reverse=True)
+    assert len(client.get("/api/sites/hall/alerts?state=over").json()) == COUNT + 1
+
+
+def test_a_mark_that_was_made_up_or_is_another_lists_is_refused(hall: str) -> None:
+    make_programs("hall")
+    program = make_versions("hall")
+    client = signed_in("viewer")
+    other = next_of(client.get("/api/sites/hall/programs?limit=1")).partition("before=")[2]
+    for mark in ("a", "WyJhIl0:x:y", other):
+        answer = client.get(f"/api/programs/{program}/versions?before={mark}")
+        assert (answer.status_code, answer.json()["code"]) == (422, "bad_mark")
+
+
+@pytest.mark.parametrize("limit", ["0", "201", "-1", "x"])
+def test_a_part_has_its_bounds(hall: str, limit: str) -> None:
+    assert signed_in("viewer").get(f"/api/sites/hall/programs?limit={limit}").status_code == 422
