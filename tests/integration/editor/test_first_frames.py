@@ -23,8 +23,8 @@ from websockets.exceptions import ConnectionClosed
 from editor.documents.shared_document import empty_document, encode_document
 from editor.documents.yjs_encoding import encode_integer, encode_sized
 from editor.rooms import yjs_protocol
+from tests.cases.hostile_updates import HOSTILE
 from tests.integration.editor.node_clients import node_clients
-from tests.kit.hostile_updates import HOSTILE
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
 from tests.kit.web import Web, prepare

@@ -12,7 +12,7 @@ from pycrdt import Array, Doc, Map, Text
 from editor.documents.shared_document import ROOTS, BadUpdate, SharedDocument, empty_document, encode_document
 from editor.documents.yjs_encoding import BadFrame
 from editor.documents.yjs_updates import DEEPEST, MOST_CLIENTS, MOST_NESTED, MOST_PARTS, check_update
-from tests.kit.hostile_updates import HOSTILE, anything, change, child, client, shared_map, update
+from tests.cases.hostile_updates import HOSTILE, anything, change, child, client, shared_map, update
 from tests.kit.work import within_processor_time
 
 NAMES = frozenset(root.encode() for root in ROOTS)

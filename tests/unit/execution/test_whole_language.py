@@ -31,7 +31,7 @@ SCRIPT = """class Task(object):
         self.notify(f"Total {self.total}", level="warning")
         self.end()
 
-    def mix(self, minutes: Number("MIN") = 3) -> Number:
+    def mix(self, minutes: Number("min") = 3) -> Number("min"):
         try:
             return minutes * 2
         finally:

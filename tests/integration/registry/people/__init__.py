@@ -1,0 +1,1 @@
+"""People: signing in, sessions, tokens, and requests that are sent again."""
