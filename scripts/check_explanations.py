@@ -45,6 +45,7 @@ _DEVICES: Final = {
     "not_a_robot": "A role is bound to a device that is no robot.",
     "robot_as_place": "A pick or a drop happens at machines only.",
     "cannot_do": "The robot of this role lacks a method that its steps need.",
+    "too_few_robots": "A role keeps its robot until the program ends, so roles of one path need robots of their own.",
     "no_robot_can": "No approved robot has all the methods that the role needs.",
     "not_given": "The machine does not list this object among those that it gives.",
     "not_taken": "The machine does not list this object among those that it takes.",

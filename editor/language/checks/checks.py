@@ -10,6 +10,7 @@ from editor.language.analysis.loads import follow_loads
 from editor.language.analysis.memo import Findings, Memos
 from editor.language.analysis.value_ranges import Scope, Types, find_ranges, ranges_at
 from editor.language.checks.context import Context
+from editor.language.checks.crew import check_crew
 from editor.language.checks.devices import check_floor, check_load_place, check_place, check_role, usable_device
 from editor.language.checks.flow import check_flow, check_leaving
 from editor.language.checks.library import check_library
@@ -71,6 +72,7 @@ def check(
         (p, key) for p, key in found if not (p.code.startswith("missing") and (p.step, p.field) in already)
     ]
     _check_roles(context)
+    check_crew(context)
     check_leaving(context)
     check_flow(context)
     check_variables(context)

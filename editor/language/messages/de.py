@@ -44,6 +44,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "not_a_robot": "{device} ist kein Roboter. Wählen Sie einen Roboter für {role}.",
     "robot_as_place": "{device} ist ein Roboter und kann Objekte weder geben noch nehmen. Wählen Sie eine Maschine.",
     "cannot_do": "{device} kann {method} nicht. Wählen Sie einen Roboter, der das kann.",
+    "too_few_robots": "{roles} brauchen gleichzeitig je einen Roboter, und es gibt {count}. Einer kann beides tun.",
     "no_robot_can": "Kein Roboter an diesem Standort kann {methods}.",
     "not_given": "{device} gibt {object} nicht her. Es gibt: {options}.",
     "not_taken": "{device} nimmt {object} nicht an. Es nimmt: {options}.",

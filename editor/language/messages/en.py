@@ -46,6 +46,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "not_a_robot": ("error", "{device} is not a robot. Choose a robot for {role}."),
     "robot_as_place": ("error", "{device} is a robot and can neither give nor take objects. Choose a machine."),
     "cannot_do": ("error", "{device} cannot {method}. Choose a robot that can."),
+    "too_few_robots": ("error", "{roles} need a robot each at the same time, and there are {count}. Let one do both."),
     "no_robot_can": ("error", "No robot on this site can {methods}."),
     "not_given": ("error", "{device} does not give {object}. It gives: {options}."),
     "not_taken": ("error", "{device} does not take {object}. It takes: {options}."),
