@@ -304,9 +304,13 @@ def add_moves(tree: Tree, standing_at: Mapping[str, str], memo: Memo | None = No
     return _follow(tree, initial, memo, from_script=False)[0]
 
 
-def place_loads(tree: Tree) -> tuple[Tree, tuple[Pick | Drop, ...]]:
-    """Return the tree of a parsed script with the places of its picks and drops, and those without a place."""
-    initial = {role.name: PlaceRef(device=role.at) for role in tree.roles if role.at is not None}
+def place_loads(tree: Tree, standing_at: Mapping[str, str]) -> tuple[Tree, tuple[Pick | Drop, ...]]:
+    """Return the tree of a parsed script with the places of its picks and drops, and those without a place.
+
+    Where the script does not say where a robot begins, it begins where it is known to stand.
+    """
+    begins = {role.name: role.at or standing_at.get(role.device or "") for role in tree.roles}
+    initial = {name: PlaceRef(device=device) for name, device in begins.items() if device is not None}
     return _follow(tree, initial, None, from_script=True)
 
 

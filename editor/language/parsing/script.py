@@ -20,7 +20,7 @@ from editor.language.parsing.bindings import Entry, parse_parameters, parse_run,
 from editor.language.parsing.expressions import Refused, Scope, attribute_of_self, calls_in, quoted, robots_driven
 from editor.language.parsing.steps import Parser
 from editor.language.parsing.variables import check_local, names_assigned
-from editor.language.site.surroundings import Surroundings
+from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree import nodes as n
 from editor.language.tree.traversal import in_reading_order
 
@@ -94,7 +94,7 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
         parser.functions[name] = replace(function, body=parser.block(methods[name].body))
     roles, parameters = _roles_and_parameters(parser)
     tree = in_reading_order(n.Tree(body, tuple(parser.functions.values()), roles, parameters, events))
-    placed, unplaced = place_loads(tree)
+    placed, unplaced = place_loads(tree, standing_places(surroundings))
     for node in unplaced:
         where = parser.origins[id(node)]
         parser.refusals.append(
@@ -149,6 +149,10 @@ def _roles_and_parameters(parser: Parser) -> tuple[tuple[n.Role, ...], tuple[n.P
     return roles, tuple(n.Parameter(name, b.default, b.type, b.unit) for name, b in bindings if b.kind == "parameter")
 
 
+def _is_method(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.FunctionDef) and [each.arg for each in statement.args.args[:1]] == ["self"]
+
+
 def _branch_names(calls: Iterable[ast.Call]) -> Iterator[str]:
     """Yield the methods that some `self.parallel(…)` names as branches."""
     for call in calls:
@@ -160,9 +164,13 @@ def _branch_names(calls: Iterable[ast.Call]) -> Iterator[str]:
 
 
 def _methods(module: ast.Module) -> dict[str, ast.FunctionDef]:
+    """Return the methods of the task; those that stand behind the class are its own too, as in the paper's listing."""
     match module.body:
-        case [ast.ClassDef(name="Task", body=body, bases=[] | [ast.Name(id="object")], keywords=[], decorator_list=[])]:
-            pass
+        case [
+            ast.ClassDef(name="Task", body=body, bases=[] | [ast.Name(id="object")], keywords=[], decorator_list=[]),
+            *behind,
+        ] if all(map(_is_method, behind)):
+            body = [*body, *behind]
         case _:
             first = module.body[0] if module.body else module
             raise Refused(

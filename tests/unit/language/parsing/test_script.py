@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from editor.language import compile_document, parse_script, tree_to_document
-from tests.kit.demo_site import factory, script
+from tests.kit.demo_site import factory, script, with_device
 
 
 def refusal(*lines: str) -> tuple[int | None, str]:
@@ -127,3 +127,25 @@ def test_the_same_step_twice_reads_as_two_steps() -> None:
     tree = parse_script(script("self.wait(5)", "self.wait(5)"), factory()).tree
     assert tree is not None
     assert len(compile_document(tree_to_document(tree, factory()), factory()).numbers) == 2
+
+
+def test_the_listing_of_the_paper_is_read_where_its_robot_stands_at_the_source() -> None:
+    listing = (
+        "class Task(object):\n"
+        "    def new_task(self):\n"
+        '        self.robot.pick({"value": 1, "object": "box"})\n'
+        "        self.robot.move(self.painting_machine.location)\n"
+        '        self.robot.drop({"value": 1, "object": "box"})\n'
+        "\n"
+        "def run(self, ctx):\n"
+        '    self.robot = ctx.get("robot01")\n'
+        '    self.painting_machine = ctx.get("paintMachine01")\n'
+        "    self.new_task()\n"
+    )
+    assert "Put self.robot.move(…) before it." in parse_script(listing, factory()).diagnostics[0].message
+    site = with_device("robot01", standing_at="itemInventory01")
+    parsed = parse_script(listing, site)
+    assert parsed.tree is not None
+    compiled = compile_document(tree_to_document(parsed.tree, site), site)
+    assert compiled.diagnostics == ()
+    assert 'self.robot = ctx.get("robot01", at="itemInventory01")' in compiled.script
