@@ -137,7 +137,7 @@ class PartAsked(Asked):
     """Which part of a long list is asked for; `before` is as the header `Link` of the part before it names it."""
 
     limit: int = Field(MOST_AT_ONCE, ge=1, le=MOST_AT_ONCE)
-    before: str = Field("", max_length=4000)
+    before: str = Field("", max_length=500)
 
     def part(self) -> Part:
         """Return the part that is meant."""

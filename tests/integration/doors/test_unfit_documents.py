@@ -25,7 +25,7 @@ def test_a_program_with_unfit_texts_is_listed_kept_as_a_version_and_run(factory:
     client = sign_in_member("operator", SITE)
     assert client.get(f"/api/sites/{SITE}/programs").status_code == 200
     answer = client.post(f"/api/programs/{program}/runs", json.dumps({}), content_type="application/json")
-    assert answer.status_code == 200, answer.json()
+    assert answer.status_code == 202, answer.json()
     assert Run.objects.count() == 1
     script = client.get(f"/api/programs/{program}/compiled").json()
     assert "mind the door" in json.dumps(script)

@@ -22,7 +22,7 @@ def test_dashboards_leave_room_to_devices(bus: Bus, monkeypatch: pytest.MonkeyPa
         with dashboard(bus, *third) as refused:
             assert "unavailable" in refused.refused.lower()
         services.expect_device(site=SITE, device_id="mixer01", credential="k" * 32)
-        assert bus.lets_in("mixer01", "k" * 32)
+        wait_for("mixer01", lambda: bus.lets_in("mixer01", "k" * 32))
         one.client.disconnect()
         wait_for("its leave", lambda: not one.is_in)
         with dashboard(bus, *third) as there:
