@@ -176,11 +176,13 @@ def _loop(
     rounds = _rounds(node, values)
     if rounds is None or follower.rounds + len(rounds) > MOST_ROUNDS:
         return _uncounted(follower, node, carried, values)
+    before: Carried | None = None
     after: Carried | None = carried
     over: Carried | None = None
     for known in rounds:
-        if after is None:
-            break
+        if after is None or (after == before and not known):
+            break  # the rounds that are left bring nothing new
+        before = after
         after, exits = _round(follower, node.body, after, {**values, **known})
         for at_exit in exits:
             over = _either(over, at_exit)

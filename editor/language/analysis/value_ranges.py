@@ -72,13 +72,17 @@ class _Widening:
                 for name in () if setter.value is None else _names_in(setter.value):
                     dependents.setdefault(setter.key_of(name), []).append(key)
         left = deque(self.setters)
+        waiting = set(left)
         while left:
             key = left.popleft()
+            waiting.discard(key)
             found = self._range_of_name(key)
             if found is not None and found != self.ranges.get(key):
                 self.changes[key] = self.changes.get(key, 0) + 1
                 self.ranges[key] = ANY if self.changes[key] > MOST_CHANGES else found
-                left.extend(dependents.get(key, ()))
+                again = [each for each in dict.fromkeys(dependents.get(key, ())) if each not in waiting]
+                left.extend(again)
+                waiting.update(again)
 
     def _range_of_name(self, key: _Key) -> Range | None:
         if self.ranges.get(key) == ANY:
@@ -102,26 +106,33 @@ class _Widening:
         return range_of(convert_units(setter.value, setter.unit, checker), self.surroundings, names)
 
 
-def find_ranges(tree: n.Tree, scopes: Iterable[Scope], surroundings: Surroundings) -> dict[_Key, Range]:
-    """Return the ranges of the names of which one is known, each by where it belongs."""
-    scopes = tuple(scopes)
+Ranges = Mapping[object, Mapping[str, Range]]
+"""The ranges that are known: where a name belongs, and then by the name."""
+
+
+def find_ranges(tree: n.Tree, scopes: Iterable[Scope], surroundings: Surroundings) -> Ranges:
+    """Return the ranges of the names of which one is known."""
     widening = _Widening(surroundings)
-    for key, setter in _all_setters(tree, scopes):
+    for key, setter in _all_setters(tree, tuple(scopes)):
         widening.setters.setdefault(key, []).append(setter)
     for parameter in tree.parameters:
         widening.setters.pop((PROGRAM, parameter.name), None)
     widening.run()
-    return {key: found for key, found in widening.ranges.items() if found != ANY}
+    ranges: dict[object, dict[str, Range]] = {}
+    for (where, name), found in widening.ranges.items():
+        if found != ANY:
+            ranges.setdefault(where, {})[name] = found
+    return ranges
 
 
-def ranges_at(ranges: Mapping[_Key, Range], scope: Scope, loops: tuple[n.ForEach, ...]) -> dict[str, Range]:
+def ranges_at(ranges: Ranges, scope: Scope, loops: tuple[n.ForEach, ...]) -> Mapping[str, Range]:
     """Return the ranges that can be seen from a step."""
-    found = {name: known for (where, name), known in ranges.items() if where == PROGRAM and name not in scope.own}
-    found |= {name: known for (where, name), known in ranges.items() if scope.name and where == scope.name}
+    shared = ranges.get(PROGRAM, {})
+    own = ranges.get(scope.name, {}) if scope.name else {}
+    found = {**{name: known for name, known in shared.items() if name not in scope.own}, **own}
     for loop in loops:
         found.pop(loop.variable, None)
-        if (id(loop), loop.variable) in ranges:
-            found[loop.variable] = ranges[id(loop), loop.variable]
+        found.update(ranges.get(id(loop), {}))
     return found
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import cast
 
 from editor.language.analysis.loads import follow_loads
-from editor.language.analysis.memo import Findings, Memos
-from editor.language.analysis.value_ranges import Scope, Types, find_ranges, ranges_at
+from editor.language.analysis.memo import Memos
+from editor.language.checks.bodies import find_bodies
 from editor.language.checks.context import Context
 from editor.language.checks.crew import check_crew
 from editor.language.checks.devices import check_floor, check_load_place, check_place, check_role, usable_device
@@ -28,9 +28,8 @@ from editor.language.checks.variables import check_variables
 from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Expression
-from editor.language.expressions.ranges import Range
 from editor.language.expressions.units import PLAIN
-from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value, declared_type
+from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
 from editor.language.messages.phrases import Options, Span
 from editor.language.reading.document import ReadDocument
@@ -40,12 +39,7 @@ from editor.language.tree.nodes import walk
 from editor.language.tree.traversal import needed_of_roles
 from editor.language.tree.variable_types import (
     type_of_items,
-    types_in_function,
-    types_in_loops,
-    types_in_program,
-    with_loops,
 )
-from editor.language.tree.variables import SETTERS, local_variables, program_variables, read_by
 from editor.language.tree.zones import read_zones
 from vipo_device.protocol.description import ParameterSpec
 
@@ -86,34 +80,16 @@ def check(
 
 def _check_steps(context: Context) -> None:
     """Check every step for itself, with what is known where it stands."""
-    tree, site = context.tree, context.surroundings
-    shared = program_variables(tree)
-    types = types_in_program(tree, shared, site)
-    scopes = [_scope(context, PROGRAM, body, types) for body in (tree.body, *(event.body for event in tree.events))]
-    for function in tree.functions:
-        own = frozenset(p.name for p in function.parameters) | frozenset(local_variables(function, shared))
-        inside = types_in_function(tree, function, types, site)
-        scopes.append(_scope(context, function.method, function.body, inside, own))
-    worked_out = tree.holds(*SETTERS, n.ForEach)
-    ranges = find_ranges(tree, scopes, site) if worked_out else {}
+    bodies = find_bodies(context)
     if context.memos is not None:
         context.memos.begin_checks(_all_around(context))
-    first, *others = [_Checked(scope, ranges) for scope in scopes]
-    _check_block(context, first)
-    for event, checked in zip(tree.events, others, strict=False):
-        _check_block(context, checked, event.step)
-        check_condition(context, cast("n.Node", event), event.condition, "condition")  # an event has a step as nodes do
-    for function, checked in zip(tree.functions, others[len(tree.events) :], strict=True):
-        context.result = declared_type(function.result_type, function.result_unit)
-        _check_block(context, checked)
+    for body in bodies:
+        body.check(context, CHECKS)
+        if body.event is not None:
+            body.enter(context)
+            event = cast("n.Node", body.event)  # an event has a step as nodes do
+            check_condition(context, event, body.event.condition, "condition")
     context.result = ValueType()
-
-
-def _scope(
-    context: Context, name: str, body: n.Block, types: Types, own: frozenset[str] = frozenset()
-) -> Scope:  # fmt: skip
-    in_loops = types_in_loops(body, types, context.surroundings) if context.tree.holds(n.ForEach) else {}
-    return Scope("" if name == PROGRAM else name, body, types, in_loops, own)
 
 
 def _all_around(context: Context) -> object:
@@ -121,56 +97,6 @@ def _all_around(context: Context) -> object:
     functions = [(f.id, f.name, replace(f, body=())) for f in context.tree.functions]
     roles = [(role.id, role) for role in context.tree.roles]
     return functions, roles, context.zones, what_programs_see(context.surroundings)
-
-
-@dataclass(slots=True)
-class _Checked:
-    """A body that is being checked, with the ranges that can be seen in it."""
-
-    scope: Scope
-    ranges: Mapping[tuple[object, str], Range]
-    _seen: dict[tuple[int, ...], dict[str, Range]] = field(default_factory=dict)
-
-    def seen(self, loops: tuple[n.ForEach, ...]) -> dict[str, Range]:
-        """Return the ranges that can be seen within these loops over values."""
-        key = tuple(map(id, loops))
-        if key not in self._seen:
-            self._seen[key] = ranges_at(self.ranges, self.scope, loops) if self.ranges else {}
-        return self._seen[key]
-
-
-def _check_block(context: Context, checked: _Checked, name: str = "") -> None:
-    scope = checked.scope
-    memo = (
-        context.memos.of_block(name or scope.name or PROGRAM, (scope.types, context.result)) if context.memos else None
-    )
-    plain = not scope.types_in_loops
-    nodes = ((node, ()) for node in context.tree.walked(scope.body)) if plain else with_loops(scope.body)
-    for node, loops in nodes:
-        context.variables = scope.types_in_loops.get(id(node), scope.types)
-        context.ranges = checked.seen(loops)
-        inside = (context.variables if loops else None, _read_there(node, context.ranges)) if memo else None
-        reported: Findings | None = memo.get(node, inside) if memo is not None else None
-        if reported is not None:
-            context.found.extend(reported)
-            continue
-        before = len(context.found)
-        CHECKS[type(node)](context, node)
-        if memo is not None and not _looks_around(node):
-            memo.put(node, tuple(context.found[before:]), inside)
-
-
-def _read_there(node: n.Node, ranges: Mapping[str, Range]) -> tuple[tuple[str, Range], ...]:
-    """Return the ranges on which the check of a step depends."""
-    return tuple((name, ranges[name]) for name in read_by(node) if name in ranges) if ranges else ()
-
-
-_LOOK_AROUND = (n.Call, n.Parallel)
-
-
-def _looks_around(node: n.Node) -> bool:
-    """Tell whether the check of a step looks at other steps, or at where robots are."""
-    return isinstance(node, _LOOK_AROUND) or (isinstance(node, n.Move) and node.to.device is None)
 
 
 def _bodies(tree: n.Tree) -> tuple[n.Block, ...]:

@@ -11,6 +11,8 @@ from editor.language.messages.phrases import Options
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import blocks_of
 
+DEEPEST_CALL = 50
+"""Functions that call each other are followed so far; what is deeper adds nothing."""
 Held = frozenset[str]
 _ENDS = (n.End, n.Return, n.Break)
 
@@ -23,6 +25,7 @@ class _Follower:
     told: set[str] = field(default_factory=set)
     calls: dict[tuple[str, Held], Held] = field(default_factory=dict)
     """What functions were found to hold after them, by what was held before; one that calls itself adds nothing."""
+    depth: int = 0
 
     def block(self, block: n.Block, held: Held) -> Held:
         """Return the roles that have a robot after a block, whatever path was taken."""
@@ -56,12 +59,14 @@ class _Follower:
 
     def _call(self, node: n.Call, held: Held) -> Held:
         function = self.context.functions.get(node.function)
-        if function is None:
+        if function is None or self.depth >= DEEPEST_CALL:
             return held
         key = node.function, held
         if key not in self.calls:
             self.calls[key] = held
+            self.depth += 1
             self.calls[key] = self.block(function.body, held)
+            self.depth -= 1
         return self.calls[key]
 
     def _try(self, node: n.Try, held: Held) -> Held:

@@ -64,3 +64,8 @@ def test_roles_of_functions_count_where_they_are_called() -> None:
     assert codes(["a", "b", call], {"f": ["c", "d"]}) == ["too_few_robots"]
     assert codes(["a", call], {"f": ["c", "d"]}) == []
     assert codes(["a", call], {"f": ["c", call]}) == ["calls_itself"]
+
+
+def test_functions_that_call_each_other_in_a_long_chain_are_followed_so_far() -> None:
+    chain: dict[str, list[Any]] = {f"f{i}": [["call", {"function": f"f{i + 1}"}, {}]] for i in range(600)}
+    assert codes(["a", ["call", {"function": "f0"}, {}]], {**chain, "f600": ["b"]}) == []
