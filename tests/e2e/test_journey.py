@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, Route, expect
 
 from tests.e2e.conftest import SignIn, listen
 from tests.e2e.screens import (
@@ -309,9 +309,14 @@ def test_a_function_is_made_saved_found_by_another_person_and_used(sign_in: Sign
     expect(author.get_by_text("bringAndCure is in the library as version 1")).to_be_visible()
     make_program(admin, "Where a function is used")
     admin.get_by_role("button", name="or import a function").click()
-    admin.get_by_label("Search by name or what it does").fill("oven")
-    admin.get_by_role("button", name=re.compile("^bringAndCure v1")).click()
+    held: list[Route] = []
+    admin.route(re.compile(r"/library\?q=oven"), held.append)
+    with admin.expect_request(re.compile(r"/library\?q=oven")):
+        admin.get_by_label("Search by name or what it does").fill("oven")
+    admin.get_by_role("button", name=re.compile("^bringAndCure v1")).click()  # the answer is still under way
     expect(chip(admin, "1, Function, bringAndCure")).to_be_visible()
+    for route in held:
+        route.continue_()
     expect(admin.get_by_text("Nothing to fix")).to_be_visible()
     assert "        self.bring_and_cure()" in script_lines(admin)
 

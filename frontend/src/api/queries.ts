@@ -1,5 +1,5 @@
 /** What screens read from the server, kept by TanStack Query; the live socket writes into the same caches. */
-import { QueryClient, skipToken, useQuery } from "@tanstack/react-query";
+import { keepPreviousData, QueryClient, skipToken, useQuery } from "@tanstack/react-query";
 import { api, ApiProblem, rememberCsrf } from "./client";
 import type {
   ArmedProgram,
@@ -180,8 +180,13 @@ export const useRun = (id: Maybe) =>
   );
 export const useRunEvents = (id: Maybe) =>
   useQuery({ queryKey: keys.runEvents(id ?? ""), queryFn: id ? () => getRunEvents(id) : skipToken });
+/** What was found last stays until the next answer is there: a list that goes while people type cannot be pressed. */
 export const useLibrary = (q: string) =>
-  useAll<LibraryFunction>(keys.library(q), `/library?q=${encodeURIComponent(q)}`);
+  useQuery({
+    queryKey: keys.library(q),
+    queryFn: () => api.all<LibraryFunction>(`/library?q=${encodeURIComponent(q)}`),
+    placeholderData: keepPreviousData,
+  });
 export const useLibraryFunction = (id: Maybe) =>
   useGet<LibraryFunction>(
     keys.libraryFunction(id ?? ""),

@@ -1,14 +1,11 @@
 /** Functions that people made from steps, to be used again in other programs. */
 import { Button, TextInput } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
-import { keepPreviousData, useQuery } from "@tanstack/react-query";
 import { Search, SquareFunction } from "lucide-react";
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useParams } from "react-router-dom";
-import { api } from "@/api/client";
-import { keys } from "@/api/queries";
-import type { LibraryFunction } from "@/api/types";
+import { useLibrary } from "@/api/queries";
 import { LoadProblem } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
 import { Chip } from "@/design/Chip";
@@ -20,14 +17,6 @@ import styles from "./library.module.css";
 import { NothingFound } from "../NothingFound";
 import pages from "../pages.module.css";
 import { TableSkeleton } from "../TableSkeleton";
-
-function useFound(query: string) {
-  return useQuery({
-    queryKey: keys.library(query),
-    queryFn: () => api.all<LibraryFunction>(`/library?q=${encodeURIComponent(query)}`),
-    placeholderData: keepPreviousData,
-  });
-}
 
 function EmptyLibrary({ slug }: { slug: string }) {
   const { t } = useTranslation();
@@ -51,7 +40,7 @@ export function LibraryPage() {
   const { slug = "", id } = useParams();
   const [typed, setTyped] = useState("");
   const [query] = useDebouncedValue(typed.trim(), 200);
-  const found = useFound(query);
+  const found = useLibrary(query);
   const items = found.data ?? [];
   const chosen = items.find((item) => item.id === id);
   return (
