@@ -230,10 +230,13 @@ def test_nothing_was_acknowledged_to_the_broker_before_it_was_kept(plant: Plant)
 def test_a_connection_that_is_cut_is_made_anew(plant: Plant) -> None:
     connection.close()
     with psycopg.connect(plant.postgres.url, autocommit=True) as other:
-        others = (
-            "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = 'vipo' AND pid <> pg_backend_pid()"
-        )
-        assert len(other.execute(others).fetchall()) == 3  # what comes in, what goes out, what dashboards are told
+        others = "FROM pg_stat_activity WHERE datname = 'vipo' AND pid <> pg_backend_pid()"
+
+        def are_all_there() -> bool:
+            return len(other.execute(f"SELECT pid {others}").fetchall()) == 3
+
+        wait_for("what comes in, what goes out, what dashboards are told", are_all_there)
+        assert len(other.execute(f"SELECT pg_terminate_backend(pid) {others}").fetchall()) == 3
     plant.describe("Fourth")
     plant.say_states(1)
     plant.wait_kept("Fourth")
