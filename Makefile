@@ -4,7 +4,7 @@ BIN := .venv/bin
 SOURCES := vipo_site vipo_device registry editor simulation execution connectors firmware/robot_agent tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
-.PHONY: demo test check check-static check-frontend check-units bench mutation audit checks-page openapi format frontend setup setup-dev servers clean
+.PHONY: demo test check check-static check-frontend check-units bench mutation audit checks-page constructs openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
 	@exec $(BIN)/python -m vipo_site.demo
@@ -57,14 +57,18 @@ check-static: setup-dev
 	$(BIN)/lint-imports
 
 check-frontend: setup-dev
-	cd frontend && npm run --silent check && npm run --silent test
+	cd frontend && npm run --silent check && npm run --silent test -- --pool=threads
 
 check-units: setup-dev
-	$(BIN)/python -m pytest -q tests/unit
+	$(BIN)/python -m pytest -q -p no:schemathesis --numprocesses=2 --dist=loadfile --no-loadscope-reorder tests/unit
 
 test: setup-dev servers frontend
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check-frontend check-static
 	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --durations=25 --numprocesses=2 --dist=loadfile --no-loadscope-reorder
+
+constructs: setup-dev
+	$(BIN)/python manage.py constructs
+	@$(MAKE) --no-print-directory openapi
 
 openapi: setup-dev
 	$(BIN)/python manage.py openapi

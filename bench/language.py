@@ -9,7 +9,7 @@ from typing import Any
 
 from bench.blockly import measure_blockly
 from bench.figures import best_cpu_ms, figure
-from bench.programs import make_program, with_step
+from bench.programs import make_functions, make_program, with_step
 from editor.language import Surroundings, compile_document, parse_script, surroundings_from_json
 from editor.language.compiler import EditedProgram
 
@@ -23,6 +23,7 @@ LINES = 5000
 def measure() -> Iterator[dict[str, object]]:
     site = surroundings_from_json(json.loads(SITE.read_text()))
     yield from measure_curve(site)
+    yield from measure_functions(site)
     yield from measure_edits(site)
     yield from measure_parsing(site)
     yield from measure_blockly(1000)
@@ -38,6 +39,16 @@ def measure_curve(site: Surroundings) -> Iterator[dict[str, object]]:
         per_step.append(took / count)
         yield figure("check, compile and print", took, "ms", steps=count, us_per_step=round(took * 1000 / count, 2))
     yield figure("growth beyond a straight line", per_step[-1] / per_step[-2], "times", steps=list(CURVE[-2:]))
+
+
+def measure_functions(site: Surroundings) -> Iterator[dict[str, object]]:
+    """Compile programs that are made of functions: one after another, and each called by the one before it."""
+    for count in (1000, 8000):
+        for shape in ("one after another", "in a chain"):
+            document = make_functions(count, chain=shape == "in a chain")
+            assert compile_document(document, site).plan is not None
+            took = best_cpu_ms(lambda document=document: compile_document(document, site), 5)
+            yield figure(f"check, compile and print functions {shape}", took, "ms", functions=count)
 
 
 def measure_edits(site: Surroundings) -> Iterator[dict[str, object]]:

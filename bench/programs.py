@@ -67,3 +67,16 @@ def with_step(document: Json, name: str, step: Json | None) -> Json:
     """Return the document with one step set or taken away."""
     others = {key: value for key, value in document["steps"].items() if key != name}
     return {**document, "steps": others if step is None else {**others, name: step}}
+
+
+def make_functions(count: int, *, chain: bool) -> Json:
+    """Return a program of so many functions, each of one step; in a chain each is called by the one before it."""
+    functions: Json = {}
+    steps: Json = {}
+    for number in range(count):
+        functions[f"f{number}"] = {"name": f"part {number}", "parameters": []}
+        steps[f"w{number}"] = {"kind": "wait", "place": [f"f{number}", "body", "V"], "params": {"duration": 1}}
+        caller = f"f{number - 1}" if chain and number else "program"
+        order = "W" if chain and number else f"{number:06d}V"
+        steps[f"c{number}"] = {"kind": "call", "place": [caller, "body", order], "params": {"function": f"f{number}"}}
+    return {"format": 2, "start_pos": [0, 0], "steps": steps, "functions": functions}

@@ -2,40 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from ninja import Field, Schema
 from typing_extensions import TypeAliasType
 
+from editor.language.constructs.table import CONSTRUCTS
 from registry.shapes import Asked, Flag, Line, Repaired, Unchecked
 
 Position = tuple[float, float]
-StepKind = TypeAliasType(
-    "StepKind",
-    Literal[
-        "move",
-        "pick",
-        "drop",
-        "pick_and_drop",
-        "operate",
-        "wait",
-        "if",
-        "while",
-        "repeat",
-        "for_each",
-        "parallel",
-        "try",
-        "call",
-        "set",
-        "ask",
-        "notify",
-        "end",
-        "return",
-        "break",
-        "on_event",
-        "comment",
-    ],
-)
+if TYPE_CHECKING:
+    StepKind = str
+else:
+    StepKind = TypeAliasType("StepKind", Literal[tuple(CONSTRUCTS)])
 
 
 class DevicePlace(Schema):

@@ -39,6 +39,7 @@ SENTENCES: Mapping[str, str] = {
     "nothing_handed": "Nothing can be handed over at {place}; choose a device.",
     "no_device": "There is no approved device called “{device}” on this site.",
     "no_method": "{device} cannot {method}; it offers no such method.",
+    "own_step": "{device} does {method} only as a step of its own.",
     "offline": "{device} is offline.",
     "undone": "The step was not done.",
     "no_place": "That is not a place: give a device, a place or a point [x, y].",

@@ -56,7 +56,7 @@ module.exports = {
     ...layers("inspector", "src/editor/inspector", INSPECTOR),
     inner("inspector", "src/editor/inspector", INSPECTOR),
     ...layers("program", "src/program", PROGRAM),
-    inner("program", "src/program", PROGRAM, "^src/program/(kinds|surroundings)\\.ts$"),
+    inner("program", "src/program", PROGRAM, "^src/program/(kinds|surroundings|operation)\\.ts$"),
     ...layers("map", "src/map", MAP),
     inner("map", "src/map", MAP, "^src/map/PathLine\\.tsx$"),
     { name: "three-only-in-simulation", severity: "error", from: { pathNot: "^src/simulation" }, to: { path: "node_modules/(three|@react-three)" } },

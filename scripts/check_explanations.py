@@ -13,6 +13,7 @@ _ENTERED: Final = {
     "missing_destination": "A Move does not say where to.",
     "missing_machine": "An Operate names no machine.",
     "missing_method": "An Operate does not say what the machine does.",
+    "missing_own_method": "An Operate of a robot does not say which of its own methods is meant.",
     "missing_argument": "A method needs a value that is not there.",
     "missing_condition": "An If, a While, a Wait or an event has no whole condition.",
     "missing_seconds": "A Wait says neither how long nor for what.",
@@ -25,6 +26,7 @@ _ENTERED: Final = {
     "missing_question": "An Ask has no question.",
     "missing_options": "An Ask for a choice offers fewer than two answers.",
     "missing_message": "A Notify says nothing.",
+    "missing_reason": "A Fail does not say why.",
     "empty_program": "Nothing is joined to the beginning.",
 }
 _UNKNOWN: Final = {
@@ -34,6 +36,7 @@ _UNKNOWN: Final = {
     "unknown_property": "The device's description does not list this property.",
     "unknown_argument": "The method or the function has no parameter of this name.",
     "unknown_function": "The function that is called was deleted.",
+    "problem_outside_catch": "A step asks why something failed where nothing was caught.",
     "unknown_parameter": "A value names a variable or a parameter that nothing sets and nobody gives.",
     "unknown_role": "The step's robot was deleted from the program; it is read as the robot that every program has.",
     "unknown_kind": "A newer version of VIPO, or another program, has drawn this step.",
@@ -44,12 +47,17 @@ _DEVICES: Final = {
     "retired_device": "The device was taken out of use.",
     "not_a_robot": "A role is bound to a device that is no robot.",
     "robot_as_place": "A pick or a drop happens at machines only.",
+    "robot_as_goal": "A robot stands beside machines and at places; where another robot is, nobody can say.",
+    "may_not_fit": "A variable may hold several devices or places here, and one of them cannot be meant.",
     "cannot_do": "The robot of this role lacks a method that its steps need.",
     "too_few_robots": "A role keeps its robot until the program ends, so roles of one path need robots of their own.",
     "no_robot_can": "No approved robot has all the methods that the role needs.",
     "not_given": "The machine does not list this object among those that it gives.",
     "not_taken": "The machine does not list this object among those that it takes.",
     "offline_device": "No message has come from the device lately; everything else about it is right.",
+    "no_robot_offers": "No approved robot describes this method.",
+    "methods_differ": "Robots that may take the role describe one method with different parameters.",
+    "step_of_its_own": "Move, Pick and Drop are steps: VIPO sees to the way and to what is carried.",
     "no_robot_online": "There are robots that could take this role, and all of them are offline.",
 }
 _VALUES: Final = {
@@ -63,6 +71,8 @@ _VALUES: Final = {
     "no_such_product": "Speed times time is a length, and a share of anything is one of its kind; minutes times "
     "minutes are nothing.",
     "divided_by_zero": "The divisor is 0, or a variable that is never anything else.",
+    "may_divide_by_zero": "As far as variables are known here, the divisor may be 0.",
+    "may_be_out_of_range": "As far as variables are known here, the number may lie outside of what is declared.",
     "out_of_range": "The number is below or above what the description declares.",
     "not_an_option": "The description lists the values that are allowed.",
     "quantity_not_positive": "Nobody can carry none, or half an object.",
@@ -80,6 +90,7 @@ _CARRYING: Final = {
     "may_carry_too_much": "On one of the ways to this step the robot is full already.",
     "drops_nothing": "On every way to this step the robot carries less.",
     "may_drop_nothing": "On one of the ways to this step the robot carries less.",
+    "ends_carrying": "On every way to this end the robot carries something; the next program would find it full.",
 }
 _FLOOR: Final = {
     "place_outside": "The point lies off the map.",
@@ -100,6 +111,9 @@ _WAYS: Final = {
     "break_outside_loop": "A Break stands in no loop of its own function or branch.",
     "leaves_parallel": "A Return or a Break would leave one branch while the others go on.",
     "leaves_finally": "A Return or a Break would leave the branch that is carried out whatever happens.",
+    "empty_branch": "An If with two empty branches, or a Repeat or a For-each without a step in it.",
+    "busy_circle": "A While waits for what is measured, and no step in it takes time or changes what it looks at.",
+    "starts_unasked": "A parameter has no default, and an event starts the program without anybody who enters a value.",
     "draft": "The step is drawn and not joined.",
     "too_deep": "More than 30 levels lie above the step.",
 }
@@ -110,7 +124,10 @@ _FUNCTIONS: Final = {
     "unused_result": "The function has a result, and the Call does not take it.",
     "unused_function": "Neither the program, an event nor a function that they call calls it.",
     "unused_variable": "A Set, an Ask or a Call sets it, and no value reads it.",
+    "unused_parameter": "A parameter of the program or of a function that no value reads.",
     "unset_variable": "No way to this step sets the variable.",
+    "no_robot_yet": "A role that any robot may have gets its robot with its first step; before, it has no place.",
+    "perhaps_no_robot_yet": "Some ways to this step let the role do something before, and others do not.",
     "may_be_unset": "Some ways to this step set the variable and others do not.",
     "version_gone": "The function was copied from a version that the library no longer has.",
     "newer_version": "The library has a newer version with the same parameters.",
@@ -119,11 +136,14 @@ _FUNCTIONS: Final = {
 _AT_ONCE: Final = {
     "shared_robot": "Two branches of a Parallel, with the functions that they call, drive one robot.",
     "event_shares_robot": "An event that runs beside the program drives a robot that the program drives, too.",
+    "branches_set_it": "Two branches run at once and set one variable; the slower one wins, whichever that is.",
+    "loses_update": "A variable is worked out from its value of some time ago, and something beside sets it.",
     "branches_wait": "Each of two branches waits for a variable that only the other one sets, after its own waiting.",
 }
 _SCRIPTS: Final = {
     "not_python": "The text of a script is not Python, or not whole.",
     "not_in_language": "It is Python outside the closed part that VIPO reads; nothing of it is ever run.",
+    "more_mistakes": "A script has more than 20 mistakes; the others are only counted.",
 }
 _SECTIONS: Final = (
     ("Still to be entered", _ENTERED),

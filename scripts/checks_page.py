@@ -21,6 +21,7 @@ from editor.language.site.json_form import surroundings_from_json
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, Surroundings
 from registry.floorplan.plan import FREE, OCCUPIED, FloorPlan, Grid
 from scripts.check_explanations import EXPLANATIONS, GROUPS
+from vipo_device.protocol.description import description_from_json, description_to_json
 
 ROOT = Path(__file__).resolve().parents[1]
 CASES = ROOT / "tests" / "cases" / "checks"
@@ -71,8 +72,9 @@ def _site_of(body: Mapping[str, Any], site: Surroundings) -> Surroundings:
 
 def _changed(facts: DeviceFacts, change: Mapping[str, Any]) -> DeviceFacts:
     given = dict(change)
-    without = given.pop("without", [])
-    methods = tuple(method for method in facts.description.methods if method.name not in without)
+    others = description_from_json({**description_to_json(facts.description), "methods": given.pop("with", [])}).methods
+    without = [*given.pop("without", []), *(method.name for method in others)]
+    methods = (*(method for method in facts.description.methods if method.name not in without), *others)
     return replace(facts, description=replace(facts.description, methods=methods), **given)
 
 

@@ -79,6 +79,11 @@ def _steps_of_robots() -> dict[str, Picture]:
             OVEN,
             (12.4, -10.0),
         ),
+        "operate_robot": Picture(
+            {"a": step("operate", 10.2, -12.5, device={"role": "robot"}, method="honk", args={"times": 5})},
+            OVEN,
+            (12.4, -10.0),
+        ),
         "wait": Picture(
             {
                 "a": wait(3.0, -4.4, "program.body.1V"),
@@ -168,6 +173,9 @@ def _words_with_people() -> dict[str, Picture]:
             {"a": count, "b": step("notify", 3.0, -5.4, "program.body.2V", message=painted, level="info")}
         ),
         "end": Picture({"a": step("if", 2.6, -4.7, condition=HOT), "b": step("end", 4.2, -6.3, "a.then.1V")}),
+        "fail": Picture(
+            {"a": step("if", 2.6, -4.7, condition=HOT), "b": step("fail", 4.4, -6.3, "a.then.1V", message="Too hot")}
+        ),
         "comment": Picture({"a": step("comment", 3.0, -4.6, "", text="Keep two cans")}),
         "zone": Picture({}, frame=(0.2, -2.7, 8.2, -7.1), zones=zones, start=(1.3, -6.2)),
     }

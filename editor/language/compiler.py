@@ -19,6 +19,7 @@ from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree.nodes import COMPOSITES, Block, Tree, blocks_of
 from editor.language.tree.nodes import Move as MoveNode
 from editor.language.tree.numbering import number_steps, numbers_in_script
+from editor.language.tree.robots import with_roles_of_robots
 from editor.language.tree.zones import read_zones, zone_names
 
 
@@ -88,7 +89,8 @@ class Look:
 def look_at(document: object, surroundings: Surroundings, memos: Memos | None = None) -> Look:
     """Read and check a document; what the memos hold of the last look is used, and they then hold this one."""
     reading = read_document(migrate(document), memos.read if memos else None)
-    tree = add_moves(reading.tree, standing_places(surroundings), memos.positions if memos else None)
+    tree = with_roles_of_robots(reading.tree, surroundings)
+    tree = add_moves(tree, standing_places(surroundings), memos.positions if memos else None)
     found = check(reading, tree, surroundings, document, memos)
     return Look(document, surroundings, reading, tree, found, memos.printed if memos else None)
 

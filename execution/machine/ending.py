@@ -62,7 +62,12 @@ def _handle(turn: Turn, thread: Thread, index: int, wake: Wake) -> None:
     if guard.final:
         pending = (*pending, Pending(guard.handler, guard.calls, index, wake))
     calls, guards = thread.calls[: guard.calls], thread.guards[:index]
-    turn.keep(replace(thread, at=guard.handler, calls=calls, guards=guards, pending=pending))
+    thread = turn.keep(replace(thread, at=guard.handler, calls=calls, guards=guards, pending=pending))
+    instructions = turn.plan.instructions
+    begins = instructions[guard.handler].do if 0 <= guard.handler < len(instructions) else None
+    if isinstance(begins, p.Caught):
+        turn.assign(thread, begins.text, wake.why, shared=False)
+        turn.assign(thread, begins.kind, wake.kind, shared=False)
 
 
 def _end(turn: Turn, thread: Thread, wake: Wake) -> None:

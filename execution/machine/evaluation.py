@@ -36,6 +36,10 @@ class NoReading(EvaluationError):
     """A device has not said yet what the expression asks."""
 
 
+class NoValue(EvaluationError):
+    """A variable has not been set yet."""
+
+
 _COMPARE: Mapping[str, Callable[[float | str, float | str], bool]] = {
     "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge,
 }  # fmt: skip
@@ -96,7 +100,7 @@ def _value(expression: Expression, of: _Evaluation, depth: int) -> Value:
             return value
         case Variable(name=name):
             if name not in of.variables:
-                raise EvaluationError(f"There is no value called “{name}” here.")
+                raise NoValue(f"There is no value called “{name}” here.")
             return of.variables[name]
         case Reading():
             return _read(expression, of, depth)
@@ -290,6 +294,13 @@ def needs_the_clock(plan: Plan) -> bool:
 def located_things(plan: Plan) -> frozenset[Located]:
     """Return the devices, places, roles and zones that expressions of the plan speak of."""
     return frozenset(part for part in parts_of_plan(plan) if isinstance(part, Located))
+
+
+def bound_roles(plan: Plan) -> dict[tuple[str, str], Scalar]:
+    """Return the robots of the roles that expressions speak of and that are bound to one: known from the start."""
+    roles = {thing.role for thing in located_things(plan)}
+    bound = (binding for binding in plan.roles.values() if binding.role in roles)
+    return {(ROLE, binding.role): binding.device for binding in bound if binding.device is not None}
 
 
 def _parts(value: object) -> Iterator[Expression]:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from vipo_device.protocol.description import Scalar
 
-TaskKind = Literal["move", "pick", "drop", "call"]
+TaskKind = Literal["move", "pick", "drop", "call", "perform"]
 FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
 
 
@@ -22,7 +22,10 @@ class Target:
 
 @dataclass(frozen=True, slots=True)
 class TaskOrder:
-    """What is asked: `role` names the robot's role (empty for a call on a machine that no robot takes part in)."""
+    """What is asked: `role` names the robot's role (empty for a call on a machine that no robot takes part in).
+
+    A robot performs a method of its own where it stands: such a task has no target.
+    """
 
     kind: TaskKind
     target: Target

@@ -7,7 +7,7 @@ from dataclasses import replace
 from editor.language.expressions import nodes as e
 from editor.language.plan import instructions as p
 from execution.machine.ending import OVER, end_run, leave_call, remove, unwind
-from execution.machine.evaluation import EvaluationError, NoReading
+from execution.machine.evaluation import EvaluationError, NoReading, NoValue
 from execution.machine.messages import StepEntered, StepFailed
 from execution.machine.state import MAIN, Activation, Thread
 from execution.machine.turn import YIELD_S, Failure, Turn
@@ -91,10 +91,10 @@ def _watched(turn: Turn) -> list[tuple[int, p.EventEntry]]:
 
 
 def _holds(turn: Turn, event: p.EventEntry) -> bool:
-    """Tell whether the condition holds; one that cannot be worked out at all fails the run."""
+    """Tell whether the condition holds: not before what it looks at has a value; one that is wrong fails the run."""
     try:
         return turn.holds(None, event.condition)
-    except NoReading:
+    except (NoReading, NoValue):
         return False
     except EvaluationError as error:
         turn.actions.append(StepFailed(event.step, "failed", str(error)))

@@ -14,7 +14,7 @@ from typing import assert_never
 from editor.language.expressions.nodes import Expression, PlaceRef
 from editor.language.plan import instructions as p
 from execution.machine.ending import begin_guard, end_guard, end_run, finish, rethrow, unwind
-from execution.machine.evaluation import EvaluationError, NoReading, in_words
+from execution.machine.evaluation import EvaluationError, NoReading, bound_roles, in_words
 from execution.machine.floor_task import Target, TaskKind, TaskOrder
 from execution.machine.flow import end, end_thread, fork, invoke, leave_function, remember_truths, start_events
 from execution.machine.messages import (
@@ -41,6 +41,8 @@ __all__ = ["YIELD_S", "from_json", "start", "step", "to_json"]
 
 TIMED_OUT = Wake("timed_out", "The condition did not come true in time.")
 UNANSWERED = Wake("timed_out", "Nobody answered in time.")
+NO_REASON = "The program failed here and does not say why."
+FloorAction = p.Move | p.Pick | p.Drop | p.Call | p.Perform
 
 
 def start(
@@ -56,7 +58,7 @@ def start(
     opened = next((e.step for e in plan.events if entry and e.entry == entry and e.step), "")
     first = Thread(id=MAIN, at=entry, calls=(Activation(frame=MAIN, back_to=-1),))
     frames = {MAIN: {**plan.parameters, **parameters}}
-    turn = Turn(plan, RunState(threads={MAIN: first}, frames=frames, facts=dict(facts or {})))
+    turn = Turn(plan, RunState(threads={MAIN: first}, frames=frames, facts={**bound_roles(plan), **(facts or {})}))
     turn.keep(turn.enter(first, (opened,) if opened else ()))
     remember_truths(turn)
     _run_ready(turn)
@@ -189,7 +191,7 @@ def _carry_out(turn: Turn, thread: Thread) -> Thread:
     thread = turn.keep(turn.begin(thread))
     action = turn.plan.instructions[thread.at].do
     match action:
-        case p.Move() | p.Pick() | p.Drop() | p.Call():
+        case p.Move() | p.Pick() | p.Drop() | p.Call() | p.Perform():
             return _ask_floor(turn, thread, action)
         case p.Wait(seconds=seconds):
             return turn.wait(thread, "timer", turn.seconds(thread, seconds))
@@ -202,11 +204,8 @@ def _carry_out(turn: Turn, thread: Thread) -> Thread:
         case p.Assign(name=name, value=value, shared=shared):
             turn.assign(thread, name, turn.scalar(thread, value), shared=shared)
             return turn.go(thread)
-        case p.AskPerson():
-            return _ask_people(turn, thread, action)
-        case p.Notify(message=message, level=level):
-            turn.actions.append(Tell(_text(turn, thread, message), level, turn.plan.instructions[thread.at].step))
-            return turn.go(thread)
+        case p.AskPerson() | p.Notify() | p.Fail():
+            return _speak(turn, thread, action)
     return _change_flow(turn, thread, action)
 
 
@@ -220,6 +219,8 @@ def _change_flow(turn: Turn, thread: Thread, action: p.Action) -> Thread:
         case p.TryBegin(handler=handler, kinds=kinds, final=final):
             guard = Guard(handler, kinds, len(thread.calls), len(thread.open), final)
             return begin_guard(turn, thread, guard)
+        case p.Caught():
+            return turn.go(thread)
         case p.TryEnd():
             return end_guard(turn, thread)
         case p.Rethrow():
@@ -233,7 +234,7 @@ def _change_flow(turn: Turn, thread: Thread, action: p.Action) -> Thread:
     raise AssertionError(f"no such instruction: {action!r}")
 
 
-def _ask_floor(turn: Turn, thread: Thread, action: p.Move | p.Pick | p.Drop | p.Call) -> Thread:
+def _ask_floor(turn: Turn, thread: Thread, action: FloorAction) -> Thread:
     instruction = turn.plan.instructions[thread.at]
     order = replace(_order(turn, thread, action), step=instruction.step, line=instruction.line)
     task = turn.new_id()
@@ -241,13 +242,15 @@ def _ask_floor(turn: Turn, thread: Thread, action: p.Move | p.Pick | p.Drop | p.
     return replace(thread, waits_for=FLOOR_TASK, waits_id=task)
 
 
-def _order(turn: Turn, thread: Thread, action: p.Move | p.Pick | p.Drop | p.Call) -> TaskOrder:
+def _order(turn: Turn, thread: Thread, action: FloorAction) -> TaskOrder:
     match action:
         case p.Move(role=role, to=to, route=route):
             return TaskOrder("move", _target(turn, thread, to), role, route=route)
         case p.Call(device=device, method=method, arguments=arguments, serves=serves):
-            values = {name: turn.scalar(thread, value) for name, value in arguments.items()}
+            values = _worked_out(turn, thread, arguments)
             return TaskOrder("call", _target(turn, thread, device), serves or "", method=method, arguments=values)
+        case p.Perform(role=role, method=method, arguments=arguments):
+            return TaskOrder("perform", Target(), role, method=method, arguments=_worked_out(turn, thread, arguments))
         case p.Pick() | p.Drop():
             quantity = turn.number(thread, action.quantity)
             if quantity <= 0:
@@ -257,12 +260,28 @@ def _order(turn: Turn, thread: Thread, action: p.Move | p.Pick | p.Drop | p.Call
             return TaskOrder(kind, _target(turn, thread, action.at), action.role, thing, quantity)
 
 
+def _worked_out(turn: Turn, thread: Thread, arguments: Mapping[str, Expression]) -> dict[str, Scalar]:
+    return {name: turn.scalar(thread, value) for name, value in arguments.items()}
+
+
 def _target(turn: Turn, thread: Thread, place: PlaceRef) -> Target:
     if place.point is not None:
         return Target(point=place.point)
     if place.value is not None:
         return Target(str(turn.scalar(thread, place.value)))
     return Target(place.device or place.place or "")
+
+
+def _speak(turn: Turn, thread: Thread, action: p.AskPerson | p.Notify | p.Fail) -> Thread:
+    """Carry out what people are told or asked, or the failure that they read of."""
+    match action:
+        case p.AskPerson():
+            return _ask_people(turn, thread, action)
+        case p.Notify(message=message, level=level):
+            turn.actions.append(Tell(_text(turn, thread, message), level, turn.plan.instructions[thread.at].step))
+            return turn.go(thread)
+        case p.Fail(message=message):
+            raise Failure("failed", _text(turn, thread, message) or NO_REASON)
 
 
 def _ask_people(turn: Turn, thread: Thread, action: p.AskPerson) -> Thread:

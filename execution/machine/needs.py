@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading
 from editor.language.plan.instructions import Plan
-from execution.machine.evaluation import located_things, needs_the_clock, parts_of_plan, watched_properties
+from execution.machine.evaluation import bound_roles, located_things, needs_the_clock, parts_of_plan, watched_properties
 from execution.machine.places import CLOCK, ROLE, X, Y
 from vipo_device.protocol.description import Scalar
 
@@ -21,7 +21,8 @@ Position = tuple[str, float, float]
 class Needs:
     """Which readings, positions, roles a plan asks for, and whether it looks at the clock.
 
-    `things` are the devices and places that are spoken of, beside the robots of roles; None where only the run tells.
+    `things` are the devices and places that are spoken of, beside the robots that roles find; None where only the run
+    tells.
     """
 
     properties: frozenset[str]
@@ -50,7 +51,7 @@ def _role(thing: Located) -> str:
 
 def _things(plan: Plan) -> frozenset[str] | None:
     """Return the ids of what is read or located, beside roles; None where one is known only when it is asked for."""
-    found = {device for device, _ in plan.reads}
+    found = {device for device, _ in plan.reads} | {str(robot) for robot in bound_roles(plan).values()}
     for asked in (expression for part in parts_of_plan(plan) for expression in _asked(part)):
         ids = _ids(asked)
         if ids is None:

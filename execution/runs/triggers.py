@@ -13,7 +13,7 @@ from editor.language import plan_from_json
 from editor.language.plan.instructions import EventEntry, Plan
 from execution.errors import NotPossibleNow, NotReady
 from execution.floor.stops import is_stopped
-from execution.machine.evaluation import EvaluationError, is_true
+from execution.machine.evaluation import EvaluationError, bound_roles, is_true
 from execution.machine.needs import Facts, needs_of
 from execution.models import ArmedProgram, Run
 from execution.runs.facts import site_facts
@@ -117,7 +117,7 @@ def _look(plan: Plan, facts: Facts) -> dict[str, bool]:
 
 
 def _facts(plan: Plan, site: str, now: datetime) -> Facts:
-    return site_facts(needs_of(plan), site, now)
+    return site_facts(needs_of(plan), site, now) | bound_roles(plan)
 
 
 def _plan(row: ArmedProgram) -> Plan:

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
+from editor.language.expressions.names import ROBOT_METHODS
 from execution.traffic.conflicts import make_room_for
 from execution.traffic.floor_state import FloorTask, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
@@ -121,6 +122,9 @@ def _dispatch_with(turn: Turn, task: FloorTask, robot: Robot) -> None:
     if not robot.online:
         _await_device(turn, task, robot.id)
         return
+    if task.order.kind == "perform":
+        _perform(turn, task, robot)
+        return
     try:
         spot = turn.layout.spot_for(task.order.target)
     except NoSuchSpot as error:
@@ -192,6 +196,23 @@ def _act(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:
         turn.put_task(task, command=turn.send(sent, order.kind, arguments, order.step), absent_since=None)
 
 
+def _perform(turn: Turn, task: FloorTask, robot: Robot) -> None:
+    """Let a robot carry out a method of its own where it stands, when it has come to rest."""
+    device, method = turn.layout.devices.get(robot.id), task.order.method
+    if device is None or device.method(method) is None:
+        turn.finish(task, "refused", f"{turn.name(robot.id)} cannot {method}; it offers no such method.")
+    elif method in ROBOT_METHODS:
+        turn.finish(task, "refused", f"{turn.name(robot.id)} does {method} only as a step of its own.")
+    elif turn.is_driving(robot) or turn.is_acting(robot) or robot.evading:
+        turn.wait(task, "robot_busy", f"{turn.name(robot.id)} has something else to do first.", robot=robot.id)
+    else:
+        if len(robot.path) > robot.passed + 1:
+            cut_path(turn, robot)
+        arguments = dict(task.order.arguments)
+        sent = Sent("", robot.id, task.run, task.number, limit_s=limit_of(device, method, arguments))
+        turn.put_task(task, command=turn.send(sent, method, arguments, task.order.step), absent_since=None)
+
+
 def _call(turn: Turn, task: FloorTask) -> None:
     """Let a device carry out a method, when it is free."""
     device = turn.layout.devices.get(task.order.target.id)
@@ -202,8 +223,11 @@ def _call(turn: Turn, task: FloorTask) -> None:
         turn.finish(task, "refused", f"{device.name} cannot {task.order.method}; it offers no such method.")
         return
     holder = turn.robots.get(turn.stations.get(device.id, ""))
+    robot = turn.robots.get(device.id)
     if device.id in turn.offline:
         _await_device(turn, task, device.id)
+    elif robot is not None:
+        _call_robot(turn, task, robot)
     elif device.id in turn.calls:
         run = turn.names.get(turn.calls[device.id], "another run")
         turn.wait(task, "machine_busy", f"{device.name} is busy for {run}.", device=device.id, run=run)
@@ -219,6 +243,15 @@ def _call(turn: Turn, task: FloorTask) -> None:
         sent = Sent("", device.id, task.run, task.number, limit_s=limit_of(device, method, arguments))
         command = turn.send(sent, method, arguments, task.order.step)
         turn.put_task(task, command=command, absent_since=None)
+
+
+def _call_robot(turn: Turn, task: FloorTask, robot: Robot) -> None:
+    """Let a robot that no role names, but a value of the run, carry out a method of its own, when no run holds it."""
+    if robot.run not in {"", task.run}:
+        holder = turn.names.get(robot.run, "another run")
+        turn.wait(task, "role_held", f"{turn.name(robot.id)} is held by {holder}.", robot=robot.id, run=holder)
+    else:
+        _perform(turn, turn.put_task(task, robot=robot.id), robot)
 
 
 def limit_of(device: Description, name: str, arguments: Mapping[str, object]) -> float:

@@ -260,10 +260,13 @@ def _halt(turn: Turn, robot: Robot) -> None:
 
 
 def _drop(turn: Turn, task: FloorTask) -> None:
-    """Forget a task; what a machine does for it is called off, a robot settles at the end of what it may drive."""
+    """Forget a task; what a device does for it is called off, but for a pick or a drop, which is brought to its end.
+
+    A robot settles at the end of what it may drive.
+    """
     del turn.tasks[task.run, task.number]
     sent = turn.sent.get(task.command)
-    if sent is not None and sent.device not in turn.robots:
+    if sent is not None and task.order.kind not in {"pick", "drop"}:
         turn.tell(sent, "cancel")
     robot = turn.robots.get(task.robot)
     if robot is not None and robot.path and not robot.evading and turn.task_of(robot) is None:

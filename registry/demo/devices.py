@@ -126,13 +126,19 @@ def _robot(number: int, x: float, y: float) -> Description:
 
 
 def _robot_methods(robot_id: str) -> list[MethodSpec]:
-    move = MethodSpec("move", down_topic(robot_id, "move"), "location", "Move", (ParameterSpec("path", "location"),))
     hand = (
         ParameterSpec("device", "device"),
         ParameterSpec("object", "object"),
         ParameterSpec("value", "number", "", 1.0, 2.0),
     )
-    return [move, *(MethodSpec(n, down_topic(robot_id, n), "object", n.capitalize(), hand) for n in ("pick", "drop"))]
+    described = (
+        ("move", "location", (ParameterSpec("path", "location"),)),
+        ("pick", "object", hand),
+        ("drop", "object", hand),
+        ("honk", "signal", (ParameterSpec("times", "number", "", 1.0, 10.0),)),
+        ("blink", "signal", (ParameterSpec("time", "number", "SEC", 1.0, 60.0),)),
+    )
+    return [MethodSpec(n, down_topic(robot_id, n), message, n.capitalize(), given) for n, message, given in described]
 
 
 def write_devices(folder: Path = DEVICES) -> None:

@@ -44,7 +44,7 @@ def draw_and_leave(chromium: Browser, demo: Demo) -> None:
 
 def test_a_drawing_survives_ctrl_c_and_nothing_is_left_running(chromium: Browser, tmp_path: Path) -> None:
     state = tmp_path / "state"
-    with running_demo(state) as demo:
+    with running_demo(state, from_nothing=True) as demo:
         draw_and_leave(chromium, demo)
         assert "manage.py twin" in " ".join(children_of(demo.process.pid))
         assert stop_process_group(demo.process) == 0

@@ -23,7 +23,7 @@ import redis
 from django.db import connections
 from psycopg import sql
 
-from tests.kit.files import ROOT
+from tests.kit.files import ROOT, copy_migrated
 from tests.kit.served import served_without_broker
 from tests.kit.servers import Postgres, Redis, run_postgres, run_redis
 from vipo_site.settings import postgres
@@ -39,10 +39,17 @@ def _postgres(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Postgres]:
 
 
 @pytest.fixture(scope="session")
+def django_db_keepdb() -> bool:
+    """Let Django take the database that is there, with its tables; it goes with the folder or the server."""
+    return True
+
+
+@pytest.fixture(scope="session")
 def django_db_modify_db_settings(request: pytest.FixtureRequest) -> None:
     """Choose the database on which pytest-django makes the one of the tests."""
     if os.environ.get("VIPO_TEST_DATABASE") != "postgres":
         request.getfixturevalue("django_db_modify_db_settings_parallel_suffix")
+        copy_migrated(Path(connections.databases["default"]["TEST"]["NAME"]))
         return
     url = request.getfixturevalue("_postgres").url
     described = connections.databases["default"]

@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.kit.files import ROOT, link_micropython
+from tests.kit.files import ROOT, copy_migrated, link_micropython
 from tests.kit.servers import free_port
 from tests.kit.waiting import wait_for
 
@@ -80,8 +80,8 @@ def stop_process_group(process: subprocess.Popen[bytes]) -> int:
 
 
 @contextmanager
-def running_demo(state: Path, speed: float = 10) -> Iterator[Demo]:
-    """Start the demo, wait until it answers, stop it with Ctrl-C."""
+def running_demo(state: Path, speed: float = 10, *, from_nothing: bool = False) -> Iterator[Demo]:
+    """Start the demo, wait until it answers, stop it with Ctrl-C; it finds its tables unless it shall make them."""
     port = free_port()
     environment = {
         **os.environ,
@@ -94,6 +94,8 @@ def running_demo(state: Path, speed: float = 10) -> Iterator[Demo]:
     log = state / "demo.log"
     state.mkdir(parents=True, exist_ok=True)
     link_micropython(state)
+    if not from_nothing and not (state / "vipo.sqlite3").exists():
+        copy_migrated(state / "vipo.sqlite3")
     with log.open("wb") as output:
         process = subprocess.Popen(
             [sys.executable, "-m", "vipo_site.demo"],

@@ -14,7 +14,7 @@ from typing import Any
 
 import httpx
 
-from tests.kit.files import ROOT
+from tests.kit.files import ROOT, copy_migrated
 from tests.kit.servers import answers, free_port, wait_ready
 from tests.kit.waiting import wait_for
 
@@ -82,7 +82,9 @@ def environment(folder: Path, extra: dict[str, str]) -> dict[str, str]:
 
 
 def prepare(folder: Path, extra: dict[str, str]) -> dict[str, Any]:
-    """Make the database and what is in it."""
+    """Make what is in the database, and the database itself where it is SQLite's."""
+    if "VIPO_DATABASE_URL" not in extra:
+        copy_migrated(folder / "vipo.sqlite3")
     made = subprocess.run(
         [sys.executable, "-m", "tests.kit.web_process", "prepare"],
         cwd=ROOT, env=environment(folder, extra), capture_output=True, text=True,

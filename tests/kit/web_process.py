@@ -1,6 +1,6 @@
 """The real ASGI application in Daphne, as the product starts it, and the site that its tests have.
 
--m tests.kit.web_process prepare      makes a database with two sites and a person for each role, prints them as JSON
+-m tests.kit.web_process prepare      makes two sites and people in a migrated database, prints them as JSON
 -m tests.kit.web_process PORT         serves
 """
 
@@ -40,12 +40,9 @@ def make_person(name: str, site: str, role: str) -> str:
 
 
 def prepare() -> dict[str, Any]:
-    from django.core.management import call_command
-
     from editor import services as editor
     from registry import services as registry
 
-    call_command("migrate", verbosity=0, interactive=False)
     registry.create_site(name="Hall", slug="hall")
     registry.create_site(name="Elsewhere", slug="elsewhere")
     sessions = {name: make_person(name, "hall", role) for name, role in ROLES.items()}

@@ -107,8 +107,7 @@ class Memos:
 
     read: ReadMemo = field(default_factory=ReadMemo)
     positions: Memo = field(default_factory=Memo)
-    flow: Memo = field(default_factory=Memo)
-    loads: Memo = field(default_factory=Memo)
+    paths: Memo = field(default_factory=Memo)
     printed: Memo = field(default_factory=Memo)
     _around: object = None
     _last: dict[str, Memo] = field(default_factory=dict)

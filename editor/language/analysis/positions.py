@@ -11,10 +11,10 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from typing import Final
 
+from editor.language.analysis.effects import EffectTable
 from editor.language.analysis.memo import Memo
 from editor.language.expressions.nodes import NOWHERE, PlaceRef, Variable
 from editor.language.tree.nodes import (
-    DRIVES,
     LOADS,
     Ask,
     Block,
@@ -22,6 +22,7 @@ from editor.language.tree.nodes import (
     Call,
     Drop,
     End,
+    Fail,
     ForEach,
     Function,
     If,
@@ -30,6 +31,7 @@ from editor.language.tree.nodes import (
     Notify,
     Operate,
     Parallel,
+    Perform,
     Pick,
     Repeat,
     Return,
@@ -42,7 +44,7 @@ from editor.language.tree.nodes import (
     While,
     walk,
 )
-from editor.language.tree.traversal import callees_first, functions_in_circles, roles_used
+from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import set_in, sets_of_functions
 
 Standing = dict[str, PlaceRef]
@@ -52,9 +54,9 @@ Standing = dict[str, PlaceRef]
 _Composite = If | While | Repeat | ForEach | Parallel | Try
 _COMPOSITE: Final = (If, While, Repeat, ForEach, Parallel, Try)
 _SETS: Final = (Set, Ask)
-_STAYING: Final = frozenset({Operate, Wait, WaitUntil, Notify})
+_STAYING: Final = frozenset({Operate, Perform, Wait, WaitUntil, Notify})
 """Steps after which all robots stand as before."""
-_LEAVES: Final = (End, Return, Break)
+_LEAVES: Final = (End, Fail, Return, Break)
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +137,7 @@ class _Follower:
         self.relied_on.update(known.relied_on)
         return known.node, known.after
 
-    def _leave(self, node: End | Return | Break, standing: Standing) -> None:
+    def _leave(self, node: End | Fail | Return | Break, standing: Standing) -> None:
         if isinstance(node, Return):
             self.returns.append(standing)
         elif isinstance(node, Break) and self.breaks:
@@ -258,10 +260,10 @@ class _Follower:
         return replace(function, body=body)
 
     def movers(self, block: Block) -> frozenset[str]:
-        """Return the roles whose robot a block moves, also in the functions it calls."""
+        """Return the roles whose robot a block moves, also in the functions it calls; a script says every move."""
         roles: set[str] = set()
         for node in walk(block):
-            if isinstance(node, DRIVES):
+            if isinstance(node, Move) or (isinstance(node, LOADS) and not self.from_script):
                 roles.add(node.role)
             elif isinstance(node, Call):
                 roles.update(self.moved.get(node.function, ()))
@@ -320,7 +322,8 @@ def _follow(
     if memo is not None:
         memo.begin(initial)
     circular = functions_in_circles(tree) if tree.functions else frozenset()
-    moved = {function.method: roles_used(function.body, tree) for function in tree.functions}
+    effects = EffectTable(tree).functions
+    moved = {name: e.moved if from_script else e.moved | e.loaded for name, e in effects.items()}
     follower = _Follower(moved, sets_of_functions(tree), circular, from_script, initial, memo=memo)
     finished = {function.method: follower.function(function) for function in callees_first(tree)}
     body, _ = follower.block(tree.body, initial)

@@ -6,32 +6,37 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import cast
 
-from editor.language.analysis.loads import follow_loads
 from editor.language.analysis.memo import Memos
-from editor.language.checks.bodies import find_bodies
+from editor.language.checks.bodies import Body, find_bodies
 from editor.language.checks.context import Context
-from editor.language.checks.crew import check_crew
 from editor.language.checks.devices import check_floor, check_load_place, check_place, check_role, usable_device
-from editor.language.checks.flow import check_flow, check_leaving
+from editor.language.checks.exits import check_exits
+from editor.language.checks.idle import check_idle
 from editor.language.checks.library import check_library
 from editor.language.checks.parallel import check_branches, check_parallel
+from editor.language.checks.paths import check_paths
+from editor.language.checks.possible import check_held_device
+from editor.language.checks.robot_methods import check_own_method
+from editor.language.checks.updates import check_updates
+from editor.language.checks.use import check_use
 from editor.language.checks.values import (
     check_argument,
     check_condition,
+    check_given,
     check_kept,
+    check_limits,
     check_quantity,
     check_value,
     has_missing,
     range_in,
 )
-from editor.language.checks.variables import check_variables
 from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Expression
 from editor.language.expressions.units import PLAIN
 from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
-from editor.language.messages.phrases import Options, Span
+from editor.language.messages.phrases import Options
 from editor.language.reading.document import ReadDocument
 from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree import nodes as n
@@ -41,7 +46,7 @@ from editor.language.tree.variable_types import (
     type_of_items,
 )
 from editor.language.tree.zones import read_zones
-from vipo_device.protocol.description import ParameterSpec
+from vipo_device.protocol.description import Description, ParameterSpec
 
 
 def check(
@@ -61,33 +66,34 @@ def check(
     found = context.found
     found.extend((problem, 0) for problem in reading.problems)
     already = {(problem.step, problem.field) for problem in reading.problems}
-    _check_steps(context)
+    bodies = find_bodies(context)
+    _check_steps(context, bodies)
     context.found = [
         (p, key) for p, key in found if not (p.code.startswith("missing") and (p.step, p.field) in already)
     ]
     _check_roles(context)
-    check_crew(context)
-    check_leaving(context)
-    check_flow(context)
-    check_variables(context)
+    check_exits(context)
+    check_paths(context, bodies, CHECKS)
+    check_use(context)
+    check_idle(context)
+    _check_starts(context)
     check_parallel(context)
+    check_updates(context)
     check_library(context, document)
     check_floor(context, document)
-    context.found.extend(follow_loads(tree, context.capacity, context.robot_name, memos.loads if memos else None))
     _check_left_over(context, reading)
     return context.found
 
 
-def _check_steps(context: Context) -> None:
-    """Check every step for itself, with what is known where it stands."""
-    bodies = find_bodies(context)
+def _check_steps(context: Context, bodies: list[Body]) -> None:
+    """Check every step for itself, with what is known wherever it stands."""
     if context.memos is not None:
         context.memos.begin_checks(_all_around(context))
     for body in bodies:
         body.check(context, CHECKS)
         if body.event is not None:
-            body.enter(context)
             event = cast("n.Node", body.event)  # an event has a step as nodes do
+            body.enter(context, event)
             check_condition(context, event, body.event.condition, "condition")
     context.result = ValueType()
 
@@ -121,8 +127,13 @@ def _drop(context: Context, node: n.Drop) -> None:
 
 def _operate(context: Context, node: n.Operate) -> None:
     device = usable_device(context, node, node.device, "device", "missing_machine")
-    if device is None:
-        return
+    if device is not None:
+        _operate_at(context, node, device)
+    check_held_device(context, node, node.device, "device", lambda f: _operate_at(context, node, f.description))
+
+
+def _operate_at(context: Context, node: n.Operate, device: Description) -> None:
+    """Check what a device is asked to do against its description."""
     known = Options(tuple(method.name for method in device.methods))
     if not node.method:
         fix = None
@@ -136,15 +147,7 @@ def _operate(context: Context, node: n.Operate) -> None:
         details: TextArguments = {"device": device.name, "method": node.method, "options": known}
         context.report(node, "unknown_method", "method", details)
         return
-    given = dict(node.arguments)
-    for parameter in method.parameters:
-        value = given.pop(parameter.name, e.MISSING)
-        check_argument(context, node, parameter, value, node.method, "missing_argument")
-    options = Options(tuple(parameter.name for parameter in method.parameters))
-    for name in given:
-        details = {"method": node.method, "argument": name, "options": options}
-        fix = Fix("remove", node.step, f"args.{name}", None, {"value": name})
-        context.report(node, "unknown_argument", f"args.{name}", details, fix)
+    check_given(context, node, method)
 
 
 def _wait(context: Context, node: n.Wait) -> None:
@@ -163,8 +166,7 @@ def _wait_until(context: Context, node: n.WaitUntil) -> None:
 
 
 def _check_time(context: Context, node: n.Node, value: Expression, field: str, subject: str) -> None:
-    if range_in(context, value, "SEC").most < 0:
-        context.report(node, "out_of_range", field, {"subject": subject, "range": Span(0, None, "s")})
+    check_limits(context, node, field, range_in(context, value, "SEC"), (0, None), subject, "SEC")
 
 
 def _if(context: Context, node: n.If) -> None:
@@ -272,6 +274,13 @@ def _notify(context: Context, node: n.Notify) -> None:
         check_value(context, node, node.message, "message", TEXT, "The message")
 
 
+def _fail(context: Context, node: n.Fail) -> None:
+    if has_missing(node.message):
+        context.report(node, "missing_reason", "message")
+    else:
+        check_value(context, node, node.message, "message", TEXT, "The message")
+
+
 def _return(context: Context, node: n.Return) -> None:
     if node.value is not None:
         if has_missing(node.value):
@@ -289,6 +298,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Pick: _pick,
     n.Drop: _drop,
     n.Operate: _operate,
+    n.Perform: check_own_method,
     n.Wait: _wait,
     n.WaitUntil: _wait_until,
     n.If: _if,
@@ -302,6 +312,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Ask: _ask,
     n.Notify: _notify,
     n.End: _leave,
+    n.Fail: _fail,
     n.Return: _return,
     n.Break: _leave,
 }
@@ -314,10 +325,18 @@ def _check_roles(context: Context) -> None:
     first: dict[str, n.Node] = {}
     for block in _bodies(tree):
         for node in tree.walked(block):
-            if isinstance(node, n.DRIVES) and node.role not in first:
+            if isinstance(node, n.ACTS) and node.role not in first:
                 first[node.role] = node
     for role in tree.roles:
         check_role(context, first[role.name], role, needed[role.name])
+
+
+def _check_starts(context: Context) -> None:
+    """What starts a program by itself asks nobody for the values of its parameters."""
+    missing = tuple(parameter.name for parameter in context.tree.parameters if parameter.default is None)
+    for event in context.tree.events if missing else ():
+        if event.starts == "run":
+            context.report_step(event.step, "starts_unasked", "starts", {"parameters": Options(missing, "and")})
 
 
 def _check_left_over(context: Context, reading: ReadDocument) -> None:

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import Memos
 from editor.language.expressions import nodes as e
-from editor.language.expressions.ranges import Range
+from editor.language.expressions.ranges import NOTHING_KNOWN, Variables
 from editor.language.expressions.value_types import UNKNOWN_TYPE, ValueType
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Driver, Robot
 from editor.language.site.surroundings import DeviceFacts, Surroundings
 from editor.language.tree import nodes as n
+from editor.language.tree.variables import set_by
 from vipo_device.protocol.description import Description
 
 _NUMBER_AT_THE_END = re.compile(r"[\s_-]*\d+$")
@@ -27,8 +28,10 @@ class Context:
     surroundings: Surroundings
     variables: Mapping[str, ValueType] = field(default_factory=dict)
     """What is known of the parameters and variables that can be seen in the block being checked."""
-    ranges: Mapping[str, Range] = field(default_factory=dict)
-    """Between which numbers those lie of which that is known."""
+    known: Variables = NOTHING_KNOWN
+    """What is known of them where the step stands that is being checked."""
+    body: str = ""
+    """The name of the body that is being checked."""
     result: ValueType = UNKNOWN_TYPE
     """What the function being checked gives back."""
     zones: frozenset[str] = frozenset()
@@ -42,6 +45,7 @@ class Context:
     """The parameters of each step as the document has them."""
     stations: dict[tuple[str, str], tuple[e.Point | None, ...]] = field(default_factory=dict)
     """Where each robot of a role would stand to serve a device, as far as it was asked for."""
+    _changing: frozenset[str] | None = None
     _robots: dict[str, tuple[Description, ...]] = field(default_factory=dict)
     _names: dict[str, Robot] = field(default_factory=dict)
 
@@ -67,6 +71,16 @@ class Context:
     ) -> None:
         """Note a problem with a step that has no node of its own."""
         self.found.append((Problem(code, step, field_name, args or {}, fix), 0))
+
+    def changing(self) -> frozenset[str]:
+        """Return the names that some step or loop gives a value: what a parameter of that name holds, they may hide."""
+        if self._changing is None:
+            tree = self.tree
+            bodies = (tree.body, *(event.body for event in tree.events), *(each.body for each in tree.functions))
+            nodes = [node for body in bodies for node in tree.walked(body)]
+            loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
+            self._changing = frozenset(loops.union(map(set_by, nodes)))
+        return self._changing
 
     def robots(self, role: str) -> tuple[Description, ...]:
         """Return the robots that can take the role."""

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from math import pi
 
 from editor.language.checks.context import Context
+from editor.language.checks.possible import check_each_device, check_held_device, check_held_place
 from editor.language.expressions import nodes as e
+from editor.language.expressions.names import ROBOT_METHODS
 from editor.language.expressions.nodes import Constant, Expression, PlaceRef, Reading, Zone
+from editor.language.expressions.ranges import Here
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.site.surroundings import DeviceFacts
 from editor.language.tree import nodes as n
+from editor.language.tree.robots import robots_for
 from editor.language.tree.zones import area_m2, is_in, read_zones
 from vipo_device.protocol.description import Description
 
@@ -48,25 +53,35 @@ def check_load_place(context: Context, node: n.Pick | n.Drop, *, gives: bool) ->
     """Check where a pick or a drop happens: a machine that gives or takes the object."""
     missing = "missing_source" if gives else "missing_target"
     device = usable_device(context, node, node.at, node.place_field, missing)
-    if device is None:
-        return
+    if device is not None:
+        _check_load_at(context, node, device, gives=gives)
+    check_held_device(
+        context, node, node.at, node.place_field, lambda f: _check_load_at(context, node, f.description, gives=gives)
+    )
+
+
+def _check_load_at(context: Context, node: n.Pick | n.Drop, device: Description, *, gives: bool) -> None:
     if device.kind == "robot":
         context.report(node, "robot_as_place", node.place_field, {"device": device.name})
         return
-    thing = node.object.value if isinstance(node.object, Constant) else None
     things = device.gives if gives else device.takes
-    if isinstance(thing, str) and thing not in things:
+    words = Here(context.surroundings, context.known).words(node.object)
+    for thing in sorted(map(str, words)) if words and words.isdisjoint(things) else ():
         details: TextArguments = {"device": device.name, "object": thing, "options": Options(things)}
         fix = None
         if len(things) == 1 and gives:
             fix = Fix("set_to", node.step, "object", things[0], {"value": things[0]})
         context.report(node, "not_given" if gives else "not_taken", node.place_field, details, fix)
+        return
 
 
 def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, missing_code: str) -> None:
     """Check where a robot is sent."""
+    check_held_place(context, node, place, field, lambda facts: _check_goal_device(context, node, facts, field))
     if place.device is not None:
-        known_device(context, node, place.device, field)
+        known = known_device(context, node, place.device, field)
+        if known is not None:
+            _check_goal_device(context, node, known, field)
     elif place.place is not None:
         facts = context.surroundings.places.get(place.place)
         if facts is None:
@@ -77,6 +92,12 @@ def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, mis
         _check_floor(context, node, place.point, field)
     elif place.value is None:
         context.report(node, missing_code, field)
+
+
+def _check_goal_device(context: Context, node: n.Move, facts: DeviceFacts, field: str) -> None:
+    """A robot stands beside machines, not beside other robots: these go where they like."""
+    if facts.description.kind == "robot":
+        context.report(node, "robot_as_goal", field, {"device": facts.description.name})
 
 
 def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> None:
@@ -99,36 +120,53 @@ def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> 
 def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
     """Check the readings among the parts of an expression against what the devices report."""
     for part in parts:
-        if not isinstance(part, Reading) or not isinstance(part.device, Constant):
+        if not isinstance(part, Reading):
             continue
-        facts = known_device(context, node, str(part.device.value), field)
-        if facts is not None and facts.description.property(part.property) is None:
-            description = facts.description
-            options = Options(tuple(spec.name for spec in description.properties))
-            details: TextArguments = {"device": description.name, "property": part.property, "options": options}
-            context.report(node, "unknown_property", field, details)
+        if isinstance(part.device, Constant):
+            facts = known_device(context, node, str(part.device.value), field)
+            if facts is not None:
+                _check_reported(context, node, part, field, facts)
+        else:
+            check_each_device(context, node, part.device, field, partial(_check_reported, context, node, part, field))
+
+
+def _check_reported(context: Context, node: n.Node, reading: Reading, field: str, facts: DeviceFacts) -> None:
+    description = facts.description
+    if description.property(reading.property) is None:
+        options = Options(tuple(spec.name for spec in description.properties))
+        details: TextArguments = {"device": description.name, "property": reading.property, "options": options}
+        context.report(node, "unknown_property", field, details)
 
 
 def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, ...]) -> None:
     """Check that there is a robot for a role; it is reported at the first step that needs it."""
+    field = n.robot_field(node)
+    told = {method for method in needed if _is_told_at_its_step(context, role, method)}
     if role.device is not None:
-        facts = known_device(context, node, role.device, "role")
+        facts = known_device(context, node, role.device, field)
         if facts is None:
             return
         description = facts.description
         if description.kind != "robot":
-            context.report(node, "not_a_robot", "role", {"device": description.name, "role": role.name})
+            context.report(node, "not_a_robot", field, {"device": description.name, "role": role.name})
             return
         for method in needed:
-            if description.method(method) is None:
-                context.report(node, "cannot_do", "role", {"device": description.name, "method": method})
+            if method not in told and description.method(method) is None:
+                context.report(node, "cannot_do", field, {"device": description.name, "method": method})
         return
     robots = context.robots(role.name)
     methods: TextArguments = {"methods": Options(role.can, "and")}
     if not robots:
-        context.report(node, "no_robot_can", "role", methods)
+        if not told:
+            context.report(node, "no_robot_can", field, methods)
     elif not any(context.surroundings.devices[robot.id].online for robot in robots):
-        context.report(node, "no_robot_online", "role", methods)
+        context.report(node, "no_robot_online", field, methods)
+
+
+def _is_told_at_its_step(context: Context, role: n.Role, method: str) -> bool:
+    """Tell whether a method that a role needs is one that no robot in question has, which its step tells."""
+    offering = robots_for(context.surroundings, role.device, ())
+    return method not in ROBOT_METHODS and not any(robot.method(method) for robot in offering)
 
 
 def check_floor(context: Context, document: object) -> None:

@@ -14,7 +14,7 @@ from editor.language.messages.diagnostics import Fix
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
 from editor.language.tree.traversal import roles_used
-from editor.language.tree.variables import set_by
+from editor.language.tree.variables import SETTERS, program_variables, set_by, set_in, sets_of_functions
 
 
 def check_branches(context: Context, node: n.Parallel) -> None:
@@ -31,6 +31,41 @@ def check_branches(context: Context, node: n.Parallel) -> None:
                 {**names, "robot": robot},
                 _own_robot(context, node, second, theirs[key]),
             )
+
+    _check_updates(context, node)
+
+
+def _check_updates(context: Context, node: n.Parallel) -> None:
+    """Two branches that set one variable: nobody can say whose value it has then."""
+    if not context.tree.holds(*SETTERS):
+        return
+    sets = sets_of_functions(context.tree)
+    shared = program_variables(context.tree)
+    names = [_names_set_in(branch, sets, shared) for branch in node.branches]
+    for (first, mine), (second, theirs) in combinations(enumerate(names), 2):
+        both = [*walk(node.branches[first]), *walk(node.branches[second])]
+        for name in sorted(mine & theirs):
+            if all(_adds(each, name) for each in both if set_by(each) == name):
+                continue
+            args = {"first": _letter(first), "second": _letter(second), "variable": name}
+            context.report(node, "branches_set_it", "branches", args)
+
+
+def _adds(node: n.Node, name: str) -> bool:
+    """Tell whether a step adds to a variable, or takes from it: nothing is lost, whichever comes first."""
+    match node:
+        case n.Set(value=Operation(operator="+" | "-", arguments=(Variable(name=first), other))):
+            return first == name and other != Variable(name)
+        case n.Set(value=Operation(operator="+", arguments=(other, Variable(name=second)))):
+            return second == name and other != Variable(name)
+    return False
+
+
+def _names_set_in(branch: n.Block, sets: Mapping[str, frozenset[str]], shared: frozenset[str]) -> frozenset[str]:
+    """Return the variables that a branch sets, also by its functions, whose own ones are nobody else's."""
+    here = set_in(branch, {})
+    calls = [node.function for node in walk(branch) if isinstance(node, n.Call)]
+    return here.union(*(sets.get(function, frozenset()) & shared for function in calls))
 
 
 def _own_robot(context: Context, node: n.Parallel, branch: int, role: str) -> Fix | None:

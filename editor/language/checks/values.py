@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import inf
 
 from editor.language.checks.context import Context
 from editor.language.checks.devices import check_readings, known_device
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading
-from editor.language.expressions.ranges import Range, first_limited_reading, possible, range_of
+from editor.language.expressions.ranges import ANY, NOTHING_KNOWN, Here, Range, first_limited_reading, possible
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.units import PLAIN, UNITS, declared_unit, is_measure, same_dimension
 from editor.language.expressions.value_types import (
@@ -28,7 +29,7 @@ from editor.language.expressions.values import is_number, parts_of
 from editor.language.messages.diagnostics import Fix, TextArguments, fix_value
 from editor.language.messages.phrases import Amounts, Options, Plural, Span
 from editor.language.tree import nodes as n
-from vipo_device.protocol.description import ParameterSpec
+from vipo_device.protocol.description import MethodSpec, ParameterSpec
 
 
 def has_missing(expression: Expression) -> bool:
@@ -63,12 +64,33 @@ def check_value(
 
 
 def _check_divisors(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
-    """Tell of what is divided by nothing else than 0."""
+    """Tell of what is divided by nothing else than 0, or by what may be 0 as far as it is known."""
     for part in parts:
         if isinstance(part, Operation) and part.operator == "/":
             divisor = range_in(context, part.arguments[1], "")
             if divisor.least == divisor.most == 0:
                 context.report(node, "divided_by_zero", field)
+            elif divisor != ANY and divisor.has_zero:
+                context.report(node, "may_divide_by_zero", field)
+
+
+def check_limits(  # noqa: PLR0913 - a value, its limits, and how to speak of it
+    context: Context,
+    node: n.Node,
+    field: str,
+    found: Range,
+    limits: tuple[float | None, float | None],
+    subject: str,
+    unit: str,
+) -> None:
+    """Tell of numbers that all lie outside of what is allowed, or some of them as far as variables are known."""
+    least = -inf if limits[0] is None else limits[0]
+    most = inf if limits[1] is None else limits[1]
+    details: TextArguments = {"subject": subject, "range": Span(*limits, unit_word(unit))}
+    if found.most < least or found.least > most:
+        context.report(node, "out_of_range", field, details)
+    elif context.known is not NOTHING_KNOWN and found != ANY and (found.least < least or found.most > most):
+        context.report(node, "may_be_out_of_range", field, details)
 
 
 def _check_unit(
@@ -133,7 +155,7 @@ def converted(context: Context, value: Expression, unit: str) -> Expression:
 
 def range_in(context: Context, value: Expression, unit: str) -> Range:
     """Return between which numbers a value lies whenever it is asked for, in this unit."""
-    return range_of(converted(context, value, unit), context.surroundings, context.ranges)
+    return Here(context.surroundings, context.known).range(converted(context, value, unit))
 
 
 def check_condition(context: Context, node: n.Node, condition: Expression, field: str) -> None:
@@ -146,12 +168,15 @@ def check_condition(context: Context, node: n.Node, condition: Expression, field
 
 def _check_possible(context: Context, node: n.Node, condition: Expression, field: str) -> None:
     """Tell of a condition that can never hold, or always does, in the ranges that its devices declare."""
-    verdict = possible(condition, context.surroundings, context.variables)
+    site, types = context.surroundings, context.variables
+    waits = isinstance(node, n.WaitUntil) and node.timeout_s is None
+    if waits and possible(condition, site, types, context.known) is False:
+        context.report(node, "waits_for_ever", field)
+        return
+    verdict = possible(condition, site, types)
     if verdict is None:
         return
-    if isinstance(node, n.WaitUntil) and verdict is False and node.timeout_s is None:
-        context.report(node, "waits_for_ever", field)
-    elif constant_value(condition) is None:
+    if constant_value(condition) is None:
         reading = first_limited_reading(condition, context.surroundings)
         if verdict is False and _each_is_possible(context, condition):
             context.report(node, "contradiction", field)
@@ -195,10 +220,10 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
     field = f"args.{parameter.name}"
     if has_missing(value):
         if parameter.required or value != e.MISSING:
-            limits = Span(parameter.minimum, parameter.maximum, unit_word(parameter.unit), ": ")
+            span = Span(parameter.minimum, parameter.maximum, unit_word(parameter.unit), ": ")
             details = {"argument": parameter.name, "method": method, "function": method}
             fix = None if parameter.minimum is None else fix_value(node.step, field, parameter.minimum)
-            context.report(node, missing_code, field, {**details, "range": limits}, fix)
+            context.report(node, missing_code, field, {**details, "range": span}, fix)
         return
     wanted = ValueType(parameter.type, declared_unit(parameter.unit)) if typed else UNKNOWN_TYPE
     if not check_value(context, node, value, field, wanted, parameter.name.capitalize()):
@@ -207,11 +232,22 @@ def check_argument(  # noqa: PLR0913 - one argument is checked in the light of a
     if isinstance(value, Constant):
         _check_limits(context, node, parameter, value, field)
     elif parameter.type == "number":
-        found = range_of(value, context.surroundings, context.ranges)
-        least, most = parameter.minimum, parameter.maximum
-        if (least is not None and found.most < least) or (most is not None and found.least > most):
-            limits = Span(least, most, unit_word(parameter.unit))
-            context.report(node, "out_of_range", field, {"subject": parameter.name.capitalize(), "range": limits})
+        found = Here(context.surroundings, context.known).range(value)
+        limits = parameter.minimum, parameter.maximum
+        check_limits(context, node, field, found, limits, parameter.name.capitalize(), parameter.unit)
+
+
+def check_given(context: Context, node: n.Operate | n.Perform, method: MethodSpec) -> None:
+    """Check what a machine or a robot is given with a method: each parameter, and that there is nothing else."""
+    given = dict(node.arguments)
+    for parameter in method.parameters:
+        value = given.pop(parameter.name, e.MISSING)
+        check_argument(context, node, parameter, value, node.method, "missing_argument")
+    options = Options(tuple(parameter.name for parameter in method.parameters))
+    for name in given:
+        details: TextArguments = {"method": node.method, "argument": name, "options": options}
+        fix = Fix("remove", node.step, f"args.{name}", None, {"value": name})
+        context.report(node, "unknown_argument", f"args.{name}", details, fix)
 
 
 def _check_limits(context: Context, node: n.Node, parameter: ParameterSpec, value: Constant, field: str) -> None:
@@ -253,6 +289,8 @@ def check_quantity(context: Context, node: n.Pick | n.Drop) -> None:
     elif capacity and found.least > capacity:
         fix = fix_value(node.step, "quantity", capacity)
         context.report(node, "quantity_above_capacity", "quantity", {"robot": robot, "range": Amounts(capacity)}, fix)
+    else:
+        check_limits(context, node, "quantity", found, (1, capacity or None), "The quantity", "")
 
 
 def _check_object(context: Context, node: n.Pick | n.Drop) -> None:

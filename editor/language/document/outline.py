@@ -12,31 +12,12 @@ from dataclasses import dataclass
 from string import ascii_lowercase
 from typing import Final
 
+from editor.language.constructs.table import COMMENT, STEPS
+
 PROGRAM = "program"
 EVENTS = "events"
-COMMENT = "comment"
-"""The kind of what people write beside the program; it stands in no branch."""
 BRANCHES: Mapping[str, tuple[str, ...]] = {
-    "move": (),
-    "pick": (),
-    "drop": (),
-    "pick_and_drop": (),
-    "operate": (),
-    "wait": (),
-    "call": (),
-    "if": ("then", "else"),
-    "while": ("body",),
-    "repeat": ("body",),
-    "for_each": ("body",),
-    "try": ("body", "catch", "finally"),
-    "parallel": (),
-    "set": (),
-    "ask": (),
-    "notify": (),
-    "end": (),
-    "return": (),
-    "break": (),
-    "on_event": ("body",),
+    construct.kind: tuple(name for name, _ in construct.branches) for construct in STEPS
 }
 """The kinds of steps and their branches; those of a Parallel are its own to name."""
 DEEPEST_STEP = 30

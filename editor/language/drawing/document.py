@@ -27,6 +27,7 @@ from editor.language.expressions.values import read_point
 from editor.language.reading.document import read_document
 from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree import nodes as n
+from editor.language.tree.robots import with_roles_of_robots
 
 VARIABLE_FIELDS = frozenset({"variable", "result"})
 """Parameters that name a variable."""
@@ -194,7 +195,8 @@ def tree_to_document(
 
 
 def _read(document: Mapping[str, object], surroundings: Surroundings) -> n.Tree:
-    return add_moves(read_document(document).tree, standing_places(surroundings))
+    tree = with_roles_of_robots(read_document(document).tree, surroundings)
+    return add_moves(tree, standing_places(surroundings))
 
 
 def _without_unknown_names(old: Mapping[str, object], tree: n.Tree) -> dict[str, object]:

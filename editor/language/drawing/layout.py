@@ -9,6 +9,8 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
+from editor.language.constructs.record import Construct, Field
+from editor.language.constructs.table import CONSTRUCTS, STEPS
 from editor.language.document.outline import mapping
 from editor.language.expressions.nodes import Point
 from editor.language.expressions.values import read_point
@@ -209,9 +211,8 @@ def _cells(area: Area) -> Iterator[tuple[int, int]]:
 HEIGHT_M, LETTER_M, ENDS_M = 0.7, 0.15, 1.7
 """A chip's height, a letter's width, and the room for number, icon and padding."""
 LONGEST_SENTENCE, LONGEST = 30, 44
-FRAMES = frozenset({"while", "repeat", "for_each", "try"})
+FRAMES = frozenset(construct.kind for construct in STEPS if construct.look.shape == "header")
 """Kinds whose body stands in a frame below their head."""
-_LIKE_ITS_KIND = frozenset({"parallel", "try", "break", "end"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,31 +225,27 @@ class Room:
 
 def room_of(kind: str, params: Mapping[str, object]) -> Room:
     """Return the room that a step needs; an If's with its condition beside it."""
-    if kind == "if":
-        return Room(1.4 + 2 * LETTER_M * min(letters(params.get("condition")), 20), 1.4)
-    text = min(_letters_shown(kind, params), LONGEST)
-    return Room(round(ENDS_M + LETTER_M * text, 2), 1.4 if kind in {"while", "on_event"} else HEIGHT_M)
+    known = CONSTRUCTS.get(kind)
+    height_m = 1.4 if known is not None and known.look.tall else HEIGHT_M
+    if known is not None and known.look.shape == "diamond":
+        return Room(1.4 + 2 * LETTER_M * min(letters(params.get("condition")), 20), height_m)
+    text = min(_letters_shown(known, params) if known else 8 + letters(params), LONGEST)
+    return Room(round(ENDS_M + LETTER_M * text, 2), height_m)
 
 
-def _letters_shown(kind: str, params: Mapping[str, object]) -> int:
-    match kind:
-        case "pick" | "drop" | "pick_and_drop":
-            return letters(params.get("quantity")) + letters(params.get("object")) + 3
-        case "move":
-            return 8 + letters(params.get("to"))
-        case "wait":
-            return 5 + letters(params.get("until") or params.get("duration"))
-        case "operate":
-            args = mapping(params.get("args"))
-            return letters(params.get("method")) + sum(3 + letters(value) for value in args.values())
-        case "call":
-            args = mapping(params.get("args"))
-            return 12 + sum(len(name) + 4 + letters(value) for name, value in args.items())
-        case "ask" | "notify":
-            return 7 + min(letters(params.get("question") or params.get("message")), LONGEST_SENTENCE)
-        case _ if kind in _LIKE_ITS_KIND:
-            return 8
-    return 8 + sum(letters(value) for name, value in params.items() if name not in {"role", "starts", "answer"})
+def _letters_shown(construct: Construct, params: Mapping[str, object]) -> int:
+    form = next(
+        (form for form in construct.forms if form.marked_by and params.get(form.marked_by)), construct.forms[-1]
+    )
+    shown = (field for field in form.fields if field.shown)
+    return construct.look.letters + sum(_letters_of(field, construct.kind, params.get(field.name)) for field in shown)
+
+
+def _letters_of(field: Field, kind: str, value: object) -> int:
+    if field.type == "arguments":
+        named = 1 if kind == "call" else 0
+        return sum(3 + named * (1 + len(name)) + letters(given) for name, given in mapping(value).items())
+    return min(letters(value), LONGEST_SENTENCE) if field.wanted == "text" else letters(value)
 
 
 def letters(value: object) -> int:

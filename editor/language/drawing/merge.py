@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from editor.language.document.outline import PROGRAM, mapping
-from editor.language.expressions.names import snake_case
+from editor.language.expressions.names import attribute_name
 from editor.language.tree import nodes as n
 
 Plain = Mapping[str, object]
@@ -71,7 +71,7 @@ def merge_roles(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, obj
     roles: dict[str, object] = dict(old)
     ids: dict[str, str] = {}
     used = {role.id: role for role in before.roles if role.id}
-    resting = {snake_case(_role_name(key, old)): key for key in sorted(old, reverse=True) if key not in used}
+    resting = {attribute_name(_role_name(key, old), ()): key for key in sorted(old, reverse=True) if key not in used}
     for role in tree.roles:
         former = used.get(role.id) if _may_be_called(role) and role.name not in resting else None
         key = former.id if former else resting.get(role.name) or _free(role.name, {*old, *roles})

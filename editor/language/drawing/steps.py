@@ -1,10 +1,14 @@
-"""Nodes of the tree → steps of the document; one small function for each kind of node."""
+"""Nodes of the tree → steps of the document, by the records of constructs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
+from typing import Any, Final
 
+from editor.language.constructs.record import Construct, FieldType, Form
+from editor.language.constructs.table import FORMS
 from editor.language.document.outline import mapping
 from editor.language.document.references import with_role_ids
 from editor.language.expressions.declarations import answer_to_json
@@ -12,6 +16,8 @@ from editor.language.expressions.nodes import PlaceRef
 from editor.language.expressions.values import write_argument, write_place, write_value
 from editor.language.tree import nodes as n
 
+_NOTHING: Final[tuple[object, ...]] = (None, [], {})
+Drawable = n.Node | n.Event
 EncodedStep = tuple[str, dict[str, object], tuple[tuple[str, n.Block], ...]]
 """Kind, parameters and branches of one step."""
 
@@ -29,13 +35,13 @@ class StepEncoder:
         if len(loads) == 2:
             return _pick_and_drop(self, tuple(node for node in nodes if not isinstance(node, n.Event)))
         node = loads[0] if loads else nodes[0]
-        drawn = _event(self, node) if isinstance(node, n.Event) else ENCODERS[type(node)](self, node)
+        drawn = ENCODERS[type(node)](self, node)
         return drawn[0], dict(mapping(with_role_ids(drawn[1], self.role_ids))), drawn[2]
 
 
 def _present(**params: object) -> dict[str, object]:
     """Return the parameters that have a value."""
-    return {name: value for name, value in params.items() if value not in (None, [], {})}
+    return {name: value for name, value in params.items() if value not in _NOTHING}
 
 
 def _pick_and_drop(encoder: StepEncoder, nodes: n.Block) -> EncodedStep:
@@ -52,38 +58,15 @@ def _pick_and_drop(encoder: StepEncoder, nodes: n.Block) -> EncodedStep:
     return "pick_and_drop", params, ()
 
 
-def _move(encoder: StepEncoder, node: n.Move) -> EncodedStep:
-    route = [list(point) for point in node.route]
-    return "move", _present(role=encoder.role_ids[node.role], to=write_place(node.to), route=route), ()
-
-
-def _pick_or_drop(encoder: StepEncoder, node: n.Pick | n.Drop) -> EncodedStep:
-    thing, quantity = write_value(node.object), write_value(node.quantity)
-    params = _present(role=encoder.role_ids[node.role], at=write_place(node.at), object=thing, quantity=quantity)
-    return "pick" if isinstance(node, n.Pick) else "drop", params, ()
-
-
 def _operate(encoder: StepEncoder, node: n.Operate) -> EncodedStep:
     arguments = {name: write_value(value) for name, value in node.arguments}
     return "operate", _present(device=write_place(node.device), method=node.method or None, args=arguments), ()
 
 
-def _wait(encoder: StepEncoder, node: n.Wait) -> EncodedStep:
-    return "wait", _present(duration=write_value(node.seconds)), ()
-
-
-def _wait_until(encoder: StepEncoder, node: n.WaitUntil) -> EncodedStep:
-    until = write_value(node.condition)
-    missing = {} if until is None else until
-    return "wait", {"until": missing, **_present(timeout=write_value(node.timeout_s))}, ()
-
-
-def _if(encoder: StepEncoder, node: n.If) -> EncodedStep:
-    return "if", _present(condition=write_value(node.condition)), (("then", node.then), ("else", node.otherwise))
-
-
-def _while(encoder: StepEncoder, node: n.While) -> EncodedStep:
-    return "while", _present(condition=write_value(node.condition)), (("body", node.body),)
+def _perform(encoder: StepEncoder, node: n.Perform) -> EncodedStep:
+    arguments = {name: write_value(value) for name, value in node.arguments}
+    device = {"role": encoder.role_ids[node.role]}
+    return "operate", _present(device=device, method=node.method or None, args=arguments), ()
 
 
 def _parallel(encoder: StepEncoder, node: n.Parallel) -> EncodedStep:
@@ -104,69 +87,53 @@ def _call(encoder: StepEncoder, node: n.Call) -> EncodedStep:
     return "call", _present(function=function, args=arguments, result=result), ()
 
 
-def _repeat(encoder: StepEncoder, node: n.Repeat) -> EncodedStep:
-    return "repeat", _present(times=write_value(node.times)), (("body", node.body),)
-
-
 def _for_each(encoder: StepEncoder, node: n.ForEach) -> EncodedStep:
     items = [write_value(item) for item in node.items]
     return "for_each", _present(variable=node.variable or None, items=items), (("body", node.body),)
 
 
-def _set(encoder: StepEncoder, node: n.Set) -> EncodedStep:
-    return "set", _present(variable=node.variable or None, value=write_value(node.value)), ()
+Encode = Callable[[StepEncoder, Any], EncodedStep]
 
-
-def _ask(encoder: StepEncoder, node: n.Ask) -> EncodedStep:
-    question, timeout = write_value(node.question), write_value(node.timeout_s)
-    variable, answer = node.variable or None, answer_to_json(node.answer)
-    return "ask", _present(question=question, answer=answer, variable=variable, timeout=timeout), ()
-
-
-def _notify(encoder: StepEncoder, node: n.Notify) -> EncodedStep:
-    return "notify", _present(message=write_value(node.message), level=node.level), ()
-
-
-def _end(encoder: StepEncoder, node: n.End) -> EncodedStep:
-    return "end", {}, ()
-
-
-def _return(encoder: StepEncoder, node: n.Return) -> EncodedStep:
-    return "return", _present(value=write_value(node.value)), ()
-
-
-def _break(encoder: StepEncoder, node: n.Break) -> EncodedStep:
-    return "break", {}, ()
-
-
-def _event(encoder: StepEncoder, node: n.Event) -> EncodedStep:
-    return "on_event", _present(condition=write_value(node.condition), starts=node.starts), (("body", node.body),)
-
-
-ENCODERS: Mapping[type[n.Node], Callable[..., EncodedStep]] = {
-    n.Move: _move,
-    n.Pick: _pick_or_drop,
-    n.Drop: _pick_or_drop,
-    n.Operate: _operate,
-    n.Wait: _wait,
-    n.WaitUntil: _wait_until,
-    n.If: _if,
-    n.While: _while,
-    n.Parallel: _parallel,
-    n.Try: _try,
-    n.Call: _call,
-    n.Repeat: _repeat,
-    n.ForEach: _for_each,
-    n.Set: _set,
-    n.Ask: _ask,
-    n.Notify: _notify,
-    n.End: _end,
-    n.Return: _return,
-    n.Break: _break,
+_WRITERS: Mapping[FieldType, Callable[[StepEncoder, Any], object]] = {
+    "role": lambda encoder, role: encoder.role_ids[role],
+    "place": lambda encoder, place: write_place(place),
+    "value": lambda encoder, value: write_value(value),
+    "variable": lambda encoder, name: name or None,
+    "choice": lambda encoder, word: word,
+    "route": lambda encoder, route: [list(point) for point in route],
+    "answer": lambda encoder, answer: answer_to_json(answer),
 }
+"""How each type of field is written."""
+_OWN: Mapping[str, Encode] = {
+    "Operate": _operate,
+    "Perform": _perform,
+    "Parallel": _parallel,
+    "Try": _try,
+    "Call": _call,
+    "ForEach": _for_each,
+}
+"""The nodes whose steps have more than their fields say."""
 
 
-Drawable = n.Node | n.Event
+def _encoder_of(construct: Construct, form: Form) -> Encode:
+    """Return what draws a node: the parameters that have a value, and the branches; a form's mark is always there."""
+    kind, mark = construct.kind, form.marked_by
+    fields = tuple((field.name, attrgetter(field.attribute), _WRITERS[field.type]) for field in form.fields)
+    branches = tuple((name, attrgetter(attribute)) for name, attribute in construct.branches)
+
+    def encode(encoder: StepEncoder, node: Any) -> EncodedStep:
+        given = {name: write(encoder, get(node)) for name, get, write in fields}
+        params = {name: value for name, value in given.items() if value not in _NOTHING}
+        if mark and mark not in params:
+            params[mark] = {}
+        return kind, params, tuple((name, get(node)) for name, get in branches)
+
+    return encode
+
+
+ENCODERS: Mapping[type[Drawable], Encode] = {
+    n.NODES[name]: _OWN.get(name) or _encoder_of(*record) for name, record in FORMS.items()
+}
 
 
 def grouped(block: Sequence[Drawable]) -> Iterator[tuple[Drawable, ...]]:

@@ -5,40 +5,74 @@ from __future__ import annotations
 import keyword
 import re
 from collections.abc import Iterable
+from collections.abc import Set as AbstractSet
 from functools import lru_cache
+from itertools import pairwise
+from unicodedata import normalize
 
-ROBOT_METHODS = ("move", "pick", "drop")
+from editor.language.constructs.script_form import CALLS
+
+ROBOT_METHODS = tuple(call.method for call in CALLS.values() if call.role is not None)
 CLOSED_FUNCTIONS = ("abs", "count", "distance", "max", "min", "nearest", "now", "point", "quantity", "round")
-_OF_THE_TASK = {"new_task", "run", "wait", "parallel", "call", "set", "ask", "notify", "end"}
+_OF_THE_TASK = {
+    "new_task",
+    "run",
+    "parallel",
+    "call",
+    "set",
+    *(call.method for call in CALLS.values() if call.role is None),
+}
 _KEPT_FREE = {"repeat", "zone", "release", "parameters"}
 RESERVED_ATTRIBUTES = frozenset(_OF_THE_TASK | _KEPT_FREE)
 RESERVED_LOCALS = frozenset({"self", "ctx", "problem", "range", "_", *CLOSED_FUNCTIONS})
 RESERVED_MEMBERS = frozenset({*ROBOT_METHODS, "operate", "read", "location"})
 
-_BETWEEN = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 _OF_EVENTS = re.compile(r"when_e\d")
-_OTHER = re.compile(r"[^A-Za-z0-9]+")
+_BETWEEN_WORDS = re.compile(r"_+")
 
 
-@lru_cache(maxsize=4096)
+def same_name(name: str) -> str:
+    """Return a name as Python reads it: of letters that are written in several ways, one way (NFKC)."""
+    return name if name.isascii() else normalize("NFKC", name)
+
+
+@lru_cache(maxsize=32768)
 def snake_case(name: str) -> str:
-    """Return a Python name for a name: `curePaint` → `cure_paint`, `Painting Machine` → `painting_machine`."""
-    words = _OTHER.sub("_", _BETWEEN.sub("_", name)).strip("_").lower()
+    """Return a Python name for a name: `curePaint` → `cure_paint`, `Über Nacht lüften` → `über_nacht_lüften`."""
+    words = same_name(_split(same_name(name)).lower())
+    words = _BETWEEN_WORDS.sub("_", "".join(map(_in_name, words))).strip("_")
     if not words:
         return "unnamed"
-    if words[0].isdigit():
-        words = f"n{words}"
+    if not words.isidentifier():
+        words = same_name(f"n{words}")
     if words.startswith("branch_") or _OF_EVENTS.match(words):
         words = f"the_{words}"
     return f"{words}_" if keyword.iskeyword(words) or keyword.issoftkeyword(words) else words
 
 
+def _split(name: str) -> str:
+    """Return a name with `_` where a word begins with a capital: `curePaint`, `RFIDReader`."""
+    written = name[:1]
+    for (before, letter), after in zip(pairwise(name), f"{name[2:]} ", strict=False):
+        begins = letter.isupper() and (before.islower() or before.isdigit() or (before.isupper() and after.islower()))
+        written += f"_{letter}" if begins else letter
+    return written
+
+
+def _in_name(letter: str) -> str:
+    return letter if f"a{letter}".isidentifier() else "_"
+
+
 def unique_name(wanted: str, taken: Iterable[str]) -> str:
     """Return the Python name for `wanted` that is not taken yet: the second `Oven` becomes `oven_2`."""
-    name, others = snake_case(wanted), frozenset(taken)
-    number, free = 2, name
-    while free in others:
-        free, number = f"{name}_{number}", number + 1
+    return _numbered(snake_case(wanted), taken if isinstance(taken, set | frozenset) else frozenset(taken))
+
+
+def _numbered(name: str, taken: AbstractSet[str]) -> str:
+    """Return a name, with the first number at its end that makes it one of its own."""
+    number, free, stem = 2, name, name.rstrip("_")
+    while free in taken:
+        free, number = f"{stem}_{number}", number + 1
     return free
 
 
@@ -58,7 +92,7 @@ def local_name(wanted: str, taken: Iterable[str]) -> str:
 
 
 def _is_good(name: str) -> bool:
-    return name.isascii() and name.isidentifier() and not keyword.iskeyword(name)
+    return name.isidentifier() and same_name(name) == name and not keyword.iskeyword(name)
 
 
 def member_name(wanted: str, known: list[str]) -> str | None:

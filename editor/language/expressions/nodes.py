@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from vipo_device.protocol.description import Scalar
 
@@ -20,6 +20,12 @@ class Constant:
     """A value written in the program."""
 
     value: Scalar | tuple[Scalar, ...]
+
+
+PROBLEM: Final = "problem"
+"""What the script calls the failure that a Try has caught."""
+OF_PROBLEM: Final = ("problem.text", "problem.kind")
+"""What is known of it, under the names of variables that only a catch has: why it failed, and its kind."""
 
 
 @dataclass(frozen=True, slots=True)

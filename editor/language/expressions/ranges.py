@@ -1,12 +1,12 @@
-"""What a condition can ever be: computed with the ranges that devices declare for their properties."""
+"""What a value or a condition can be, as far as its devices and what is known of the variables tell."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final, Protocol
 
-from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
+from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import TypeChecker, ValueType, property_spec
 from editor.language.expressions.values import COMPARISONS, is_number, parts_of
@@ -22,12 +22,13 @@ _DAY_S = 86400
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Numbers from the least to the most; an open end is not reached itself."""
+    """Numbers from the least to the most; an open end is not reached itself, and 0 may be left out between them."""
 
     least: float = -inf
     most: float = inf
     least_open: bool = False
     most_open: bool = False
+    not_zero: bool = False
 
     @property
     def empty(self) -> bool:
@@ -38,35 +39,186 @@ class Range:
         """Return the numbers that lie in both."""
         low = max((self.least, self.least_open), (other.least, other.least_open))
         high = min((self.most, not self.most_open), (other.most, not other.most_open))
-        return Range(low[0], high[0], low[1], not high[1])
+        return Range(low[0], high[0], low[1], not high[1], self.not_zero or other.not_zero)
+
+    @property
+    def has_zero(self) -> bool:
+        """Tell whether 0 lies in it."""
+        starts = self.least < 0 or (self.least == 0 and not self.least_open)
+        ends = self.most > 0 or (self.most == 0 and not self.most_open)
+        return starts and ends and not self.not_zero
 
 
 ANY = Range()
 
 
+Words = frozenset[str | bool]
+"""The texts, devices or truths that a value is one of."""
+Known = Range | Words | None
+"""What is known of a value; None: nothing."""
+
+
+class Variables(Protocol):
+    """What is known of the variables where an expression stands."""
+
+    def get(self, name: str, /) -> Known:
+        """Return what is known of a variable."""
+
+
+class _Nothing:
+    def get(self, name: str, /) -> Known:
+        return None
+
+
+NOTHING_KNOWN: Final[Variables] = _Nothing()
+
+
+@dataclass(frozen=True, slots=True)
+class Here:
+    """The place of an expression without quantities: its site, and what is known of the variables there."""
+
+    surroundings: Surroundings
+    variables: Variables = NOTHING_KNOWN
+
+    def known(self, expression: Expression) -> Known:
+        """Return what is known of a value."""
+        words = self.words(expression)
+        if words:
+            return words
+        if _is_condition(expression):
+            truth = self.truth(expression)
+            return None if truth is None else frozenset({truth})
+        found = self.range(expression)
+        return None if found == ANY else found
+
+    def range(self, expression: Expression) -> Range:
+        """Return between which numbers a value lies."""
+        match expression:
+            case Constant(value=value):
+                return Range(value, value) if is_number(value) else ANY
+            case Reading():
+                return _declared(expression, self.surroundings)
+            case Variable(name=name):
+                known = self.variables.get(name)
+                return known if isinstance(known, Range) else ANY
+            case Operation(operator="count" | "now" | "distance" as name, arguments=arguments):
+                return self._counted(name, arguments)
+            case Operation(operator=name, arguments=arguments):
+                return _computed(name, [self.range(argument) for argument in arguments])
+        return ANY
+
+    def _counted(self, name: str, arguments: Sequence[Expression]) -> Range:
+        if name != "count":
+            return Range(0, _DAY_S if name == "now" else inf, most_open=name == "now")
+        truths = [self.truth(argument) for argument in arguments]
+        return Range(truths.count(True), len(truths) - truths.count(False))
+
+    def truth(self, expression: Expression) -> bool | None:
+        """Tell whether a condition always holds (True), never holds (False), or may do either (None)."""
+        match expression:
+            case Constant(value=bool(value)):
+                return value
+            case Variable(name=name):
+                known = self.variables.get(name)
+                return next(iter(known)) is True if isinstance(known, frozenset) and len(known) == 1 else None
+            case Operation(operator="not", arguments=(inner,)):
+                truth = self.truth(inner)
+                return None if truth is None else not truth
+            case Operation(operator="and" | "or" as name, arguments=arguments):
+                return self._joined(name, arguments)
+            case Operation(operator=name, arguments=(left, right)) if name in COMPARISONS:
+                return self._compared(name, left, right)
+        return None
+
+    def _joined(self, name: str, arguments: Sequence[Expression]) -> bool | None:
+        decides = name == "or"
+        truths = [self.truth(argument) for argument in arguments]
+        if decides in truths:
+            return decides
+        if None not in truths:
+            return not decides
+        return False if name == "and" and self._exclude_each_other(arguments) else None
+
+    def _exclude_each_other(self, arguments: Sequence[Expression]) -> bool:
+        """Tell whether comparisons of one value with numbers leave no number: `t > 60 and t < 50`."""
+        left: dict[Reading | Variable, Range] = {}
+        for argument in arguments:
+            found = limited(argument)
+            if found is not None:
+                measured, limits = found
+                left[measured] = left.get(measured, self.range(measured)).meet(limits)
+        return any(limits.empty for limits in left.values())
+
+    def _compared(self, name: str, left: Expression, right: Expression) -> bool | None:
+        if name in {"in", "not in"}:
+            found = self._contained(left, right)
+            return found if found is None or name == "in" else not found
+        if name in {"==", "!="}:
+            same = self._same(left, right)
+            return same if same is None or name == "==" else not same
+        mine, theirs = self.range(left), self.range(right)
+        if name in {">", ">="}:
+            mine, theirs = theirs, mine
+        return _below(mine, theirs, strict=len(name) == 1)
+
+    def _same(self, left: Expression, right: Expression) -> bool | None:
+        if isinstance(left, Constant) and isinstance(right, Constant):
+            return left.value == right.value
+        words = self.words(left), self.words(right)
+        if words[0] and words[1]:
+            if not words[0] & words[1]:
+                return False
+            return True if words[0] == words[1] and len(words[0]) == 1 else None
+        mine, theirs = self.range(left), self.range(right)
+        if mine.meet(theirs).empty:
+            return False
+        return True if mine.least == mine.most == theirs.least == theirs.most else None
+
+    def words(self, expression: Expression) -> Words:
+        """Return the texts, devices or truths that a value can be; empty when that is not known."""
+        match expression:
+            case Constant(value=str() | bool() as value):
+                return frozenset({value})
+            case Reading():
+                spec = property_spec(expression, self.surroundings)
+                return frozenset(spec.options) if spec is not None else frozenset()
+            case Variable(name=name):
+                known = self.variables.get(name)
+                return known if isinstance(known, frozenset) else frozenset()
+            case Located(device=str(value)) | Located(place=str(value)):
+                return frozenset({value})
+            case Operation(operator="nearest", arguments=(_, *candidates)):
+                each = [self.words(candidate) for candidate in candidates]
+                return frozenset().union(*each) if all(each) else frozenset()
+        return frozenset()
+
+    def _contained(self, left: Expression, right: Expression) -> bool | None:
+        values = right.value if isinstance(right, Constant) else None
+        if not isinstance(values, tuple):
+            return None
+        truths = [self._same(left, Constant(value)) for value in values]
+        if True in truths:
+            return True
+        options = self.words(left)
+        if options and options <= frozenset(value for value in values if isinstance(value, str)):
+            return True
+        return None if None in truths else False
+
+
 def possible(
-    expression: Expression, surroundings: Surroundings, variables: Mapping[str, ValueType] | None = None
+    expression: Expression,
+    surroundings: Surroundings,
+    types: Mapping[str, ValueType] | None = None,
+    variables: Variables = NOTHING_KNOWN,
 ) -> bool | None:
     """Tell whether a condition always holds (True), never holds (False), or may do either (None)."""
-    checker = TypeChecker(surroundings, variables or {}, [])
-    return _truth(convert_units(expression, "", checker), surroundings)
+    checker = TypeChecker(surroundings, types or {}, [])
+    return Here(surroundings, variables).truth(convert_units(expression, "", checker))
 
 
-def range_of(expression: Expression, surroundings: Surroundings, variables: Mapping[str, Range] | None = None) -> Range:
-    """Return between which numbers the value of an expression without quantities lies."""
-    if isinstance(expression, Constant):
-        value = expression.value
-        return Range(value, value) if is_number(value) else ANY
-    if isinstance(expression, Reading):
-        return _declared(expression, surroundings)
-    if isinstance(expression, Variable):
-        return ANY if variables is None else variables.get(expression.name, ANY)
-    if isinstance(expression, Operation):
-        name, arguments = expression.operator, expression.arguments
-        if name in {"count", "now", "distance"}:
-            return _counted(name, arguments, surroundings)
-        return _computed(name, [range_of(argument, surroundings, variables) for argument in arguments])
-    return ANY
+def _is_condition(expression: Expression) -> bool:
+    operator = expression.operator if isinstance(expression, Operation) else ""
+    return operator in COMPARISONS or operator in {"and", "or", "not"}
 
 
 def _declared(reading: Reading, surroundings: Surroundings) -> Range:
@@ -76,26 +228,19 @@ def _declared(reading: Reading, surroundings: Surroundings) -> Range:
     return Range(-inf if spec.minimum is None else spec.minimum, inf if spec.maximum is None else spec.maximum)
 
 
-def _counted(name: str, arguments: Sequence[Expression], surroundings: Surroundings) -> Range:
-    if name != "count":
-        return Range(0, _DAY_S if name == "now" else inf, most_open=name == "now")
-    truths = [_truth(argument, surroundings) for argument in arguments]
-    return Range(truths.count(True), len(truths) - truths.count(False))
-
-
 def _computed(name: str, ranges: Sequence[Range]) -> Range:
     match name, ranges:
         case "-", [only]:
-            return Range(-only.most, -only.least)
+            return _times(only, -1)
         case "abs", [only]:
             least = 0 if only.least <= 0 <= only.most else min(abs(only.least), abs(only.most))
             return Range(least, max(abs(only.least), abs(only.most)))
         case "round", [only]:
             return Range(_rounded(only.least), _rounded(only.most))
         case "+", [left, right]:
-            return Range(left.least + right.least, left.most + right.most)
+            return _sum(left, right)
         case "-", [left, right]:
-            return Range(left.least - right.most, left.most - right.least)
+            return _sum(left, _times(right, -1))
         case "*", [left, right]:
             return _product(left, right)
         case "/", [left, Range(least=least, most=most)] if least == most != 0:
@@ -111,50 +256,31 @@ def _rounded(number: float) -> float:
     return number if number in {inf, -inf} else round(number)
 
 
+def _sum(left: Range, right: Range) -> Range:
+    low, high = left.least_open or right.least_open, left.most_open or right.most_open
+    return Range(left.least + right.least, left.most + right.most, low, high)
+
+
+def _times(only: Range, factor: float) -> Range:
+    """Return a range times a number that is not 0."""
+    least, most = only.least * factor, only.most * factor
+    if factor < 0:
+        return Range(most, least, only.most_open, only.least_open, only.not_zero)
+    return Range(least, most, only.least_open, only.most_open, only.not_zero)
+
+
 def _product(left: Range, right: Range) -> Range:
+    for one, other in ((left, right), (right, left)):
+        if one.least == one.most and one.least not in {0, inf, -inf}:
+            return _times(other, one.least)
     ends = [0 if 0 in {a, b} else a * b for a in (left.least, left.most) for b in (right.least, right.most)]
     return Range(min(ends), max(ends))
-
-
-def _truth(expression: Expression, surroundings: Surroundings) -> bool | None:
-    if isinstance(expression, Constant) and isinstance(expression.value, bool):
-        return expression.value
-    if not isinstance(expression, Operation):
-        return None
-    name, arguments = expression.operator, expression.arguments
-    if name in COMPARISONS:
-        return _compared(name, arguments[0], arguments[1], surroundings)
-    if name == "not":
-        inner = _truth(arguments[0], surroundings)
-        return None if inner is None else not inner
-    return _joined(name, arguments, surroundings) if name in {"and", "or"} else None
-
-
-def _joined(name: str, arguments: Sequence[Expression], surroundings: Surroundings) -> bool | None:
-    decides = name == "or"
-    truths = [_truth(argument, surroundings) for argument in arguments]
-    if decides in truths:
-        return decides
-    if None not in truths:
-        return not decides
-    return False if name == "and" and _exclude_each_other(arguments, surroundings) else None
-
-
-def _exclude_each_other(arguments: Sequence[Expression], surroundings: Surroundings) -> bool:
-    """Tell whether comparisons of one reading with numbers leave no number: `t > 60 and t < 50`."""
-    left: dict[Reading | Variable, Range] = {}
-    for argument in arguments:
-        found = _limited(argument)
-        if found is not None:
-            measured, limits = found
-            left[measured] = left.get(measured, range_of(measured, surroundings)).meet(limits)
-    return any(limits.empty for limits in left.values())
 
 
 _MIRRORED: Mapping[str, str] = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "==": "=="}
 
 
-def _limited(comparison: Expression) -> tuple[Reading | Variable, Range] | None:
+def limited(comparison: Expression) -> tuple[Reading | Variable, Range] | None:
     """Return the reading and the numbers that a comparison with a number leaves for it."""
     match comparison:
         case Operation(operator=name, arguments=(Reading() | Variable() as measured, Constant(value=value))):
@@ -171,19 +297,6 @@ def _limited(comparison: Expression) -> tuple[Reading | Variable, Range] | None:
     return measured, (Range(most=value, most_open=strict) if "<" in name else Range(value, least_open=strict))
 
 
-def _compared(name: str, left: Expression, right: Expression, surroundings: Surroundings) -> bool | None:
-    if name in {"in", "not in"}:
-        found = _contained(left, right, surroundings)
-        return found if found is None or name == "in" else not found
-    if name in {"==", "!="}:
-        same = _same(left, right, surroundings)
-        return same if same is None or name == "==" else not same
-    mine, theirs = range_of(left, surroundings), range_of(right, surroundings)
-    if name in {">", ">="}:
-        mine, theirs = theirs, mine
-    return _below(mine, theirs, strict=len(name) == 1)
-
-
 def _below(left: Range, right: Range, *, strict: bool) -> bool | None:
     """Tell whether all numbers of one range lie below all of the other (True), or none does (False)."""
     touches_low = left.most == right.least and not (left.most_open or right.least_open)
@@ -193,39 +306,6 @@ def _below(left: Range, right: Range, *, strict: bool) -> bool | None:
     if left.least > right.most or (left.least == right.most and (strict or not touches_high)):
         return False
     return None
-
-
-def _same(left: Expression, right: Expression, surroundings: Surroundings) -> bool | None:
-    if isinstance(left, Constant) and isinstance(right, Constant):
-        return left.value == right.value
-    words = _words(left, surroundings), _words(right, surroundings)
-    if words[0] and words[1]:
-        return None if words[0] & words[1] else False
-    mine, theirs = range_of(left, surroundings), range_of(right, surroundings)
-    if mine.meet(theirs).empty:
-        return False
-    return True if mine.least == mine.most == theirs.least == theirs.most else None
-
-
-def _words(expression: Expression, surroundings: Surroundings) -> frozenset[str]:
-    """Return the texts that an expression can be; empty when that is not known."""
-    if isinstance(expression, Constant) and isinstance(expression.value, str):
-        return frozenset({expression.value})
-    spec = property_spec(expression, surroundings) if isinstance(expression, Reading) else None
-    return frozenset(spec.options) if spec is not None else frozenset()
-
-
-def _contained(left: Expression, right: Expression, surroundings: Surroundings) -> bool | None:
-    values = right.value if isinstance(right, Constant) else None
-    if not isinstance(values, tuple):
-        return None
-    truths = [_same(left, Constant(value), surroundings) for value in values]
-    if True in truths:
-        return True
-    options = _words(left, surroundings)
-    if options and options <= frozenset(value for value in values if isinstance(value, str)):
-        return True
-    return None if None in truths else False
 
 
 def first_limited_reading(expression: Expression, surroundings: Surroundings) -> Reading | None:

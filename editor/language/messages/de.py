@@ -14,6 +14,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "missing_destination": "Wählen Sie, wohin der Roboter fährt.",
     "missing_machine": "Wählen Sie die Maschine, die das tut.",
     "missing_method": "Wählen Sie, was {device} tut: {options}.",
+    "missing_own_method": "Wählen Sie, was der Roboter tut: {options}.",
     "missing_argument": "Geben Sie {argument} für {method} ein{range}.",
     "missing_condition": "Geben Sie die Bedingung ein, die entscheidet.",
     "missing_seconds": "Geben Sie ein, wie lange gewartet wird, in Sekunden, oder worauf.",
@@ -26,6 +27,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "missing_question": "Geben Sie die Frage ein.",
     "missing_options": "Geben Sie mindestens zwei Antworten zur Wahl ein.",
     "missing_message": "Geben Sie ein, was mitgeteilt wird.",
+    "missing_reason": "Geben Sie ein, warum es hier misslingt, etwa „Die Kiste ist nass.“.",
     "empty_program": "Dieses Programm hat noch keine Schritte. Beginnen Sie mit Holen und Bringen.",
     # it speaks of something that does not exist
     "unknown_device": "An diesem Standort gibt es kein Gerät {device}. Wählen Sie ein anderes.",
@@ -34,6 +36,8 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "unknown_property": "{device} meldet {property} nicht. Es meldet: {options}.",
     "unknown_argument": "{method} kennt {argument} nicht. Einzugeben ist: {options}.",
     "unknown_function": "Diese Funktion gibt es nicht mehr. Wählen Sie eine andere.",
+    "problem_outside_catch": "{parameter} ist nur im Zweig „sonst“ eines Versuchs bekannt. "
+    "Verschieben Sie den Schritt dorthin.",
     "unknown_parameter": "Hier gibt es keinen Wert mit dem Namen {parameter}. Wählen oder schreiben Sie einen anderen.",
     "unknown_role": "Dieses Programm hat keinen Roboter mit dem Namen {role}. Wählen Sie einen anderen.",
     "unknown_kind": "Diese Art von Schritt kennt diese Version von VIPO nicht. Löschen Sie ihn.",
@@ -43,9 +47,14 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "retired_device": "{device} ist nicht mehr in Betrieb. Wählen Sie ein anderes Gerät.",
     "not_a_robot": "{device} ist kein Roboter. Wählen Sie einen Roboter für {role}.",
     "robot_as_place": "{device} ist ein Roboter und kann Objekte weder geben noch nehmen. Wählen Sie eine Maschine.",
+    "robot_as_goal": "{device} ist ein Roboter und kann überall sein. Wählen Sie eine Maschine, einen Ort oder Punkt.",
+    "may_not_fit": "Auf einem der Wege zu diesem Schritt ist das {device}, und das passt hier nicht.",
     "cannot_do": "{device} kann {method} nicht. Wählen Sie einen Roboter, der das kann.",
     "too_few_robots": "{roles} brauchen gleichzeitig je einen Roboter, und es gibt {count}. Einer kann beides tun.",
     "no_robot_can": "Kein Roboter an diesem Standort kann {methods}.",
+    "no_robot_offers": "Kein Roboter an diesem Standort kann {method}. Roboter können hier: {options}.",
+    "methods_differ": "{first} und {second} brauchen für {method} verschiedene Werte. Wählen Sie einen Roboter.",
+    "step_of_its_own": "{method} ist ein eigener Schritt, der den Weg kennt. Zeichnen Sie stattdessen diesen.",
     "not_given": "{device} gibt {object} nicht her. Es gibt: {options}.",
     "not_taken": "{device} nimmt {object} nicht an. Es nimmt: {options}.",
     "wrong_type": "{subject}: Hier wird {wanted} gebraucht, und das ist {given}.",
@@ -55,6 +64,8 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "unit_not_taken": "{subject} ist eine bloße Zahl, und dieser Wert ist in {given}. Geben Sie an, worin er zählt.",
     "no_such_product": "{left} {operator} {right} misst nichts. Nehmen Sie für eines davon eine bloße Zahl.",
     "divided_by_zero": "Hier wird durch 0 geteilt. Geben Sie eine andere Zahl ein, oder prüfen Sie sie vorher.",
+    "may_divide_by_zero": "Auf einem der Wege zu diesem Schritt wird durch 0 geteilt. Prüfen Sie die Zahl vorher.",
+    "may_be_out_of_range": "{subject} muss {range} sein und liegt hier vielleicht außerhalb. Prüfen Sie es vorher.",
     "out_of_range": "{subject} muss {range} sein.",
     "not_an_option": "{subject} ist eines von: {options}.",
     "quantity_not_positive": "Die Menge muss eine ganze Zahl über 0 sein.",
@@ -63,6 +74,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "may_carry_too_much": "{robot} trägt hier vielleicht schon zu viel. Höchstens {capacity} passen.",
     "drops_nothing": "{robot} trägt hier {carried} {object} und kann nicht {quantity} abgeben.",
     "may_drop_nothing": "{robot} trägt auf einem der Wege zu diesem Schritt weniger als {quantity} {object}.",
+    "ends_carrying": "{robot} trägt noch {quantity} {object}, wenn das Programm hier endet. Geben Sie es ab.",
     "place_outside": "Dieser Ort liegt außerhalb der Karte. Ziehen Sie ihn hinein.",
     "place_blocked": "{robot} passt hier nicht hin: Eine Wand oder eine Maschine ist zu nah.",
     "place_unreachable": "{robot} findet keinen Weg zu diesem Ort.",
@@ -81,6 +93,8 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "may_never_end": "Nichts Gemessenes entscheidet hier; diese Schritte wiederholen sich vielleicht ohne Ende.",
     "never_runs": "Diese Bedingung ist nie wahr; diese Schritte laufen also nie.",
     "always_true": "Diese Bedingung ist immer wahr; der andere Zweig läuft also nie.",
+    "empty_branch": "Darin steht kein Schritt; es tut also nichts. Zeichnen Sie Schritte hinein, oder löschen Sie es.",
+    "busy_circle": "Das wartet, indem es ständig im Kreis läuft. Warten Sie mit Warten, bis das Gewünschte eintritt.",
     "draft": "Dieser Schritt hängt an nichts und läuft nicht. Verbinden oder löschen Sie ihn.",
     "too_deep": "Dieser Schritt liegt zu tief in anderen und läuft nicht. Machen Sie aus einigen eine Funktion.",
     # the ways through a program
@@ -96,14 +110,32 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "unused_result": "Was {function} zurückgibt, wird nicht behalten. Wählen Sie eine Variable dafür.",
     "unused_function": "Nichts ruft {function} auf; diese Schritte laufen also nie.",
     "unused_variable": "{variable} wird hier gesetzt und nie verwendet.",
+    "unused_parameter": "Nach {parameter} wird gefragt, und es wird nie verwendet.",
     "unset_variable": "{variable} hat hier noch keinen Wert. Setzen Sie die Variable vorher.",
+    "no_robot_yet": "Welcher Roboter {role} ist, steht hier noch nicht fest. Lassen Sie ihn vorher etwas tun.",
+    "perhaps_no_robot_yet": (
+        "Welcher Roboter {role} ist, steht auf einem der Wege zu diesem Schritt noch nicht fest. Lassen Sie ihn vorher "
+        "etwas tun."
+    ),
     "may_be_unset": (
         "{variable} hat auf einem der Wege zu diesem Schritt noch keinen Wert. Setzen Sie die "
         "Variable vorher."
     ),
+    "starts_unasked": (
+        "Das startet von selbst, und niemand wird dann nach {parameters} gefragt. Geben Sie einen Vorgabewert an, "
+        "sonst lässt es sich nicht scharf schalten."
+    ),
     "event_shares_robot": (
         "Das läuft neben dem Programm, und beide fahren {robot}. Geben Sie einem einen "
         "anderen Roboter."
+    ),
+    "branches_set_it": (
+        "Zweig {first} und Zweig {second} setzen beide {variable}, und niemand weiß, wer zuletzt. Geben Sie jedem eine "
+        "eigene."
+    ),
+    "loses_update": (
+        "Das setzt {variable} nach dem, was vorher galt. Was daneben inzwischen gesetzt wurde, geht verloren; "
+        "lesen Sie den Wert neu."
     ),
     "branches_wait": (
         "Die Zweige {first} und {second} warten aufeinander, auf {variable} und {other}. "
@@ -136,6 +168,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     # a script that was written by hand
     "not_python": "Zeile {line}, Spalte {column}: Das kann nicht gelesen werden. {detail}",
     "not_in_language": "Zeile {line}, Spalte {column}: {found} gehört nicht zur Sprache. {instead}",
+    "more_mistakes": "Ab Zeile {line} ist noch mehr zu verbessern: {count}. Beginnen Sie mit den ersten.",
 }  # fmt: skip
 
 FIX_TEXTS_DE: Final[Mapping[str, str]] = {
@@ -175,6 +208,7 @@ WORDS_DE: Final[Mapping[str, str]] = {
     "The object": "Das Objekt",
     "The time to wait": "Die Wartezeit",
     "The time limit": "Die Zeitgrenze",
+    "The place": "Der Ort",
     "How many times": "Wie oft",
     "A value": "Ein Wert",
     "The variable": "Die Variable",

@@ -16,6 +16,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "missing_destination": ("error", "Choose where the robot goes."),
     "missing_machine": ("error", "Choose the machine that does this."),
     "missing_method": ("error", "Choose what {device} does: {options}."),
+    "missing_own_method": ("error", "Choose what the robot does: {options}."),
     "missing_argument": ("error", "Enter {argument} for {method}{range}."),
     "missing_condition": ("error", "Enter the condition that decides."),
     "missing_seconds": ("error", "Enter how long to wait, in seconds, or what to wait for."),
@@ -28,6 +29,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "missing_question": ("error", "Enter what to ask."),
     "missing_options": ("error", "Enter at least two answers to choose from."),
     "missing_message": ("error", "Enter what to tell people."),
+    "missing_reason": ("error", "Enter why it fails here, such as \"The box is wet.\"."),
     "empty_program": ("error", "This program has no steps yet. Draw a Pick-and-Drop to begin."),
     # it speaks of something that does not exist
     "unknown_device": ("error", "There is no device {device} on this site. Choose another."),
@@ -36,6 +38,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "unknown_property": ("error", "{device} does not report {property}. It reports: {options}."),
     "unknown_argument": ("error", "{method} does not take {argument}. It takes: {options}."),
     "unknown_function": ("error", "This function no longer exists. Choose another."),
+    "problem_outside_catch": ("error", "{parameter} is known only in the catch of a Try. Move the step there."),
     "unknown_parameter": ("error", "There is no value called {parameter} here. Choose or enter another."),
     "unknown_role": ("error", "This program has no robot called {role}. Choose another."),
     "unknown_kind": ("error", "This step is of a kind that this version of VIPO does not know. Delete it."),
@@ -45,9 +48,14 @@ TEXTS: Final[Mapping[str, Text]] = {
     "retired_device": ("error", "{device} is no longer in use. Choose another."),
     "not_a_robot": ("error", "{device} is not a robot. Choose a robot for {role}."),
     "robot_as_place": ("error", "{device} is a robot and can neither give nor take objects. Choose a machine."),
+    "robot_as_goal": ("error", "{device} is a robot and may be anywhere. Choose a machine, a place or a point."),
+    "may_not_fit": ("warning", "On one of the ways to this step this is {device}, which does not fit here."),
     "cannot_do": ("error", "{device} cannot {method}. Choose a robot that can."),
     "too_few_robots": ("error", "{roles} need a robot each at the same time, and there are {count}. Let one do both."),
     "no_robot_can": ("error", "No robot on this site can {methods}."),
+    "no_robot_offers": ("error", "No robot on this site can {method}. Robots here can: {options}."),
+    "methods_differ": ("error", "{first} and {second} take different values for {method}. Choose one robot."),
+    "step_of_its_own": ("error", "{method} is a step of its own: it knows the way. Draw that step instead."),
     "not_given": ("error", "{device} does not give {object}. It gives: {options}."),
     "not_taken": ("error", "{device} does not take {object}. It takes: {options}."),
     "wrong_type": ("error", "{subject} needs {wanted}, and this is {given}."),
@@ -57,6 +65,8 @@ TEXTS: Final[Mapping[str, Text]] = {
     "unit_not_taken": ("error", "{subject} is a plain number, and this value is in {given}. Say what it counts in."),
     "no_such_product": ("error", "{left} {operator} {right} measures nothing. Use a plain number for one of them."),
     "divided_by_zero": ("error", "This divides by 0. Enter another number, or check it first."),
+    "may_divide_by_zero": ("warning", "This divides by 0 on one of the ways to this step. Check the number first."),
+    "may_be_out_of_range": ("warning", "{subject} must be {range}, and may lie outside here. Check it first."),
     "out_of_range": ("error", "{subject} must be {range}."),
     "not_an_option": ("error", "{subject} is one of: {options}."),
     "quantity_not_positive": ("error", "The quantity must be a whole number above 0."),
@@ -65,6 +75,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "may_carry_too_much": ("warning", "{robot} may already carry too much here. It holds {capacity} at most."),
     "drops_nothing": ("error", "{robot} carries {carried} {object} here and cannot drop {quantity}."),
     "may_drop_nothing": ("warning", "{robot} carries less than {quantity} {object} on one of the ways to this step."),
+    "ends_carrying": ("warning", "{robot} still carries {quantity} {object} when the program ends here. Drop it."),
     "place_outside": ("error", "This place is outside the map. Move it inside."),
     "place_blocked": ("error", "{robot} does not fit here: a wall or a machine is too near."),
     "place_unreachable": ("error", "{robot} finds no way to this place."),
@@ -83,6 +94,8 @@ TEXTS: Final[Mapping[str, Text]] = {
     "may_never_end": ("warning", "Nothing measured decides here, so these steps may repeat without end."),
     "never_runs": ("warning", "This condition is never true, so these steps never run."),
     "always_true": ("warning", "This condition is always true, so the other branch never runs."),
+    "empty_branch": ("warning", "This holds no steps, so it does nothing. Draw steps into it, or delete it."),
+    "busy_circle": ("warning", "This waits by going round and round. Use a Wait until for what it waits for."),
     "draft": ("warning", "This step is joined to nothing and will not run. Join it or delete it."),
     "too_deep": ("warning", "This step lies too deep inside others and will not run. Make a function of some of them."),
     # the ways through a program
@@ -100,12 +113,31 @@ TEXTS: Final[Mapping[str, Text]] = {
     "unused_result": ("warning", "What {function} gives is not kept. Choose a variable for it."),
     "unused_function": ("warning", "Nothing calls {function}, so its steps never run."),
     "unused_variable": ("warning", "{variable} is set here and never used."),
+    "unused_parameter": ("warning", "{parameter} is asked for and never used."),
     "unset_variable": ("error", "{variable} has no value yet here. Set it before."),
     "may_be_unset": ("warning", "{variable} has no value yet on one of the ways to this step. Set it before."),
+    "no_robot_yet": ("error", "Which robot {role} is, is not known yet here. Let it do a step before, or choose one."),
+    "perhaps_no_robot_yet": (
+        "warning",
+        "Which robot {role} is, is not known yet on one of the ways to this step. Let it do a step before.",
+    ),
+    "starts_unasked": (
+        "warning",
+        "This starts by itself, when nobody is asked for {parameters}. Give a default, or it cannot be armed.",
+    ),
     "event_shares_robot": (
         "warning",
         "This runs beside the program, and both drive {robot}. Give one of them another "
         "robot.",
+    ),
+    "branches_set_it": (
+        "warning",
+        "Branches {first} and {second} both set {variable}, and nobody knows which of them is the last. Let each set "
+        "its own.",
+    ),
+    "loses_update": (
+        "warning",
+        "This sets {variable} from what it was before. What is set beside it meanwhile is lost; read it anew.",
     ),
     "branches_wait": (
         "error",
@@ -146,6 +178,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     # a script that was written by hand
     "not_python": ("error", "Line {line}, column {column}: this cannot be read. {detail}"),
     "not_in_language": ("error", "Line {line}, column {column}: {found} is not part of the language. {instead}"),
+    "more_mistakes": ("error", "There is more to mend from line {line} on: {count}. Begin with the first ones."),
 }  # fmt: skip
 
 FIX_TEXTS: Final[Mapping[str, str]] = {

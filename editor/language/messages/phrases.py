@@ -168,8 +168,13 @@ def refused_in_german(english: str) -> str:
     for pattern, german in _refusals():
         found = pattern.fullmatch(english)
         if found is not None:
-            return german.format_map(found.groupdict())
+            return german.format_map({name: _sentence(piece) for name, piece in found.groupdict().items()})
     return english
+
+
+def _sentence(piece: str) -> str:
+    """Return a piece of a sentence, which may be a sentence of its own."""
+    return refused_in_german(piece) if piece.endswith(".") else piece
 
 
 @cache
@@ -178,7 +183,7 @@ def _refusals() -> tuple[tuple[re.Pattern[str], str], ...]:
 
 
 def _pattern(english: str) -> re.Pattern[str]:
-    pieces = re.split(r"\{([xy])\}", english)
+    pieces = re.split(r"\{([xyz])\}", english)
     named = (re.escape(piece) if index % 2 == 0 else f"(?P<{piece}>.+)" for index, piece in enumerate(pieces))
     return re.compile("".join(named), re.DOTALL)
 

@@ -7,16 +7,20 @@ import keyword
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 
+from editor.language.constructs.table import fields_by_kind
 from editor.language.document.outline import Params, mapping
 from editor.language.expressions.declarations import normal_type
 from editor.language.expressions.names import unique_name
-from editor.language.expressions.nodes import MISSING, Expression, Located
-from editor.language.expressions.value_types import ValueType, plain_type
-from editor.language.parsing.expressions import Binding, Scope
+from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, Located
+from editor.language.expressions.value_types import TEXT, ValueType, plain_type
+from editor.language.parsing.scope import Binding, Scope
 from editor.language.reading.document import read_document
 from editor.language.site.surroundings import Surroundings
 
+_SETTERS = fields_by_kind("variable")
+"""The kinds of steps that set a variable, with the parameter that names it."""
 _GIVEN = re.compile(r"^\s+self\.(\w+) = ctx\.(get|place|zone)\((\"(?:[^\"\\]|\\.)*\")")
 
 
@@ -105,7 +109,10 @@ def _name_roles(line: LineScope, document: Mapping[str, object]) -> None:
 
 def _name_variables(line: LineScope, document: Mapping[str, object], step: str) -> None:
     for name, body in _visible(document, step):
-        if name and name not in line.names:
+        if name in OF_PROBLEM:
+            line.scope.locals |= {name}
+            line.names[name], line.types[name] = name, TEXT
+        elif name and name not in line.names:
             line.names[name] = _variable_name(name, line.names.values())
             kind, unit = normal_type(body.get("type"), body.get("unit"))
             if kind:
@@ -123,10 +130,13 @@ def _visible(document: Mapping[str, object], step: str) -> Iterator[tuple[str, P
     steps = mapping(document.get("steps"))
     above = list(_above(steps, step))
     root = above[-1] if above else ""
-    for name in above[:-1]:
+    for inner, name in pairwise([step, *above[:-1]]):
         params = mapping(mapping(steps.get(name)).get("params"))
-        if mapping(steps.get(name)).get("kind") == "for_each":
+        kind, place = mapping(steps.get(name)).get("kind"), mapping(steps.get(inner)).get("place")
+        if kind == "for_each":
             yield _text(params.get("variable")), {}
+        elif kind == "try" and isinstance(place, list | tuple) and len(place) > 1 and place[1] == "catch":
+            yield from ((part, {}) for part in OF_PROBLEM)
     function = mapping(mapping(document.get("functions")).get(root))
     listed = function.get("parameters")
     for item in listed if isinstance(listed, list | tuple) else ():
@@ -143,7 +153,7 @@ def _variables(steps: Mapping[str, object], roots: Iterable[str]) -> list[str]:
     for step in sorted(steps):
         body = mapping(steps[step])
         params = mapping(body.get("params"))
-        name = params.get("variable") if body.get("kind") in {"set", "ask"} else params.get("result")
+        name = params.get(_SETTERS.get(str(body.get("kind")), ""))
         if isinstance(name, str) and name and ([*_above(steps, step)] or [""])[-1] in wanted:
             found[name] = None
     return list(found)

@@ -18,7 +18,8 @@ from editor.language.expressions.values import FUNCTIONS, UnknownParameter, read
 from editor.language.messages.phrases import LANGUAGES, Refusal
 from editor.language.one_line.notation import Desugared, desugar
 from editor.language.one_line.scope import LineScope
-from editor.language.parsing.expressions import Refused, parse_expression
+from editor.language.parsing.expressions import parse_expression
+from editor.language.parsing.scope import Refused
 
 LONGEST_LINE = 2000
 _CALLED = frozenset({*FUNCTIONS, "quantity", "point"})
@@ -122,7 +123,9 @@ def _parse(text: str, line: LineScope) -> Expression:
     try:
         return parse_expression(_Named(line, source, margin).visit(tree.body), line.scope)
     except Refused as refused:
-        instead = _USE_A_DEVICE if refused.instead.startswith("Give it in run") else refused.instead
+        instead = (
+            _USE_A_DEVICE if refused.instead.startswith("Give it in run") else refused.instead.replace("self.", "")
+        )
         column = margin + _column(source, _characters(source.text, refused.column - 1))
         raise NotUnderstood(column, "not_in_value", found=refused.found, instead=instead) from refused
     except RecursionError as error:
@@ -159,6 +162,11 @@ class _Named(ast.NodeTransformer):
             node.args = [self.visit(argument) for argument in node.args]
             return node
         return self.generic_visit(node)
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
+        """A failure that was caught is not of the task."""
+        of_problem = isinstance(node.value, ast.Name) and f"{node.value.id}.{node.attr}" in self.line.scope.locals
+        return node if of_problem else self.generic_visit(node)
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
         """Return the attribute of the task that a name stands for."""

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
-from typing import Final, Literal
+from typing import Final
 
 from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
 from editor.language.expressions.nodes import (
     MISSING,
     NOWHERE,
+    OF_PROBLEM,
+    PROBLEM,
     Constant,
     Expression,
     Located,
@@ -22,9 +23,24 @@ from editor.language.expressions.nodes import (
 )
 from editor.language.expressions.units import UNITS, unit_code
 from editor.language.expressions.values import DEEPEST_EXPRESSION, FUNCTIONS, arity_fits, is_number, operation, plain
-from editor.language.messages.syntax_errors import instead_of_call, instead_of_expression
-from editor.language.site.surroundings import Surroundings
-from vipo_device.protocol.description import Description, Scalar
+from editor.language.messages.syntax_errors import (
+    NAMES,
+    instead_of_call,
+    instead_of_expression,
+    instead_of_is,
+    instead_of_operator,
+)
+from editor.language.parsing.answers import (
+    closest,
+    unknown_device,
+    unknown_name,
+    unknown_reading,
+    unknown_value,
+    what_is_called,
+)
+from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted
+from editor.language.tree.robots import is_robot
+from vipo_device.protocol.description import Scalar
 
 _BINARY: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 _COMPARE: Mapping[type[ast.cmpop], str] = {
@@ -34,61 +50,6 @@ _COMPARE: Mapping[type[ast.cmpop], str] = {
 
 
 _NO_SCALARS: Final = (bytes, complex, type(Ellipsis))
-
-
-class Refused(Exception):
-    """A piece of Python that the language does not have; `instead` says what to write."""
-
-    def __init__(self, node: ast.AST, found: str, instead: str) -> None:
-        super().__init__(found)
-        self.line, self.column = getattr(node, "lineno", 1), getattr(node, "col_offset", 0) + 1
-        self.end_line = getattr(node, "end_lineno", None) or self.line
-        self.end_column = (getattr(node, "end_col_offset", None) or self.column) + 1
-        self.found, self.instead = found, instead
-
-
-@dataclass(frozen=True, slots=True)
-class Binding:
-    """What `run` gives to an attribute of the task."""
-
-    kind: Literal["get", "any", "place", "parameter", "zone"]
-    id: str = ""
-    can: tuple[str, ...] = ()
-    at: str | None = None
-    default: Scalar = None
-    type: str = ""
-    unit: str = ""
-
-
-@dataclass(slots=True)
-class Scope:
-    """The names that can be used, and the site."""
-
-    surroundings: Surroundings
-    bindings: dict[str, Binding] = field(default_factory=dict)
-    locals: frozenset[str] = frozenset()
-    variables: frozenset[str] = frozenset()
-    """The variables of the program, which are attributes of the task."""
-    robots: Callable[[], frozenset[str]] = frozenset
-    """The attributes that some step drives as a robot."""
-
-    def description(self, device_id: str | None) -> Description | None:
-        """Return a device's description, if the site has the device."""
-        facts = self.surroundings.devices.get(device_id or "")
-        return None if facts is None else facts.description
-
-
-def quoted(node: ast.AST) -> str:
-    """Return a piece of the script for a message, shortened."""
-    text = ast.unparse(node).splitlines()[0]
-    return f"“{text[:60]}…”" if len(text) > 60 else f"“{text}”"
-
-
-def attribute_of_self(node: ast.AST) -> str | None:
-    """Return x of `self.x`."""
-    if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "self":
-        return node.attr
-    return None
 
 
 def parse_expression(node: ast.expr, scope: Scope, depth: int = 0) -> Expression:
@@ -115,6 +76,8 @@ def parse_scalar(node: ast.expr) -> Scalar:
     minus = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub)
     inner = node.operand if isinstance(node, ast.UnaryOp) and minus else node
     if not isinstance(inner, ast.Constant) or (minus and not is_number(inner.value)):
+        if isinstance(node, ast.Name):
+            raise Refused(node, quoted(node), f'Write a text in quotation marks: "{node.id}".')
         raise Refused(node, quoted(node), "Write a number, a text, True or False here.")
     value = inner.value
     scalar = None if isinstance(value, _NO_SCALARS) else plain(value)
@@ -136,10 +99,10 @@ def _list(node: ast.Tuple | ast.List, scope: Scope, depth: int) -> Expression:
 
 
 def _name(node: ast.Name, scope: Scope, depth: int) -> Expression:
+    if f"{node.id}.text" in scope.locals:
+        raise Refused(node, quoted(node), f"Write {node.id}.text, or {node.id}.kind.")
     if node.id not in scope.locals:
-        raise Refused(
-            node, quoted(node), "Use a parameter of this function, or a reading such as self.oven.temperature."
-        )
+        raise unknown_name(node, scope)
     return Variable(node.id)
 
 
@@ -147,14 +110,30 @@ def _attribute(node: ast.Attribute, scope: Scope, depth: int) -> Expression:
     name = attribute_of_self(node)
     if name is not None:
         return _own_attribute(node, name, scope)
+    if isinstance(node.value, ast.Name) and _is_caught(node, node.value.id, scope):
+        return _of_caught(node, node.value.id, scope)
     device = parse_thing(node.value, scope)
     description = scope.description(device.device)
     names = [] if description is None else [spec.name for spec in description.properties]
     found = next((n for n in names if snake_case(n) == node.attr and member_name(n, names)), None)
     if found is None:
-        options = ", ".join(filter(None, (member_name(n, names) for n in names))) or "nothing"
-        raise Refused(node, quoted(node), f"What can be read here: {options}.")
+        methods = [] if description is None else [method.name for method in description.methods]
+        able = [*ROBOT_METHODS, *(snake_case(method) for method in methods)]
+        raise unknown_reading(node, [name for name in (member_name(n, names) for n in names) if name], able)
     return Reading(Constant(device.device), found)
+
+
+def _is_caught(node: ast.Attribute, name: str, scope: Scope) -> bool:
+    return f"{name}.text" in scope.locals or (name not in scope.locals and f"{PROBLEM}.{node.attr}" in OF_PROBLEM)
+
+
+def _of_caught(node: ast.Attribute, name: str, scope: Scope) -> Expression:
+    """Return what `problem.text` or `problem.kind` stands for in an except."""
+    if f"{name}.{node.attr}" in scope.locals:
+        return Variable(f"{PROBLEM}.{node.attr}")
+    if f"{name}.text" in scope.locals:
+        raise Refused(node, quoted(node), "What can be read here: text, kind.")
+    raise Refused(node, quoted(node), "Write it in an except that names it: except TaskError as problem:.")
 
 
 def _own_attribute(node: ast.Attribute, name: str, scope: Scope) -> Expression:
@@ -173,7 +152,7 @@ def _own_attribute(node: ast.Attribute, name: str, scope: Scope) -> Expression:
             return Located(place=place)
         case Binding(kind="zone", id=zone):
             return Located(zone=zone)
-    raise Refused(node, quoted(node), f'Give it in run: self.{name} = ctx.parameter("{name}", 0, Number).')
+    raise unknown_value(node, name, scope)
 
 
 def _call(node: ast.Call, scope: Scope, depth: int) -> Expression:
@@ -189,18 +168,34 @@ def _call(node: ast.Call, scope: Scope, depth: int) -> Expression:
             return Reading(Constant(device.device), name)
         if isinstance(name, str) and name and device.value is not None:
             return Reading(device.value, name)
-    instead = instead_of_call(node)
+    raise Refused(node, quoted(node), _instead_of_value(node, scope))
+
+
+def _instead_of_value(call: ast.Call, scope: Scope) -> str:
+    """Return what to write instead of a call that gives no value here."""
+    function = call.func
+    own = attribute_of_self(function)
+    if own is not None and own in scope.methods:
+        return f"Keep it first, on a line of its own: self.result = self.{own}(…). Then use self.result."
+    instead = instead_of_call(call)
     if instead is not None:
-        raise Refused(node, quoted(node), instead)
-    known = ", ".join((*FUNCTIONS, *_MAKERS))
-    raise Refused(node, quoted(node), f"In expressions only these can be called: {known}.")
+        return instead
+    if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Name) and function.value.id == "ctx":
+        return NAMES["ctx"]
+    if own is None and isinstance(function, ast.Attribute) and attribute_of_self(function.value) in scope.bindings:
+        return what_is_called(call, function, scope)
+    known = [*FUNCTIONS, *_MAKERS]
+    near = closest(function.id, known) if isinstance(function, ast.Name) else ""
+    listed = f"In expressions only these can be called: {', '.join(known)}."
+    return f"Did you mean {near}? {listed}" if near else listed
 
 
 def _function(node: ast.Call, name: str, scope: Scope, depth: int) -> Expression:
     if not arity_fits(name, len(node.args)):
         least, most = FUNCTIONS[name]
-        wanted = str(least) if least == most else f"{least} or more"
-        raise Refused(node, quoted(node), f"{name} takes {wanted} value(s).")
+        wanted = "no value" if most == 0 else "one value" if most == 1 else f"{least} values"
+        wanted = wanted if least == most else f"{least} values or more"
+        raise Refused(node, quoted(node), f"{name} takes {wanted}.")
     return operation(name, tuple(parse_expression(argument, scope, depth) for argument in node.args))
 
 
@@ -250,12 +245,14 @@ def _unary_operation(node: ast.UnaryOp, scope: Scope, depth: int) -> Expression:
 def _binary_operation(node: ast.BinOp, scope: Scope, depth: int) -> Expression:
     name = _BINARY.get(type(node.op))
     if name is None:
-        raise Refused(node, quoted(node), "Use +, -, * or /.")
+        raise Refused(node, quoted(node), instead_of_operator(node))
     return operation(name, (parse_expression(node.left, scope, depth), parse_expression(node.right, scope, depth)))
 
 
 def _comparison(node: ast.Compare, scope: Scope, depth: int) -> Expression:
     name = _COMPARE.get(type(node.ops[0]))
+    if len(node.ops) == 1 and name is None:
+        raise Refused(node, quoted(node), instead_of_is(node))
     if name is None or len(node.ops) != 1:
         raise Refused(node, quoted(node), "Compare two values at a time, and join comparisons with “and”.")
     left = parse_expression(node.left, scope, depth)
@@ -297,7 +294,13 @@ def parse_thing(node: ast.expr, scope: Scope) -> PlaceRef:
         return NOWHERE
     if isinstance(node, ast.Tuple):
         return PlaceRef(point=parse_point(node))
-    raise Refused(node, quoted(node), 'Give it in run: self.oven = ctx.get("curingOven01").')
+    if name is not None:
+        raise unknown_device(node, name, scope)
+    if isinstance(node, ast.Name):
+        raise unknown_name(node, scope)
+    if isinstance(node, ast.Attribute):
+        raise Refused(node, quoted(node), "Name the device or the place itself: self.oven.")
+    raise Refused(node, quoted(node), instead_of_expression(node) or "Write the device or the place: self.oven.")
 
 
 def parse_point(node: ast.expr) -> Point:
@@ -323,6 +326,9 @@ def parse_place(node: ast.expr, scope: Scope) -> PlaceRef:
         return parse_thing(node.value, scope)
     if isinstance(node, ast.Tuple) or (isinstance(node, ast.Constant) and node.value is None):
         return parse_thing(node, scope)
+    known = attribute_of_self(node) or (node.id if isinstance(node, ast.Name) else getattr(node, "value", None))
+    if isinstance(known, str) and known in scope.bindings:
+        raise Refused(node, quoted(node), f"Write self.{known}.location.")
     raise Refused(node, quoted(node), "Write where it goes as self.oven.location, or as a point (x, y).")
 
 
@@ -347,8 +353,21 @@ _BARE: Final = frozenset({ast.Load, ast.Store, ast.Constant, ast.Name})
 """What a syntax tree has most of; nothing stands in it."""
 
 
-def robots_driven(calls: Iterable[ast.Call]) -> frozenset[str]:
-    """Return the attributes of the task that some step drives as a robot: x of `self.x.pick(…)`."""
-    functions = (call.func for call in calls)
-    driving = (f.value for f in functions if isinstance(f, ast.Attribute) and f.attr in ROBOT_METHODS)
-    return frozenset(name for name in map(attribute_of_self, driving) if name is not None)
+def robots_driven(calls: Iterable[ast.Call], scope: Scope) -> frozenset[str]:
+    """Return the attributes of the task that some step has as a robot: x of `self.x.pick(…)` or of its own method."""
+    found: set[str] = set()
+    for call in calls:
+        function = call.func
+        name = attribute_of_self(function.value) if isinstance(function, ast.Attribute) else None
+        if name is None or not isinstance(function, ast.Attribute) or function.attr == "read":
+            continue
+        if function.attr in ROBOT_METHODS or is_sure_robot(scope.bindings.get(name), scope):
+            found.add(name)
+    return frozenset(found)
+
+
+def is_sure_robot(binding: Binding | None, scope: Scope) -> bool:
+    """Tell whether what `run` gives is a robot, whatever the steps do with it."""
+    if binding is None or binding.kind not in {"get", "any"}:
+        return False
+    return binding.kind == "any" or binding.is_robot or is_robot(scope.surroundings, binding.id)

@@ -15,9 +15,11 @@ from editor.language.analysis.positions import place_loads
 from editor.language.expressions import nodes as e
 from editor.language.expressions.names import RESERVED_ATTRIBUTES, unique_name
 from editor.language.messages.diagnostics import Diagnostic, Problem, put_into_words
-from editor.language.messages.syntax_errors import count_characters, explain_syntax
-from editor.language.parsing.bindings import Entry, parse_parameters, parse_run, read_type
-from editor.language.parsing.expressions import Refused, Scope, attribute_of_self, calls_in, quoted, robots_driven
+from editor.language.messages.syntax_errors import STATEMENTS, count_characters, explain_syntax, instead_of_import
+from editor.language.parsing.answers import unplaced_load
+from editor.language.parsing.bindings import Entry, parse_parameters, parse_run, read_type, takes_only
+from editor.language.parsing.expressions import calls_in, robots_driven
+from editor.language.parsing.scope import Refused, Scope, attribute_of_self, quoted, written
 from editor.language.parsing.steps import Parser
 from editor.language.parsing.variables import check_local, names_assigned
 from editor.language.site.surroundings import Surroundings, standing_places
@@ -25,6 +27,8 @@ from editor.language.tree import nodes as n
 from editor.language.tree.traversal import in_reading_order
 
 LONGEST_SCRIPT = 2_000_000
+MOST_TOLD = 20
+"""More mistakes than these are only counted: who mends the first ones mends many of the others with them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,11 +75,13 @@ def _refusal(refused: Refused) -> Diagnostic:
 
 def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
     methods = _methods(module)
-    for needed in ("new_task", "run"):
+    for needed, heading in (("new_task", "def new_task(self):"), ("run", "def run(self, ctx):")):
         if needed not in methods:
-            raise Refused(module, "A task without this method", f"Write def {needed}(self…) in class Task.")
+            raise Refused(module.body[0], f"A task without {needed}", f"Write {heading} in class Task.")
+    if not takes_only(methods["new_task"], ["self"]):
+        raise Refused(methods["new_task"], "This new_task", "Write def new_task(self):. Values come by ctx.parameter.")
     calls = cache(lambda: calls_in(module))
-    scope = Scope(surroundings, robots=cache(lambda: robots_driven(calls())))
+    scope = Scope(surroundings, robots=cache(lambda: robots_driven(calls(), scope)), methods=methods)
     entries = parse_run(methods["run"], scope)
     parser = Parser(methods, scope)
     handlers = _handlers(entries, methods)
@@ -97,18 +103,26 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
     placed, unplaced = place_loads(tree, standing_places(surroundings))
     for node in unplaced:
         where = parser.origins[id(node)]
-        parser.refusals.append(
-            Refused(where, "A pick or drop at an unknown place", f"Put self.{node.role}.move(…) before it.")
-        )
-    if parser.refusals:
-        ordered = sorted(parser.refusals, key=lambda refused: (refused.line, refused.column))
-        return Parsed(None, tuple(_refusal(refused) for refused in ordered))
-    return Parsed(placed)
+        parser.refusals.append(unplaced_load(where, node.role, scope))
+    return Parsed(None, _told(parser.refusals)) if parser.refusals else Parsed(placed)
+
+
+def _told(refusals: list[Refused]) -> tuple[Diagnostic, ...]:
+    """Return the first of what is refused, in the order of the script, and how much more there is."""
+    ordered = sorted(refusals, key=lambda refused: (refused.line, refused.column))
+    told = tuple(map(_refusal, ordered[:MOST_TOLD]))
+    more = ordered[MOST_TOLD:]
+    if not more:
+        return told
+    place = more[0].line, more[0].column
+    return (*told, _diagnostic("more_mistakes", *place, {"count": len(more)}))
 
 
 def _signature(name: str, method: ast.FunctionDef) -> n.Function:
     """Return a function still without its steps."""
     known = unique_name(name, RESERVED_ATTRIBUTES)
+    if name == "__init__":
+        raise Refused(method, "A method __init__", "Put its lines at the beginning of new_task.")
     if known != name:
         raise Refused(method, f"A function called {name}", f"Call it {known}.")
     parameters = parse_parameters(method)
@@ -124,7 +138,7 @@ def _handlers(entries: list[Entry], methods: Mapping[str, ast.FunctionDef]) -> l
         method = methods.get(entry.method)
         if method is None or entry.method in {"new_task", "run"} or method in handlers:
             raise Refused(entry.call, quoted(entry.call), "Each event needs a method of its own: self.when_e1.")
-        if [argument.arg for argument in method.args.args] != ["self"]:
+        if not takes_only(method, ["self"]):
             raise Refused(method, "An event with parameters", f"Write def {method.name}(self):.")
         handlers.append(method)
     return handlers
@@ -172,16 +186,66 @@ def _methods(module: ast.Module) -> dict[str, ast.FunctionDef]:
         ] if all(map(_is_method, behind)):
             body = [*body, *behind]
         case _:
-            first = module.body[0] if module.body else module
-            raise Refused(
-                first, "A script without class Task", "Begin with class Task(object): and put everything in it."
-            )
+            raise _without_task(module)
     methods: dict[str, ast.FunctionDef] = {}
     for statement in body:
         if isinstance(statement, ast.FunctionDef) and not statement.decorator_list:
             if statement.name in methods:
                 raise Refused(statement, f"A second method {statement.name}", "Give it another name.")
             methods[statement.name] = statement
-        elif not (isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)):
-            raise Refused(statement, quoted(statement), "In the class there are only methods.")
+        elif not _is_note(statement):
+            raise Refused(statement, quoted(statement), _instead_in_class(statement))
     return methods
+
+
+def _is_note(statement: ast.stmt) -> bool:
+    """Tell whether a statement is a text that says something to people."""
+    match statement:
+        case ast.Expr(value=ast.Constant(value=str())):
+            return True
+    return False
+
+
+def _instead_in_class(statement: ast.stmt) -> str:
+    """Return what to write instead of a statement that stands in the class, beside its methods."""
+    match statement:
+        case ast.FunctionDef(decorator_list=[first, *_]):
+            return f"Leave @{written(first)} out."
+        case ast.AsyncFunctionDef():
+            return "Leave “async” out: a script waits by itself until a step is done."
+        case ast.Assign(targets=[ast.Name(id=name)]) | ast.AnnAssign(target=ast.Name(id=name)):
+            return f"Set it in new_task: self.{name} = 1."
+        case ast.Pass():
+            return "Write def new_task(self): and def run(self, ctx): in class Task."
+    return instead_of_import(statement) or "In the class there are only methods. Put it in one, such as new_task."
+
+
+def _without_task(module: ast.Module) -> Refused:
+    """Return what keeps a script from being one class Task: its heading, or what stands before or behind it."""
+    instead = "Begin with class Task(object): and put everything in it."
+    tasks = [statement for statement in module.body if isinstance(statement, ast.ClassDef)]
+    for statement in module.body:
+        if tasks and statement is not tasks[0] and not _is_method(statement):
+            return Refused(statement, quoted(statement), instead_of_import(statement) or _beside_task(statement))
+    if not tasks:
+        return Refused(module.body[0] if module.body else module, "A script without class Task", instead)
+    if tasks[0].decorator_list:
+        found = tasks[0].decorator_list[0]
+        return Refused(found, quoted(found), f"Leave @{written(found)} out.")
+    return Refused(
+        tasks[0], quoted(tasks[0]).replace("@", ""), "Write class Task(object):, as the script's first line."
+    )
+
+
+def _beside_task(statement: ast.stmt) -> str:
+    """Return what to write instead of a statement that stands before or behind the class."""
+    match statement:
+        case ast.ClassDef():
+            return STATEMENTS[ast.ClassDef]
+        case ast.FunctionDef(name=name):
+            return f"Put it in class Task, with self first: def {name}(self):."
+        case ast.If(test=ast.Compare(left=ast.Name(id="__name__"))):
+            return "Leave it out: VIPO runs the task by itself."
+        case ast.Expr(value=ast.Call()):
+            return "Leave it out: VIPO runs the task by itself."
+    return "Put it in class Task, or leave it out."

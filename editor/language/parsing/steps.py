@@ -5,34 +5,37 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from string import ascii_lowercase
 
 from editor.language.document.outline import DEEPEST_STEP
 from editor.language.expressions import nodes as e
-from editor.language.expressions.names import ROBOT_METHODS, member_name
+from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
 from editor.language.expressions.nodes import Expression, PlaceRef
-from editor.language.messages.syntax_errors import instead_of_call, instead_of_statement
-from editor.language.parsing.bindings import parse_arguments
-from editor.language.parsing.expressions import (
-    Refused,
-    Scope,
-    attribute_of_self,
-    parse_expression,
-    parse_place,
-    parse_point,
-    parse_thing,
-    quoted,
+from editor.language.messages.syntax_errors import instead_of_call, instead_of_expression, instead_of_statement
+from editor.language.parsing.answers import (
+    alone,
+    unknown_device,
+    unknown_function,
+    unknown_method,
+    unknown_name,
+    unknown_robot,
+    what_it_is,
 )
-from editor.language.parsing.questions import parse_ask, parse_notify
+from editor.language.parsing.bindings import parse_arguments
+from editor.language.parsing.calls import ASSIGNED_CALLS, OWN_CALLS, ROBOT_CALLS
+from editor.language.parsing.excepts import kinds_of_all, kinds_together
+from editor.language.parsing.expressions import parse_expression, parse_thing
+from editor.language.parsing.scope import Refused, Scope, attribute_of_self, of_problem, quoted, written
 from editor.language.parsing.variables import check_local, parse_target
 from editor.language.tree import nodes as n
-from editor.language.tree.nodes import ERROR_CLASSES
+from editor.language.tree.robots import Robots, described_alike, methods_called, own_methods, robots_for, short_name
 
-_KINDS = {name: kind for kind, name in ERROR_CLASSES.items()}
 _STATEMENTS = (
     "Use the robots' move, pick and drop, machines' methods, wait, ask, notify, if, while, for, try, parallel, "
     "variables and functions."
 )
+_MOST_TIMES = 10**6
 _FOR = "Write for _ in range(3): or for oven in [self.oven_a, self.oven_b]:."
 
 
@@ -86,6 +89,11 @@ class Parser:
                 return self._call(call)
             case ast.Assign(targets=[target], value=value):
                 return self._assign(target, value)
+            case ast.Assign(targets=[_, second, *_]):
+                raise Refused(second, "A second name", "Set one variable on each line: self.count = 1.")
+            case ast.AnnAssign(target=target):
+                instead = f"Leave the type out: {written(target)} = 1."
+                raise Refused(statement.annotation, quoted(statement.annotation), instead)
             case ast.AugAssign(target=ast.Name() | ast.Attribute() as target, op=operator, value=value):
                 whole = ast.copy_location(ast.BinOp(target, operator, value), statement)
                 return n.Set(parse_target(target, self.scope, self.methods), self.value(whole))
@@ -94,6 +102,8 @@ class Parser:
                 return n.Return(None if given == e.MISSING else given)
             case ast.Break():
                 return n.Break()
+            case ast.Raise(exc=ast.Call(func=ast.Name(id="Failed"), args=[message], keywords=[]), cause=None):
+                return n.Fail(self.value(message))
         return self._composite(statement)
 
     def _composite(self, statement: ast.stmt) -> n.Node:
@@ -103,10 +113,16 @@ class Parser:
                 return n.If(self.value(test), self.block(body), self.block(orelse))
             case ast.While(test=test, body=body, orelse=[]):
                 return n.While(self.value(test), self.block(body))
-            case ast.For(orelse=[]):
+            case ast.For(orelse=[first, *_]) | ast.While(orelse=[first, *_]):
+                raise Refused(first, "An else behind a loop", "Write these lines behind the loop, without else.")
+            case ast.For():
                 return self._for(statement)
             case ast.Try():
                 return self._try(statement)
+            case ast.Expr(value=ast.Attribute() as value):
+                raise alone(value, self.scope)
+            case ast.Expr(value=ast.Name() as value):
+                raise unknown_name(value, self.scope)
         raise Refused(statement, quoted(statement), instead_of_statement(statement) or _STATEMENTS)
 
     def value(self, node: ast.expr) -> Expression:
@@ -114,17 +130,32 @@ class Parser:
         return parse_expression(node, self.scope)
 
     def _try(self, statement: ast.Try) -> n.Node:
-        if len(statement.handlers) > 1 or statement.orelse:
-            raise Refused(
-                statement,
-                "This form of try",
-                "Write try: … except TaskError as problem: … finally: …, with one except.",
-            )
+        if statement.orelse:
+            raise Refused(statement.orelse[0], "An else behind try", "Write these lines at the end of what try holds.")
         body, final = self.block(statement.body), self.block(statement.finalbody)
         if not statement.handlers:
             return n.Try((), body, (), final, catches=False)
-        handler = statement.handlers[0]
-        return n.Try(_kinds(handler), body, self.block(handler.body), final)
+        kinds = kinds_of_all(statement.handlers)
+        return n.Try(kinds_together(kinds), body, self._catches(statement.handlers, kinds), final)
+
+    def _catches(self, handlers: list[ast.ExceptHandler], kinds: list[tuple[str, ...]]) -> n.Block:
+        """Return the catch: of several excepts the first that fits, which a choice by the failure's kind says."""
+        if len(handlers) == 1:
+            return self._catch(handlers[0])
+        self.depth += 1
+        then, otherwise = self._catch(handlers[0]), self._catches(handlers[1:], kinds[1:])
+        self.depth -= 1
+        kind = e.Variable(e.OF_PROBLEM[1])
+        one = e.Operation("==", (kind, e.Constant(kinds[0][0])))
+        return (n.If(one if len(kinds[0]) == 1 else e.Operation("in", (kind, e.Constant(kinds[0]))), then, otherwise),)
+
+    def _catch(self, handler: ast.ExceptHandler) -> n.Block:
+        """Return the steps of an except, which see the failure under the name that it has there."""
+        outside = self.scope.locals
+        self.scope.locals = of_problem(handler.name or "", frozenset(name for name in outside if "." not in name))
+        block = self.block(handler.body)
+        self.scope.locals = outside
+        return block
 
     def _for(self, statement: ast.For) -> n.Node:
         """Return the loop: over `range(…)` its variable is `_`, over a list it has a name."""
@@ -141,7 +172,7 @@ class Parser:
                 body = self.block(statement.body)
                 self.scope.locals = outside
                 return n.ForEach(name, values, body)
-        raise Refused(statement, "This form of for", _FOR)
+        raise _refused_loop(statement, self.scope)
 
     def _assign(self, target: ast.expr, value: ast.expr) -> n.Node:
         """Return the node of `self.x = 1`, `self.x = self.ask(…)` or `self.x = self.function(…)`."""
@@ -149,8 +180,11 @@ class Parser:
         own = attribute_of_self(value.func) if isinstance(value, ast.Call) else None
         if own is None or not isinstance(value, ast.Call):
             return n.Set(variable, self.value(value))
-        if own == "ask":
-            return parse_ask(value, self.scope, variable)
+        if own in ASSIGNED_CALLS:
+            return OWN_CALLS[own](self.scope, value, variable)
+        if own in OWN_CALLS:
+            line = "It gives no value. Write it on a line of its own, without the name before it."
+            raise Refused(value, quoted(value), line)
         call = _missing_call(self, value) if own == "call" else self._function(own, value)
         return replace(call, result=variable)
 
@@ -160,17 +194,22 @@ class Parser:
         assert isinstance(function, ast.Attribute)
         own = attribute_of_self(function)
         if own is not None:
+            described = OWN_CALLS.get(own)
+            if described is not None:
+                return described(self.scope, call, "")
             parse = _OWN_CALLS.get(own)
             return self._function(own, call) if parse is None else parse(self, call)
         robot = attribute_of_self(function.value)
         if function.attr in ROBOT_METHODS and robot is not None:
             binding = self.scope.bindings.get(robot)
             if binding is None or binding.kind not in {"get", "any"}:
-                raise Refused(call, quoted(function.value), f'Give it in run: self.{robot} = ctx.any("pick", "drop").')
+                raise unknown_robot(function.value, robot, self.scope)
             self.roles.add(robot)
-            node = _ROBOT_CALLS[function.attr](self, call, robot)
+            node = ROBOT_CALLS[function.attr](self.scope, call, robot)
             self.origins[id(node)] = call
             return node
+        if robot is not None and robot in self.scope.robots():
+            return self._perform(call, function, robot)
         instead = instead_of_call(call)
         if instead is not None:
             raise Refused(call, quoted(call), instead)
@@ -185,28 +224,70 @@ class Parser:
         names = [method.name for method in methods]
         method = next((m for m in methods if member_name(m.name, names) == function.attr), None)
         if method is None:
-            is_robot = description is not None and description.kind == "robot"
-            able = ROBOT_METHODS if is_robot else filter(None, (member_name(name, names) for name in names))
-            raise Refused(call, quoted(call), f"What it can do: {', '.join(able) or 'nothing'}.")
+            raise self._unable(call, function, names)
         parameters = [parameter.name for parameter in method.parameters]
         return n.Operate(device, method.name, parse_arguments(call, parameters, self.scope))
 
+    def _unable(self, call: ast.Call, function: ast.Attribute, names: list[str]) -> Refused:
+        """Return the refusal of a method that a thing does not have."""
+        own = attribute_of_self(function.value)
+        binding = self.scope.bindings.get(own or "")
+        if own is not None and (binding is None or binding.kind != "get" or self.scope.description(binding.id) is None):
+            return unknown_device(function.value, own, self.scope)
+        if own is None:
+            thing = written(function.value)
+            example = f'Which machine it is shows only in the run. Write {thing}.operate("curePaint", {{"time": 10}}).'
+            return Refused(call, quoted(call), example)
+        description = self.scope.description(binding.id if binding else None)
+        readings = [snake_case(each.name) for each in description.properties] if description else []
+        return unknown_method(call, function.attr, filter(None, (member_name(name, names) for name in names)), readings)
+
+    def _perform(self, call: ast.Call, function: ast.Attribute, role: str) -> n.Perform:
+        """Return the node of `self.robot.honk(5)`: a method of the robot's own, as robots of the site describe it."""
+        if function.attr == "operate":
+            method, arguments = self._by_name(call)
+            self.roles.add(role)
+            return n.Perform(role, method, arguments)
+        binding = self.scope.bindings[role]
+        robots = robots_for(self.scope.surroundings, binding.id if binding.kind == "get" else None, binding.can)
+        meant = methods_called(robots, function.attr)
+        if len(meant) != 1:
+            raise _unknown_of_robot(call, robots, function.attr)
+        spec = described_alike(tuple(r for r in robots if r.method(meant[0])), meant[0])
+        self.roles.add(role)
+        parameters = [parameter.name for parameter in spec.parameters] if spec else []
+        return n.Perform(role, meant[0], parse_arguments(call, parameters, self.scope))
+
     def _operate_by_name(self, call: ast.Call, device: PlaceRef) -> n.Node:
+        return n.Operate(device, *self._by_name(call))
+
+    def _by_name(self, call: ast.Call) -> tuple[str, n.Arguments]:
+        """Return the method and the arguments of `….operate("curePaint", {"time": 10})`."""
         match call.args:
             case [ast.Constant(value=str() | None as name)] if not call.keywords:
-                return n.Operate(device, name or "")
+                return name or "", ()
             case [ast.Constant(value=str() | None as name), ast.Dict(keys=keys, values=values)] if not call.keywords:
                 pairs = [(_text(key, call), self.value(value)) for key, value in zip(keys, values, strict=True)]
-                return n.Operate(device, name or "", _sorted_arguments(pairs))
+                return name or "", _sorted_arguments(pairs)
         raise Refused(call, quoted(call), 'Write self.oven.operate("curePaint", {"time": 10}).')
 
     def _function(self, name: str, call: ast.Call) -> n.Call:
         function = self.functions.get(name)
         if function is None:
-            known = ", ".join(self.functions) or "none yet"
-            raise Refused(call, quoted(call), f"There is no such function. Functions of this task: {known}.")
+            raise unknown_function(call, name, self.scope)
         parameters = [parameter.name for parameter in function.parameters]
         return n.Call(name, parse_arguments(call, parameters, self.scope))
+
+
+def _unknown_of_robot(call: ast.Call, robots: Robots, name: str) -> Refused:
+    """Return the refusal of a call that means no one method of the robots."""
+    known = own_methods(robots)
+    full = next((method for method in known if snake_case(method) == name), None)
+    if full is not None:
+        instead = f'Write self.robot.operate("{full}", {{…}}): robots describe it differently.'
+        return Refused(call, quoted(call), instead)
+    listed = (name for name in map(partial(short_name, robots), known) if name is not None)
+    return unknown_method(call, name, [*ROBOT_METHODS, *listed])
 
 
 def _sorted_arguments(pairs: list[tuple[str, Expression]]) -> n.Arguments:
@@ -217,29 +298,6 @@ def _text(node: ast.expr | None, call: ast.Call) -> str:
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return node.value
     raise Refused(call, quoted(call), "Write the names of arguments as texts.")
-
-
-def _kinds(handler: ast.ExceptHandler) -> tuple[str, ...]:
-    classes = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
-    names = [node.id for node in classes if isinstance(node, ast.Name)]
-    if names == ["TaskError"] and len(classes) == 1:
-        return ()
-    if len(names) != len(classes) or not names or not set(names) <= _KINDS.keys():
-        raise Refused(handler, "What is caught here", f"Catch TaskError, or some of: {', '.join(_KINDS)}.")
-    caught = {_KINDS[name] for name in names}
-    return tuple(kind for kind in ERROR_CLASSES if kind in caught)
-
-
-def _wait(parser: Parser, call: ast.Call) -> n.Node:
-    named = {keyword.arg: keyword.value for keyword in call.keywords}
-    if len(call.args) == 1 and not named:
-        return n.Wait(parser.value(call.args[0]))
-    if call.args or "until" not in named or not named.keys() <= {"until", "timeout"}:
-        raise Refused(
-            call, quoted(call), "Write self.wait(60), or self.wait(until=self.oven.temperature < 40, timeout=600)."
-        )
-    timeout = parser.value(named["timeout"]) if "timeout" in named else e.MISSING
-    return n.WaitUntil(parser.value(named["until"]), None if timeout == e.MISSING else timeout)
 
 
 def _parallel(parser: Parser, call: ast.Call) -> n.Node:
@@ -259,17 +317,42 @@ def _parallel(parser: Parser, call: ast.Call) -> n.Node:
     return n.Parallel(tuple(branches))
 
 
+def _refused_loop(loop: ast.For, scope: Scope) -> Refused:
+    """Return the refusal of a loop, which says what is wrong with its name or with what it goes through."""
+    match loop.target, loop.iter:
+        case ast.Name(id=name), ast.Call(func=ast.Name(id="range"), args=[_], keywords=[]):
+            used = any(isinstance(node, ast.Name) and node.id == name for part in loop.body for node in ast.walk(part))
+            instead = f"Count it yourself: self.{name} = 0 before the loop, self.{name} = self.{name} + 1 at its end."
+            return Refused(loop.target, quoted(loop.target), instead if used else "Write for _ in range(3):.")
+        case _, ast.Call(func=ast.Name(id="range"), args=[ast.Constant(value=int(a)), ast.Constant(value=int(b))]) if (
+            abs(a) < _MOST_TIMES > abs(b)
+        ):
+            return Refused(loop.iter, quoted(loop.iter), f"Say how often: for _ in range({max(b - a, 0)}):.")
+        case _, ast.Call(func=ast.Name(id="range")):
+            return Refused(loop.iter, quoted(loop.iter), "Say how often, with one number: for _ in range(3):.")
+        case _, ast.Constant(value=int(times)) if times < _MOST_TIMES:
+            return Refused(loop.iter, quoted(loop.iter), f"Say how often: for _ in range({times}):.")
+        case ast.Name(id=name), ast.Tuple() as items:
+            listed = ", ".join(map(written, items.elts))
+            return Refused(items, quoted(items), f"Write square brackets: for {name} in [{listed}]:.")
+        case ast.Name(id=name), ast.Attribute(attr=own) as items if what_it_is(own, scope, frozenset()):
+            return Refused(items, quoted(items), f"Name each: for {name} in [{written(items)}]:.")
+        case ast.Name(), ast.Attribute(value=ast.Name(id="self"), attr=own) as items:
+            return unknown_device(items, own, scope)
+        case ast.Name(), _:
+            return Refused(loop.iter, quoted(loop.iter), instead_of_expression(loop.iter) or _FOR)
+    return Refused(
+        loop.target,
+        quoted(loop.target),
+        "A loop has one name, without self. Write for _ in range(3): or for oven in [self.oven_a, self.oven_b]:.",
+    )
+
+
 def _missing_set(parser: Parser, call: ast.Call) -> n.Node:
     match call:
         case ast.Call(args=[ast.Constant(value=None), value], keywords=[]):
             return n.Set("", parser.value(value))
     raise Refused(call, quoted(call), "Set a variable by its name: self.count = 1.")
-
-
-def _end(parser: Parser, call: ast.Call) -> n.Node:
-    if call.args or call.keywords:
-        raise Refused(call, quoted(call), "Write self.end().")
-    return n.End()
 
 
 def _missing_call(parser: Parser, call: ast.Call) -> n.Call:
@@ -279,42 +362,8 @@ def _missing_call(parser: Parser, call: ast.Call) -> n.Call:
 
 
 _OWN_CALLS: Mapping[str, Callable[[Parser, ast.Call], n.Node]] = {
-    "wait": _wait,
     "parallel": _parallel,
     "call": _missing_call,
     "set": _missing_set,
-    "end": _end,
-    "ask": lambda parser, call: parse_ask(call, parser.scope),
-    "notify": lambda parser, call: parse_notify(call, parser.scope),
 }
-
-
-def _move(parser: Parser, call: ast.Call, role: str) -> n.Node:
-    route: tuple[e.Point, ...] = ()
-    match call:
-        case ast.Call(args=[to], keywords=[]):
-            pass
-        case ast.Call(args=[to], keywords=[ast.keyword(arg="via", value=ast.List(elts=points))]):
-            route = tuple(parse_point(point) for point in points)
-        case _:
-            raise Refused(call, quoted(call), "Write self.robot.move(self.oven.location).")
-    return n.Move(role, parse_place(to, parser.scope), route)
-
-
-def _load(kind: type[n.Pick] | type[n.Drop]) -> Callable[[Parser, ast.Call, str], n.Node]:
-    def parse(parser: Parser, call: ast.Call, role: str) -> n.Node:
-        if len(call.args) == 1 and not call.keywords and isinstance(call.args[0], ast.Dict):
-            keys = [key.value if isinstance(key, ast.Constant) else None for key in call.args[0].keys]
-            if sorted(map(str, keys)) == ["object", "value"]:
-                values = dict(zip(keys, call.args[0].values, strict=True))
-                return kind(role, e.NOWHERE, parser.value(values["object"]), parser.value(values["value"]))
-        raise Refused(call, quoted(call), 'Write self.robot.pick({"value": 1, "object": "box"}).')
-
-    return parse
-
-
-_ROBOT_CALLS: Mapping[str, Callable[[Parser, ast.Call, str], n.Node]] = {
-    "move": _move,
-    "pick": _load(n.Pick),
-    "drop": _load(n.Drop),
-}
+"""The methods of the task that no record of a construct describes."""

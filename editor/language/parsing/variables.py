@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from editor.language.expressions.names import attribute_name, local_name
-from editor.language.parsing.expressions import Refused, Scope, attribute_of_self, quoted
+from editor.language.parsing.answers import taken_name
+from editor.language.parsing.scope import Refused, Scope, attribute_of_self, quoted
 
 Methods = Mapping[str, ast.FunctionDef]
 _PER_LOOP = (ast.For, ast.While, ast.If, ast.Try)
@@ -66,6 +67,8 @@ def parse_target(node: ast.expr, scope: Scope, methods: Methods) -> str:
     if isinstance(node, ast.Name) and node.id in scope.locals:
         check_local(node.id, node)
         return node.id
+    if isinstance(node, ast.Name) and node.id in scope.bindings and scope.bindings[node.id].kind != "parameter":
+        raise taken_name(node, node.id, scope)
     if isinstance(node, ast.Name):
         known = (
             "the program sets it, too" if node.id in scope.variables else "only functions have variables of their own"
@@ -73,10 +76,10 @@ def parse_target(node: ast.expr, scope: Scope, methods: Methods) -> str:
         raise Refused(node, f"The variable {quoted(node)}", f"Write self.{node.id}: {known}.")
     name = attribute_of_self(node)
     if name is None:
-        raise Refused(node, f"A change of {quoted(node)}", "Only variables can be set: self.count = 1.")
+        raise _unsettable(node, scope)
     binding = scope.bindings.get(name)
     if (binding is not None and binding.kind != "parameter") or name in methods:
-        raise Refused(node, f"A change of {quoted(node)}", "This name stands for something else. Choose another.")
+        raise taken_name(node, name, scope)
     if name in scope.locals:
         raise Refused(node, f"The variable {quoted(node)}", f"Here {name} is something else. Write {name}.")
     if name not in scope.variables:
@@ -84,6 +87,16 @@ def parse_target(node: ast.expr, scope: Scope, methods: Methods) -> str:
     if attribute_name(name, ()) != name:
         raise Refused(node, f"The name {name}", f"Call it {attribute_name(name, ())}.")
     return name
+
+
+def _unsettable(node: ast.expr, scope: Scope) -> Refused:
+    """Return the refusal of what is no variable at all."""
+    if isinstance(node, ast.Tuple):
+        return Refused(node, quoted(node), "Set one variable on each line: self.count = 1.")
+    instead = "Only variables can be set: self.count = 1."
+    if isinstance(node, ast.Attribute) and attribute_of_self(node.value) in scope.bindings:
+        instead = "A reading cannot be set; it changes by what the machine does."
+    return Refused(node, f"A change of {quoted(node)}", instead)
 
 
 def check_local(name: str, node: ast.AST) -> None:

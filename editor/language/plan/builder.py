@@ -65,11 +65,15 @@ class Builder:
     renamed: dict[str, str] = field(default_factory=dict)
     """The variables of the loops around, each with its hidden name."""
     function: n.Function | None = None
+    functions: Mapping[str, n.Function] = field(init=False)
     hidden: dict[str, int] = field(default_factory=dict)
     methods: dict[str, frozenset[str]] = field(default_factory=dict)
     """What devices can do, as far as it was asked for."""
     readings: set[tuple[str, str]] = field(default_factory=set)
     """The (device, property) pairs that the values of the plan look at."""
+
+    def __post_init__(self) -> None:
+        self.functions = {function.method: function for function in self.tree.functions}
 
     def here(self) -> int:
         """Return the address of the next instruction."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any
+from dataclasses import fields, replace
+from typing import Any, get_args
 
 from editor.language.expressions import nodes as e
 from editor.language.expressions.unit_conversion import into_unit
@@ -14,6 +14,7 @@ from editor.language.plan import instructions as p
 from editor.language.plan.builder import Builder, Compiler, Leaves
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
+from editor.language.tree.robots import described_alike, robots_for
 from editor.language.tree.variable_types import types_in_function, types_in_program
 from editor.language.tree.variables import local_variables, program_variables
 
@@ -54,6 +55,14 @@ def _operate(builder: Builder, node: n.Operate, leaves: Leaves) -> None:
     builder.add(p.Call(builder.place(node.device), node.method, arguments), node, leaves=leaves)
 
 
+def _perform(builder: Builder, node: n.Perform, leaves: Leaves) -> None:
+    role = next(role for role in builder.tree.roles if role.name == node.role)
+    method = described_alike(robots_for(builder.surroundings, role.device, role.can), node.method)
+    units = {parameter.name: parameter.unit for parameter in method.parameters} if method else {}
+    arguments = {name: builder.value(value, units.get(name, "")) for name, value in node.arguments}
+    builder.add(p.Perform(node.role, node.method, arguments), node, leaves=leaves)
+
+
 def _wait(builder: Builder, node: n.Wait, leaves: Leaves) -> None:
     builder.add(p.Wait(builder.value(node.seconds, "SEC")), node, leaves=leaves)
 
@@ -64,7 +73,7 @@ def _wait_until(builder: Builder, node: n.WaitUntil, leaves: Leaves) -> None:
 
 
 def _call(builder: Builder, node: n.Call, leaves: Leaves) -> None:
-    function = next(f for f in builder.tree.functions if f.method == node.function)
+    function = builder.functions[node.function]
     given = dict(node.arguments)
     arguments: dict[str, e.Expression] = {}
     for parameter in function.parameters:
@@ -108,6 +117,10 @@ def _notify(builder: Builder, node: n.Notify, leaves: Leaves) -> None:
     builder.add(p.Notify(builder.value(node.message), node.level), node, enters=(node.step,), leaves=leaves)
 
 
+def _fail(builder: Builder, node: n.Fail, leaves: Leaves) -> None:
+    builder.add(p.Fail(builder.value(node.message)), node, enters=(node.step,), leaves=leaves)
+
+
 def _end(builder: Builder, node: n.End, leaves: Leaves) -> None:
     builder.add(p.End(early=True), node, enters=(node.step,), leaves=leaves)
 
@@ -117,6 +130,7 @@ COMPILERS: Mapping[type[n.Node], Compiler] = {
     n.Pick: _pick,
     n.Drop: _drop,
     n.Operate: _operate,
+    n.Perform: _perform,
     n.Wait: _wait,
     n.WaitUntil: _wait_until,
     n.If: flow.compile_if,
@@ -130,6 +144,7 @@ COMPILERS: Mapping[type[n.Node], Compiler] = {
     n.Ask: _ask,
     n.Notify: _notify,
     n.End: _end,
+    n.Fail: _fail,
     n.Return: flow.compile_return,
     n.Break: flow.compile_break,
 }
@@ -195,7 +210,7 @@ def _with_role_ids(tree: n.Tree, instructions: list[p.Instruction], events: tupl
 def _rename(instruction: p.Instruction, renamed: Mapping[str, str]) -> p.Instruction:
     do: Any = instruction.do
     match do:
-        case p.Move(role=role) | p.Pick(role=role) | p.Drop(role=role):
+        case p.Move(role=role) | p.Pick(role=role) | p.Drop(role=role) | p.Perform(role=role):
             do = replace(do, role=renamed.get(role, role))
         case p.Call(serves=str(role)):
             do = replace(do, serves=renamed.get(role, role))
@@ -204,17 +219,8 @@ def _rename(instruction: p.Instruction, renamed: Mapping[str, str]) -> p.Instruc
 
 
 _EXPRESSIONS: Mapping[type[p.Action], tuple[str, ...]] = {
-    p.Pick: ("object", "quantity"),
-    p.Drop: ("object", "quantity"),
-    p.Call: ("arguments",),
-    p.Wait: ("seconds",),
-    p.WaitUntil: ("condition", "timeout_s"),
-    p.Branch: ("condition",),
-    p.Invoke: ("arguments",),
-    p.Return: ("value",),
-    p.Assign: ("value",),
-    p.AskPerson: ("question", "timeout_s"),
-    p.Notify: ("message",),
+    action: tuple(field.name for field in fields(action) if "Expression" in str(field.type))
+    for action in get_args(p.Action)
 }
 """The fields of instructions that hold values."""
 

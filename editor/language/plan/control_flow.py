@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from editor.language.expressions import nodes as e
+from editor.language.expressions.nodes import OF_PROBLEM
 from editor.language.plan import instructions as p
 from editor.language.plan.builder import Around, Builder, Composite, Guard, Leaves, Loop
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
 from editor.language.tree.variable_types import type_of_items
+from editor.language.tree.variables import reads_problem
 
 _LEAVE = frozenset({n.Return, n.Break})
 _ONE = e.Constant(1)
@@ -158,7 +160,13 @@ def _guarded(builder: Builder, node: n.Try) -> None:
     builder.add(p.TryEnd())
     over = builder.add(p.Jump(0))
     builder.patch(begin, p.TryBegin(builder.here(), node.kinds))
+    outside = builder.renamed
+    if reads_problem(node):
+        hidden = [builder.hide(name) for name in OF_PROBLEM]
+        builder.add(p.Caught(*hidden))
+        builder.renamed = {**outside, **dict(zip(OF_PROBLEM, hidden, strict=True))}
     builder.block(node.catch)
+    builder.renamed = outside
     builder.patch(over, p.Jump(builder.here()))
 
 

@@ -57,6 +57,15 @@ class Call:
 
 
 @dataclass(frozen=True, slots=True)
+class Perform:
+    """The role's robot carries out a method of its own where it stands."""
+
+    role: str
+    method: str
+    arguments: Mapping[str, Expression]
+
+
+@dataclass(frozen=True, slots=True)
 class Wait:
     """Wait for a time in seconds."""
 
@@ -109,6 +118,14 @@ class TryBegin:
     handler: int
     kinds: tuple[str, ...] = ()
     final: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Caught:
+    """The beginning of a handler that looks at the failure: variables of the running frame take what it was."""
+
+    text: str
+    kind: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,6 +186,13 @@ class Notify:
 
 
 @dataclass(frozen=True, slots=True)
+class Fail:
+    """Fail as `failed`, for the reason that the message is."""
+
+    message: Expression
+
+
+@dataclass(frozen=True, slots=True)
 class End:
     """The program is over; roles are released. One that comes `early` carries out the `final` guards around it."""
 
@@ -181,8 +205,8 @@ class EventEnd:
 
 
 Action = (
-    Move | Pick | Drop | Call | Wait | WaitUntil | Branch | Jump | Fork | Join
-    | TryBegin | TryEnd | Rethrow | Invoke | Return | Assign | AskPerson | Notify | End | EventEnd
+    Move | Pick | Drop | Call | Perform | Wait | WaitUntil | Branch | Jump | Fork | Join
+    | TryBegin | Caught | TryEnd | Rethrow | Invoke | Return | Assign | AskPerson | Notify | Fail | End | EventEnd
 )  # fmt: skip
 
 

@@ -194,6 +194,7 @@ ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "Pick": lambda b: _load(p.Pick, b),
     "Drop": lambda b: _load(p.Drop, b),
     "Call": lambda b: p.Call(_place_from_json(b["device"]), b["method"], _named(b["arguments"]), b["serves"]),
+    "Perform": lambda b: p.Perform(b["role"], b["method"], _named(b["arguments"])),
     "Wait": lambda b: p.Wait(expression_from_json(b["seconds"])),
     "WaitUntil": lambda b: p.WaitUntil(expression_from_json(b["condition"]), _maybe(b["timeout_s"])),
     "Branch": lambda b: p.Branch(expression_from_json(b["condition"]), int(b["otherwise"])),
@@ -201,6 +202,7 @@ ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "Fork": lambda b: p.Fork(tuple(map(int, b["branches"])), int(b["join"])),
     "Join": lambda b: p.Join(),
     "TryBegin": lambda b: p.TryBegin(int(b["handler"]), tuple(b["kinds"]), b.get("final", False)),
+    "Caught": lambda b: p.Caught(b["text"], b["kind"]),
     "TryEnd": lambda b: p.TryEnd(),
     "Rethrow": lambda b: p.Rethrow(),
     "Invoke": lambda b: p.Invoke(
@@ -210,6 +212,7 @@ ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "Assign": lambda b: p.Assign(b["name"], expression_from_json(b["value"]), b.get("shared", False)),
     "AskPerson": _ask,
     "Notify": lambda b: p.Notify(expression_from_json(b["message"]), b["level"]),
+    "Fail": lambda b: p.Fail(expression_from_json(b["message"])),
     "End": lambda b: p.End(b.get("early", False)),
     "EventEnd": lambda b: p.EventEnd(),
 }

@@ -12,7 +12,8 @@ from editor.language.expressions.printing import quote, scalar_text
 from editor.language.printing.steps import PRINTERS
 from editor.language.printing.writer import Printer
 from editor.language.site.surroundings import Surroundings, what_programs_see
-from editor.language.tree.nodes import Block, Event, Function, Parameter, Role, Tree
+from editor.language.tree.nodes import DRIVES, Block, Event, Function, Parameter, Perform, Role, Tree
+from editor.language.tree.robots import is_robot
 from editor.language.tree.variables import local_variables, program_variables
 
 
@@ -41,7 +42,8 @@ def print_tree(
     taken = RESERVED_ATTRIBUTES | names | shared | {parameter.name for parameter in tree.parameters}
     printer = Printer(tree, surroundings, numbers, set(taken), PRINTERS, zone_names=zone_names or {}, memo=memo)
     if memo is not None:
-        memo.begin(what_programs_see(surroundings))
+        roles = [(role.name, role.device, role.can) for role in tree.roles] if tree.holds(Perform) else []
+        memo.begin((what_programs_see(surroundings), roles))
     printer.line(0, "class Task(object):")
     _print_method(printer, "def new_task(self):", tree.body)
     for function in tree.functions:
@@ -95,8 +97,11 @@ def _print_run(printer: Printer) -> None:
     watched = [(event, printer.value(event.condition)) for event in printer.tree.events]
     for parameter in printer.tree.parameters:
         printer.line(2, f"self.{parameter.name} = ctx.parameter({_given_to_parameter(parameter)})")
+    nodes = (node for body in _bodies(printer.tree) for node in printer.tree.walked(body))
+    driven = frozenset(node.role for node in nodes if isinstance(node, DRIVES))
     for role in printer.tree.roles:
-        printer.line(2, f"self.{role.name} = {_binding(role)}")
+        sure = role.name in driven or is_robot(printer.surroundings, role.device)
+        printer.line(2, f"self.{role.name} = {_binding(role, sure=sure)}")
     for key, attribute in printer.attributes.items():
         get = f"ctx.get({quote(key)})" if isinstance(key, str) else f"ctx.place({quote(key.place or '')})"
         printer.line(2, f"{attribute} = {get}")
@@ -117,8 +122,14 @@ def _given_to_parameter(parameter: Parameter) -> str:
     return quote(parameter.name) + ("" if parameter.default is None else f", {scalar_text(parameter.default)}")
 
 
-def _binding(role: Role) -> str:
+def _bodies(tree: Tree) -> tuple[Block, ...]:
+    return (tree.body, *(function.body for function in tree.functions), *(event.body for event in tree.events))
+
+
+def _binding(role: Role, *, sure: bool) -> str:
+    """Return what gives a role its robot; it says that it is one where neither the steps nor the site tell."""
     if role.device is None:
         return f"ctx.any({', '.join(map(quote, role.can))})"
     at = "" if role.at is None else f", at={quote(role.at)}"
-    return f"ctx.get({quote(role.device)}{at})"
+    mark = "" if sure else ', kind="robot"'
+    return f"ctx.get({quote(role.device)}{at}{mark})"

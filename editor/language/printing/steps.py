@@ -1,55 +1,36 @@
-"""Nodes of the tree → lines of the script; one small function for each kind of node."""
+"""Nodes of the tree → lines of the script, by the records of constructs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
+from editor.language.constructs.script_form import CALLS
 from editor.language.expressions.names import member_name
-from editor.language.expressions.nodes import PlaceRef
-from editor.language.expressions.printing import quote, scalar_text
-from editor.language.expressions.units import unit_symbol
-from editor.language.printing.writer import Printer, point_text
+from editor.language.expressions.nodes import PROBLEM, PlaceRef
+from editor.language.expressions.printing import quote
+from editor.language.printing.fields import Prints, printer_of
+from editor.language.printing.writer import Printer
 from editor.language.tree.nodes import (
     ERROR_CLASSES,
-    Ask,
+    NODES,
     Break,
     Call,
-    Drop,
-    End,
+    Fail,
     ForEach,
     If,
-    Move,
     Node,
-    Notify,
     Operate,
     Parallel,
-    Pick,
+    Perform,
     Repeat,
     Return,
     Set,
     Try,
-    Wait,
-    WaitUntil,
     While,
 )
 from editor.language.tree.numbering import letters_of
-
-
-def _move(printer: Printer, node: Move, depth: int) -> None:
-    via = f", via=[{', '.join(map(point_text, node.route))}]" if node.route else ""
-    printer.line(depth, f"self.{node.role}.move({printer.place(node.to)}{via})", node.step)
-
-
-def _pick(printer: Printer, node: Pick, depth: int) -> None:
-    printer.line(depth, f"self.{node.role}.pick({_load(printer, node)})", node.step)
-
-
-def _drop(printer: Printer, node: Drop, depth: int) -> None:
-    printer.line(depth, f"self.{node.role}.drop({_load(printer, node)})", node.step)
-
-
-def _load(printer: Printer, node: Pick | Drop) -> str:
-    return f'{{"value": {printer.value(node.quantity)}, "object": {printer.value(node.object)}}}'
+from editor.language.tree.variables import reads_problem
+from vipo_device.protocol.description import MethodSpec
 
 
 def _operate(printer: Printer, node: Operate, depth: int) -> None:
@@ -74,23 +55,35 @@ def _order(printer: Printer, node: Operate) -> str:
             printer.method_names[key] = member_name(node.method, [m.name for m in facts.description.methods])
         member = printer.method_names[key]
         if member:
-            ordered = [given.get(parameter.name) for parameter in method.parameters]
-            while ordered and ordered[-1] is None and not method.parameters[len(ordered) - 1].required:
-                ordered.pop()
-            values = ("None" if value is None else printer.value(value) for value in ordered)
-            return f"{member}({', '.join(values)})"
+            return f"{member}({_ordered(printer, method, node)})"
+    return _long_order(printer, node)
+
+
+def _ordered(printer: Printer, method: MethodSpec, node: Operate | Perform) -> str:
+    """Return the arguments in the order of the method's parameters; what is left out at the end needs no None."""
+    given = dict(node.arguments)
+    ordered = [given.get(parameter.name) for parameter in method.parameters]
+    while ordered and ordered[-1] is None and not method.parameters[len(ordered) - 1].required:
+        ordered.pop()
+    return ", ".join("None" if value is None else printer.value(value) for value in ordered)
+
+
+def _long_order(printer: Printer, node: Operate | Perform) -> str:
     name = quote(node.method) if node.method else "None"
     arguments = ", ".join(f"{quote(key)}: {printer.value(value)}" for key, value in node.arguments)
     return f"operate({name}, {{{arguments}}})" if arguments else f"operate({name})"
 
 
-def _wait(printer: Printer, node: Wait, depth: int) -> None:
-    printer.line(depth, f"self.wait({printer.value(node.seconds)})", node.step)
+def _perform(printer: Printer, node: Perform, depth: int) -> None:
+    printer.line(depth, f"self.{node.role}.{_own_order(printer, node)}", node.step)
 
 
-def _wait_until(printer: Printer, node: WaitUntil, depth: int) -> None:
-    timeout = "" if node.timeout_s is None else f", timeout={printer.value(node.timeout_s)}"
-    printer.line(depth, f"self.wait(until={printer.value(node.condition)}{timeout})", node.step)
+def _own_order(printer: Printer, node: Perform) -> str:
+    """Return `honk(5)`, or the long form where the robots' descriptions do not say enough."""
+    member, method = printer.own_method(node.role, node.method)
+    if member is None or method is None or any(method.parameter(name) is None for name, _ in node.arguments):
+        return _long_order(printer, node)
+    return f"{member}({_ordered(printer, method, node)})"
 
 
 def _if(printer: Printer, node: If, depth: int) -> None:
@@ -122,7 +115,11 @@ def _try(printer: Printer, node: Try, depth: int) -> None:
         classes = [ERROR_CLASSES[kind] for kind in node.kinds] or ["TaskError"]
         caught = classes[0] if len(classes) == 1 else f"({', '.join(classes)})"
         printer.line(depth, f"except {caught} as problem:", node.step)
+        outside = printer.locals
+        if reads_problem(node) and PROBLEM not in outside:
+            printer.locals = (*outside, PROBLEM)
         printer.block(node.catch, depth + 1)
+        printer.locals = outside
     if node.final or not node.catches:
         printer.line(depth, "finally:", node.step)
         printer.block(node.final, depth + 1)
@@ -131,12 +128,8 @@ def _try(printer: Printer, node: Try, depth: int) -> None:
 def _call(printer: Printer, node: Call, depth: int) -> None:
     arguments = ", ".join(f"{name}={printer.value(value)}" for name, value in node.arguments)
     text = f"self.{node.function}({arguments})" if node.function else "self.call(None)"
-    printer.line(depth, _taken(printer, node.result, text), node.step)
-
-
-def _taken(printer: Printer, variable: str, text: str) -> str:
-    """Return a call whose value goes into a variable, if there is one."""
-    return f"{printer.variable(variable)} = {text}" if variable else text
+    taken = f"{printer.variable(node.result)} = " if node.result else ""
+    printer.line(depth, taken + text, node.step)
 
 
 def _repeat(printer: Printer, node: Repeat, depth: int) -> None:
@@ -160,40 +153,21 @@ def _set(printer: Printer, node: Set, depth: int) -> None:
     printer.line(depth, text, node.step)
 
 
-def _ask(printer: Printer, node: Ask, depth: int) -> None:
-    answer = node.answer
-    limits = {"minimum": answer.minimum, "maximum": answer.maximum}
-    given = [printer.value(node.question), f"type={quote(answer.type)}"]
-    given += [f"unit={quote(unit_symbol(answer.unit))}"] if answer.unit else []
-    given += [f"{name}={scalar_text(limit)}" for name, limit in limits.items() if limit is not None]
-    given += [f"options=[{', '.join(map(quote, answer.options))}]"] if answer.options else []
-    given += [] if node.timeout_s is None else [f"timeout={printer.value(node.timeout_s)}"]
-    printer.line(depth, _taken(printer, node.variable, f"self.ask({', '.join(given)})"), node.step)
-
-
-def _notify(printer: Printer, node: Notify, depth: int) -> None:
-    printer.line(depth, f"self.notify({printer.value(node.message)}, level={quote(node.level)})", node.step)
-
-
-def _end(printer: Printer, node: End, depth: int) -> None:
-    printer.line(depth, "self.end()", node.step)
-
-
 def _return(printer: Printer, node: Return, depth: int) -> None:
     printer.line(depth, "return" if node.value is None else f"return {printer.value(node.value)}", node.step)
+
+
+def _fail(printer: Printer, node: Fail, depth: int) -> None:
+    printer.line(depth, f"raise Failed({printer.value(node.message)})", node.step)
 
 
 def _break(printer: Printer, node: Break, depth: int) -> None:
     printer.line(depth, "break", node.step)
 
 
-PRINTERS: Mapping[type[Node], Callable[..., None]] = {
-    Move: _move,
-    Pick: _pick,
-    Drop: _drop,
+_OWN: Mapping[type[Node], Prints] = {
     Operate: _operate,
-    Wait: _wait,
-    WaitUntil: _wait_until,
+    Perform: _perform,
     If: _if,
     While: _while,
     Parallel: _parallel,
@@ -202,9 +176,12 @@ PRINTERS: Mapping[type[Node], Callable[..., None]] = {
     Repeat: _repeat,
     ForEach: _for_each,
     Set: _set,
-    Ask: _ask,
-    Notify: _notify,
-    End: _end,
     Return: _return,
+    Fail: _fail,
     Break: _break,
+}
+"""The nodes that are written in Python's own grammar, or by what a device or a function says of itself."""
+PRINTERS: Mapping[type[Node], Prints] = {
+    **_OWN,
+    **{NODES[name]: printer_of(call) for name, call in CALLS.items()},
 }

@@ -7,10 +7,12 @@ from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import Memo
 from editor.language.expressions.names import member_name, unique_name
-from editor.language.expressions.nodes import Expression, Located, PlaceRef, Point, Quantity
+from editor.language.expressions.nodes import OF_PROBLEM, Expression, Located, PlaceRef, Point, Quantity
 from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree.nodes import COMPOSITES, Block, Node, Tree
+from editor.language.tree.robots import described_alike, robots_for, short_name
+from vipo_device.protocol.description import MethodSpec
 
 _INDENTS = tuple("    " * depth for depth in range(80))
 
@@ -47,6 +49,8 @@ class Printer:
     """Methods of parallel branches that are still to be printed, each with what it can see."""
     method_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
     property_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
+    own_methods: dict[tuple[str, str], tuple[str | None, MethodSpec | None]] = field(default_factory=dict)
+    """What the methods of a role's robot are called, with their parameters, by role and method."""
     zone_names: Mapping[str, str] = field(default_factory=dict)
     """What people call the zones, by id."""
     zones: dict[str, str] = field(default_factory=dict)
@@ -155,7 +159,16 @@ class Printer:
 
     def variable(self, name: str) -> str:
         """Return a parameter or a variable as it is written here: the method's or loop's own, or the program's."""
-        return name if name in self.locals else f"self.{name}"
+        return name if name in self.locals or name in OF_PROBLEM else f"self.{name}"
+
+    def own_method(self, role: str, method: str) -> tuple[str | None, MethodSpec | None]:
+        """Return the short name of a method of a role's robot, and its description; None where it is not clear."""
+        key = (role, method)
+        if key not in self.own_methods:
+            found = next(each for each in self.tree.roles if each.name == role)
+            robots = robots_for(self.surroundings, found.device, found.can)
+            self.own_methods[key] = short_name(robots, method), described_alike(robots, method)
+        return self.own_methods[key]
 
     def reading(self, device: str, property_name: str) -> str:
         """Return how a device's property is written."""

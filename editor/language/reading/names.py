@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from editor.language.constructs.table import fields_by_kind
 from editor.language.document.outline import PROGRAM, Outline, mapping
 from editor.language.expressions.declarations import normal_type
 from editor.language.expressions.names import attribute_name, local_name, unique_name
@@ -11,7 +12,7 @@ from editor.language.expressions.values import Names, plain
 from editor.language.tree.nodes import Function, Parameter, Role
 
 DEFAULT_ROLE = "robot"
-_SETTERS = {"set": "variable", "ask": "variable", "call": "result"}
+_SETTERS = fields_by_kind("variable")
 """The kinds of steps that set a variable, with the parameter that names it."""
 
 
@@ -77,7 +78,7 @@ def read_roles(given: Mapping[str, Mapping[str, object]], taken: Iterable[str]) 
     names = set(taken)
     for key, item in {DEFAULT_ROLE: given.get(DEFAULT_ROLE, {}), **given}.items():
         wanted = text_of(item.get("name")) if key != DEFAULT_ROLE else DEFAULT_ROLE
-        name = unique_name(wanted or key, names)
+        name = attribute_name(wanted or key, names)
         names.add(name)
         device, can = item.get("device"), item.get("can")
         listed = can if isinstance(can, list | tuple) else ()

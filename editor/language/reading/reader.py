@@ -6,14 +6,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import ReadMemo, StepRead
+from editor.language.constructs.table import fields_by_kind
 from editor.language.document.outline import Outline, Params
-from editor.language.expressions.nodes import MISSING, NOWHERE, Expression, Located, PlaceRef, is_missing
+from editor.language.expressions.nodes import MISSING, NOWHERE, OF_PROBLEM, Expression, Located, PlaceRef, is_missing
 from editor.language.expressions.values import Names, UnknownParameter, read_place, read_value
 from editor.language.messages.diagnostics import Fix, Problem
 from editor.language.reading.names import DEFAULT_ROLE, text_of
 from editor.language.tree.nodes import Block, Function, Node, Role
 
-_DRIVING = frozenset({"move", "pick", "drop", "pick_and_drop"})
+_DRIVING = fields_by_kind("role")
 
 
 @dataclass(slots=True)
@@ -71,16 +72,18 @@ class Reader:
             return NOWHERE
 
     def _unknown(self, step: str, field_name: str, error: UnknownParameter) -> Expression:
-        self.problems.append(Problem("unknown_parameter", step, field_name, {"parameter": str(error)}))
+        code = "problem_outside_catch" if str(error) in OF_PROBLEM else "unknown_parameter"
+        self.problems.append(Problem(code, step, field_name, {"parameter": str(error)}))
         return MISSING
 
-    def role(self, step: str, params: Params) -> str:
-        """Return the script name of the step's robot."""
+    def role(self, step: str, params: Params, field_name: str = "role") -> str:
+        """Return the script name of the step's robot; `field_name` is the parameter of the step that names it."""
         wanted = params.get("role")
         name = wanted if isinstance(wanted, str) and wanted else DEFAULT_ROLE
         if name not in self.roles:
-            fix = Fix("choose", step, "role", DEFAULT_ROLE, {"value": self.roles[DEFAULT_ROLE].name})
-            self.problems.append(Problem("unknown_role", step, "role", {"role": name}, fix))
+            instead: object = DEFAULT_ROLE if field_name == "role" else {"role": DEFAULT_ROLE}
+            fix = Fix("choose", step, field_name, instead, {"value": self.roles[DEFAULT_ROLE].name})
+            self.problems.append(Problem("unknown_role", step, field_name, {"role": name}, fix))
             name = DEFAULT_ROLE
         return self.roles[name].name
 
@@ -119,12 +122,20 @@ class Reader:
         return nodes
 
 
+def operated_role(params: Params) -> Params | None:
+    """Return what names the robot's role that an Operate speaks to; None where it speaks to a device or a place."""
+    device = params.get("device")
+    return device if isinstance(device, Mapping) and device.keys() == {"role"} else None
+
+
 def _driven_roles(outline: Outline) -> frozenset[str]:
     """Return the ids of the roles that some step of the program drives."""
     roots = [key for key in outline.children if key[0] not in outline.kinds]
     steps = outline.with_inner(step for key in roots for step in outline.children[key])
-    params = [outline.params[step] for step in steps if outline.kinds[step] in _DRIVING]
-    wanted = (one.get("role") for one in params)
+    kinds = outline.kinds
+    params = [outline.params[step] for step in steps if kinds[step] in _DRIVING]
+    operated = (operated_role(outline.params[step]) for step in steps if kinds[step] == "operate")
+    wanted = [*(one.get("role") for one in params), *(role.get("role") for role in operated if role is not None)]
     return frozenset(role if isinstance(role, str) and role else DEFAULT_ROLE for role in wanted)
 
 

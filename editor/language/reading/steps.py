@@ -1,62 +1,38 @@
-"""Steps of a document → nodes of the tree; one small function for each kind of step."""
+"""Steps of a document → nodes of the tree, by the records of constructs."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final
 
+from editor.language.constructs.record import Construct, Form
+from editor.language.constructs.table import STEPS
 from editor.language.document.outline import Params, mapping
-from editor.language.expressions.declarations import normal_answer
 from editor.language.expressions.names import local_name
-from editor.language.expressions.nodes import MISSING, Expression, Point, is_missing
-from editor.language.expressions.values import read_point
+from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, is_missing
 from editor.language.messages.diagnostics import Problem, TextArguments
 from editor.language.messages.phrases import Options
+from editor.language.reading.fields import FIELD_READERS, LISTS, read_route
 from editor.language.reading.names import text_of
-from editor.language.reading.reader import Reader, Reads
+from editor.language.reading.reader import Reader, Reads, operated_role
 from editor.language.tree.nodes import (
     ERROR_CLASSES,
-    Ask,
-    Break,
+    NODES,
     Call,
     Drop,
-    End,
     ForEach,
-    If,
-    Move,
     Node,
-    Notify,
     Operate,
     Parallel,
+    Perform,
     Pick,
-    Repeat,
-    Return,
-    Set,
     Try,
-    Wait,
-    WaitUntil,
-    While,
 )
-
-_LISTS: Final = (list, tuple)
-
-
-def _move(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (Move(reader.role(step, params), reader.place(step, params, "to"), _route(params.get("route")), step),)
-
-
-def _pick(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (Pick(reader.role(step, params), reader.place(step, params, "at"), *_load(reader, step, params), step),)
-
-
-def _drop(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (Drop(reader.role(step, params), reader.place(step, params, "at"), *_load(reader, step, params), step),)
 
 
 def _pick_and_drop(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     role, (thing, quantity) = reader.role(step, params), _load(reader, step, params)
     source, target = reader.place(step, params, "source"), reader.place(step, params, "target")
-    route = _route(params.get("route"))
+    route = read_route(params.get("route"))
     return (
         Pick(role, source, thing, quantity, step, "source"),
         Drop(role, target, thing, quantity, step, "target", route),
@@ -67,17 +43,13 @@ def _load(reader: Reader, step: str, params: Params) -> tuple[Expression, Expres
     return reader.value(step, params, "object"), reader.value(step, params, "quantity")
 
 
-def _route(value: object) -> tuple[Point, ...]:
-    points = [read_point(point) for point in value] if isinstance(value, _LISTS) else []
-    return tuple(point for point in points if point is not None)
-
-
 def _operate(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     method = params.get("method")
-    arguments = _arguments(reader, step, params)
-    return (
-        Operate(reader.place(step, params, "device"), method if isinstance(method, str) else "", arguments, step),
-    )  # fmt: skip
+    name, arguments = method if isinstance(method, str) else "", _arguments(reader, step, params)
+    role = operated_role(params)
+    if role is not None:
+        return (Perform(reader.role(step, role, "device"), name, arguments, step),)
+    return (Operate(reader.place(step, params, "device"), name, arguments, step),)
 
 
 def _arguments(reader: Reader, step: str, params: Params) -> tuple[tuple[str, Expression], ...]:
@@ -90,31 +62,21 @@ def _arguments(reader: Reader, step: str, params: Params) -> tuple[tuple[str, Ex
     return tuple(arguments)
 
 
-def _wait(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    if params.get("until") is None:
-        return (Wait(reader.value(step, params, "duration"), step),)
-    timeout = reader.given(step, params, "timeout")
-    return (WaitUntil(reader.value(step, params, "until"), timeout, step),)
-
-
-def _if(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    condition = reader.value(step, params, "condition")
-    return (If(condition, reader.block(step, "then"), reader.block(step, "else"), step),)
-
-
-def _while(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (While(reader.value(step, params, "condition"), reader.block(step, "body"), step),)
-
-
 def _parallel(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     return (Parallel(tuple(reader.block(step, name) for name in reader.outline.branches(step)), step),)
 
 
+_OF_PROBLEM = dict(zip(OF_PROBLEM, OF_PROBLEM, strict=True))
+"""What a catch alone can see of the failure."""
+
+
 def _try(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     named = params.get("kinds")
-    wanted = named if isinstance(named, _LISTS) else ()
+    wanted = named if isinstance(named, LISTS) else ()
     kinds = tuple(kind for kind in ERROR_CLASSES if kind in wanted)
-    body, catch, final = reader.block(step, "body"), reader.block(step, "catch"), reader.block(step, "finally")
+    body, final, outside = reader.block(step, "body"), reader.block(step, "finally"), reader.names
+    reader.names = {**outside, **_OF_PROBLEM}
+    catch, reader.names = reader.block(step, "catch"), outside
     catches = params.get("catch") is not False
     return (Try(kinds if catches else (), body, catch, final, catches, step),)
 
@@ -145,10 +107,6 @@ def _call_argument(reader: Reader, step: str, given: Params, name: str) -> Expre
     return reader.value(step, given, name, f"args.{name}")
 
 
-def _repeat(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (Repeat(reader.value(step, params, "times"), reader.block(step, "body"), step),)
-
-
 def _for_each(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     """The variable of the loop can be seen in its body, and hides what else has its name."""
     listed, wanted = params.get("items"), text_of(params.get("variable"))
@@ -163,51 +121,46 @@ def _for_each(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     return (ForEach(variable, values, body, step),)
 
 
-def _set(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (Set(reader.variable(params), reader.value(step, params, "value"), step),)
-
-
-def _ask(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    question, timeout = reader.value(step, params, "question"), reader.given(step, params, "timeout")
-    answer = normal_answer(mapping(params.get("answer")))
-    return (Ask(question, answer, reader.variable(params), timeout, step),)
-
-
-def _notify(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    level = "warning" if params.get("level") == "warning" else "info"
-    return (Notify(reader.value(step, params, "message"), level, step),)
-
-
-def _end(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (End(step),)
-
-
-def _return(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (Return(reader.given(step, params, "value"), step),)
-
-
-def _break(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (Break(step),)
-
-
-READERS: Mapping[str, Reads] = {
-    "move": _move,
-    "pick": _pick,
-    "drop": _drop,
+_OWN: Mapping[str, Reads] = {
     "pick_and_drop": _pick_and_drop,
     "operate": _operate,
-    "wait": _wait,
-    "if": _if,
-    "while": _while,
     "parallel": _parallel,
     "try": _try,
     "call": _call,
-    "repeat": _repeat,
     "for_each": _for_each,
-    "set": _set,
-    "ask": _ask,
-    "notify": _notify,
-    "end": _end,
-    "return": _return,
-    "break": _break,
+}
+"""The kinds whose nodes are not just made of their fields."""
+
+
+def _reader_of(form: Form, branches: tuple[str, ...]) -> Reads:
+    """Return what reads a step into the node of a form: its fields, then its branches, then its id."""
+    node = NODES[form.node]
+    fields = tuple(FIELD_READERS[field.type](field) for field in form.fields)
+
+    def read(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
+        given = [of_field(reader, step, params) for of_field in fields]
+        given += [reader.block(step, branch) for branch in branches]
+        return (node(*given, step),)
+
+    return read
+
+
+def _read_as(construct: Construct) -> Reads:
+    """Return what reads the steps of a kind; the last form is the one that has no mark."""
+    branches = tuple(name for name, _ in construct.branches)
+    *marked, plain = ((form.marked_by, _reader_of(form, branches)) for form in construct.forms)
+    if not marked:
+        return plain[1]
+
+    def read(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
+        chosen = next((reads for mark, reads in marked if params.get(mark) is not None), plain[1])
+        return chosen(reader, step, params)
+
+    return read
+
+
+READERS: Mapping[str, Reads] = {
+    construct.kind: _OWN.get(construct.kind) or _read_as(construct)
+    for construct in STEPS
+    if construct.kind != "on_event"
 }

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import field
-from typing import TYPE_CHECKING, Final
+from collections.abc import Callable, Mapping
+from dataclasses import field, replace
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, Final, cast, get_args
 
+from editor.language.constructs.table import FORMS
 from editor.language.expressions.nodes import AnswerSpec, Expression, PlaceRef, Point
 from vipo_device.protocol.description import Scalar
 
@@ -60,6 +62,16 @@ class Operate:
     """A device carries out one of its methods; arguments are sorted by name, missing ones left out."""
 
     device: PlaceRef
+    method: str
+    arguments: Arguments = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Perform:
+    """The role's robot carries out a method of its own where it stands: an Operate whose device is a robot."""
+
+    role: str
     method: str
     arguments: Arguments = ()
     step: str = field(default="", compare=False)
@@ -157,6 +169,14 @@ class End:
 
 
 @dataclass(frozen=True, slots=True)
+class Fail:
+    """The program fails here, as `failed`, with a text; a Try around it may catch that."""
+
+    message: Expression
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Return:
     """The function ends here, with a value if it gives one."""
 
@@ -206,13 +226,15 @@ class Call:
 
 
 Node = (
-    Move | Pick | Drop | Operate | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Call
-    | Set | Ask | Notify | End | Return | Break
+    Move | Pick | Drop | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Call
+    | Set | Ask | Notify | End | Fail | Return | Break
 )  # fmt: skip
 Block = tuple[Node, ...]
 LOADS: Final = (Pick, Drop)
 DRIVES: Final = (Move, Pick, Drop)
-"""What a robot does. (A check of a class against such a row is several times as quick as against a union.)"""
+"""What a robot goes for. (A check of a class against such a row is several times as quick as against a union.)"""
+ACTS: Final = (*DRIVES, Perform)
+"""What a robot does, there or where it stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -290,6 +312,11 @@ class Tree:
         return not self._kinds.isdisjoint(kinds)
 
 
+def robot_field(node: Node) -> str:
+    """Return the parameter of a robot's step that says which robot it is."""
+    return "device" if isinstance(node, Perform) else "role"
+
+
 ERROR_CLASSES: Final[Mapping[str, str]] = {
     "refused": "Refused",
     "failed": "Failed",
@@ -299,22 +326,43 @@ ERROR_CLASSES: Final[Mapping[str, str]] = {
     "cancelled": "Cancelled",
 }
 """The kinds of failures that a Try may catch, with their classes in the script."""
-COMPOSITES = frozenset({If, While, Repeat, ForEach, Parallel, Try})
+NODES: Final[Mapping[str, type[Any]]] = {node.__name__: node for node in (*get_args(Node), Event)}
+"""The classes of nodes, by the names that the records of constructs call them by."""
+
+
+def _getter(attributes: tuple[str, ...]) -> Callable[[Node], tuple[Block, ...]]:
+    """Return what reads these branches of a node."""
+    if len(attributes) > 1:
+        return attrgetter(*attributes)
+    only: Callable[[Node], Block] = attrgetter(attributes[0])
+    return lambda node: (only(node),)
+
+
+_BLOCKS: Final[Mapping[type[Node], Callable[[Node], tuple[Block, ...]]]] = {
+    NODES[name]: attrgetter("branches")
+    if construct.names_branches
+    else _getter(tuple(attribute for _, attribute in construct.branches))
+    for name, (construct, _) in FORMS.items()
+    if (construct.branches or construct.names_branches) and NODES[name] is not Event
+}
+COMPOSITES = frozenset(_BLOCKS)
 """The nodes that hold others."""
-_LOOPS: Final = (While, Repeat, ForEach)
 
 
 def blocks_of(node: Node) -> tuple[Block, ...]:
     """Return the branches of a node, in reading order."""
-    if node.__class__ not in COMPOSITES:
-        return ()
-    if isinstance(node, If):
-        return (node.then, node.otherwise)
-    if isinstance(node, _LOOPS):
-        return (node.body,)
-    if isinstance(node, Try):
-        return (node.body, node.catch, node.final)
-    return node.branches if isinstance(node, Parallel) else ()
+    get = _BLOCKS.get(node.__class__)
+    return () if get is None else get(node)
+
+
+def with_blocks(node: Node, blocks: tuple[Block, ...]) -> Node:
+    """Return a node that holds others with these branches, in the order of `blocks_of`."""
+    if isinstance(node, Parallel):
+        return replace(node, branches=blocks)
+    construct, _ = FORMS[node.__class__.__name__]
+    names = (attribute for _, attribute in construct.branches)
+    whole: Any = node
+    return cast("Node", replace(whole, **dict(zip(names, blocks, strict=True))))
 
 
 def walk(block: Block) -> list[Node]:

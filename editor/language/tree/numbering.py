@@ -2,8 +2,8 @@
 
 A step of the program has its place in the order. Inside a step each branch has a letter; the only step of a
 branch bears just the letter (4a), several are counted after it (6a.1, 6a.2). The steps of a function are
-counted behind the number of its first call (1b.1), or behind f1, f2 … while nobody calls it. Events are
-e1, e2 …, their steps e1.1, e1.2 ….
+counted behind the number of its first call (1b.1), or behind f1, f2 … where nobody calls it, or that call lies too
+deep in others. Events are e1, e2 …, their steps e1.1, e1.2 ….
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from string import ascii_lowercase
 
+from editor.language.document.outline import DEEPEST_STEP
 from editor.language.tree.nodes import COMPOSITES, Block, Call, Node, Parallel, Tree, Try, blocks_of
 
 _MORE = COMPOSITES | {Call}
@@ -73,7 +74,8 @@ def number_steps(tree: Tree) -> Numbering:
     uncalled = 0
     for function in tree.functions:
         number, depth = numbering.first_calls.get(function.method, ("", -1))
-        if not number:
+        if not number or depth >= DEEPEST_STEP:  # numbers behind numbers would grow with every call in a long chain
+            depth = -1
             uncalled += 1
             number = f"f{uncalled}"
         numbering.block(function.body, f"{number}.", depth + 1)

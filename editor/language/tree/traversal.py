@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.tree.nodes import DRIVES, Block, Call, Function, Node, Role, Tree, walk
+from editor.language.tree.nodes import ACTS, Block, Call, Function, Node, Perform, Role, Tree, walk
 
 
 def reading_order(tree: Tree) -> tuple[Function, ...]:
@@ -35,18 +35,23 @@ def needed_of_roles(tree: Tree, functions: tuple[Function, ...]) -> dict[str, tu
     """Return what each role must be able to do, roles in the order of first use; a robot that picks also drives."""
     blocks = (tree.body, *(f.body for f in functions), *(event.body for event in tree.events))
     needed: dict[str, set[type[Node]]] = {}
+    own: dict[str, set[str]] = {}
     for block in blocks:
         for node in tree.walked(block):
-            if isinstance(node, DRIVES):
+            if isinstance(node, ACTS):
                 if node.role not in needed:
                     needed[node.role] = set()
                 needed[node.role].add(node.__class__)
-    return {role: _without_move({use.__name__.lower() for use in uses}) for role, uses in needed.items()}
+                if isinstance(node, Perform) and node.method not in ROBOT_METHODS:
+                    own.setdefault(node.role, set()).add(node.method)
+    return {role: _methods_of(uses, own.get(role, set()) - {""}) for role, uses in needed.items()}
 
 
-def _without_move(methods: set[str]) -> tuple[str, ...]:
+def _methods_of(uses: set[type[Node]], own: set[str]) -> tuple[str, ...]:
+    """Return the methods that such steps need, those of a robot's own behind the others."""
+    methods = {use.__name__.lower() for use in uses if use is not Perform}
     wanted = methods - {"move"} or methods
-    return tuple(method for method in ROBOT_METHODS if method in wanted)
+    return (*(method for method in ROBOT_METHODS if method in wanted), *sorted(own))
 
 
 def calls_by_function(tree: Tree) -> dict[str, tuple[str, ...]]:
@@ -75,32 +80,64 @@ def callees_first(tree: Tree) -> tuple[Function, ...]:
 
 
 def functions_in_circles(tree: Tree) -> frozenset[str]:
-    """Return the functions that call themselves, directly or by way of others."""
+    """Return the functions that call themselves, directly or by way of others (Tarjan's components, without depth)."""
     calls = calls_by_function(tree)
+    order: dict[str, int] = {}
+    lowest: dict[str, int] = {}
+    open_: dict[str, None] = {}
     circular: set[str] = set()
-    for method in calls:
-        seen: set[str] = set()
-        left = list(calls[method])
+    for first in calls:
+        left = [(first, iter(calls[first]))] if first not in order else []
         while left:
-            called = left.pop()
-            if called not in seen:
-                seen.add(called)
-                left.extend(calls.get(called, ()))
-        if method in seen:
-            circular.add(method)
+            method, called = left[-1]
+            if method not in order:
+                order[method] = lowest[method] = len(order)
+                open_[method] = None
+            following = next(
+                (each for each in called if each in calls and _leads_on(each, method, order, lowest, open_)), None
+            )
+            if following is not None:
+                left.append((following, iter(calls[following])))
+                continue
+            left.pop()
+            if left:
+                around = left[-1][0]
+                lowest[around] = min(lowest[around], lowest[method])
+            if lowest[method] == order[method]:
+                component = _popped(open_, method)
+                if len(component) > 1 or method in calls[method]:
+                    circular.update(component)
     return frozenset(circular)
 
 
-def roles_used(block: Block, tree: Tree) -> frozenset[str]:
-    """Return the roles that a block uses, also in the functions that it calls."""
+def _leads_on(
+    called: str, method: str, order: Mapping[str, int], lowest: dict[str, int], open_: Mapping[str, None]
+) -> bool:
+    """Tell whether a called function is still to be gone into; one that is gone through leads back, or nowhere new."""
+    if called not in order:
+        return True
+    if called in open_:
+        lowest[method] = min(lowest[method], order[called])
+    return False
+
+
+def _popped(open_: dict[str, None], method: str) -> list[str]:
+    component: list[str] = []
+    while not component or component[-1] != method:
+        component.append(open_.popitem()[0])
+    return component
+
+
+def roles_used(block: Block, tree: Tree, steps: tuple[type[Node], ...] = ACTS) -> frozenset[str]:
+    """Return the roles that a block uses in such steps, also in the functions that it calls."""
     by_method = {function.method: function for function in tree.functions}
     roles: set[str] = set()
     seen: set[str] = set()
     left = [block]
     while left:
         for node in tree.walked(left.pop()):
-            if isinstance(node, DRIVES):
-                roles.add(node.role)
+            if isinstance(node, ACTS):
+                roles.update([node.role] if isinstance(node, steps) else [])
             elif isinstance(node, Call) and node.function in by_method and node.function not in seen:
                 seen.add(node.function)
                 left.append(by_method[node.function].body)

@@ -10,9 +10,9 @@ from collections import ChainMap, deque
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from editor.language.expressions.nodes import Expression, Variable
+from editor.language.expressions.nodes import OF_PROBLEM, Expression, Variable
 from editor.language.expressions.units import PLAIN, UNSAID, is_measure
-from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
+from editor.language.expressions.value_types import TEXT, UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
 from editor.language.expressions.values import parts_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
@@ -30,7 +30,7 @@ def types_of_parameters(parameters: Iterable[n.Parameter]) -> dict[str, ValueTyp
 
 def types_in_program(tree: n.Tree, shared: frozenset[str], surroundings: Surroundings) -> dict[str, ValueType]:
     """Return what the program's parameters and variables hold."""
-    known = types_of_parameters(tree.parameters)
+    known = {**dict.fromkeys(OF_PROBLEM, TEXT), **types_of_parameters(tree.parameters)}
     bodies = (tree.body, *(event.body for event in tree.events))
     return _with_types_set_in(bodies, shared, known, tree, surroundings)
 

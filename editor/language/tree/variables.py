@@ -5,22 +5,27 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Final
 
-from editor.language.expressions.nodes import Expression, PlaceRef, Variable
+from editor.language.constructs.table import FORMS
+from editor.language.expressions.nodes import OF_PROBLEM, Constant, Expression, PlaceRef, Variable
 from editor.language.expressions.values import parts_of
 from editor.language.tree import nodes as n
-from editor.language.tree.nodes import Block, ForEach, Function, Tree, blocks_of, walk
+from editor.language.tree.nodes import NODES, Block, ForEach, Function, Tree, blocks_of, walk
 from editor.language.tree.traversal import callees_first
 
-_SETS: Final = (n.Set, n.Ask)
-SETTERS: Final = (n.Set, n.Ask, n.Call)
+_SET_IN: Final[Mapping[type[n.Node], str]] = {
+    NODES[name]: field.attribute
+    for name, (_, form) in FORMS.items()
+    for field in form.fields
+    if field.type == "variable"
+}
+SETTERS: Final = tuple(_SET_IN)
 """The steps that may set a variable."""
 
 
 def set_by(node: n.Node) -> str:
     """Return the name of the variable that a step sets, empty when it sets none."""
-    if isinstance(node, _SETS):
-        return node.variable
-    return node.result if isinstance(node, n.Call) else ""
+    attribute = _SET_IN.get(node.__class__)
+    return "" if attribute is None else getattr(node, attribute)
 
 
 def sets_of_functions(tree: n.Tree) -> dict[str, frozenset[str]]:
@@ -49,31 +54,29 @@ def set_in(block: n.Block, sets: Mapping[str, frozenset[str]]) -> frozenset[str]
 def read_by(node: n.Node) -> dict[str, str]:
     """Return the names that a step itself reads, each with the field where it does."""
     found: dict[str, str] = {}
-    for field, expression in values_of(node):
+    for field, expression in worked_out(node):
         for part in parts_of(expression):
             if isinstance(part, Variable):
                 found.setdefault(part.name, field)
     return found
 
 
+def reads_problem(node: n.Try) -> bool:
+    """Tell whether a catch looks at the failure that it has caught, or at one of which a catch in it knows."""
+    return any(name in read_by(inner) for inner in walk(node.catch) for name in OF_PROBLEM)
+
+
+_HOLD_VALUES: Final = ("place", "value", "values", "arguments")
 VALUES: Mapping[type[n.Node], tuple[tuple[str, str], ...]] = {
-    n.Move: (("to", "to"),),
-    n.Pick: (("at", ""), ("object", "object"), ("quantity", "quantity")),
-    n.Drop: (("at", ""), ("object", "object"), ("quantity", "quantity")),
-    n.Operate: (("device", "device"), ("arguments", "args")),
-    n.Call: (("arguments", "args"),),
-    n.Wait: (("seconds", "duration"),),
-    n.WaitUntil: (("condition", "until"), ("timeout_s", "timeout")),
-    n.If: (("condition", "condition"),),
-    n.While: (("condition", "condition"),),
-    n.Repeat: (("times", "times"),),
-    n.ForEach: (("items", "items"),),
-    n.Set: (("value", "value"),),
-    n.Return: (("value", "value"),),
-    n.Ask: (("question", "question"), ("timeout_s", "timeout")),
-    n.Notify: (("message", "message"),),
+    NODES[name]: tuple(
+        (field.attribute, "" if field.type == "place" and hasattr(NODES[name], "place_field") else field.name)
+        for field in form.fields
+        if field.type in _HOLD_VALUES
+    )
+    for name, (_, form) in FORMS.items()
+    if NODES[name] is not n.Event
 }
-"""The attributes of nodes that hold values, with the fields of the step where they stand."""
+"""The attributes of nodes that hold values, with the fields of the step where they stand (empty: the node says it)."""
 
 
 def values_of(node: n.Node) -> Iterator[tuple[str, Expression]]:
@@ -88,6 +91,25 @@ def values_of(node: n.Node) -> Iterator[tuple[str, Expression]]:
             value = value.value if isinstance(value, PlaceRef) else value
             if value is not None:
                 yield field or getattr(node, "place_field", ""), value
+
+
+def worked_out(node: n.Node) -> list[tuple[str, Expression]]:
+    """Return the values of a step that are not just written out, each with its field; most steps have none."""
+    found: list[tuple[str, Expression]] = []
+    for attribute, field in VALUES.get(node.__class__, ()):
+        value = getattr(node, attribute)
+        if value is None or value.__class__ is Constant:
+            continue
+        if value.__class__ is PlaceRef:
+            if value.value is not None:
+                found.append((field or getattr(node, "place_field", ""), value.value))
+        elif attribute == "arguments":
+            found.extend((f"args.{name}", given) for name, given in value if given.__class__ is not Constant)
+        elif attribute == "items":
+            found.extend((field, item) for item in value)
+        else:
+            found.append((field, value))
+    return found
 
 
 def program_variables(tree: Tree) -> frozenset[str]:

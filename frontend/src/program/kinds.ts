@@ -1,8 +1,32 @@
-/** The kinds of steps: what each looks like, which branches it has, and the key that draws it. */
+/** The kinds of steps, as the server's records of constructs have them (`make constructs` writes them here). */
 import type { StepKind } from "@/api/types";
+import records from "./constructs.json";
 
 export type Family = "motion" | "machine" | "logic" | "func" | "note";
 export type Shape = "pill" | "box" | "diamond" | "header" | "fork" | "root" | "note";
+
+/** One thing that a step is told, a parameter of it. */
+export interface FieldRecord {
+  readonly name: string;
+  readonly type: string;
+  /** What kind of value it takes; any, where it does not say. */
+  readonly wanted?: string;
+  readonly optional?: boolean;
+  /** Fixed words; the first is meant where none is given. */
+  readonly choices?: readonly string[];
+  /** Each choice has a sentence of its own. */
+  readonly explained?: boolean;
+  /** What a new variable is called in a new step. */
+  readonly suggested?: string;
+  /** The machines that suit; any place of the map, where it does not say. */
+  readonly accepts?: string;
+}
+
+interface FormRecord {
+  /** The field that tells this form from the last one. */
+  readonly marked_by?: string;
+  readonly fields?: readonly FieldRecord[];
+}
 
 interface Look {
   readonly icon: string;
@@ -14,50 +38,39 @@ interface Look {
   readonly rare?: boolean;
   /** In the order in which they are read; those of a Parallel are its own to name. */
   readonly branches?: readonly string[];
+  /** What stands in the body is done again. */
+  readonly loops?: boolean;
+  /** Its condition stands beside the chip. */
+  readonly tall?: boolean;
+  /** A robot does it. */
+  readonly drives?: boolean;
+  /** The call that it is in a script. */
+  readonly method?: string;
+  readonly forms: readonly FormRecord[];
 }
-
-/** In the order of the rail. */
-const LOOKS: Readonly<Record<StepKind, Look>> = {
-  move: { icon: "move", family: "motion", shape: "pill", key: "M" },
-  pick: { icon: "pick", family: "motion", shape: "pill", key: "K" },
-  drop: { icon: "drop", family: "motion", shape: "pill", key: "J" },
-  pick_and_drop: { icon: "pickdrop", family: "motion", shape: "pill", key: "P" },
-  operate: { icon: "operate", family: "machine", shape: "pill", key: "O" },
-  wait: { icon: "wait", family: "machine", shape: "pill", key: "U" },
-  if: { icon: "if", family: "logic", shape: "diamond", key: "I", branches: ["then", "else"] },
-  while: { icon: "while", family: "logic", shape: "header", key: "W", branches: ["body"] },
-  repeat: { icon: "repeat", family: "logic", shape: "header", key: "R", branches: ["body"] },
-  for_each: { icon: "foreach", family: "logic", shape: "header", key: "E", branches: ["body"] },
-  parallel: { icon: "parallel", family: "logic", shape: "fork", key: "L" },
-  try: { icon: "try", family: "logic", shape: "header", key: "T", branches: ["body", "catch", "finally"] },
-  on_event: { icon: "event", family: "logic", shape: "root", key: "G", rare: true, branches: ["body"] },
-  break: { icon: "break", family: "logic", shape: "box", key: "", rare: true },
-  return: { icon: "return", family: "logic", shape: "box", key: "", rare: true },
-  end: { icon: "end", family: "logic", shape: "box", key: "", rare: true },
-  call: { icon: "fn", family: "func", shape: "box", key: "F" },
-  set: { icon: "set", family: "func", shape: "box", key: "S" },
-  notify: { icon: "notify", family: "func", shape: "box", key: "N" },
-  ask: { icon: "ask", family: "func", shape: "box", key: "A", rare: true },
-  comment: { icon: "comment", family: "note", shape: "note", key: "C" },
-};
 
 export interface Kind extends Look {
   readonly kind: string;
 }
 
-export const STEP_KINDS: readonly (Kind & { readonly kind: StepKind })[] = Object.entries(LOOKS).map(
-  ([kind, look]) => ({ kind: kind as StepKind, ...look }),
-);
+/** In the order of the rail. */
+export const STEP_KINDS = records as unknown as readonly (Kind & { readonly kind: StepKind })[];
+const BY_KIND: ReadonlyMap<string, Kind> = new Map(STEP_KINDS.map((each) => [each.kind, each]));
 
-const UNKNOWN: Kind = { kind: "unknown", icon: "comment", family: "func", shape: "box", key: "" };
+const UNKNOWN: Kind = { kind: "unknown", icon: "comment", family: "func", shape: "box", key: "", forms: [] };
 
 /** Documents come from other versions, too: not every name is a kind that these screens know. */
 export function isStepKind(name: string): name is StepKind {
-  return Object.hasOwn(LOOKS, name);
+  return BY_KIND.has(name);
 }
 
 export function kindOf(name: string): Kind {
-  return isStepKind(name) ? { kind: name, ...LOOKS[name] } : UNKNOWN;
+  return BY_KIND.get(name) ?? UNKNOWN;
+}
+
+/** The fields of a kind, those of all its forms. */
+export function fieldsOf(name: string): readonly FieldRecord[] {
+  return kindOf(name).forms.flatMap((form) => form.fields ?? []);
 }
 
 /** The word for a kind of step in the catalogues. */
@@ -72,5 +85,10 @@ export function isFramed(name: string): boolean {
 
 /** Frames that carry an arrow on their border: what stands in them is done again. */
 export function isLoop(name: string): boolean {
-  return name === "while" || name === "repeat" || name === "for_each";
+  return kindOf(name).loops ?? false;
+}
+
+/** The kinds that a robot does. */
+export function isDriving(name: string): boolean {
+  return kindOf(name).drives ?? false;
 }

@@ -24,7 +24,7 @@ import { currentStep, stepLines } from "./stepList";
 import { Journal, RunSteps } from "./RunSteps";
 import { Timeline, TimelineLegend } from "./Timeline";
 import { useStepWords } from "./useStepWords";
-import { textOf } from "@/program/document/document";
+import { DEFAULT_ROLE, roleOfStep } from "@/program/operation";
 
 const NO_DEVICES: Device[] = [];
 const NO_EVENTS: RunEvent[] = [];
@@ -247,7 +247,7 @@ function More({ view }: { view: RunView }) {
     [lines],
   );
   const robotOf = useCallback(
-    (step: string) => run.roles[textOf(run.document.steps[step]?.params.role, "robot")],
+    (step: string) => run.roles[roleOfStep(run.document.steps[step]) ?? DEFAULT_ROLE],
     [run.roles, run.document],
   );
   return (

@@ -21,7 +21,7 @@ from editor.documents.shared_document import empty_document, encode_document
 from editor.rooms import yjs_protocol
 from registry.people.access import ROLES
 from tests.kit.api_rights import DIRECTORY, DRAWS, OPERATIONS, RIGHTS, SOCKETS, STREAMED, STREAMS, Right
-from tests.kit.files import ROOT
+from tests.kit.files import ROOT, copy_migrated
 from tests.kit.waiting import wait_for
 from tests.kit.web import Web, environment
 
@@ -38,13 +38,11 @@ import json, sys
 import django
 django.setup()
 from datetime import UTC, datetime
-from django.core.management import call_command
 from registry import services
 from registry.floorplan.plan import Grid
 from registry.models import User
 from tests.kit.api_calls import make_one_of_each
 from tests.kit.web_process import make_person
-call_command("migrate", verbosity=0, interactive=False)
 for slug in ("hall", "shed"):
     services.create_site(name=slug.title(), slug=slug)
     services.save_map(site=slug, grid=Grid(4, 3, 1.0, 0.0, 0.0, bytes(12)))
@@ -73,6 +71,7 @@ class Plant:
 @pytest.fixture(scope="module")
 def plant(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plant]:
     folder = tmp_path_factory.mktemp("roles")
+    copy_migrated(folder / "vipo.sqlite3")
     done = subprocess.run(
         [sys.executable, "-c", MAKE, json.dumps(SEVEN)],
         cwd=ROOT, env=environment(folder, {}), capture_output=True, text=True,

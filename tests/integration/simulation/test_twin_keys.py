@@ -19,10 +19,10 @@ from simulation.management.commands.twin import connections
 from simulation.site_facts import demo_facts
 from simulation.twin import Twin, TwinPlan
 from tests.integration.wire.bus import JOIN, SITE, Bus
-from tests.integration.wire.conftest import bus, database, empty_database, gateway
+from tests.integration.wire.conftest import bus, database, gateway
 from tests.kit.waiting import wait_for
 
-__all__ = ["bus", "database", "empty_database", "gateway"]
+__all__ = ["bus", "database", "gateway"]
 pytestmark = [pytest.mark.servers, pytest.mark.parametrize("bus", ["amqtt"], indirect=True)]
 OVEN, KEY = "curingOven01", "the-first-key-of-the-oven-01"
 

@@ -15,7 +15,6 @@ import django
 
 django.setup()
 
-from django.core.management import call_command  # noqa: E402 - Django is set up first
 from django.db import connection  # noqa: E402
 
 from registry import services  # noqa: E402
@@ -49,7 +48,6 @@ def confirm_all(device: str, topics: list[str], together: threading.Barrier, cam
 
 
 def main() -> None:
-    call_command("migrate", verbosity=0, interactive=False)
     services.create_site(name="Hall", slug="hall")
     topics = [f"plant/{number}/start" for number in range(ROUNDS)]
     for device in DEVICES:

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import shutil
 import threading
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from django.conf import LazySettings
-from django.core.management import call_command
-from django.db import connections
 from pytest_django import DjangoDbBlocker
 
 from execution.gateway.gateway import Gateway
@@ -18,27 +15,16 @@ from registry import services
 from registry.broker import accounts
 from tests.integration.wire.bus import JOIN, SERVER_WORD, SITE, Bus
 from tests.kit.databases import on_database
+from tests.kit.files import copy_migrated
 from tests.kit.mqtt import Ear
 from tests.kit.servers import run_mosquitto
 from vipo_site.embedded_broker.server import start_broker
 
 
-@pytest.fixture(scope="session")
-def empty_database(
-    tmp_path_factory: pytest.TempPathFactory, django_db_setup: None, django_db_blocker: DjangoDbBlocker
-) -> Path:
-    file = tmp_path_factory.mktemp("database") / "empty.sqlite3"
-    with django_db_blocker.unblock(), on_database(NAME=str(file)):
-        call_command("migrate", verbosity=0, interactive=False)
-        with connections["default"].cursor() as cursor:
-            cursor.execute("PRAGMA wal_checkpoint(TRUNCATE)")
-    return file
-
-
 @pytest.fixture
-def database(empty_database: Path, tmp_path: Path, django_db_blocker: DjangoDbBlocker) -> Iterator[Path]:
+def database(tmp_path: Path, django_db_setup: None, django_db_blocker: DjangoDbBlocker) -> Iterator[Path]:
     file = tmp_path / "vipo.sqlite3"
-    shutil.copy(empty_database, file)
+    copy_migrated(file)
     with django_db_blocker.unblock(), on_database(NAME=str(file)):
         yield file
 

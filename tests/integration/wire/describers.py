@@ -17,7 +17,6 @@ import django
 
 django.setup()
 
-from django.core.management import call_command  # noqa: E402 - Django is set up first
 from django.db import connection  # noqa: E402
 
 from execution.gateway.ingest import Ingester  # noqa: E402
@@ -73,7 +72,6 @@ def guarded(work: Callable[[], None], faults: list[str]) -> Callable[[], None]:
 
 
 def main() -> None:
-    call_command("migrate", verbosity=0, interactive=False)
     services.create_site(name="Hall", slug="hall")
     faults: list[str] = []
     acknowledged: Counter[str] = Counter()

@@ -2,7 +2,9 @@
 
 import json
 
+from editor.language.plan.json_form import plan_from_json
 from execution.machine import machine
+from execution.machine import messages as m
 from execution.machine.floor_task import Target, TaskOrder
 from execution.machine.state import FLOOR_TASK
 from execution.traffic import floor
@@ -72,3 +74,23 @@ def test_a_kept_run_that_waits_for_the_floor_is_read_and_kept_the_same():
     kept = machine.to_json(state)
     assert kept["threads"][0]["waits_for"] == "mission"
     assert machine.from_json(kept) == state
+
+
+def test_a_kept_run_in_a_try_goes_on_in_the_catch_of_a_plan_that_knew_no_failures():
+    def instruction(do, step="", **fields):
+        return {"do": do, "step": step, "line": 1, "enters": [], "leaves": [], **fields}
+
+    steps = [
+        instruction("TryBegin", "t", handler=4, kinds=[], final=False),
+        instruction("Move", "s1", role="robot", to={"device": "itemInventory01"}, route=[]),
+        instruction("TryEnd"),
+        instruction("Jump", to=5),
+        instruction("Notify", "n", message={"const": "Caught."}, level="info"),
+        instruction("End"),
+    ]
+    plan = plan_from_json({"format": 2, "instructions": steps, "roles": {}, "parameters": {}, "reads": []})
+    guard = {"handler": 4, "kinds": [], "calls": 1, "open": 0, "final": False}
+    thread = {**RUN_STATE["threads"][0], "at": 1, "guards": [guard]}
+    state = machine.from_json({**RUN_STATE, "threads": [thread]})
+    state, actions = machine.step(plan, state, m.TaskFailed(5, "blocked", "No way."))
+    assert ([a.text for a in actions if isinstance(a, m.Tell)], state.status) == (["Caught."], "finished")

@@ -15,6 +15,7 @@ PLAIN: dict[str, dict[str, Any]] = {
     "ask": {"question": "How many?", "answer": {"type": "number"}, "variable": "count"},
     "call": {"function": "f", "result": "total"},
     "end": {},
+    "fail": {"message": "The box is wet."},
     "pick_and_drop": {
         "source": {"device": "itemInventory01"},
         "target": {"device": "paintMachine01"},
@@ -32,6 +33,7 @@ HOLDING: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
 }
 LOOPS = frozenset({"while", "repeat", "for_each"})
 DEEPEST = 4
+TOLD = [{"message": {"param": name}, "level": "info"} for name in ("problem.text", "problem.kind")]
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,7 @@ class Around:
 
     depth: int = 0
     loop: bool = False
+    caught: bool = False
     function: bool = False
 
 
@@ -58,9 +61,12 @@ class Steps:
     def block(self, parent: str, branch: str, around: Around) -> None:
         for index in range(self.draw(st.integers(0, 3))):
             kinds = [*PLAIN, *(HOLDING if around.depth < DEEPEST else ())]
+            kinds += ["tell"] if around.caught else []
             kinds += (["break"] * 2 if around.loop else []) + (["return"] * 2 if around.function else [])
             kind = self.draw(st.sampled_from(kinds))
-            if kind in HOLDING:
+            if kind == "tell":
+                self.add("notify", parent, branch, f"{index}V", self.draw(st.sampled_from(TOLD)))
+            elif kind in HOLDING:
                 self.holding(kind, parent, branch, f"{index}V", around)
             else:
                 self.add(kind, parent, branch, f"{index}V", PLAIN.get(kind, {"value": 2} if kind == "return" else {}))
@@ -71,9 +77,10 @@ class Steps:
             params, branches = {"catch": False}, ("body", "finally")
         step = self.add(kind, parent, branch, order, params)
         for name in branches:
-            inside = replace(around, depth=around.depth + 1, loop=around.loop or kind in LOOPS)
+            inside = replace(around, depth=around.depth + 1, loop=around.loop or kind in LOOPS,
+                             caught=around.caught or name == "catch")  # fmt: skip
             closed = kind == "parallel" or name == "finally"
-            self.block(step, name, Around(inside.depth) if closed else inside)
+            self.block(step, name, Around(inside.depth, caught=inside.caught) if closed else inside)
 
 
 @st.composite

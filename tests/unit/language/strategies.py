@@ -25,6 +25,9 @@ places = st.one_of(
     st.sampled_from([{"device": device} for device in DEVICES]),
     st.sampled_from([{"place": "dock1"}, {"point": [1.5, -2]}, {"param": "minutes"}, None, {"device": "gone"}]),
 )
+robots = st.sampled_from(
+    [*({"role": role} for role in ROLES), {"role": "gone"}, {"role": 3}, {"device": "robot01"}, {"device": "robot02"}]
+)
 numbers = st.one_of(st.integers(-5, 200), st.floats(-1e6, 1e6, allow_nan=False))
 readings = st.sampled_from(
     [
@@ -59,7 +62,16 @@ leaves = st.one_of(
     st.text(max_size=6),
     readings,
     st.just(None),
-    st.sampled_from([{"param": "minutes"}, {"param": "total"}, {"param": "Paint count"}, {"param": "robot"}]),
+    st.sampled_from(
+        [
+            {"param": "minutes"},
+            {"param": "total"},
+            {"param": "Paint count"},
+            {"param": "robot"},
+            {"param": "problem.text"},
+            {"param": "problem.kind"},
+        ]
+    ),
     st.just([1, "a"]),
 )
 
@@ -89,9 +101,11 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "pick_and_drop": st.fixed_dictionaries({**loads, "source": places, "target": places}),
     "operate": st.fixed_dictionaries(
         {
-            "device": places,
-            "method": st.sampled_from(["curePaint", "mixPaint", "paint", "no such", "dispense", None]),
-            "args": st.dictionaries(st.sampled_from(["time", "object", "value", "x y"]), values, max_size=2),
+            "device": st.one_of(places, robots),
+            "method": st.sampled_from(
+                ["curePaint", "mixPaint", "paint", "no such", "dispense", None, "honk", "blink", "move", "__class__"]
+            ),
+            "args": st.dictionaries(st.sampled_from(["time", "times", "object", "value", "x y"]), values, max_size=2),
         }
     ),
     "wait": st.one_of(
@@ -119,6 +133,7 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     ),
     "notify": st.fixed_dictionaries({"message": values, "level": st.sampled_from(["info", "warning", "loud"])}),
     "end": st.just({}),
+    "fail": st.fixed_dictionaries({"message": values}),
     "return": st.fixed_dictionaries({"value": values}),
     "break": st.just({}),
     "on_event": st.fixed_dictionaries({"condition": values, "starts": st.sampled_from(["branch", "run", None])}),

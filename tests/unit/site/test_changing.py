@@ -2,27 +2,27 @@
 
 import json
 import re
-from dataclasses import fields
 from pathlib import Path
 from typing import get_args
 
 from editor.language import compile_document, parse_script
 from editor.language.checks.checks import CHECKS
-from editor.language.document.outline import BRANCHES, COMMENT
+from editor.language.constructs.json_form import write_constructs
+from editor.language.constructs.record import Construct, Field, Form, Look
+from editor.language.constructs.table import COMMENT, CONSTRUCTS, FORMS
+from editor.language.document.outline import BRANCHES
 from editor.language.drawing.steps import ENCODERS
-from editor.language.expressions.names import snake_case
 from editor.language.plan.compiler import COMPILERS
 from editor.language.plan.instructions import Action
 from editor.language.plan.json_form import ACTIONS
 from editor.language.printing.steps import PRINTERS
 from editor.language.reading.steps import READERS
-from editor.language.tree.nodes import COMPOSITES, Node
-from editor.language.tree.variables import VALUES
-from editor.shapes import StepKind
+from editor.language.tree.nodes import Node
 from scripts.checks_page import read_site
 from scripts.construct_programs import pictures
-from vipo_device.descriptions.forms import FORMS
+from vipo_device.descriptions.forms import FORMS as DESCRIPTION_FORMS
 from vipo_site.cli.describe import _NAMES as FORM_NAMES
+from vipo_site.management.commands import constructs
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "docs" / "changing.md"
@@ -47,32 +47,33 @@ def test_a_table_that_lacks_a_kind_is_named_with_the_kind():
     assert lacking("READERS", {"move", "pick"}, {"pick"}) == ["READERS lacks “move”"]
 
 
-def kinds_of(nodes):
-    """Return what the kinds of steps would be called that are drawn from these nodes; Python's own words end in `_`."""
-    return {snake_case(node.__name__).removesuffix("_") for node in nodes}
+def names_of(nodes):
+    """Return the names of some classes of nodes."""
+    return {node.__name__ for node in nodes}
 
 
-def fields_with(types):
-    """Return the nodes that have a field of one of these types, as their annotations name them."""
-    return {node for node in NODES if any(re.search(types, str(field.type)) for field in fields(node))}
+def code_lacking():
+    """Return a sentence for each construct that lacks code of its own."""
+    nodes = frozenset(FORMS)
+    return [
+        *lacking("Node in editor/language/tree/nodes.py", nodes - {"Event"}, names_of(NODES)),
+        *lacking("CHECKS in editor/language/checks/checks.py", nodes - {"Event"}, names_of(CHECKS)),
+        *lacking("COMPILERS in editor/language/plan/compiler.py", nodes - {"Event"}, names_of(COMPILERS)),
+        *lacking("_OWN in editor/language/reading/steps.py", KINDS - {"on_event"}, READERS),
+        *lacking("_OWN in editor/language/drawing/steps.py", nodes, names_of(ENCODERS)),
+        *lacking("script in editor/language/constructs/table.py", nodes - {"Event"}, names_of(PRINTERS)),
+        *lacking("editor/language/constructs/table.py", names_of(NODES), nodes),
+    ]
 
 
-def test_every_kind_stands_in_every_table_of_the_language():
-    nodes = kinds_of(NODES)
-    assert [
-        *lacking("READERS in editor/language/reading/steps.py", KINDS - {"on_event"}, READERS),
-        *lacking("Node in editor/language/tree/nodes.py", KINDS - {"pick_and_drop", "on_event"}, nodes),
-        *lacking("PRINTERS in editor/language/printing/steps.py", nodes, kinds_of(PRINTERS)),
-        *lacking("ENCODERS in editor/language/drawing/steps.py", nodes, kinds_of(ENCODERS)),
-        *lacking("CHECKS in editor/language/checks/checks.py", nodes, kinds_of(CHECKS)),
-        *lacking("COMPILERS in editor/language/plan/compiler.py", nodes, kinds_of(COMPILERS)),
-        *lacking("COMPOSITES in editor/language/tree/nodes.py", kinds_of(fields_with("Block")), kinds_of(COMPOSITES)),
-        *lacking(
-            "VALUES in editor/language/tree/variables.py",
-            kinds_of(fields_with("Expression|PlaceRef|Arguments")),
-            kinds_of(VALUES),
-        ),
-    ] == []
+def test_every_construct_of_the_table_has_the_code_that_is_its_own():
+    assert code_lacking() == []
+
+
+def test_what_the_records_are_written_into_is_up_to_date():
+    renew = "run `make constructs` and commit what it writes"
+    assert constructs.FILE.read_text() == write_constructs(), renew
+    assert constructs.PAGE.read_text() == constructs.with_table(constructs.PAGE.read_text()), renew
 
 
 def test_every_kind_has_a_program_that_is_printed_and_parsed_again():
@@ -96,37 +97,90 @@ def test_every_instruction_has_its_json_and_a_place_in_the_run_machine():
 def test_every_kind_has_a_case_a_section_and_a_picture():
     cases = "".join(path.read_text() for path in sorted((ROOT / "tests" / "cases").rglob("*.json")))
     manual = (ROOT / "docs" / "language" / "README.md").read_text()
-    shape = (ROOT / "docs" / "shapes" / "document.md").read_text()
     images = {path.stem for path in (ROOT / "docs" / "language" / "images").glob("*.png")}
     assert [
         *lacking("tests/cases", KINDS, re.findall(r'"kind": ?"(\w+)"', cases)),
         *lacking("docs/language/README.md", DRAWN, re.findall(r"\(images/(\w+)\.png\)", manual)),
         *lacking("docs/language/images", DRAWN, images),
-        *lacking("docs/shapes/document.md", DRAWN, re.findall(r"`(\w+)`", shape[: shape.index("`role` defaults")])),
     ] == []
 
 
-def names_in(file, begin, end, pattern):
-    """Return what a pattern finds in the part of a file of the frontend between two marks."""
-    text = (FRONTEND / file).read_text()
-    start = text.index(begin)
-    return re.findall(pattern, text[start : text.index(end, start)], re.MULTILINE)
+def worded(construct):
+    """Return the words that the editor needs for a construct, by their keys in the catalogue."""
+    fields = [field for field in construct.fields if field.type in {"place", "value", "variable", "choice", "text"}]
+    own = re.search(r"FORMS.*?};", (FRONTEND / "editor/inspector/Inspector.tsx").read_text(), re.DOTALL)
+    keys = {f"kind.{construct.kind}", f"about.{construct.kind}"}
+    if not re.search(rf"^  {construct.kind}: ", own[0], re.MULTILINE):
+        labelled = [field for field in fields if field.wanted != "boolean"]
+        keys |= {f"form.{construct.kind}.{field.name}" for field in labelled}
+        keys |= {f"form.{construct.kind}.{choice}" for field in fields for choice in field.choices}
+        keys |= {f"form.{construct.kind}.{one}_means" for field in fields if field.explained for one in field.choices}
+    if construct.kind not in SAID_BY_OTHERS:
+        keys |= {
+            f"chip.{construct.kind}",
+            *(f"chip.{construct.kind}_{form.marked_by}" for form in construct.forms[:-1]),
+        }
+    return keys
 
 
-def test_every_kind_stands_in_every_table_of_the_browser():
-    key = r"^  (\w+)(?::|,)"
-    tables = {
-        "StepKind in editor/shapes.py": get_args(StepKind.__value__),
-        "LOOKS in program/kinds.ts": names_in("program/kinds.ts", "LOOKS:", "};", key),
-        "WRITERS in program/words/stepWords.ts": names_in("program/words/stepWords.ts", "WRITERS:", "};", key),
-        "FORMS in editor/inspector/Inspector.tsx": names_in("editor/inspector/Inspector.tsx", "FORMS:", "};", key),
+SAID_BY_OTHERS = {"operate", "call"}
+"""A device or a function says what stands on their chips."""
+
+
+def keys_of(words, before=""):
+    """Return the keys of a catalogue, as `chip.move`."""
+    for name, value in words.items():
+        yield from keys_of(value, f"{before}{name}.") if isinstance(value, dict) else [before + name]
+
+
+def words_lacking():
+    """Return a sentence for each word and symbol that a construct lacks."""
+    wanted = {key for construct in CONSTRUCTS.values() for key in worded(construct)}
+    catalogues = {
+        f"frontend/src/i18n/{language}/editor.json": [
+            *keys_of(json.loads((FRONTEND / "i18n" / language / "editor.json").read_text()))
+        ]
+        for language in ("en", "de")
     }
-    for language in ("en", "de"):
-        words = json.loads((FRONTEND / "i18n" / language / "editor.json").read_text())
-        tables |= {f"{part} in i18n/{language}/editor.json": words[part] for part in ("kind", "about")}
-    missing = [sentence for table, found in tables.items() for sentence in lacking(table, DRAWN, found)]
-    icons = names_in("program/kinds.ts", "LOOKS:", "};", r'icon: "(\w+)"')
-    assert [*missing, *lacking("icons", icons, (path.stem for path in (FRONTEND / "icons").glob("*.svg")))] == []
+    icons = [construct.look.icon for construct in CONSTRUCTS.values()]
+    return [
+        *(sentence for file, found in catalogues.items() for sentence in lacking(file, wanted, found)),
+        *lacking("frontend/src/icons", icons, (path.stem for path in (FRONTEND / "icons").glob("*.svg"))),
+    ]
+
+
+def test_every_construct_has_its_words_and_its_symbol():
+    assert words_lacking() == []
+
+
+def test_what_a_new_construct_lacks_is_named_with_the_file(monkeypatch):
+    form = Form("Beep", (Field("times", wanted="number"),), "self.beep(times)")
+    beep = Construct("beep", (form,), Look("beep", "machine", "pill"))
+    monkeypatch.setitem(CONSTRUCTS, "beep", beep)
+    monkeypatch.setitem(FORMS, "Beep", (beep, form))
+    assert words_lacking() + code_lacking() == LACKED_BY_BEEP
+
+
+LACKED_BY_BEEP = [
+    *(
+        f"frontend/src/i18n/{language}/editor.json lacks “{part}.beep{field}”"
+        for language in ("en", "de")
+        for part, field in (("about", ""), ("chip", ""), ("form", ".times"), ("kind", ""))
+    ),
+    "frontend/src/icons lacks “beep”",
+    "Node in editor/language/tree/nodes.py lacks “Beep”",
+    "CHECKS in editor/language/checks/checks.py lacks “Beep”",
+    "COMPILERS in editor/language/plan/compiler.py lacks “Beep”",
+    "_OWN in editor/language/drawing/steps.py lacks “Beep”",
+    "script in editor/language/constructs/table.py lacks “Beep”",
+]
+
+
+def test_a_new_step_means_at_most_ten_files():
+    page = PAGE.read_text()
+    table = page[page.index("## A kind of step") : page.index("## A form of descriptions")]
+    always = [row for row in table.splitlines() if row.startswith("| `") and "| only if" not in row]
+    assert 8 <= sum(len(re.findall(r"`[\w.*/-]+/[\w.*-]+`", row.split("|")[1])) for row in always) <= 10
 
 
 def test_every_form_of_a_description_has_its_names():
@@ -136,4 +190,4 @@ def test_every_form_of_a_description_has_its_names():
     }
     tables = {"_NAMES in vipo_site/cli/describe.py": FORM_NAMES}
     tables |= {f"devices.form in i18n/{language}/pages.json": words for language, words in catalogues.items()}
-    assert [sentence for table, found in tables.items() for sentence in lacking(table, FORMS, found)] == []
+    assert [sentence for table, found in tables.items() for sentence in lacking(table, DESCRIPTION_FORMS, found)] == []

@@ -6,9 +6,9 @@ import {
   type ProgramDocument,
   type Role,
   type Step,
-  textOf,
 } from "@/program/document/document";
 import { endOfBranch, roomAt, type Goal, type MakeId } from "./joints";
+import { roleOfStep } from "@/program/operation";
 import { EVENTS, outermost, readTree, withDescendants, type ProgramTree } from "@/program/document/tree";
 
 /** Steps with all inside them, the functions they call with their bodies, and the roles they name. */
@@ -28,7 +28,7 @@ export function clip(document: ProgramDocument, ids: readonly string[]): Clippin
   const steps = pickSteps(document, withDescendants(document, outer));
   const functions = calledBy(document, Object.values(steps));
   const bodies = pickSteps(document, bodiesOf(document, functions));
-  const named = [...Object.values(steps), ...Object.values(bodies)].map((step) => textOf(step.params.role));
+  const named = [...Object.values(steps), ...Object.values(bodies)].map((step) => roleOfStep(step) ?? "");
   const roles = Object.fromEntries(Object.entries(document.roles).filter(([id]) => named.includes(id)));
   const definitions = Object.entries(document.functions).filter(([id]) => functions.has(id));
   return { steps, outer, functions: Object.fromEntries(definitions), bodies, roles };

@@ -1,10 +1,9 @@
 /** A problem's remedy as edits of the document. */
-import { type Diagnostic, type Fix, type ProgramDocument, type Words, textOf } from "@/program/document/document";
+import { type Diagnostic, type Fix, type ProgramDocument, type Words } from "@/program/document/document";
 import { withDescendants } from "@/program/document/tree";
+import { DEFAULT_ROLE, givenToRole, roleOfStep } from "@/program/operation";
 import type { Edit } from "./edits";
 import { deleteSteps, joinDrafts, type MakeId } from "./joints";
-
-const DEFAULT_ROLE = "robot";
 
 /** What a remedy may have to make: ids, and the name of the program's next robot. */
 export interface Fresh {
@@ -71,16 +70,13 @@ function ownRobot(document: ProgramDocument, fix: Change, fresh: Fresh): readonl
   const count = new Set([DEFAULT_ROLE, ...Object.keys(document.roles)]).size;
   return [
     { do: "set_role", id, value: { name: fresh.robotName(count + 1), can: [] } },
-    ...driven.map((step): Edit => ({ do: "set_param", id: step, name: "role", value: id })),
+    ...driven.map((step): Edit => ({ do: "set_param", id: step, ...givenToRole(document.steps[step], id) })),
   ];
 }
 
-const DRIVING = new Set(["move", "pick", "drop", "pick_and_drop"]);
-
 /** The role whose robot carries out the step, null where no robot does. */
 export function drivenBy(document: ProgramDocument, id: string): string | null {
-  const step = document.steps[id];
-  return step && DRIVING.has(step.kind) ? textOf(step.params.role, DEFAULT_ROLE) : null;
+  return roleOfStep(document.steps[id]);
 }
 
 export function inLanguage(diagnostics: readonly Diagnostic[], language: string): readonly Diagnostic[] {

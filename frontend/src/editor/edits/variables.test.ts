@@ -18,6 +18,9 @@ const DOCUMENT: ProgramDocument = {
     inner: step("operate", ["loop", "body", "A"]),
     call: step("call", ["program", "body", "C"], { function: "mix", result: "total" }),
     local: step("set", ["mix", "body", "A"], { variable: "count", value: { quantity: [3, "MIN"] } }),
+    guard: step("try", ["loop", "body", "B"]),
+    tried: step("move", ["guard", "body", "A"]),
+    told: step("notify", ["guard", "catch", "A"]),
     draft: step("set", null, { variable: "lost", value: 1 }),
   },
 };
@@ -34,6 +37,15 @@ test("inside a loop its variable comes first, then what the program sets and tak
 test("inside a function its parameters and its own names come before the program's", () => {
   expect(knownNames(DOCUMENT, "local").map((each) => each.name)).toEqual(["minutes", "count", "dry", "total", "boxes"]);
   expect(namesSet(DOCUMENT, "mix")).toEqual([{ name: "count", type: "number", unit: "MIN" }]);
+});
+
+test("a catch knows the text and the kind of the failure, the body does not", () => {
+  expect(knownNames(DOCUMENT, "told").slice(0, 3)).toEqual([
+    { name: "problem.text", type: "text" },
+    { name: "problem.kind", type: "text" },
+    { name: "mixer", type: "device" },
+  ]);
+  expect(knownNames(DOCUMENT, "tried")[0]?.name).toBe("mixer");
 });
 
 test("what only a draft sets is not known", () => {

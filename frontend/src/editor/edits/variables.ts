@@ -2,14 +2,18 @@
 import { ancestors } from "@/program/document/tree";
 import type { Answer, Parameter, ProgramDocument, Step } from "@/program/document/document";
 
-/** Nearest first: loops around the step, its function's parameters, what is set, the program's parameters. */
+/** Nearest first: loops and catches around the step, its function's parameters, what is set, the program's parameters. */
 export function knownNames(document: ProgramDocument, id: string): readonly Parameter[] {
   const around = ancestors(document, id);
   const scope = around.at(-1) ?? "";
-  const loops = around.flatMap((each) => loopName(document.steps[each]));
+  const nearer = [id, ...around.slice(0, -1)];
+  const near = around.flatMap((each, index) => [
+    ...loopName(document.steps[each]),
+    ...ofProblem(document.steps[each], document.steps[nearer[index] ?? ""]),
+  ]);
   const own = document.functions[scope]?.parameters ?? [];
   return onePerName([
-    ...loops,
+    ...near,
     ...own,
     ...namesSet(document, document.functions[scope] ? scope : null),
     ...namesSet(document, null),
@@ -66,6 +70,12 @@ function loopName(step: Step | undefined): Parameter[] {
   if (step?.kind !== "for_each") return [];
   const items = Array.isArray(step.params.items) ? (step.params.items as unknown[]) : [];
   return named(step.params.variable, typeOf(items[0]));
+}
+
+/** What a catch knows of the failure; `inner` is the step that stands in the Try. */
+function ofProblem(step: Step | undefined, inner: Step | undefined): Parameter[] {
+  if (step?.kind !== "try" || inner?.place?.[1] !== "catch") return [];
+  return ["problem.text", "problem.kind"].map((name) => ({ name, type: "text" }));
 }
 
 type Typed = { readonly type: string; readonly unit?: string | null };

@@ -13,16 +13,16 @@ import { duplicateSelected, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
 import { CallForm } from "./forms/CallForm";
-import { ConditionForm, IfForm } from "./forms/ConditionForm";
-import { CommentForm, EventForm, ForEachForm, TryForm } from "./forms/flowForms";
+import { AskForm } from "./forms/AskForm";
+import { IfForm } from "./forms/ConditionForm";
+import { ConstructForm } from "./forms/ConstructForm";
+import { ForEachForm, ReturnForm, TryForm } from "./forms/flowForms";
 import { LoadForm } from "./forms/LoadForm";
 import { OperateForm } from "./forms/OperateForm";
-import { AskForm, NotifyForm } from "./forms/messageForms";
 import { ProgramPanel } from "./ProgramPanel";
-import { MoveForm, ParallelForm, WaitForm } from "./forms/smallForms";
+import { ParallelForm, WaitForm } from "./forms/smallForms";
 import classes from "../panel.module.css";
 import { StepEditorContext, useStepEditor, type StepEditor } from "./fields/stepEditor";
-import { RepeatForm, ReturnForm, Sentence, SetForm } from "./forms/valueForms";
 
 export function Inspector() {
   const { document } = useOpenProgram();
@@ -97,38 +97,26 @@ function StepPanel() {
   );
 }
 
-const FORMS: Readonly<Record<StepKind, () => ReactNode>> = {
+/** Forms in which fields depend on each other; all others follow from the records of constructs. */
+const FORMS: Readonly<Partial<Record<StepKind, () => ReactNode>>> = {
   pick_and_drop: LoadForm,
   pick: LoadForm,
   drop: LoadForm,
-  move: MoveForm,
   operate: OperateForm,
   wait: WaitForm,
   if: IfForm,
-  while: ConditionOfStep,
-  repeat: RepeatForm,
   for_each: ForEachForm,
   parallel: ParallelForm,
   try: TryForm,
   call: CallForm,
-  set: SetForm,
   ask: AskForm,
-  notify: NotifyForm,
   return: ReturnForm,
-  on_event: EventForm,
-  comment: CommentForm,
-  end: () => <Sentence of="end" />,
-  break: () => <Sentence of="break" />,
 };
 
 function Form({ kind }: { kind: string }) {
   if (!isStepKind(kind)) return null;
-  const Chosen = FORMS[kind];
+  const Chosen = FORMS[kind] ?? ConstructForm;
   return <Chosen />;
-}
-
-function ConditionOfStep() {
-  return <ConditionForm field="condition" />;
 }
 
 /** "1 field needs a value". */

@@ -11,7 +11,7 @@ import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
 import { completed, type Given, RunParameters } from "./RunParameters";
-import { textOf } from "@/program/document/document";
+import { roleOfStep } from "@/program/operation";
 
 export function RunDialog() {
   const { t } = useOpenProgram();
@@ -113,8 +113,7 @@ function Fact({ tone, children }: { tone: keyof typeof SIGNS; children: ReactNod
 function useRobotLines(): readonly string[] {
   const { document, surroundings, t } = useOpenProgram();
   const roles = new Set<string>();
-  for (const step of Object.values(document.steps))
-    if (["move", "pick", "drop", "pick_and_drop"].includes(step.kind)) roles.add(textOf(step.params.role, "robot"));
+  for (const step of Object.values(document.steps)) if (roleOfStep(step) !== null) roles.add(roleOfStep(step) ?? "");
   return [...roles].map((id) => {
     const role = document.roles[id];
     const robot = role?.device ? (surroundings.devices.get(role.device)?.name ?? role.device) : t("role.any");

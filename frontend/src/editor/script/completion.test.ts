@@ -47,10 +47,10 @@ test("behind self stand what run gives, functions, variables and the site's othe
     "mix_paint",
     "count",
     "wait",
-    "parallel",
-    "ask",
-    "notify",
     "end",
+    "notify",
+    "ask",
+    "parallel",
     "paint_mixer_a",
   ]);
   const mixer = optionsAt("        self.pa", SCRIPT, [OVEN, MIXER])?.options.at(-1);
@@ -70,4 +70,25 @@ test("devices are offered by id where run gives them", () => {
 test("the word that is completed begins behind the point", () => {
   expect(optionsAt("        self.rob", SCRIPT, [])?.start).toBe(13);
   expect(optionsAt("        1 + ", SCRIPT, [])).toBeNull();
+});
+
+test("behind a robot stand its own methods too, behind any robot those of all, each once", () => {
+  const robot = (id: string, ...names: string[]): NamedDevice => ({
+    ...OVEN,
+    id,
+    kind: "robot",
+    properties: [],
+    methods: names.map((name) => ({ name, parameters: [{ name: "times" }] })),
+  });
+  const robots = [robot("r1", "move", "honk"), robot("r2", "move", "honk", "openGripper")];
+  const given = SCRIPT.replace("self.new_task()", 'self.first = ctx.get("r1")\n        self.new_task()');
+  const behind = (line: string) => optionsAt(`${given}\n${line}`, given, [OVEN, ...robots])?.options;
+  expect(behind("        self.robot.")?.map(({ label }) => label)).toEqual([
+    "move",
+    "pick",
+    "drop",
+    "honk",
+    "open_gripper",
+  ]);
+  expect(behind("        self.first.")?.at(-1)).toEqual({ label: "honk", detail: "(times)", kind: "method" });
 });

@@ -1,6 +1,7 @@
 /** What can stand at the cursor: devices, what they do and report, robots' verbs, functions and names of the task. */
 import type { Completion, CompletionContext, CompletionResult } from "@codemirror/autocomplete";
 import type { EditorView } from "@codemirror/view";
+import { STEP_KINDS } from "@/program/kinds";
 
 export interface NamedDevice {
   readonly id: string;
@@ -18,9 +19,11 @@ export interface Option {
   readonly give?: string;
 }
 
-const VERBS = ["wait", "parallel", "ask", "notify", "end"];
+const CALLED = STEP_KINDS.filter((each) => each.method);
+const VERBS = [...CALLED.filter((each) => !each.drives).map((each) => each.method ?? ""), "parallel"];
+const ROBOT_VERBS = CALLED.filter((each) => each.drives).map((each) => each.method ?? "");
 const GIVERS = ["get", "any", "place", "parameter", "zone", "when", "start_when"];
-const WORDS = ["self", "if", "else", "while", "for", "try", "except", "finally", "return", "break", "pass"];
+const WORDS = ["self", "if", "else", "while", "for", "try", "except", "finally", "return", "raise", "break", "pass"];
 const GIVEN = /self\.(\w+)\s*=\s*ctx\.(\w+)\(\s*(?:["']([^"']*)["'])?/g;
 const DEFINED = /^ {4}def (\w+)\(self(?:,\s*([^)]*))?\)/gm;
 const SET = /^\s+self\.(\w+)\s*=(?!=)/gm;
@@ -108,14 +111,26 @@ function membersOf(name: string, script: string, devices: readonly NamedDevice[]
   const device = devices.find((each) => each.id === binding?.id);
   if (binding?.kind === "any" || device?.kind === "robot") {
     const properties = device ? propertiesOf(device) : [];
-    return [...plain(["move", "pick", "drop"], "verb"), ...properties];
+    const robots = device ? [device] : devices.filter((each) => each.kind === "robot");
+    return [...plain(ROBOT_VERBS, "verb"), ...methodsOf(robots), ...properties];
   }
-  const methods = (device?.methods ?? []).map((method): Option => ({
-    label: pythonName(method.name),
-    detail: `(${method.parameters.map((each) => each.name).join(", ")})`,
-    kind: "method",
-  }));
-  return [...methods, ...(device ? propertiesOf(device) : []), ...plain(["location"], "value")];
+  return [
+    ...methodsOf(device ? [device] : []),
+    ...(device ? propertiesOf(device) : []),
+    ...plain(["location"], "value"),
+  ];
+}
+
+/** What these devices do; a robot's steps stand apart, and what several robots do stands there once. */
+function methodsOf(devices: readonly NamedDevice[]): Option[] {
+  const found = new Map<string, Option>();
+  for (const device of devices)
+    for (const { name, parameters } of device.methods) {
+      const label = pythonName(name);
+      if (found.has(label) || (device.kind === "robot" && ROBOT_VERBS.includes(name))) continue;
+      found.set(label, { label, detail: `(${parameters.map((each) => each.name).join(", ")})`, kind: "method" });
+    }
+  return [...found.values()];
 }
 
 function propertiesOf(device: NamedDevice): Option[] {

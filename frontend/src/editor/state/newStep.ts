@@ -1,51 +1,61 @@
 /** New steps where a gesture ends: at a device or on the floor. */
 import { toPixels, type Box, type Point } from "@/map/plane/projection";
 import type { ProgramDocument, StepKind } from "@/program/document/document";
+import { type FieldRecord, fieldsOf, isStepKind } from "@/program/kinds";
 import { freshName } from "../edits/variables";
 import { frameAt, type Frame } from "@/program/scene/frames";
-import { spotBelow, spotOnMachine } from "./placement";
+import { spotBelow, spotByRobot, spotOnMachine } from "./placement";
 import { outerBox } from "@/program/scene/scene";
+import { operable } from "@/program/operation";
 import { deviceBox, type SiteDevice } from "@/program/surroundings";
 import { branchNow, createStep } from "./actions";
 import type { OpenProgram } from "./context";
-import { operable, withDevice, type Gesture } from "./tool";
+import { withDevice, type Gesture } from "./tool";
 import { useUi } from "./ui";
 
 export function createAtDevice(open: OpenProgram, gesture: Gesture, device: SiteDevice, taken: readonly Box[]): void {
-  const pos = spotOnMachine(deviceBox(device), taken);
+  const pos = device.kind === "robot" ? besideRobot(open, device, taken) : spotOnMachine(deviceBox(device), taken);
   const make = (kind: "move" | "operate", params: Record<string, unknown>) =>
     createStep(open.document, open.apply, { kind, pos, params });
   if (gesture.tool === "operate") {
     const methods = operable(device);
     const method = methods.length === 1 ? { method: methods[0]?.name } : {};
-    make("operate", { device: { device: device.id }, ...method, args: {} });
+    make("operate", { device: operatedBy(open.document, device), ...method, args: {} });
   } else if (gesture.tool === "move") make("move", { role: "robot", to: { device: device.id } });
   else useUi.setState({ gesture: withDevice(gesture, device.id) });
 }
 
-/** What a fresh step of a kind that stands on the floor knows already; what cannot be guessed is left out. */
-function freshParams(kind: string, document: ProgramDocument): Record<string, unknown> | null {
-  switch (kind) {
-    case "parallel":
-      return { branches: ["a", "b"] };
-    case "try":
-      return { kinds: [] };
-    case "for_each":
-      return { variable: freshName(document, "item"), items: [] };
-    case "ask":
-      return { answer: { type: "boolean" }, variable: freshName(document, "answer") };
-    case "notify":
-      return { level: "info" };
-    case "on_event":
-      return { starts: "branch" };
-    case "comment":
-      return { text: "" };
-    default:
-      return PLAIN.includes(kind) ? {} : null;
-  }
+function besideRobot({ devices }: OpenProgram, robot: SiteDevice, taken: readonly Box[]): Point {
+  const robots = devices.filter((each) => each.kind === "robot").map(deviceBox);
+  return spotByRobot(deviceBox(robot), [...taken, ...robots]);
 }
 
-const PLAIN = ["wait", "if", "while", "repeat", "set", "end", "return", "break"];
+/** A robot that the program has already goes by its role there. */
+function operatedBy(document: ProgramDocument, device: SiteDevice): Record<string, string> {
+  const role = Object.entries(document.roles).find(([, each]) => each.device === device.id);
+  return device.kind === "robot" && role ? { role: role[0] } : { device: device.id };
+}
+
+/** What a fresh step of a kind that stands on the floor knows already; what cannot be guessed is left out. */
+export function freshParams(kind: string, document: ProgramDocument): Record<string, unknown> | null {
+  const fields = fieldsOf(kind);
+  if (!isStepKind(kind) || fields.some(({ type }) => type === "place" || type === "function")) return null;
+  const known = fields.map((field) => [field.name, freshValue(field, document)] as const);
+  return Object.fromEntries(known.filter(([, value]) => value !== undefined));
+}
+
+function freshValue({ type, choices, suggested }: FieldRecord, document: ProgramDocument): unknown {
+  if (suggested) return freshName(document, suggested);
+  return type === "choice" ? choices?.[0] : FRESH[type];
+}
+
+const FRESH: Readonly<Record<string, unknown>> = {
+  branches: ["a", "b"],
+  choices: [],
+  values: [],
+  answer: { type: "boolean" },
+  text: "",
+};
 
 /** The next step goes into the body of this frame. */
 export function goInto(open: OpenProgram, frame: Frame): void {

@@ -36,6 +36,14 @@ export function spotOnMachine(machine: Box, taken: readonly Box[]): Point {
   return toMetres(free ?? { x, y: machine.bottom + 68 });
 }
 
+/** Above a robot, clear of it and of what is taken: it stands on nothing that could be pressed. */
+export function spotByRobot(robot: Box, taken: readonly Box[]): Point {
+  const x = (robot.left + robot.right) / 2;
+  const heights = [40, 74, 108].map((gap) => robot.top - gap);
+  const free = heights.find((y) => !taken.some((each) => overlaps(each, boxAt({ x, y }, CHIP.width, CHIP.height))));
+  return toMetres({ x, y: free ?? robot.top - 142 });
+}
+
 /** Under the last step of a frame, so that a new one stands inside it. */
 export function spotBelow(box: Box): Point {
   return toMetres({ x: (box.left + box.right) / 2, y: box.bottom + 20 });

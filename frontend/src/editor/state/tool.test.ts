@@ -64,3 +64,13 @@ test("the likeliest loads are offered", () => {
   ]);
   expect(suggestedLoads(undefined, undefined, 2)).toEqual([]);
 });
+
+test("an Operate takes a robot that describes a method of its own, and no other tool takes a robot", () => {
+  const named = (name: string) => ({ name, parameters: [] });
+  const robot = (...names: string[]): SiteDevice => ({ ...oven, kind: "robot", methods: names.map(named) });
+  const operate = takeTool(RESTING, "operate", false);
+  expect(suits(operate, robot("move", "honk"), undefined)).toBe(true);
+  expect(suits(operate, robot("move", "pick", "drop"), undefined)).toBe(false);
+  expect(suits(takeTool(RESTING, "move", false), robot("move", "honk"), undefined)).toBe(false);
+  expect(suits(takeTool(RESTING, "pick_and_drop", false), robot("honk"), undefined)).toBe(false);
+});

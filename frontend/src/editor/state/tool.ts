@@ -1,4 +1,5 @@
 /** The tool in hand and how far its gesture has come; pure. */
+import { operable } from "@/program/operation";
 import type { SiteDevice } from "@/program/surroundings";
 
 export type ToolName = string;
@@ -67,14 +68,9 @@ export function finish(gesture: Gesture): Gesture {
   return gesture.locked ? { ...RESTING, tool: gesture.tool, locked: true, byKeyboard: gesture.byKeyboard } : RESTING;
 }
 
-/** Methods that a person may choose; giving and taking are part of picking and dropping. */
-export function operable(device: SiteDevice): SiteDevice["methods"] {
-  return device.methods.filter((method) => method.name !== "dispense" && method.name !== "accept");
-}
-
 /** Whether a device can be what the gesture asks for. */
 export function suits(gesture: Gesture, device: SiteDevice, source: SiteDevice | undefined): boolean {
-  if (device.kind === "robot" || device.lifecycle === "pending") return false;
+  if (device.lifecycle === "pending" || (device.kind === "robot" && askOf(gesture) !== "device")) return false;
   switch (askOf(gesture)) {
     case "source":
       return device.gives.length > 0;

@@ -30,13 +30,8 @@ export function chipLabel(chip: Chip, speaker: Speaker): string {
   return [chip.number, t(`kind.${chip.kind}`), what, inside, problem].filter(Boolean).join(", ");
 }
 
-/** Chips whose first word is the name of their kind, and those that say nothing else. */
-const BEGINS_WITH_ITS_NAME = ["repeat", "ask", "notify", "return", "on_event"];
-const ONLY_ITS_NAME = ["try", "parallel", "end", "break"];
-
 /** What a chip says beside the name of its kind. */
 export function detailOf(chip: Pick<Chip, "kind" | "condition" | "parts">): Chip["parts"] {
   if (chip.condition) return chip.condition;
-  if (ONLY_ITS_NAME.includes(chip.kind)) return [];
-  return BEGINS_WITH_ITS_NAME.includes(chip.kind) ? chip.parts.slice(1) : chip.parts;
+  return chip.parts[0]?.tone === "word" ? chip.parts.slice(1) : chip.parts;
 }

@@ -1,12 +1,16 @@
 /** How the constructs that hold others are drawn: frames, ways out, roots, notes, and how they are told. */
 import { expect, test } from "vitest";
+import en from "@/i18n/en/editor.json";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "../document/document";
 import { chipLabel } from "./announcements";
 import { buildScene, type Scene } from "./scene";
 import { surroundingsOf } from "../surroundings";
 
-const t = (key: string, values?: Record<string, unknown>) =>
-  values ? `${key} ${Object.values(values).join(" ")}` : key;
+const CHIPS = en.chip as Record<string, string>;
+/** The templates of chips in English; other texts as their key, with what is filled in. */
+const t = (key: string, values: Record<string, unknown> = {}) =>
+  CHIPS[key.replace(/^chip\./, "")]?.replace(/\{\{(\w+)\}\}/g, (_, name: string) => String(values[name])) ??
+  [key, ...Object.values(values)].join(" ");
 const surroundings = surroundingsOf([], []);
 
 function step(kind: string, place: Step["place"], pos: [number, number], params: Step["params"] = {}): Step {

@@ -4,6 +4,7 @@ import { isRobot } from "@/map/devices/device";
 import { type PixelPoint, simplified } from "@/map/plane/paths";
 import { type Point, toMetres } from "@/map/plane/projection";
 import { ancestors, type ProgramTree } from "../document/tree";
+import { operatedRole } from "../operation";
 import { type Spot, spotOf, type Surroundings } from "../surroundings";
 
 export interface StepPath {
@@ -34,6 +35,7 @@ export function pathsOf(document: ProgramDocument, tree: ProgramTree, surroundin
     const step = document.steps[id];
     if (!step) continue;
     const scope = functionOf(document, id);
+    if (operatedRole(step.params.device) !== null) continue;
     const role = `${scope ?? ""}/${textOf(step.params.role, "robot")}`;
     const from =
       startOf(step, document, surroundings, scope) ?? standing.get(role) ?? homeOf(step, document, surroundings);

@@ -1,15 +1,17 @@
 /** What stands on a step's chip: a noun and an amount, a "?" where a value is still to be entered. */
-import { type Place, type Step, type StepKind, type Value, textOf } from "../document/document";
-import { isStepKind } from "../kinds";
-import type { Surroundings } from "../surroundings";
-import { durationText, placeName, type Speaker, valueText, withUnit } from "./valueWords";
+import { type Place, type Step, type Value, textOf } from "../document/document";
+import { type FieldRecord, isStepKind, kindOf } from "../kinds";
+import { isRobot } from "@/map/devices/device";
+import { methodOf, operatedRole } from "../operation";
+import { durationText, placeName, roleName, type Speaker, valueText, withUnit } from "./valueWords";
 
-export { durationText, placeName, UNIT_CHOICES, unitText, valueText, withUnit } from "./valueWords";
+export { durationText, placeName, roleName, UNIT_CHOICES, unitText, valueText, withUnit } from "./valueWords";
 export type { Speaker, Translate } from "./valueWords";
 
 export interface TextPart {
   readonly text: string;
-  readonly tone: "plain" | "missing" | "soft" | "mono";
+  /** A word that belongs to the kind and to no value of the step is a "word". */
+  readonly tone: "plain" | "word" | "missing" | "soft" | "mono";
   /** A colour to show before the text that names it. */
   readonly swatch?: string;
 }
@@ -20,32 +22,17 @@ const LONGEST = 26;
 
 type Writer = (step: Step, speaker: Speaker) => readonly TextPart[];
 
-const WRITERS: Readonly<Record<StepKind, Writer>> = {
-  move: moveText,
-  pick: loadText,
-  drop: loadText,
-  pick_and_drop: loadText,
+/** Chips that say more than their fields; those of all other kinds follow from a template of the catalogue. */
+const WRITERS: Readonly<Partial<Record<string, Writer>>> = {
   operate: operateText,
-  wait: waitText,
   call: callText,
-  if: (_step, { t }) => [plain(t("chip.if"))],
-  while: named,
-  parallel: named,
-  try: named,
-  break: named,
-  end: named,
-  repeat: repeatText,
   for_each: forEachText,
-  set: setText,
-  ask: (step, speaker) => sentenceText("ask", step.params.question, speaker),
-  notify: (step, speaker) => sentenceText("notify", step.params.message, speaker),
-  return: returnText,
-  on_event: eventText,
   comment: commentText,
 };
 
 export function chipText(step: Step, speaker: Speaker): readonly TextPart[] {
-  return isStepKind(step.kind) ? WRITERS[step.kind](step, speaker) : [plain(speaker.t("kind.unknown"))];
+  if (!isStepKind(step.kind)) return [plain(speaker.t("kind.unknown"))];
+  return (WRITERS[step.kind] ?? templateText)(step, speaker);
 }
 
 /** The condition of an If or a While for the tag beside it. */
@@ -58,26 +45,64 @@ function plain(text: string): TextPart {
   return { text, tone: "plain" };
 }
 
-function named(step: Step, { t }: Speaker): TextPart[] {
-  return [plain(t(`kind.${step.kind}`))];
+/** A template such as "repeat|{{times}}|×": each part with what stands in its field, or with the mark that it misses. */
+function templateText(step: Step, speaker: Speaker): readonly TextPart[] {
+  const { kind, forms } = kindOf(step.kind);
+  const marked = forms.find((form) => form.marked_by && (step.params[form.marked_by] ?? null) !== null);
+  const form = marked ?? forms.at(-1);
+  const fields = new Map((form?.fields ?? []).map((field) => [field.name, field]));
+  const said = new Map([...fields.values()].map((field) => [field.name, fieldPart(field, step, speaker)]));
+  const holes = Object.fromEntries([...fields.keys()].map((name) => [name, `⟦${name}⟧`]));
+  const key = `chip.${marked ? `${kind}_${marked.marked_by}` : kind}`;
+  const words = speaker.t(key, holes);
+  const missing = [...said].some(([name, part]) => part === null && words.includes(holes[name] ?? ""));
+  const template = missing ? speaker.t(`${key}_missing`, { ...holes, defaultValue: words }) : words;
+  return template.split("|").flatMap((segment) => segmentParts(segment, fields, said));
 }
 
-function moveText(step: Step, speaker: Speaker): TextPart[] {
-  const name = placeName(step.params.to as Place, speaker);
-  if (name === null) return [plain(speaker.t("chip.move")), MISSING];
-  return [plain(speaker.t("chip.move_to", { place: name }))];
+/** One part of a chip; where a value in it is missing, its words stand before and behind the mark. */
+function segmentParts(
+  segment: string,
+  fields: ReadonlyMap<string, FieldRecord>,
+  said: ReadonlyMap<string, TextPart | null>,
+): readonly TextPart[] {
+  const names = [...segment.matchAll(/⟦(\w+)⟧/g)].map(([, name]) => name ?? "");
+  const [only] = names;
+  if (only === undefined) return [{ text: segment, tone: "word" }];
+  if (segment === `⟦${only}⟧`)
+    return [said.get(only) ?? (fields.get(only)?.optional ? null : MISSING)].filter((part) => part !== null);
+  const filled = segment.replace(/⟦(\w+)⟧/g, (_, name: string) => said.get(name)?.text ?? "\0");
+  const [first = "", ...rest] = filled.split("\0").map((text) => text.trim());
+  const parts = [plain(first), ...rest.flatMap((text) => [MISSING, plain(text)])];
+  return parts.filter((part) => part.text !== "");
 }
 
-function loadText(step: Step, speaker: Speaker): TextPart[] {
-  const quantity = valueText((step.params.quantity ?? null) as Value, speaker);
-  const object = valueText((step.params.object ?? null) as Value, speaker);
-  return [quantity === null ? MISSING : plain(quantity), plain("×"), object === null ? MISSING : plain(object)];
+/** What stands in a field; null where that is still to be entered. */
+function fieldPart(field: FieldRecord, step: Step, speaker: Speaker): TextPart | null {
+  const value = (step.params[field.name] ?? null) as Value;
+  if (field.type === "place") return partOf(placeName(value as Place | null, speaker));
+  if (field.type === "variable") return partOf(textOf(value) || null);
+  if (field.type !== "value") return null;
+  if (field.wanted === "time" && typeof value === "number") return plain(durationText(value));
+  const { family, shape } = kindOf(step.kind);
+  const full = family === "func" || shape === "root";
+  const text = valueText(value, full ? { ...speaker, full } : speaker);
+  if (text === null) return null;
+  if (field.wanted === "text") return { text: shortened(text), tone: "soft" };
+  if (field.wanted) return plain(text);
+  return full ? { ...plain(shortened(text)), ...swatchOf(value) } : plain(shortened(text));
+}
+
+function partOf(text: string | null): TextPart | null {
+  return text === null ? null : plain(text);
 }
 
 function operateText(step: Step, speaker: Speaker): TextPart[] {
-  const { device, method } = methodOf(step, speaker.surroundings);
-  if (!step.params.method) return [MISSING];
-  const parts = [plain(method?.title ?? textOf(step.params.method))];
+  const { device, method } = methodOf(step, speaker.surroundings, speaker.document);
+  const robot = robotName(step, speaker);
+  const first = robot === null ? [] : [plain(robot), plain("·")];
+  if (!step.params.method) return [...first, MISSING];
+  const parts = [...first, plain(method?.title || textOf(step.params.method))];
   const args = (step.params.args ?? {}) as Record<string, Value>;
   for (const parameter of method?.parameters ?? []) {
     const text = valueText(args[parameter.name] ?? null, speaker);
@@ -85,29 +110,15 @@ function operateText(step: Step, speaker: Speaker): TextPart[] {
     if (text !== null) parts.push(plain(`· ${fixed ? withUnit(text, parameter.unit) : text}`));
     else if (parameter.required !== false) parts.push(MISSING);
   }
-  return device ? parts : [MISSING, ...parts];
+  return device || robot !== null ? parts : [MISSING, ...parts];
 }
 
-export function methodOf(step: Step, surroundings: Surroundings) {
-  const place = step.params.device as { device?: string } | undefined;
-  const device = place?.device ? surroundings.devices.get(place.device) : undefined;
-  const method = device?.methods.find((each) => each.name === step.params.method);
-  return { device, method };
-}
-
-function waitText(step: Step, speaker: Speaker): TextPart[] {
-  const { t } = speaker;
-  if (step.params.until !== undefined && step.params.until !== null)
-    return [plain(valueText(step.params.until as Value, speaker) ?? "?")];
-  const duration = step.params.duration as Value;
-  if (typeof duration === "number") return [plain(t("chip.wait", { time: durationText(duration) }))];
-  const text = valueText(duration ?? null, speaker);
-  return text === null ? [plain(t("chip.wait_word")), MISSING] : [plain(t("chip.wait", { time: text }))];
-}
-
-function repeatText(step: Step, speaker: Speaker): TextPart[] {
-  const times = valueText(step.params.times as Value, speaker);
-  return [plain(speaker.t("chip.repeat")), times === null ? MISSING : plain(times), plain("×")];
+/** What an Operate calls its robot, for a robot does not stand where the step does; null where it has none. */
+function robotName(step: Step, speaker: Speaker): string | null {
+  const role = operatedRole(step.params.device);
+  if (role !== null) return roleName(role, speaker);
+  const { device } = methodOf(step, speaker.surroundings, speaker.document);
+  return device && isRobot(device) ? device.name : null;
 }
 
 function forEachText(step: Step, speaker: Speaker): TextPart[] {
@@ -119,31 +130,6 @@ function forEachText(step: Step, speaker: Speaker): TextPart[] {
     plain(speaker.t("chip.for_each", { variable })),
     items.length === 0 ? MISSING : plain(rest.length > 0 ? `${names} +${rest.length}` : names),
   ];
-}
-
-function setText(step: Step, speaker: Speaker): TextPart[] {
-  const name = step.params.variable ? plain(textOf(step.params.variable)) : MISSING;
-  return [name, plain("="), valuePart(step.params.value as Value, speaker)];
-}
-
-function valuePart(value: Value, speaker: Speaker): TextPart {
-  const text = valueText(value, { ...speaker, full: true });
-  return text === null ? MISSING : { ...plain(shortened(text)), ...swatchOf(value) };
-}
-
-function sentenceText(word: "ask" | "notify", value: unknown, speaker: Speaker): TextPart[] {
-  const text = valueText(value as Value, { ...speaker, full: true });
-  return [plain(speaker.t(`chip.${word}`)), text === null ? MISSING : { text: shortened(text), tone: "soft" }];
-}
-
-function returnText(step: Step, speaker: Speaker): TextPart[] {
-  const text = valueText(step.params.value as Value, speaker);
-  return [plain(speaker.t("chip.return")), ...(text === null ? [] : [plain(shortened(text))])];
-}
-
-function eventText(step: Step, speaker: Speaker): TextPart[] {
-  const text = valueText(step.params.condition as Value, { ...speaker, full: true });
-  return [plain(speaker.t("chip.when")), text === null ? MISSING : plain(text)];
 }
 
 function commentText(step: Step, { t }: Speaker): TextPart[] {

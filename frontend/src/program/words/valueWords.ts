@@ -1,5 +1,6 @@
 /** Values and places as people read them. */
 import type { Place, ProgramDocument, Value } from "../document/document";
+import { DEFAULT_ROLE, operatedRole } from "../operation";
 import type { Surroundings } from "../surroundings";
 
 /** A translator: catalogue key and values to text. */
@@ -19,7 +20,14 @@ export function placeName(place: Place | null | undefined, speaker: Speaker): st
   if ("device" in place) return deviceName(place.device, speaker);
   if ("place" in place) return speaker.surroundings.places.get(place.place)?.name ?? place.place;
   if ("point" in place) return `${place.point[0]}, ${place.point[1]}\u202fm`.replaceAll("-", "−");
+  const role = operatedRole(place);
+  if (role !== null) return roleName(role, speaker);
   return "param" in place ? place.param : null;
+}
+
+/** A robot of the program as people call it. */
+export function roleName(role: string, { document, t }: Speaker): string {
+  return document.roles[role]?.name ?? (role === DEFAULT_ROLE ? t("role.default") : role);
 }
 
 function deviceName(id: string, speaker: Speaker): string {

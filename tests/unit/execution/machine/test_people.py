@@ -1,6 +1,8 @@
 """Questions, notices, variables, events and stored states of the run machine."""
 
-from editor.language.expressions.nodes import AnswerSpec, Constant, Operation, PlaceRef, Reading, Variable
+from dataclasses import replace
+
+from editor.language.expressions.nodes import AnswerSpec, Constant, Located, Operation, PlaceRef, Reading, Variable
 from editor.language.plan.instructions import (
     AskPerson,
     Assign,
@@ -14,11 +16,14 @@ from editor.language.plan.instructions import (
     Move,
     Notify,
     Return,
+    RoleBinding,
     TryBegin,
     Wait,
 )
 from execution.machine import machine
 from execution.machine import messages as r
+from execution.machine.needs import needs_of
+from execution.machine.places import ROLE
 from tests.kit.programs import plan_of, reload
 
 OVEN = PlaceRef(device="oven")
@@ -196,3 +201,37 @@ def test_recursion_through_branches_is_bounded_too():
 
 def test_a_jump_into_nowhere_ends_the_run():
     assert machine.start(plan_of(Jump(77)), {})[0].status == "finished"
+
+
+def test_an_event_whose_variable_is_unset_is_not_true_and_becomes_true_when_it_is_set():
+    up = Operation("==", (Variable("n"), ONE))
+    for condition, starts in ((up, ["e"]), (Operation("not", (up,)), [])):
+        program = plan_of(
+            Instruction(Wait(ONE), "w"), Assign("n", ONE, shared=True), Instruction(Wait(ONE), "x"), End(),
+            Instruction(Wait(ONE), "y"), EventEnd(), events=(EventEntry("e", 4, condition),)
+        )  # fmt: skip
+        state, _ = machine.start(program, {})
+        assert (state.status, state.truths) == ("running", {0: False})
+        state, actions = machine.step(program, reload(state), r.TimerFired(1))
+        entered = [action.step for action in actions if isinstance(action, r.StepEntered)]
+        assert (entered, state.status) == (["x", *(each for one in starts for each in (one, "y"))], "running")
+
+
+def test_an_event_whose_condition_is_wrong_still_fails_the_run():
+    wrong = EventEntry("e", 2, Operation(">", (Variable("n"), ONE)))
+    program = plan_of(Instruction(Wait(ONE), "w"), End(), EventEnd(), events=(wrong,), n="many")
+    state, actions = machine.start(program, {})
+    assert (state.status, actions[-1].status) == ("failed", "failed")
+
+
+def test_where_the_robot_of_a_bound_role_is_can_be_asked_before_its_first_step():
+    far = Operation(">", (Operation("distance", (Located(role="robot"), Located(device="oven"))), Constant(3)))
+    program = replace(
+        plan_of(Branch(far, 2), Instruction(Wait(ONE), "far"), End()),
+        roles={"robot": RoleBinding("robot", "robot01"), "other": RoleBinding("other", "robot02")},
+    )
+    assert needs_of(program).things == {"robot01", "oven"}
+    there = {("robot01", "$x"): 9, ("robot01", "$y"): 0, ("oven", "$x"): 1, ("oven", "$y"): 0}
+    state, actions = machine.start(program, {}, there)
+    assert actions == (r.StepEntered("far"), r.SetTimer(1, 1))
+    assert (ROLE, "other") not in state.facts

@@ -45,6 +45,9 @@ actions = st.one_of(
     st.builds(p.Notify, values, st.sampled_from(["info", "warning"])),
     st.builds(p.End, st.booleans()),
     st.just(p.EventEnd()),
+    st.builds(p.Fail, values),
+    st.builds(p.Caught, names, names),
+    st.builds(p.Perform, st.just("robot"), st.just("honk"), st.fixed_dictionaries({"times": values})),
 )  # fmt: skip
 steps = st.sampled_from(["", "", "s1", "s2", "s3"])
 marks = st.sampled_from([(), (), ("a",), ("b",), ("s1",)])

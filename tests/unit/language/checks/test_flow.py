@@ -7,11 +7,14 @@ from dataclasses import replace
 
 import pytest
 
+from editor.language.analysis.effects import EffectTable
+from editor.language.checks.bodies import find_bodies
+from editor.language.checks.checks import CHECKS
 from editor.language.checks.context import Context
-from editor.language.checks.flow import check_flow, outcomes_of_functions
 from editor.language.checks.parallel import check_parallel
-from editor.language.checks.variables import check_variables
-from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
+from editor.language.checks.paths import check_paths, functions_without_end
+from editor.language.checks.use import check_use
+from editor.language.expressions.nodes import AnswerSpec, Constant, Expression, Operation, Reading, Variable
 from editor.language.tree.nodes import (
     Ask,
     Block,
@@ -53,13 +56,20 @@ def told(check: Callable[[Context], None], tree: Tree) -> list[tuple[str, str]]:
     return [(problem.step, problem.code) for problem, _ in context.found]
 
 
+def follow(context: Context) -> None:
+    check_paths(context, find_bodies(context), CHECKS)
+    check_use(context)
+
+
 def flow(*body: Node, functions: tuple[Function, ...] = (), events: tuple[Event, ...] = ()) -> list[tuple[str, str]]:
-    return told(check_flow, Tree(named(body, "s"), functions, (), (), events))
+    found = told(follow, Tree(named(body, "s"), functions, (), (), events))
+    return [each for each in found if each[1] not in {"unset_variable", "may_be_unset", "unused_variable"}]
 
 
 def variables(*body: Node, functions: tuple[Function, ...] = (), parameters: tuple[str, ...] = ()) -> list[str]:
     given = tuple(Parameter(name) for name in parameters)
-    return [code for _, code in told(check_variables, Tree(named(body, "s"), functions, (), given))]
+    found = told(follow, Tree(named(body, "s"), functions, (), given))
+    return [code for _, code in found if code in {"unset_variable", "may_be_unset", "unused_variable"}]
 
 
 def use(*values: Expression) -> tuple[Node, ...]:
@@ -124,7 +134,11 @@ def test_a_loop_may_wait_for_what_an_event_or_another_branch_sets() -> None:
 
 def test_a_call_in_a_loop_may_set_what_ends_it() -> None:
     less = Function("less", (), (Set("x", ONE),))
-    assert flow(While(Operation(">", (X, ONE)), (Call("less"),)), functions=(less,)) == []
+    asked = Ask(ONE, AnswerSpec("number"), "x")
+    assert flow(asked, While(Operation(">", (X, ONE)), (Call("less"),)), functions=(less,)) == []
+    own = Function("less", (Parameter("x"),), (Set("x", ONE),))
+    loop = While(Operation(">", (X, ONE)), (Call("less", (("x", ONE),)),))
+    assert flow(asked, loop, functions=(own,)) == [("s2", "may_never_end"), ("", "unused_parameter")]
 
 
 def test_recursion_needs_a_way_on_which_it_ends() -> None:
@@ -146,7 +160,8 @@ def test_functions_that_only_call_each_other_never_end() -> None:
 def test_the_ways_out_of_functions_are_understood_together() -> None:
     stop = Function("stop", (), (End(),))
     outer = Function("outer", (), (If(HOT, (Call("stop"),)), Return()))
-    assert outcomes_of_functions(Tree((), (outer, stop))) == {"outer": {"end", "return"}, "stop": {"end"}}
+    tree = Tree((), (outer, stop))
+    assert functions_without_end(tree, EffectTable(tree)) == frozenset()
     assert flow(Call("stop"), PAUSE, functions=(stop,)) == [("s2", "never_reached")]
 
 

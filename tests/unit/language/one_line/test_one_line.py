@@ -109,8 +109,10 @@ def test_a_line_is_read_and_printed(text: str, value: object, printed: str | Non
 def test_a_refusal_is_told_in_german_too() -> None:
     with pytest.raises(NotUnderstood) as caught:
         parse_line("curing_oven.temprature > 1", scope())
-    expected = "„curing_oven.temprature“ kann hier nicht stehen. Was hier gelesen werden kann: job_status, temperature,"
-    assert caught.value.messages["de"] == f"{expected} quality."
+    assert caught.value.messages["de"] == (
+        "„curing_oven.temprature“ kann hier nicht stehen. Meinten Sie temperature? "
+        "Was hier gelesen werden kann: job_status, temperature, quality."
+    )
 
 
 def test_what_a_function_is_given_can_be_seen_only_in_it() -> None:
@@ -134,9 +136,10 @@ def test_what_a_function_is_given_can_be_seen_only_in_it() -> None:
         (
             "curing_oven.temprature > 1",
             1,
-            "“curing_oven.temprature” cannot stand here. What can be read here: job_status, temperature, quality.",
+            "“curing_oven.temprature” cannot stand here. Did you mean temperature? "
+            "What can be read here: job_status, temperature, quality.",
         ),
-        ("distance(curing_oven)", 1, "“distance(curing_oven)” cannot stand here. distance takes 2 value(s)."),
+        ("distance(curing_oven)", 1, "“distance(curing_oven)” cannot stand here. distance takes 2 values."),
         ("1 if count else 2", 1, None),
         ("lambda: 1", 1, None),
         ("count.append(1)", 1, None),
@@ -226,3 +229,29 @@ def test_no_line_breaks_the_reader(text: str) -> None:
 @given(st.recursive(st.none() | st.booleans() | st.integers() | st.text(max_size=5), lambda x: st.lists(x, max_size=3) | st.dictionaries(st.sampled_from(["op", "args", "at", "quantity", "property", "param", "zone", "role"]), x, max_size=3)))  # fmt: skip  # noqa: E501
 def test_any_nonsense_prints_as_some_line(value: Any) -> None:
     assert isinstance(print_line(value, scope()), str)
+
+
+CAUGHT: dict[str, Any] = {
+    **DOCUMENT,
+    "steps": {
+        "t": {"kind": "try", "place": ["program", "body", "a"], "pos": [0, 0], "params": {}},
+        "i": {"kind": "if", "place": ["t", "catch", "a"], "pos": [0, 0], "params": {}},
+        "n": {"kind": "notify", "place": ["i", "then", "a"], "pos": [0, 0], "params": {}},
+        "m": {"kind": "notify", "place": ["t", "body", "a"], "pos": [0, 0], "params": {}},
+    },
+}
+
+
+@pytest.mark.parametrize("step", ["i", "n"])
+def test_in_a_catch_the_failure_can_be_named(step: str) -> None:
+    line = make_line_scope(CAUGHT, factory(), "", step)
+    value = {"op": "==", "args": [{"param": "problem.kind"}, "offline"]}
+    assert parse_line('problem.kind == "offline"', line) == value
+    assert print_line(value, line) == 'problem.kind == "offline"'
+    assert type_of_line({"param": "problem.text"}, line).type == "text"
+    assert "problem.text" in line.known_names()
+
+
+def test_elsewhere_a_failure_is_no_value() -> None:
+    with pytest.raises(NotUnderstood, match=r"There is nothing called “problem” here\."):
+        parse_line("problem.text", make_line_scope(CAUGHT, factory(), "", "m"))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+from typing import Any
 
 import pytest
 
@@ -10,7 +12,9 @@ from editor.language import parse_script
 from editor.language.messages import syntax_errors
 from editor.language.messages.phrases import refused_in_german
 from tests.kit.demo_site import factory, script
+from tests.kit.files import ROOT
 
+CASES = json.loads((ROOT / "tests" / "cases" / "mistakes.json").read_text(encoding="utf-8"))
 BEGIN = 9
 """Where the lines of new_task begin."""
 MISTAKES = [
@@ -21,9 +25,10 @@ MISTAKES = [
     ("x = 1", 0, "Write self.x: only functions have variables of their own."),
     ("self.f = lambda x: x", 9, "Write a function beside new_task, in class Task: def mix_paint(self, minutes):."),
     ("self.wait([x for x in [1]])", 10, "Write the values one by one, or for oven in [self.oven_a, self.oven_b]:."),
-    ("self.curing_oven = 5", 0, "This name stands for something else. Choose another."),
+    ("self.curing_oven = 5", 0, "self.curing_oven is a machine; it can cure_paint. What can be read of it: "
+     "job_status, temperature, quality. Choose another name for the variable."),
     ("self.curing_oven.explode()", 0, "What it can do: cure_paint."),
-    ("self.robot.fly()", 0, "What it can do: move, pick, drop."),
+    ("self.robot.fly()", 0, "What it can do: move, pick, drop, honk, blink."),
     ("self.curing_oven.cure_paint(", 27, "The bracket ( is never closed. Close it behind its content."),
     ("self.wait(60", 9, "The bracket ( is never closed. Close it behind its content."),
     ("self.wait(60))", 13, "The bracket ) was never opened. Take it away, or open it before."),
@@ -45,30 +50,45 @@ MISTAKES = [
     ("self.count++", 12, "Write self.count = self.count + 1."),
     ("self.wait(True ? 1 : 0)", 15, "Write if and else on lines of their own."),
     ("self.wait(5 if True else 6)", 10, "Write if and else on lines of their own."),
-    ("for i in range(3): pass", 0, "Write for _ in range(3): or for oven in [self.oven_a, self.oven_b]:."),
+    ("for i in range(3): pass", 4, "Write for _ in range(3):."),
     ("def inner(self): pass", 0, "Write functions beside new_task, in class Task: def mix_paint(self, minutes):."),
     ("class B: pass", 0, "A script has one class, Task. Write a function instead: def mix_paint(self):."),
     ("with self.robot: pass", 0, "Leave “with” out and write its lines as they are."),
     ("await self.wait(5)", 0, "Leave “await” out: a script waits by itself until a step is done."),
     ("assert True", 0, "Write if, and inside it self.notify(…) or self.end()."),
-    ("raise ValueError()", 0, "Write if, and inside it self.notify(…) or self.end()."),
+    ("raise ValueError()", 0, 'Write raise Failed("The box is wet.").'),
     ("del self.robot", 0, "Leave it out: nothing needs to be deleted."),
     ("global x", 0, "Leave it out: self.count is seen everywhere."),
     ("continue", 0, "Put what follows into an if instead of leaving it out by continue."),
     ("match 5:\n            case 5: pass", 0, "Write if and else instead."),
     ("wait(60)", 0, "Write self. before it: self.wait(60)."),
     ("time.sleep(5)", 0, "Wait by self.wait(60)."),
-    ("self.end", 0, "Say what it does, for example self.oven.cure_paint(10) or self.end()."),
+    ("self.end", 0, "Write self.end()."),
     ("5 > 3", 0, "Put it where it is used, or keep it: self.count = 5."),
     ("self.wait(len([1]))", 10, "Use count(condition, …), or write the number."),
     ("self.wait(self.items[0])", 10, "Name a value itself; the language has no places in lists."),
     ("self.robot.pick('box')", 0, 'Write self.robot.pick({"value": 1, "object": "box"}).'),
-    ("self.robot.move(self.curing_oven)", 16, "Write where it goes as self.oven.location, or as a point (x, y)."),
+    ("self.robot.move(self.curing_oven)", 16, "Write self.curing_oven.location."),
     ("self.wait(2 ** 3)", 10, "Use +, -, * or /."),
     ("if 1 < 2 < 3: pass", 3, "Compare two values at a time, and join comparisons with “and”."),
-    ("if self.curing_oven.temprature > 5: pass", 3, "What can be read here: job_status, temperature, quality."),
-    ("self.oven.cure_paint(5)", 0, 'Give it in run: self.oven = ctx.get("curingOven01").'),
+    ("if self.curing_oven.temprature > 5: pass", 3, "Did you mean temperature? What can be read here: "
+     "job_status, temperature, quality."),
+    ("self.oven.cure_paint(5)", 0, "Did you mean self.curing_oven?"),
     ("self.mix()", 0, "There is no such function. Functions of this task: none yet."),
+    ("self.notify(problem.text)", 12, "Write it in an except that names it: except TaskError as problem:."),
+    ("try: pass\n        except TaskError: self.notify(problem.kind)",
+     30, "Write it in an except that names it: except "
+     "TaskError as problem:."),
+    ("try: pass\n        except Failed as problem: self.notify(problem.step)", 38,
+     "What can be read here: text, kind."),
+    ("try: pass\n        except Failed as why: self.notify(why)", 34, "Write why.text, or why.kind."),
+    ("try: pass\n        except Failed as why: self.notify(problem.text)", 34,
+     "Write it in an except that names it: "
+     "except TaskError as problem:."),
+    ("raise Failed", 0, 'Write raise Failed("The box is wet.").'),
+    ("raise", 0, 'Write raise Failed("The box is wet.").'),
+    ("raise Failed('wet') from None", 0, 'Write raise Failed("The box is wet.").'),
+    ("raise Blocked('wet')", 0, 'Write raise Failed("The box is wet.").'),
     ("try: pass\n        except: pass", 0, "Catch TaskError, or some of: Refused, Failed, TimedOut, Offline, Blocked, "
      "Cancelled."),
 ]  # fmt: skip
@@ -86,21 +106,55 @@ def test_a_mistake_is_told_with_its_place_and_what_to_write_instead(line: str, c
     assert first.args.get("instead", first.args.get("detail")) == instead
 
 
+@pytest.mark.parametrize("case", CASES, ids=[str(number) for number in range(len(CASES))])
+def test_a_written_mistake_is_answered_as_a_teacher_would(case: dict[str, Any]) -> None:
+    text = case.get("script") or script(*case["lines"])
+    first = parse_script(text, factory()).diagnostics[0]
+    assert (first.line, first.column) == (case["line"], case["column"])
+    assert first.message_in("en").partition(": ")[2] == case["message"]
+    assert first.message_in("de").partition(": ")[2] == case["message_de"]
+
+
+def test_no_answer_gives_in_run_what_is_given_already() -> None:
+    for case in CASES:
+        given = re.search(r"Give it in run: self\.(\w+) = ", case["message"])
+        text = case.get("script") or script(*case["lines"])
+        assert given is None or f"self.{given[1]} =" not in text
+
+
+def test_every_answer_is_said_in_german_too() -> None:
+    for case in CASES:
+        text = case.get("script") or script(*case["lines"])
+        for told in parse_script(text, factory()).diagnostics:
+            for said in (told.args.get("instead", told.args.get("detail")), told.args.get("found", "“x”")):
+                assert isinstance(said, str)
+                assert refused_in_german(said) != said
+
+
+def test_twenty_mistakes_are_told_and_the_others_counted() -> None:
+    parsed = parse_script(script(*["self.robot.fly()"] * 5000), factory())
+    assert [told.code for told in parsed.diagnostics] == ["not_in_language"] * 20 + ["more_mistakes"]
+    assert parsed.diagnostics[-1].message == ("There is more to mend from line 23 on: 4980. Begin with the first ones.")
+    assert parsed.diagnostics[-1].line == 23
+
+
 def test_columns_count_characters_not_bytes() -> None:
     parsed = parse_script(script('self.notify("Öl für Änne", level=self.nothing)'), factory())
     [refusal] = parsed.diagnostics
-    assert (refusal.column, refusal.args["end_column"]) == (9, 55)
+    assert (refusal.column, refusal.args["end_column"]) == (42, 54)
     parsed = parse_script(script('if "Öl" == self.nothing: pass'), factory())
     assert parsed.diagnostics[0].column == 9 + 11
 
 
 def sentences() -> list[str]:
-    tables = (syntax_errors.STATEMENTS, syntax_errors.EXPRESSIONS, syntax_errors.CALLS)
-    pairs = (*syntax_errors.SYNTAX, *syntax_errors.SYMBOLS)
+    tables = (syntax_errors.STATEMENTS, syntax_errors.EXPRESSIONS, syntax_errors.CALLS, syntax_errors.NAMES,
+              syntax_errors.FIRST_WORDS)  # fmt: skip
+    pairs = (*syntax_errors.SYNTAX, *syntax_errors.BEHIND, *syntax_errors.ON_THE_LINE, *syntax_errors.SYMBOLS)
     fixed = [
         syntax_errors.ATTRIBUTE_ALONE,
         syntax_errors.VALUE_ALONE,
         syntax_errors.NOTHING_BEFORE,
+        syntax_errors.UNREADABLE,
         syntax_errors.UNKNOWN.format("no"),
     ]
     said = [*(text for table in tables for text in table.values()), *(text for _, text in pairs), *fixed]
@@ -120,3 +174,17 @@ def test_self_takes_no_value_of_its_own() -> None:
     )
     (told,) = parse_script(text, factory()).diagnostics
     assert told.args["instead"] == "Write def other(self, minutes):."
+
+
+@pytest.mark.parametrize("excepts", [("TaskError", "Failed"), ("Failed", "(Failed,)"), ("Failed", "Blocked", "Failed")])
+def test_an_except_that_nothing_comes_to_is_told(excepts: tuple[str, ...]) -> None:
+    clauses = "".join(f"\n        except {each}: pass" for each in excepts)
+    (told,) = parse_script(script("self.wait(60)", f"try: pass{clauses}"), factory()).diagnostics
+    assert (told.line, told.column) == (4 + len(excepts), BEGIN)
+    assert told.message.endswith("Leave it out: those before it catch all of that.")
+
+
+def test_an_else_of_a_try_is_told() -> None:
+    lines = "try: pass\n        except Failed: pass\n        else: pass"
+    (told,) = parse_script(script("self.wait(60)", lines), factory()).diagnostics
+    assert told.message.endswith("Write these lines at the end of what try holds.")

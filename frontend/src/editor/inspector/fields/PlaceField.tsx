@@ -8,7 +8,7 @@ import { FieldFrame } from "./FieldFrame";
 import classes from "../../panel.module.css";
 import { useStepEditor } from "./stepEditor";
 
-type MachineFilter = (device: { gives: string[]; takes: string[]; methods: { name: string }[] }) => boolean;
+export type MachineFilter = (device: { gives: string[]; takes: string[]; methods: { name: string }[] }) => boolean;
 
 interface PlaceFieldProps {
   label: string;
@@ -17,12 +17,29 @@ interface PlaceFieldProps {
   places?: boolean;
   value: Place | null;
   onChange: (place: Place | null) => void;
+  /** The robots that can be chosen, too: `role:` with a role of the program, or `device:` with a robot's id. */
+  robots?: readonly PlaceOption[];
+  /** The role that is chosen. */
+  role?: string | null;
+  onRole?: (role: string) => void;
 }
 
-export function PlaceField({ label, field, accept, places = false, value, onChange }: PlaceFieldProps) {
+export interface PlaceOption {
+  readonly value: string;
+  readonly label: string;
+  readonly disabled?: boolean;
+}
+
+const ROLE = "role:";
+
+export function PlaceField(props: PlaceFieldProps) {
+  const { label, field, accept, places = false, value, onChange, robots = [], role = null, onRole } = props;
   const { t } = useOpenProgram();
   const { disabled } = useStepEditor();
-  const groups = usePlaceGroups(value, places, accept);
+  const choices = usePlaceGroups(value, places, accept);
+  const groups = robots.length > 0 ? [{ group: t("field.robots"), items: [...robots] }, ...choices] : choices;
+  const choose = (next: string | null) =>
+    next?.startsWith(ROLE) ? onRole?.(next.slice(ROLE.length)) : onChange(placeFrom(next, value));
   return (
     <FieldFrame label={label} field={field}>
       {({ control, note, bad }) => (
@@ -33,8 +50,8 @@ export function PlaceField({ label, field, accept, places = false, value, onChan
             error={bad}
             className={classes.grow}
             data={groups}
-            value={placeKey(value)}
-            onChange={(next) => onChange(placeFrom(next, value))}
+            value={role === null ? placeKey(value) : `${ROLE}${role}`}
+            onChange={choose}
             placeholder={t("field.choose")}
             searchable
             nothingFoundMessage={t("palette.none")}

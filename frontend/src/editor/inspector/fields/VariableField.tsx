@@ -40,7 +40,7 @@ export function VariableField({
           error={bad}
           data={[...new Set(names.map((each) => each.name))].sort()}
           value={text}
-          placeholder={placeholder ?? t("set.name_example")}
+          placeholder={placeholder ?? t("field.variable_example")}
           disabled={disabled}
           onChange={setText}
           onOptionSubmit={keep}

@@ -1,22 +1,22 @@
-/** Operate: a machine, one of its methods, and what the method wants to know. */
+/** Operate: a machine or a robot, one of its methods, and what the method wants to know. */
 import { Select } from "@mantine/core";
 import type { Place, Value } from "@/program/document/document";
+import { choices, DEFAULT_ROLE, methodOf, operable, operated, operatedRole } from "@/program/operation";
 import type { MethodParameter } from "@/program/surroundings";
-import { methodOf } from "@/program/words/stepWords";
-import { operable } from "../../state/tool";
+import { roleName } from "@/program/words/stepWords";
 import { useOpenProgram } from "../../state/context";
 import { ExpressionField } from "../expression/ExpressionField";
 import { FieldFrame } from "../fields/FieldFrame";
-import { PlaceField } from "../fields/PlaceField";
+import { PlaceField, type PlaceOption } from "../fields/PlaceField";
 import { useStepEditor } from "../fields/stepEditor";
 
 export function OperateForm() {
-  const { surroundings } = useOpenProgram();
+  const { surroundings, document } = useOpenProgram();
   const { step } = useStepEditor();
-  const { method } = methodOf(step, surroundings);
+  const { method } = methodOf(step, surroundings, document);
   return (
     <>
-      <MachineField />
+      <DeviceField />
       <MethodField />
       {(method?.parameters ?? []).map((parameter) => (
         <ArgumentField key={parameter.name} parameter={parameter} />
@@ -25,36 +25,59 @@ export function OperateForm() {
   );
 }
 
-/** Another machine keeps the method if it has it too, else its only one is taken. */
-function MachineField() {
-  const { t, surroundings, apply } = useOpenProgram();
+/** Another device keeps the method if it has it too, else its only one is taken. */
+function DeviceField() {
+  const { t, surroundings, document, apply } = useOpenProgram();
   const { id, step } = useStepEditor();
-  const choose = (place: Place | null) => {
-    const chosen = place && "device" in place ? surroundings.devices.get(place.device) : undefined;
-    const methods = chosen ? operable(chosen) : [];
-    const keeps = !chosen || methods.some((each) => each.name === step.params.method);
+  const robots = useRobots();
+  const role = operatedRole(step.params.device);
+  const choose = (device: Place | { role: string } | null) => {
+    const chosen = operated(device, document, surroundings);
+    const methods = choices(chosen);
+    const keeps = chosen.length === 0 || methods.some((each) => each.name === step.params.method);
     const only = methods.length === 1 ? methods[0]?.name : null;
     const fresh = [
       { do: "set_param" as const, id, name: "method", value: only },
       { do: "set_param" as const, id, name: "args", value: {} },
     ];
-    apply([{ do: "set_param", id, name: "device", value: place }, ...(keeps ? [] : fresh)]);
+    apply([{ do: "set_param", id, name: "device", value: device }, ...(keeps ? [] : fresh)]);
   };
   return (
     <PlaceField
-      label={t("field.machine")}
+      label={t("field.operated")}
       field="device"
-      value={(step.params.device as Place) ?? null}
+      value={role === null ? ((step.params.device as Place) ?? null) : null}
       accept={(each) => each.methods.some(({ name }) => name !== "dispense" && name !== "accept")}
       onChange={choose}
+      robots={robots}
+      role={role}
+      onRole={(next) => choose({ role: next })}
     />
   );
 }
 
+/** The program's robots by what they are called there, then those of the site. */
+function useRobots(): readonly PlaceOption[] {
+  const { t, document, surroundings, devices, speaker } = useOpenProgram();
+  const roles = [DEFAULT_ROLE, ...Object.keys(document.roles).filter((each) => each !== DEFAULT_ROLE)];
+  const asRoles = roles.map((role) => {
+    const bound = document.roles[role]?.device;
+    const who = bound ? (surroundings.devices.get(bound)?.name ?? bound) : t("role.any");
+    return { value: `role:${role}`, label: t("field.role_who", { role: roleName(role, speaker), who }) };
+  });
+  const robots = devices.filter((device) => device.kind === "robot" && device.lifecycle !== "pending");
+  const byName = robots.map((robot) => ({
+    value: `device:${robot.id}`,
+    label: robot.name,
+    disabled: operable(robot).length === 0,
+  }));
+  return [...asRoles, ...byName];
+}
+
 function MethodField() {
-  const { t, surroundings } = useOpenProgram();
+  const { t, surroundings, document } = useOpenProgram();
   const { step, set, disabled } = useStepEditor();
-  const { device } = methodOf(step, surroundings);
+  const devices = operated(step.params.device, document, surroundings);
   return (
     <FieldFrame label={t("field.method")} field="method">
       {({ control, note, bad }) => (
@@ -62,11 +85,11 @@ function MethodField() {
           id={control}
           aria-describedby={bad ? note : undefined}
           error={bad}
-          data={(device ? operable(device) : []).map((each) => ({ value: each.name, label: each.title || each.name }))}
+          data={choices(devices).map((each) => ({ value: each.name, label: each.title || each.name }))}
           value={typeof step.params.method === "string" ? step.params.method : null}
           onChange={(next) => set("method", next)}
           placeholder={t("field.choose")}
-          disabled={disabled || !device}
+          disabled={disabled || devices.length === 0}
         />
       )}
     </FieldFrame>

@@ -1,13 +1,13 @@
-/** Loops over items, events, and what a Try catches. */
-import { Checkbox, Radio, Switch, Textarea } from "@mantine/core";
-import { useEffect, useState } from "react";
+/** Loops over items, what a function gives back, and what a Try catches. */
+import { Checkbox, Switch } from "@mantine/core";
+import { fieldsOf } from "@/program/kinds";
+import { functionOf } from "@/program/scene/stepPaths";
 import { useOpenProgram } from "../../state/context";
-import { ConditionForm } from "./ConditionForm";
-import { FieldFrame } from "../fields/FieldFrame";
 import { ItemsField } from "../fields/ItemsField";
 import classes from "../../panel.module.css";
 import { useStepEditor } from "../fields/stepEditor";
 import { VariableField } from "../fields/VariableField";
+import { WrittenValue } from "./WrittenValue";
 
 export function ForEachForm() {
   const { t } = useOpenProgram();
@@ -20,34 +20,21 @@ export function ForEachForm() {
   );
 }
 
-export function EventForm() {
-  const { t } = useOpenProgram();
-  const { step, set, disabled } = useStepEditor();
+export function ReturnForm() {
+  const { t, document } = useOpenProgram();
+  const { id } = useStepEditor();
+  const scope = functionOf(document, id);
+  const result = scope ? document.functions[scope]?.result : null;
+  if (!scope) return <p className={classes.now}>{t("return.outside")}</p>;
   return (
     <>
-      <ConditionForm field="condition" />
-      <Radio.Group
-        label={t("event.starts")}
-        value={step.params.starts === "run" ? "run" : "branch"}
-        onChange={(starts) => set("starts", starts)}
-      >
-        <div className={classes.choices}>
-          {["branch", "run"].map((starts) => (
-            <Radio
-              key={starts}
-              value={starts}
-              label={t(`event.${starts}`)}
-              description={t(`event.${starts}_means`)}
-              disabled={disabled}
-            />
-          ))}
-        </div>
-      </Radio.Group>
+      <WrittenValue label={t("return.value")} field="value" wanted={result?.type} />
+      <p className={classes.now}>{t(result ? "return.note" : "return.nothing")}</p>
     </>
   );
 }
 
-const TRY_KINDS = ["refused", "failed", "timed_out", "offline", "blocked", "cancelled"];
+const TRY_KINDS = fieldsOf("try").find((field) => field.name === "kinds")?.choices ?? [];
 
 export function TryForm() {
   const { t, scene } = useOpenProgram();
@@ -64,7 +51,8 @@ export function TryForm() {
         disabled={disabled || (catches && inside("catch"))}
         onChange={(event) => set("catch", event.currentTarget.checked ? null : false)}
       />
-      {catches ? <Kinds /> : <p className={classes.now}>{t("try.goes_on")}</p>}
+      {catches ? <Kinds /> : null}
+      <p className={classes.now}>{t(catches ? "try.knows" : "try.goes_on")}</p>
       <hr className={classes.line} />
       <Switch
         label={t("try.finally")}
@@ -99,30 +87,5 @@ function Kinds() {
         ))}
       </div>
     </Checkbox.Group>
-  );
-}
-
-export function CommentForm() {
-  const { t } = useOpenProgram();
-  const { step, set, disabled } = useStepEditor();
-  const stored = typeof step.params.text === "string" ? step.params.text : "";
-  const [text, setText] = useState(stored);
-  useEffect(() => setText(stored), [stored]);
-  return (
-    <FieldFrame label={t("comment.text")} field="text">
-      {({ control }) => (
-        <Textarea
-          id={control}
-          autosize
-          minRows={3}
-          maxRows={12}
-          value={text}
-          placeholder={t("comment.example")}
-          disabled={disabled}
-          onChange={(event) => setText(event.currentTarget.value)}
-          onBlur={() => (text === stored ? undefined : set("text", text))}
-        />
-      )}
-    </FieldFrame>
   );
 }

@@ -1,35 +1,12 @@
-/** Forms of the constructs that ask for little: Move, Wait, Parallel. */
+/** Forms of the constructs whose fields depend on each other: Wait, Parallel. */
 import { Button, SegmentedControl } from "@mantine/core";
 import { Minus, Plus } from "lucide-react";
 import { branchesOf } from "@/program/document/tree";
-import type { Place } from "@/program/document/document";
 import { useOpenProgram } from "../../state/context";
 import { ConditionForm } from "./ConditionForm";
+import { StepField } from "./ConstructForm";
 import classes from "../../panel.module.css";
-import { PlaceField } from "../fields/PlaceField";
-import { RoleField } from "../fields/RoleField";
-import { RouteField } from "../fields/RouteField";
 import { useStepEditor } from "../fields/stepEditor";
-import { WrittenValue } from "./valueForms";
-
-export function MoveForm() {
-  const { t } = useOpenProgram();
-  const { step, set } = useStepEditor();
-  return (
-    <>
-      <PlaceField
-        label={t("field.to")}
-        field="to"
-        places
-        value={(step.params.to as Place) ?? null}
-        onChange={(place) => set("to", place)}
-      />
-      <hr className={classes.line} />
-      <RoleField />
-      <RouteField />
-    </>
-  );
-}
 
 export function WaitForm() {
   const { t, apply } = useOpenProgram();
@@ -54,21 +31,21 @@ export function WaitForm() {
         value={until ? "until" : "time"}
         onChange={choose}
         disabled={disabled}
-        aria-label={t("wait.mode")}
+        aria-label={t("form.wait.mode")}
         data={[
-          { value: "time", label: t("wait.time") },
-          { value: "until", label: t("wait.until") },
+          { value: "time", label: t("form.wait.duration_mode") },
+          { value: "until", label: t("form.wait.until_mode") },
         ]}
       />
       {until ? (
         <>
           <ConditionForm field="until" />
-          <WrittenValue label={t("wait.limit")} field="timeout" wanted="number" placeholder={t("wait.no_limit")} />
+          <StepField name="timeout" />
         </>
       ) : (
-        <WrittenValue label={t("wait.seconds")} field="duration" wanted="number" placeholder={t("wait.example")} />
+        <StepField name="duration" />
       )}
-      <p className={classes.now}>{t("wait.unit")}</p>
+      <p className={classes.now}>{t("form.wait.note")}</p>
     </>
   );
 }

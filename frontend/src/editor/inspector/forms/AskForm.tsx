@@ -1,5 +1,5 @@
-/** Telling people and asking them. */
-import { NumberInput, SegmentedControl, Select, TagsInput } from "@mantine/core";
+/** Asking people: the question, what may be answered, and where the answer goes. */
+import { NumberInput, Select, TagsInput } from "@mantine/core";
 import type { Answer } from "@/program/document/document";
 import { useOpenProgram } from "../../state/context";
 import { FieldFrame } from "../fields/FieldFrame";
@@ -7,34 +7,8 @@ import classes from "../../panel.module.css";
 import { MessageField } from "../fields/MessageField";
 import { UnitSelect } from "../fields/ParameterCard";
 import { useStepEditor } from "../fields/stepEditor";
-import { WrittenValue } from "./valueForms";
+import { WrittenValue } from "./WrittenValue";
 import { VariableField } from "../fields/VariableField";
-
-export function NotifyForm() {
-  const { t } = useOpenProgram();
-  const { step, set, disabled } = useStepEditor();
-  return (
-    <>
-      <MessageField label={t("notify.message")} field="message" placeholder={t("notify.example")} />
-      <FieldFrame label={t("notify.level")} field="level">
-        {({ control }) => (
-          <SegmentedControl
-            id={control}
-            fullWidth
-            aria-label={t("notify.level")}
-            value={step.params.level === "warning" ? "warning" : "info"}
-            onChange={(level) => set("level", level)}
-            disabled={disabled}
-            data={[
-              { value: "info", label: t("notify.info") },
-              { value: "warning", label: t("notify.warning") },
-            ]}
-          />
-        )}
-      </FieldFrame>
-    </>
-  );
-}
 
 const ANSWERS = ["boolean", "choice", "number", "text"] as const;
 
@@ -60,8 +34,8 @@ export function AskForm() {
       {answer.type === "choice" ? <Options answer={answer} /> : null}
       {answer.type === "number" ? <Range answer={answer} /> : null}
       <VariableField label={t("ask.variable")} field="variable" optional placeholder={t("ask.no_variable")} />
-      <WrittenValue label={t("wait.limit")} field="timeout" wanted="number" placeholder={t("wait.no_limit")} />
-      <p className={classes.now}>{t("wait.unit")}</p>
+      <WrittenValue label={t("ask.limit")} field="timeout" wanted="number" placeholder={t("ask.no_limit")} />
+      <p className={classes.now}>{t("ask.unit")}</p>
     </>
   );
 }

@@ -1,0 +1,153 @@
+"""Methods of a robot's own on the floor: carried out where it stands, by a robot that can, that the run holds."""
+
+from dataclasses import replace
+
+import pytest
+
+from execution.machine.floor_task import Target, TaskOrder
+from execution.traffic import floor
+from execution.traffic import messages as m
+from execution.traffic.layout import make_layout
+from tests.kit import demo_floor
+from tests.unit.execution.traffic.simulated_floor import PretendFloor
+from vipo_device.protocol.description import MethodSpec, ParameterSpec
+
+TIMES = ParameterSpec("times", "number", "", 1, 10)
+HOLD = ParameterSpec("time", "number", "SEC", 1, 60)
+
+
+def floor_with(**methods):
+    """Return the factory in which some robots describe more methods."""
+    devices = [
+        replace(device, methods=(*device.methods, *methods.get(device.id, ()))) for device in demo_floor.devices()
+    ]
+    return PretendFloor(make_layout(demo_floor.grid(), devices, demo_floor.places()))
+
+
+def honk(*parameters):
+    return MethodSpec("honk", "t/honk", parameters=parameters)
+
+
+def ask(run, number, method, can=(), wants="", **arguments):
+    order = TaskOrder("perform", Target(), "robot", method=method, arguments=arguments)
+    return m.TaskAsked(run, number, order, wants, can or (method,), f"run {run}")
+
+
+def test_the_robot_that_describes_it_is_chosen_and_does_it_where_it_stands():
+    world = floor_with(robot02=(honk(TIMES),))
+    before = world.at["robot02"]
+    world.tell(ask("a", 1, "honk", times=5))
+    assert [(c.device, c.method, dict(c.arguments)) for c in world.sent] == [("robot02", "honk", {"times": 5})]
+    assert world.state.robots["robot02"].run == "a"
+    world.run_until(lambda: ("a", 1) in world.over, 10)
+    assert (world.over["a", 1], world.at["robot02"]) == (("", ""), before)
+
+
+def test_two_runs_that_want_the_only_robot_that_can_honk_have_it_one_after_the_other():
+    world = floor_with(robot03=(honk(TIMES),))
+    world.tell(ask("a", 1, "honk", times=1), ask("b", 1, "honk", times=2))
+    assert [c.arguments for c in world.sent] == [{"times": 1}]
+    assert world.waits[-1].reason.code == "no_free_robot"
+    world.run_until(lambda: ("a", 1) in world.over, 10)
+    world.pass_time(1)
+    assert len(world.sent) == 1
+    world.tell(m.RunOver("a"))
+    world.run_until(lambda: ("b", 1) in world.over, 10)
+    assert [c.arguments for c in world.sent] == [{"times": 1}, {"times": 2}]
+
+
+def test_a_robot_that_drives_finishes_its_way_before_it_honks():
+    world = floor_with(robot01=(honk(),))
+    move = TaskOrder("move", Target("dropOff01"), "robot")
+    world.tell(m.TaskAsked("a", 1, move, "robot01", (), "run a"), ask("a", 2, "honk", wants="robot01"))
+    assert world.waits[-1].reason.code == "robot_busy"
+    world.run_until(lambda: ("a", 1) in world.over)
+    world.run_until(lambda: ("a", 2) in world.over, 10)
+    assert [c.method for c in world.sent if c.method != "move"] == ["honk"]
+
+
+def test_no_robot_that_can_honk_is_a_refusal():
+    world = floor_with()
+    world.tell(ask("a", 1, "honk"))
+    refused = ("refused", "No robot of this site can honk. Approve one that can, or change the role.")
+    assert (world.over["a", 1], world.sent) == (refused, [])
+
+
+def test_a_robot_whose_description_has_lost_the_method_refuses_it():
+    world = floor_with()
+    world.tell(ask("a", 1, "honk", wants="robot01", can=("move",)))
+    assert world.over["a", 1] == ("refused", "TurtleBot 1 cannot honk; it offers no such method.")
+    assert world.sent == []
+
+
+@pytest.mark.parametrize("method", ["move", "pick", "drop"])
+def test_what_is_a_step_of_its_own_is_not_sent_as_a_method(method):
+    world = floor_with()
+    world.tell(ask("a", 1, method, wants="robot01"))
+    refused = ("refused", f"TurtleBot 1 does {method} only as a step of its own.")
+    assert (world.over["a", 1], world.sent) == (refused, [])
+
+
+@pytest.mark.parametrize("method", ["move.location", "__class__", "../stop", "鳴らす", "a b"])
+def test_any_name_is_only_a_name(method):
+    world = floor_with(robot01=(MethodSpec(method, "t/x"),))
+    world.tell(ask("a", 1, method))
+    assert [(c.device, c.method) for c in world.sent] == [("robot01", method)]
+
+
+def test_it_is_told_to_stop_when_its_run_is_cancelled_and_serves_the_next_only_when_it_has_answered():
+    world = floor_with(robot01=(honk(),))
+    world.tell(ask("a", 1, "honk"))
+    command = world.sent[0].id
+    world.tell(m.RunOver("a"))
+    assert [(c.method, c.arguments) for c in world.sent[1:]] == [("cancel", {"command": command})]
+    world.tell(ask("b", 1, "honk"))
+    assert len(world.sent) == 2
+    world.tell(m.CommandAnswered(command, "CANCELED"))
+    assert [c.method for c in world.sent] == ["honk", "cancel", "honk"]
+
+
+def test_it_has_the_time_that_its_arguments_say_and_a_minute():
+    world = floor_with(robot01=(honk(HOLD),))
+    world.deaf.add("robot01")
+    world.tell(ask("a", 1, "honk", time=40))
+    world.run_until(lambda: ("a", 1) in world.over, 200)
+    assert world.over["a", 1] == ("timed_out", "TurtleBot 1 took too long.")
+    assert 119 <= world.now <= 121
+
+
+def test_a_failure_of_the_robot_is_that_of_the_task():
+    world = floor_with(robot01=(honk(),))
+    world.tell(ask("a", 1, "honk"))
+    world.tell(m.CommandAnswered(world.sent[0].id, "FAILED", "The horn is stuck."))
+    assert world.over["a", 1] == ("failed", "The horn is stuck.")
+
+
+def test_a_stop_holds_it_and_a_reset_lets_it_go_on():
+    world = floor_with(robot01=(honk(),))
+    world.tell(ask("a", 1, "honk"), m.StopPressed())
+    world.tell(m.StopReset(), m.RunResumed("a"))
+    world.run_until(lambda: ("a", 1) in world.over, 10)
+    assert world.over["a", 1] == ("", "")
+
+
+def test_a_robot_by_its_id_waits_until_no_other_run_holds_it_and_can_be_called_again():
+    world = floor_with(robot01=(honk(),))
+    world.tell(ask("a", 1, "honk"))
+    order = TaskOrder("call", Target("robot01"), method="honk")
+    world.tell(m.TaskAsked("b", 1, order, run_name="run b"))
+    assert world.waits[-1].reason.text == "TurtleBot 1 is held by run a."
+    world.run_until(lambda: ("a", 1) in world.over, 10)
+    world.tell(m.RunOver("a"))
+    world.run_until(lambda: ("b", 1) in world.over, 10)
+    world.tell(m.TaskAsked("b", 2, order, run_name="run b"))
+    world.run_until(lambda: ("b", 2) in world.over, 10)
+    assert (world.over["b", 1], world.over["b", 2]) == (("", ""), ("", ""))
+
+
+def test_a_kept_floor_knows_what_a_robot_is_at():
+    world = floor_with(robot01=(honk(TIMES),))
+    world.tell(ask("a", 1, "honk", times=3))
+    world.state = floor.from_json(floor.to_json(world.state))
+    world.run_until(lambda: ("a", 1) in world.over, 10)
+    assert world.over["a", 1] == ("", "")
