@@ -230,6 +230,7 @@ Node = (
     | Set | Ask | Notify | End | Fail | Return | Break
 )  # fmt: skip
 Block = tuple[Node, ...]
+D = TypeVar("D")
 K = TypeVar("K", bound=Node)
 LOADS: Final = (Pick, Drop)
 DRIVES: Final = (Move, Pick, Drop)
@@ -296,6 +297,7 @@ class Tree:
     parameters: tuple[Parameter, ...] = ()
     events: tuple[Event, ...] = ()
     _walked: dict[int, list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _derived: dict[object, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
     _by_kind: dict[type[Node], list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def walked(self, block: Block) -> list[Node]:
@@ -304,6 +306,13 @@ class Tree:
         if nodes is None:
             nodes = self._walked[id(block)] = walk(block)
         return nodes
+
+    def derived(self, make: Callable[[Tree], D]) -> D:
+        """Return what a function makes of the tree; it is called once for each tree."""
+        if make not in self._derived:
+            self._derived[make] = make(self)
+        found: D = self._derived[make]
+        return found
 
     def of_kind(self, kind: type[K]) -> list[K]:
         """Return the steps of one kind in the whole program, in reading order within each body; gathered once."""
