@@ -9,6 +9,7 @@ from typing import Literal
 
 from editor.language.expressions.nodes import OF_PROBLEM, PROBLEM
 from editor.language.site.surroundings import Surroundings
+from editor.language.tree.robots import Robots, robots_for
 from vipo_device.protocol.description import Description, Scalar
 
 Answer = str | Callable[[], str]
@@ -59,11 +60,22 @@ class Scope:
     """The attributes that some step drives as a robot."""
     methods: Mapping[str, ast.FunctionDef] = field(default_factory=dict)
     """The methods of the task: its functions, branches and events, new_task and run."""
+    _robots: dict[str, Robots] = field(default_factory=dict)
 
     def description(self, device_id: str | None) -> Description | None:
         """Return a device's description, if the site has the device."""
         facts = self.surroundings.devices.get(device_id or "")
         return None if facts is None else facts.description
+
+    def robots_of(self, name: str) -> Robots:
+        """Return the robots that a role may be, by its attribute."""
+        binding = self.bindings.get(name)
+        if binding is None:
+            return self.surroundings.crew.robots(name)
+        if name not in self._robots:
+            device = binding.id if binding.kind == "get" else None
+            self._robots[name] = robots_for(self.surroundings, device, binding.can)
+        return self._robots[name]
 
 
 def written(node: ast.AST) -> str:

@@ -12,7 +12,7 @@ from editor.language.expressions.printing import quote, scalar_text
 from editor.language.printing.steps import PRINTERS
 from editor.language.printing.writer import Printer
 from editor.language.site.surroundings import Surroundings, what_programs_see
-from editor.language.tree.nodes import DRIVES, Block, Event, Function, Parameter, Perform, Role, Tree
+from editor.language.tree.nodes import DRIVES, Block, Event, Function, Parameter, Role, Tree
 from editor.language.tree.robots import is_robot
 from editor.language.tree.variables import local_variables, program_variables
 
@@ -42,7 +42,7 @@ def print_tree(
     taken = RESERVED_ATTRIBUTES | names | shared | {parameter.name for parameter in tree.parameters}
     printer = Printer(tree, surroundings, numbers, set(taken), PRINTERS, zone_names=zone_names or {}, memo=memo)
     if memo is not None:
-        roles = [(role.name, role.device, role.can) for role in tree.roles] if tree.holds(Perform) else []
+        roles = [(role.name, role.device, role.can) for role in tree.roles]
         memo.begin((what_programs_see(surroundings), roles))
     printer.line(0, "class Task(object):")
     _print_method(printer, "def new_task(self):", tree.body)

@@ -36,6 +36,9 @@ readings = st.sampled_from(
         {"property": ["curingOven01", "no such"]},
         {"property": ["gone", "jobStatus"]},
         {"property": [{"param": "minutes"}, "jobStatus"]},
+        *({"property": [{"role": role}, "battery"]} for role in (*ROLES, "gone", 3, None)),
+        {"property": [{"role": "box_carrier"}, "no such"]},
+        {"property": [{"role": "robot", "param": "minutes"}, "load"]},
     ]
 )
 things = st.sampled_from(
