@@ -69,7 +69,7 @@ def test_a_reading_of_a_role_that_is_bound_speaks_of_the_role_and_is_known_from_
     assert Reading(Located(role="robot"), "battery") in [arg for w in waits for arg in w.condition.arguments]  # type: ignore[union-attr]
     assert compiled.plan is not None
     assert compiled.plan.reads == (("robot01", "battery"),)
-    assert needs_of(compiled.plan).things == {"robot01"}
+    assert needs_of(compiled.plan).things == frozenset({"robot01"})
 
 
 def test_a_role_that_no_step_drives_is_the_device_that_it_is_bound_to() -> None:
