@@ -59,6 +59,8 @@ _DEVICES: Final = {
     "no_robot_tells": "No robot that may take the role describes this property.",
     "readings_differ": "Robots that may take the role describe one property in different types or units.",
     "may_not_tell": "Some of the robots that may take the role do not describe this property.",
+    "choice_looks_elsewhere": "The condition by which a robot is chosen reads variables, other devices, or places.",
+    "never_chosen": "In the ranges that robots declare the condition by which one is chosen never holds.",
     "methods_differ": "Robots that may take the role describe one method with different parameters.",
     "step_of_its_own": "Move, Pick and Drop are steps: VIPO sees to the way and to what is carried.",
     "no_robot_online": "There are robots that could take this role, and all of them are offline.",

@@ -10,6 +10,7 @@ from editor.language.expressions.value_types import joined_spec, property_spec
 from editor.language.messages.diagnostics import TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.tree import nodes as n
+from editor.language.tree.choice import surely_read
 from editor.language.tree.robots import Robots, readings_told
 from vipo_device.protocol.description import Description, PropertySpec
 
@@ -28,7 +29,7 @@ def check_robot_reading(context: Context, node: n.Node, reading: Reading, field:
     told = context.surroundings.crew.told_by(role.name, reading.property)
     if any(told):
         _check_alike(context, node, reading, field, list(zip(robots, told, strict=True)))
-        if None in told:
+        if None in told and reading.property not in surely_read(role.where):
             silent = robots[told.index(None)]
             details: TextArguments = {"device": silent.name, "role": role.name, "property": reading.property}
             context.report(node, "may_not_tell", field, details)

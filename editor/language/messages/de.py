@@ -61,6 +61,12 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "may_not_tell": (
         "{device} kann {role} sein und meldet {property} nicht; dann schlägt das fehl. Wählen Sie einen Roboter."
     ),
+    "choice_looks_elsewhere": (
+        "Wer {role} ist, darf nur davon abhängen, was der Roboter selbst meldet. Nehmen Sie alles andere heraus."
+    ),
+    "never_chosen": (
+        "Kein Roboter erfüllt je die Bedingung für {role}; das Programm würde ewig warten. Ändern Sie sie."
+    ),
     "step_of_its_own": "{method} ist ein eigener Schritt, der den Weg kennt. Zeichnen Sie stattdessen diesen.",
     "not_given": "{device} gibt {object} nicht her. Es gibt: {options}.",
     "not_taken": "{device} nimmt {object} nicht an. Es nimmt: {options}.",

@@ -14,6 +14,8 @@ from editor.language.tree.nodes import COMPOSITES, Block, Node, Tree
 from editor.language.tree.robots import described_alike, robots_for, short_name, short_reading
 from vipo_device.protocol.description import MethodSpec
 
+CHOSEN = "robot"
+"""What the condition of a choice calls the robot that may be chosen."""
 _INDENTS = tuple("    " * depth for depth in range(80))
 
 
@@ -56,6 +58,8 @@ class Printer:
     zones: dict[str, str] = field(default_factory=dict)
     """Zones (by id) with their names in the script, in the order of first use."""
     memo: Memo | None = None
+    chosen: str = ""
+    """The role whose choice is being printed."""
     used: dict[PlaceRef | Located | str, str] = field(default_factory=dict)
     """The devices, places and zones that the step being printed names, in the order of first use."""
 
@@ -183,10 +187,10 @@ class Printer:
 
     def robot_reading(self, role: str, property_name: str) -> str:
         """Return how a property of a role's robot is written."""
-        key = (Located(role=role), property_name)
+        key = (Located(role=role or self.chosen), property_name)
         if key not in self.property_names:
-            self.property_names[key] = short_reading(self.surroundings.crew.robots(role), property_name)
-        return read_of(f"self.{role}", self.property_names[key], property_name)
+            self.property_names[key] = short_reading(self.surroundings.crew.robots(role or self.chosen), property_name)
+        return read_of(f"self.{role}" if role else CHOSEN, self.property_names[key], property_name)
 
     def value(self, expression: Expression) -> str:
         """Return an expression as text."""

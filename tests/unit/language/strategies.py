@@ -58,6 +58,20 @@ things = st.sampled_from(
         {"op": "now", "args": []},
     ]
 )
+choices = st.sampled_from(
+    [
+        None,
+        {"op": ">", "args": [{"property": [{"role": "box_carrier"}, "battery"]}, 30]},
+        {"op": "<", "args": [{"property": [{"role": "box_carrier"}, "no such"]}, {"quantity": [2, "widgets"]}]},
+        {"op": "and", "args": [{"property": [{"role": "box_carrier"}, "load"]}, None]},
+        {"op": ">", "args": [{"property": [{"role": "robot"}, "battery"]}, 30]},
+        {"op": ">", "args": [{"param": "minutes"}, 30]},
+        {"at": {"role": "box_carrier"}},
+        {"zone": "z1"},
+        "battery > 30",
+        [1, 2],
+    ]
+)
 leaves = st.one_of(
     numbers,
     things,
@@ -169,7 +183,7 @@ def documents(draw: st.DrawFn, largest: int = 12) -> dict[str, Any]:
         "steps": steps,
         "functions": {"f": function, "g": second},
         "roles": {
-            "box_carrier": {"name": "box carrier", "can": ["pick"]},
+            "box_carrier": {"name": "box carrier", "can": ["pick"], "where": draw(choices)},
             "bound": {"name": "bound", "device": "robot01"},
             "paint_carrier": {"name": "drop off", "can": []},
         },
