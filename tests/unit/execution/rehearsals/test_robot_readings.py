@@ -14,12 +14,13 @@ CHARGE = PropertySpec("battery", "number", "PERCENT", 0, 100)
 BATTERY = {"property": [{"role": "robot"}, "battery"]}
 
 
-def rehearsed(battery: dict[str, int], *steps: tuple[str, dict[str, Any]]) -> Any:
+def rehearsed(battery: dict[str, int], *steps: tuple[str, dict[str, Any]], where: Any = None) -> Any:
     """Rehearse a program that begins with a move, where robots have this much left in their batteries."""
     listed = (("move", {"role": "robot", "to": {"device": "paintInventory01"}}), *steps)
     document = {
         "format": 2,
         "start_pos": [0, 0],
+        "roles": {"robot": {"name": "robot", "can": [], "where": where}},
         "steps": {
             f"s{number}": {
                 "kind": kind,
@@ -57,3 +58,26 @@ def test_a_wait_for_a_battery_ends_when_it_falls_so_low() -> None:
     result = rehearsed({"robot01": 50, "robot02": 50, "robot03": 50}, ("wait", until))
     assert (result["ok"], result["errors"]) == (True, [])
     assert 60 < result["duration_s"] < 600
+
+
+def test_the_robot_is_one_that_is_charged_however_far_it_is_away() -> None:
+    full = {"op": ">", "args": [BATTERY, 60]}
+    anybody, chosen = (rehearsed({"robot01": 20, "robot02": 20, "robot03": 20}), [])
+    (near,) = {step["robot"] for step in anybody["steps"]}
+    for robot in ("robot01", "robot02", "robot03"):
+        charged = {"robot01": 20, "robot02": 20, "robot03": 20, robot: 80}
+        result = rehearsed(charged, where=full)
+        assert (result["ok"], result["errors"]) == (True, [])
+        chosen += [step["robot"] for step in result["steps"]]
+    assert near in chosen
+    assert chosen == ["robot01", "robot02", "robot03"]
+
+
+def test_a_rehearsal_waits_until_a_robot_at_its_dock_is_charged() -> None:
+    result = rehearsed({"robot01": 20, "robot02": 20, "robot03": 22}, where={"op": ">=", "args": [BATTERY, 24]})
+    assert (result["ok"], result["errors"]) == (True, [])
+    assert {step["robot"] for step in result["steps"]} == {"robot03"}
+    assert 18 < result["duration_s"] < 600
+    assert [wait["why"] for wait in result["waits"]] == [
+        {"code": "no_fitting_robot", "args": {"condition": "battery >= 24 %"}}
+    ]

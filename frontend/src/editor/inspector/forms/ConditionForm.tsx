@@ -19,7 +19,7 @@ import classes from "../../panel.module.css";
 
 /** What stands before a role among the keys of the list; no device's id begins so. */
 const ROLE = ":role ";
-const SIGNS = [
+export const SIGNS = [
   { value: "==", label: "=" },
   { value: "!=", label: "≠" },
   { value: "<", label: "<" },
