@@ -69,7 +69,9 @@ REFUSALS_DE: Final[Mapping[str, str]] = {
     "Give it in run: {x}.": "Geben Sie es in run an: {x}.",
     "Give it another name.": "Geben Sie ihr einen anderen Namen.",
     "In the class there are only methods.": "In der Klasse stehen nur Methoden.",
-    "Write {x}, where=lambda robot: robot.battery > 30).": "Schreiben Sie {x}, where=lambda robot: robot.battery > 30).",
+    "Write {x}, where=lambda robot: robot.battery > 30).": (
+        "Schreiben Sie {x}, where=lambda robot: robot.battery > 30)."
+    ),
     "A choice looks only at what the robot itself reports, such as robot.battery > 30.": (
         "Eine Auswahl sieht nur, was der Roboter selbst meldet, wie robot.battery > 30."
     ),
