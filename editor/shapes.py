@@ -66,9 +66,9 @@ class ZoneUse(Schema):
 
 
 class PropertyUse(Schema):
-    """What a device says of itself now: the device or the parameter that names it, and the property."""
+    """What a device says of itself now: the device, or the parameter or role that names it, and the property."""
 
-    property: tuple[str | ParameterUse, str]
+    property: tuple[str | ParameterUse | RoleUse, str]
 
 
 class Operation(Schema):
@@ -120,11 +120,12 @@ class FunctionShape(Schema):
 
 
 class RoleShape(Schema):
-    """A role: bound to a robot, or to any that can do what is named."""
+    """A role: bound to a robot, or to any that can do what is named, and of which a condition on its readings holds."""
 
     name: str | None = None
     device: str | None = None
     can: list[str] | None = None
+    where: Value | None = None
 
 
 class ZoneShape(Schema):

@@ -13,9 +13,11 @@ from types import NoneType, UnionType
 from typing import Any, Literal, TypeVar, assert_never, get_args, get_origin, get_type_hints
 
 from editor.language.plan.instructions import RoleBinding
+from editor.language.plan.json_form import expression_to_json
 from execution.machine import messages as r
 from execution.machine.places import ROLE
 from execution.traffic import messages as m
+from execution.traffic.floor_state import WRITTEN_WHERE_SET
 from vipo_device.protocol.description import Scalar
 
 ToFloor = (
@@ -120,7 +122,9 @@ def to_floor(run: AskingRun, action: r.Ask | r.Cancel | r.Finished) -> ToFloor:
     match action:
         case r.Ask(task=task, order=order):
             role = run.roles.get(order.role, RoleBinding(order.role))
-            return m.TaskAsked(run.id, task, order, role.device or "", role.can, run.name, run.zones)
+            where = expression_to_json(role.where) or {}
+            wants = role.device or ""
+            return m.TaskAsked(run.id, task, order, wants, role.can, run.name, run.zones, where, role.said)
         case r.Cancel(task=task):
             return m.TaskCancelled(run.id, task)
         case r.Finished():
@@ -206,7 +210,8 @@ class UnreadableMessage(Exception):
 
 def to_json(message: ToFloor | ToRun) -> dict[str, Any]:
     """Return a message as plain JSON; its `type` says what it is."""
-    parts = {STORED_AS.get(name, name): value for name, value in asdict(message).items()}
+    said = {name: value for name, value in asdict(message).items() if value or name not in WRITTEN_WHERE_SET}
+    parts = {STORED_AS.get(name, name): value for name, value in said.items()}
     return {"type": _names[type(message)], **parts}
 
 

@@ -72,10 +72,14 @@ def _site_of(body: Mapping[str, Any], site: Surroundings) -> Surroundings:
 
 def _changed(facts: DeviceFacts, change: Mapping[str, Any]) -> DeviceFacts:
     given = dict(change)
-    others = description_from_json({**description_to_json(facts.description), "methods": given.pop("with", [])}).methods
+    body = description_to_json(facts.description)
+    silent = {*given.pop("silent", []), *(each["name"] for each in given.get("reports", []))}
+    told = [each for each in body["properties"] if each["name"] not in silent] + given.pop("reports", [])
+    said = description_from_json({**body, "properties": told, "methods": given.pop("with", [])})
+    others = said.methods
     without = [*given.pop("without", []), *(method.name for method in others)]
     methods = (*(method for method in facts.description.methods if method.name not in without), *others)
-    return replace(facts, description=replace(facts.description, methods=methods), **given)
+    return replace(facts, description=replace(said, methods=methods), **given)
 
 
 def _floor(body: Mapping[str, Any] | None, devices: Mapping[str, DeviceFacts]) -> FloorFacts | None:

@@ -21,10 +21,12 @@ from editor.language.expressions.nodes import AnswerSpec
 from editor.language.plan.instructions import Plan
 from execution.machine import machine
 from execution.machine import messages as m
+from execution.machine.places import ROLE
 
 Json = dict[str, Any]
 SITE = Path(__file__).resolve().parent.parent / "examples" / "painting-factory.json"
 OVEN = ("curingOven01", "temperature")
+BATTERY = ("robot01", "battery")
 SHELF, BOOTH = {"device": "itemInventory01"}, {"device": "paintMachine01"}
 LEAST_CURING_S, MOST_CURING_S = 1, 3600
 CAPACITY = 2
@@ -84,7 +86,8 @@ class Draft:
     def condition(self) -> Json:
         """Return a condition on a reading or a variable."""
         if not self.known or self.chance.random() < 0.5:
-            return {"op": self.chance.choice("<>"), "args": [{"property": list(OVEN)}, 60]}
+            asked = {"property": [{"role": "robot"}, "battery"] if self.chance.random() < 0.3 else [*OVEN]}
+            return {"op": self.chance.choice("<>"), "args": [asked, 60]}
         name = {"param": self.chance.choice(sorted(self.known))}
         return {"op": self.chance.choice(["<", ">", "<=", "=="]), "args": [name, self.chance.randrange(4)]}
 
@@ -177,6 +180,8 @@ class Judge:
     chance: random.Random
     carried: int = 0
     wrong: str = ""
+    roles: dict[tuple[str, str], str] = field(default_factory=dict)
+    """The robots that roles have got, as facts."""
 
     def run(self) -> str:
         """Carry the plan out and return what went wrong; empty where nothing did."""
@@ -186,14 +191,18 @@ class Judge:
             waits += [a for a in actions if isinstance(a, m.Ask | m.SetTimer | m.AskPeople)]
             if state.status != "running" or self.wrong:
                 break
-            state, actions = machine.step(self.plan, state, self._something(waits))
+            event = self._something(waits)
+            if isinstance(event, m.TaskDone) and self.roles:
+                state, actions = machine.step(self.plan, state, m.Facts(self.roles))
+                waits += [a for a in actions if isinstance(a, m.Ask | m.SetTimer | m.AskPeople)]
+            state, actions = machine.step(self.plan, state, event)
         if not self.wrong and state.status == "failed":
             reason = next(a.reason for a in actions if isinstance(a, m.Finished))
             self.wrong = "" if _TOO_DEEP in reason else reason
         return self.wrong
 
     def _readings(self) -> Mapping[tuple[str, str], float]:
-        return {OVEN: self.chance.choice([20.0, 80.0])}
+        return {OVEN: self.chance.choice([20.0, 80.0]), BATTERY: self.chance.choice([5, 95])}
 
     def _something(self, waits: list[m.Ask | m.SetTimer | m.AskPeople]) -> m.Event:
         if not waits or self.chance.random() < 0.2:
@@ -208,6 +217,8 @@ class Judge:
 
     def _carry_out(self, ask: m.Ask) -> None:
         order = ask.order
+        if order.role:
+            self.roles[ROLE, order.role] = BATTERY[0]
         if order.kind in {"pick", "drop"}:
             quantity = order.quantity if order.kind == "pick" else -order.quantity
             if order.quantity < 1 or order.quantity != int(order.quantity):

@@ -19,7 +19,7 @@ from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree.nodes import COMPOSITES, Block, Tree, blocks_of
 from editor.language.tree.nodes import Move as MoveNode
 from editor.language.tree.numbering import number_steps, numbers_in_script
-from editor.language.tree.robots import with_roles_of_robots
+from editor.language.tree.robots import with_crew, with_roles_of_robots
 from editor.language.tree.zones import read_zones, zone_names
 
 
@@ -91,6 +91,7 @@ def look_at(document: object, surroundings: Surroundings, memos: Memos | None = 
     reading = read_document(migrate(document), memos.read if memos else None)
     tree = with_roles_of_robots(reading.tree, surroundings)
     tree = add_moves(tree, standing_places(surroundings), memos.positions if memos else None)
+    surroundings = with_crew(surroundings, tree.roles)
     found = check(reading, tree, surroundings, document, memos)
     return Look(document, surroundings, reading, tree, found, memos.printed if memos else None)
 

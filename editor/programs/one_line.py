@@ -13,6 +13,7 @@ from editor.language.expressions.printing import quote
 from editor.language.expressions.units import is_measure
 from editor.language.one_line.scope import LineScope, make_line_scope
 from editor.language.one_line.values import NotUnderstood, parse_line, print_line, type_of_line
+from editor.language.tree.robots import readings_told, short_reading
 from editor.programs.checking import build_surroundings
 from editor.programs.programs import get_program
 from vipo_device.protocol.texts import cleaned_json
@@ -96,9 +97,15 @@ _KINDS = {"get": "device", "place": "place", "zone": "zone"}
 def _line_names(line: LineScope) -> tuple[NameView, ...]:
     return (
         *(NameView(written, "variable", name) for name, written in line.names.items()),
-        *(NameView(name, "robot", role) for name, role in line.role_ids.items()),
+        *(NameView(name, "robot", role, _of_robot(name, line)) for name, role in line.role_ids.items()),
         *(NameView(name, _KINDS[kind], thing, _properties(thing, line)) for (kind, thing), name in line.things.items()),
     )
+
+
+def _of_robot(role: str, line: LineScope) -> tuple[PropertyNameView, ...]:
+    robots = line.scope.robots_of(role)
+    named = ((name, short_reading(robots, name)) for name in readings_told(robots))
+    return tuple(PropertyNameView(name, short or f"read({quote(name)})") for name, short in named)
 
 
 def _properties(thing: str, line: LineScope) -> tuple[PropertyNameView, ...]:

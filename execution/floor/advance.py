@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from typing import Any, Literal
@@ -13,11 +13,12 @@ from django.db import transaction
 from editor.language.site.surroundings import PlaceFacts
 from execution import mailbox
 from execution.errors import StepConflict
-from execution.floor_protocol import TaskEnded, to_run
+from execution.floor_protocol import TaskEnded, ToFloor, to_run
 from execution.models import Command, FloorState
 from execution.traffic import floor
 from execution.traffic import messages as m
 from execution.traffic.floor_state import FloorState as State
+from execution.traffic.floor_state import FloorTask
 from execution.traffic.layout import Layout, make_layout
 from registry import services as registry
 from vipo_device.protocol.description import Description, Pose
@@ -50,7 +51,8 @@ def advance_site(slug: str) -> bool:
         deliveries = mailbox.waiting_for_floor(slug)
         layout, devices = _look_at_site(slug)
         before = floor.from_json(row.state) if row.state else floor.start(layout, str(row.namespace))
-        news = [*_news(before, devices), *(delivery.message for delivery in deliveries), m.Tick()]
+        told = [delivery.message for delivery in deliveries]
+        news = [*_news(before, devices), *_reports(slug, before, told), *told, m.Tick()]
         after, actions = floor.step(layout, before, news, time.time())
         _write(slug, row, before, after, actions)
         mailbox.mark_taken(deliveries)
@@ -114,6 +116,18 @@ def _news(before: State, devices: tuple[registry.PositionView, ...]) -> list[m.E
         if device.kind == "robot" and (robot is None or not robot.path or (robot.x, robot.y) != (pose.x, pose.y)):
             news.append(m.RobotMoved(device.id, pose.x, pose.y, pose.theta))
     return news
+
+
+def _reports(slug: str, before: State, told: Sequence[ToFloor]) -> list[m.Event]:
+    """Return what free robots report, where a task waits for a robot that is chosen by it: one read, and seldom."""
+    tasks: list[FloorTask | m.TaskAsked] = [*before.tasks, *(each for each in told if isinstance(each, m.TaskAsked))]
+    waiting = (f"{task.run}/{task.order.role}" for task in tasks if task.where)
+    if all(key in before.roles for key in waiting):
+        return []
+    over = {message.run for message in told if isinstance(message, m.RunOver)}
+    free = [robot.id for robot in before.robots.values() if robot.run == "" or robot.run in over]
+    readings = registry.get_readings(site=slug, ids=free)
+    return [m.RobotsReport({robot: one.values for robot, one in readings.items()})]
 
 
 def _write(slug: str, row: FloorState, before: State, after: State, actions: tuple[m.Action, ...]) -> None:

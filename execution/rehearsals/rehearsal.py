@@ -190,7 +190,7 @@ class _Rehearsal:
                 self._step_floor()
 
     def _step_floor(self) -> None:
-        events, self.floor_events = self.floor_events, []
+        events, self.floor_events = [*self._reports(), *self.floor_events], []
         now = self.world.time_s
         self.floor, actions = floor.step(self.layout, self.floor, events, now)
         for action in actions:
@@ -201,6 +201,11 @@ class _Rehearsal:
             event = to_machine(told[1]) if told else None
             if event is not None:
                 self.run_events.append(event)
+
+    def _reports(self) -> list[m.Event]:
+        """Return what robots report, where some are chosen by it."""
+        chosen = any(role.where is not None for role in self.plan.roles.values())
+        return [m.RobotsReport(self.world.readings())] if chosen else []
 
     def _do_run(self, actions: tuple[r.Action, ...]) -> None:
         now = self.world.time_s

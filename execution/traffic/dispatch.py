@@ -10,6 +10,9 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from editor.language.expressions.names import ROBOT_METHODS
+from editor.language.plan.json_form import expression_from_json
+from execution.machine.evaluation import EvaluationError, is_true
+from execution.machine.places import ROLE
 from execution.traffic.conflicts import make_room_for
 from execution.traffic.floor_state import FloorTask, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
@@ -65,7 +68,15 @@ def _bind_any(turn: Turn, waiting: Mapping[str, FloorTask]) -> None:
                 _bind(turn, keys[i], requests[keys[i]], robots[j])
     for key, task in requests.items():
         if key not in turn.roles:
-            turn.wait(task, "no_free_robot", "It waits for a robot that can do this to be free and online.")
+            _await_robot(turn, task)
+
+
+def _await_robot(turn: Turn, task: FloorTask) -> None:
+    if task.said:
+        why = f"It waits for a robot that can do this to be free and online, with {task.said}."
+        turn.wait(task, "no_fitting_robot", why, condition=task.said)
+    else:
+        turn.wait(task, "no_free_robot", "It waits for a robot that can do this to be free and online.")
 
 
 def _has_able_robot(turn: Turn, task: FloorTask) -> bool:
@@ -81,13 +92,24 @@ def _is_able(device: Description | None, can: tuple[str, ...]) -> bool:
 
 
 def _cost(turn: Turn, task: FloorTask, robot: Robot) -> float:
-    if not _is_able(turn.layout.devices.get(robot.id), task.can):
+    if not _is_able(turn.layout.devices.get(robot.id), task.can) or not _fits(turn, task, robot):
         return UNABLE
     try:
         goal = turn.layout.spot_for(task.order.target).cell
     except NoSuchSpot:
         return 0.0
     return float(turn.layout.lattice.distances(goal).get(turn.layout.cell(turn.node(robot)), UNABLE / 2))
+
+
+def _fits(turn: Turn, task: FloorTask, robot: Robot) -> bool:
+    """Tell whether what a robot reports now is what it is chosen by; one that does not report it does not fit."""
+    if not task.where:
+        return True
+    told = {(robot.id, name): value for name, value in turn.readings.get(robot.id, {}).items()}
+    try:
+        return is_true(expression_from_json(task.where), {}, {**told, (ROLE, task.order.role): robot.id})
+    except EvaluationError:
+        return False
 
 
 def _bind(turn: Turn, key: str, task: FloorTask, robot: Robot) -> None:

@@ -122,6 +122,8 @@ def _take(turn: Turn, event: m.Event) -> None:
             _end_call(turn, event)
         case m.RunPaused() | m.RunResumed() | m.RunOver() | m.StopPressed() | m.StopReset():
             _take_order(turn, event)
+        case m.RobotsReport(readings=readings):
+            turn.readings = readings
         case m.RobotMoved() | m.CommandAnswered() | m.DeviceOnline() | m.DeviceOffline():
             _take_report(turn, event)
         case m.Tick():
@@ -171,7 +173,7 @@ def _take_task(turn: Turn, event: m.TaskAsked) -> None:
         return
     turn.next_seq += 1
     task = FloorTask(event.run, event.task, turn.next_seq, event.order, event.wants, event.can, event.run_name)
-    turn.tasks[event.run, event.task] = task
+    turn.tasks[event.run, event.task] = replace(task, where=event.where, said=event.said)
     turn.names[event.run] = event.run_name
     if event.zones:
         turn.zones[event.run] = event.zones

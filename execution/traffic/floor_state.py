@@ -58,6 +58,10 @@ class FloorTask:
     wait: Reason | None = None
     absent_since: float | None = None
     """Since when a device that is needed has been away."""
+    where: Mapping[str, object] = field(default_factory=dict)
+    """What must hold of any robot when it is chosen, as plans keep it in JSON; empty: nothing."""
+    said: str = ""
+    """The same in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +114,10 @@ STORED_AS: Mapping[type, Mapping[str, str]] = {
 """What kept states call the parts that have got another name since; the tasks themselves they call `jobs`."""
 
 
+WRITTEN_WHERE_SET = frozenset({"where", "said"})
+"""Parts that are written only where they say something, so that the version before reads all other states."""
+
+
 def to_json(state: FloorState) -> dict[str, Any]:
     """Return the state as plain JSON."""
     whole = {f.name: getattr(state, f.name) for f in fields(state) if f.name != "tasks"}
@@ -149,7 +157,7 @@ def _stored(item: Robot | FloorTask | Sent) -> dict[str, Any]:
     stored = asdict(item)
     for name, key in STORED_AS[type(item)].items():
         stored[key] = stored.pop(name)
-    return stored
+    return {name: value for name, value in stored.items() if value or name not in WRITTEN_WHERE_SET}
 
 
 def _known(data: Mapping[str, Any], kind: type) -> dict[str, Any]:

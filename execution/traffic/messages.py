@@ -46,7 +46,11 @@ def floor_zones(program: str, zones: Iterable[Zone]) -> tuple[FloorZone, ...]:
 
 @dataclass(frozen=True, slots=True)
 class TaskAsked:
-    """A run asks for a task. `wants` names the device of the role, or `can` what its robot must be able to do."""
+    """A run asks for a task. `wants` names the device of the role, or `can` what its robot must be able to do.
+
+    `where` is the condition that must hold of any robot when it is chosen, as plans keep it in JSON (empty: none), and
+    `said` the same in words.
+    """
 
     run: str
     task: int
@@ -55,6 +59,8 @@ class TaskAsked:
     can: tuple[str, ...] = ()
     run_name: str = ""
     zones: tuple[FloorZone, ...] = ()
+    where: Mapping[str, object] = field(default_factory=dict)
+    said: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +79,13 @@ class RobotMoved:
     x: float
     y: float
     theta: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class RobotsReport:
+    """What robots report now, by robot: for choices that depend on it; it is known in this step alone."""
+
+    readings: Mapping[str, Mapping[str, Scalar]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +168,7 @@ class CallCancelled:
 
 
 Event = (
-    CallSent | CallCancelled | TaskAsked | TaskCancelled | RobotMoved | CommandAnswered | DeviceOnline
+    CallSent | CallCancelled | TaskAsked | TaskCancelled | RobotMoved | RobotsReport | CommandAnswered | DeviceOnline
     | DeviceOffline | Tick | StopPressed | StopReset | RunPaused | RunResumed | RunOver
 )  # fmt: skip
 

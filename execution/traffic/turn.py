@@ -10,6 +10,7 @@ from uuid import UUID, uuid5
 from execution.traffic.floor_state import FloorState, FloorTask, Robot, Sent
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import Action, Reason, SendCommand, TaskOver, WaitChanged
+from vipo_device.protocol.description import Scalar
 
 
 class Turn:
@@ -32,6 +33,7 @@ class Turn:
         self.names = dict(state.names)
         self.zones = dict(state.zones)
         self.locks = dict(state.locks)
+        self.readings: Mapping[str, Mapping[str, Scalar]] = {}
         self.waits: dict[tuple[str, int], Reason] = {}
         self.actions: list[Action] = []
 

@@ -17,6 +17,7 @@ from editor.language.checks.parallel import check_branches, check_parallel
 from editor.language.checks.paths import check_paths
 from editor.language.checks.possible import check_held_device
 from editor.language.checks.robot_methods import check_own_method
+from editor.language.checks.role_choices import check_choice
 from editor.language.checks.updates import check_updates
 from editor.language.checks.use import check_use
 from editor.language.checks.values import (
@@ -329,6 +330,7 @@ def _check_roles(context: Context) -> None:
                 first[node.role] = node
     for role in tree.roles:
         check_role(context, first[role.name], role, needed[role.name])
+        check_choice(context, first[role.name], role)
 
 
 def _check_starts(context: Context) -> None:

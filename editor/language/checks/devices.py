@@ -8,9 +8,10 @@ from math import pi
 
 from editor.language.checks.context import Context
 from editor.language.checks.possible import check_each_device, check_held_device, check_held_place
+from editor.language.checks.robot_readings import check_robot_reading, tell_unknown
 from editor.language.expressions import nodes as e
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.expressions.nodes import Constant, Expression, PlaceRef, Reading, Zone
+from editor.language.expressions.nodes import Constant, Expression, Located, PlaceRef, Reading, Zone
 from editor.language.expressions.ranges import Here
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
@@ -126,16 +127,15 @@ def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], 
             facts = known_device(context, node, str(part.device.value), field)
             if facts is not None:
                 _check_reported(context, node, part, field, facts)
+        elif isinstance(part.device, Located):
+            check_robot_reading(context, node, part, field)
         else:
             check_each_device(context, node, part.device, field, partial(_check_reported, context, node, part, field))
 
 
 def _check_reported(context: Context, node: n.Node, reading: Reading, field: str, facts: DeviceFacts) -> None:
-    description = facts.description
-    if description.property(reading.property) is None:
-        options = Options(tuple(spec.name for spec in description.properties))
-        details: TextArguments = {"device": description.name, "property": reading.property, "options": options}
-        context.report(node, "unknown_property", field, details)
+    if facts.description.property(reading.property) is None:
+        tell_unknown(context, node, reading, field, facts.description)
 
 
 def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, ...]) -> None:

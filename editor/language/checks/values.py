@@ -27,7 +27,7 @@ from editor.language.expressions.value_types import (
 )
 from editor.language.expressions.values import is_number, parts_of
 from editor.language.messages.diagnostics import Fix, TextArguments, fix_value
-from editor.language.messages.phrases import Amounts, Options, Plural, Span
+from editor.language.messages.phrases import Amounts, Driver, Options, Plural, Span
 from editor.language.tree import nodes as n
 from vipo_device.protocol.description import MethodSpec, ParameterSpec
 
@@ -196,13 +196,16 @@ def _each_is_possible(context: Context, condition: Expression) -> bool:
 def _declared(context: Context, reading: Reading) -> TextArguments:
     """Return what a device declares of its property, for a sentence."""
     spec = property_spec(reading, context.surroundings)
-    device = reading.device.value if isinstance(reading.device, Constant) else ""
-    facts = context.surroundings.devices.get(str(device))
+    if isinstance(reading.device, Located):
+        name: str | Driver = context.driver_name(reading.device.role or "")
+    else:
+        device = str(reading.device.value) if isinstance(reading.device, Constant) else ""
+        facts = context.surroundings.devices.get(device)
+        name = device if facts is None else facts.description.name
     limits: Options | Span = Options(())
     if spec is not None:
         span = Span(spec.minimum, spec.maximum, unit_word(spec.unit))
         limits = Options(spec.options, "or") if spec.options else span
-    name = str(device) if facts is None else facts.description.name
     return {"device": name, "property": reading.property, "range": limits}
 
 

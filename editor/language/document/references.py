@@ -23,4 +23,7 @@ def with_role_ids(value: object, role_ids: Mapping[str, str]) -> object:
     if set(value) == {"at"} and isinstance(value["at"], dict) and "role" in value["at"]:
         name = value["at"]["role"]
         return {"at": {"role": role_ids.get(name, name)}}
+    match value:
+        case {"property": [{"role": name}, reading]} if len(value) == 1:
+            return {"property": [{"role": role_ids.get(name, name)}, reading]}
     return {key: with_role_ids(item, role_ids) for key, item in value.items()}

@@ -7,7 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from editor.language.document.outline import PROGRAM, mapping
+from editor.language.document.references import with_role_ids
 from editor.language.expressions.names import attribute_name
+from editor.language.expressions.values import write_value
 from editor.language.tree import nodes as n
 
 Plain = Mapping[str, object]
@@ -76,11 +78,18 @@ def merge_roles(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, obj
         former = used.get(role.id) if _may_be_called(role) and role.name not in resting else None
         key = former.id if former else resting.get(role.name) or _free(role.name, {*old, *roles})
         ids[role.name] = key
-        if former is None or (former.name, former.device, former.can) != (role.name, role.device, role.can):
+        if former is None or _choice_of(former) != _choice_of(role):
             same = former.name == role.name if former else key in resting.values()
             binding: dict[str, object] = {"can": list(role.can)} if role.device is None else {"device": role.device}
+            if role.where is not None:
+                binding["where"] = with_role_ids(write_value(role.where), {"": key})
             roles[key] = {"name": _role_name(key, old) if same else role.name, **binding}
     return roles, ids
+
+
+def _choice_of(role: n.Role) -> object:
+    """Return all that the document says of a role."""
+    return role.name, role.device, role.can, repr(role.where)
 
 
 def _role_name(key: str, old: Plain) -> str:

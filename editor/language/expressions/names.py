@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
+from collections import Counter
 from collections.abc import Iterable
 from collections.abc import Set as AbstractSet
 from functools import lru_cache
@@ -100,3 +101,11 @@ def member_name(wanted: str, known: list[str]) -> str | None:
     name = snake_case(wanted)
     alike = [other for other in known if snake_case(other) == name]
     return name if alike == [wanted] and name not in RESERVED_MEMBERS else None
+
+
+def member_names(wanted: Iterable[str]) -> dict[str, str]:
+    """Return methods or properties by their script names, those that have one."""
+    known = list(wanted)
+    alike = Counter(map(snake_case, known))
+    named = ((snake_case(name), name) for name in known)
+    return {short: name for short, name in named if alike[short] == 1 and short not in RESERVED_MEMBERS}

@@ -37,7 +37,7 @@ class Variable:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """A device's property; `device` is a Constant with its id, or a Variable bound to one."""
+    """A device's property; `device` is a Constant with its id, a Variable bound to one, or the Located of a role."""
 
     device: Expression
     property: str

@@ -25,6 +25,9 @@ class Names(Protocol):
     def reading(self, device: str, property_name: str) -> str:
         """Return how a device's property is written."""
 
+    def robot_reading(self, role: str, property_name: str) -> str:
+        """Return how a property of a role's robot is written."""
+
     def located(self, located: Located) -> str:
         """Return how a device, a named place, a role's robot or a zone is written."""
 
@@ -40,6 +43,11 @@ def scalar_text(value: Scalar) -> str:
 def quantity_text(quantity: Quantity) -> str:
     """Return a number with its unit as the script writes it."""
     return f"quantity({scalar_text(quantity.value)}, {quote(unit_symbol(quantity.unit))})"
+
+
+def read_of(thing: str, short: str | None, name: str) -> str:
+    """Return how a property of something is written: under its short name, or written out where it has none."""
+    return f"{thing}.{short}" if short else f"{thing}.read({quote(name)})"
 
 
 def write_expression(expression: Expression, names: Names) -> str:
@@ -63,6 +71,8 @@ def _reading(expression: Reading, names: Names, around: int) -> str:
     device, name = expression.device, expression.property
     if isinstance(device, Constant):
         return names.reading(str(device.value), name)
+    if isinstance(device, Located) and device.role is not None:
+        return names.robot_reading(device.role, name)
     return f"{_write(device, names, _ATOM)}.read({quote(name)})"
 
 

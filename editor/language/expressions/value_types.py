@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
@@ -69,15 +70,34 @@ def unit_word(unit: str) -> str:
 
 
 def property_spec(reading: Reading, surroundings: Surroundings) -> PropertySpec | None:
-    """Return what the device says of the property that is read, if it says anything."""
-    if not isinstance(reading.device, Constant):
-        return None
-    facts = surroundings.devices.get(str(reading.device.value))
-    if facts is not None:
-        for spec in facts.description.properties:
-            if spec.name == reading.property:
-                return spec
+    """Return what the device says of the property that is read, if it says anything.
+
+    Of a role it is what all robots say that may take it, None where they do not say the same.
+    """
+    match reading.device:
+        case Constant(value=device):
+            facts = surroundings.devices.get(str(device))
+            return None if facts is None else facts.description.property(reading.property)
+        case Located(role=str(role)):
+            return surroundings.crew.reading(role, reading.property)
     return None
+
+
+def joined_spec(specs: Sequence[PropertySpec]) -> PropertySpec | None:
+    """Return what several devices say together of one property; None where they differ in kind or unit."""
+    first = specs[0] if specs else None
+    if first is None or all(spec == first for spec in specs):
+        return first
+    if len({(plain_type(spec.type), declared_unit(spec.unit)) for spec in specs}) > 1:
+        return None
+    least = [spec.minimum for spec in specs if spec.minimum is not None]
+    most = [spec.maximum for spec in specs if spec.maximum is not None]
+    return replace(
+        first,
+        minimum=min(least) if len(least) == len(specs) else None,
+        maximum=max(most) if len(most) == len(specs) else None,
+        options=tuple(dict.fromkeys(o for s in specs for o in s.options)) if all(s.options for s in specs) else (),
+    )
 
 
 @dataclass(slots=True)

@@ -150,7 +150,7 @@ def read_value(value: object, names: Names, robot_of: RobotOf = no_robot, depth:
     if "param" in value:
         return _variable(value["param"], names)
     if "property" in value:
-        return _reading(value["property"], names)
+        return _reading(value["property"], names, robot_of)
     if "op" in value:
         return _operation(value, names, robot_of, depth)
     if "quantity" in value:
@@ -189,7 +189,7 @@ def _variable(name: object, names: Names) -> Expression:
     return Variable(names[name])
 
 
-def _reading(value: object, names: Names) -> Expression:
+def _reading(value: object, names: Names, robot_of: RobotOf) -> Expression:
     if not isinstance(value, _LISTS) or len(value) != 2:
         return MISSING
     device, name = value
@@ -198,9 +198,15 @@ def _reading(value: object, names: Names) -> Expression:
     if isinstance(device, str) and device:
         return Reading(Constant(device), name)
     if isinstance(device, Mapping):
-        read = _variable(device.get("param"), names)
+        role = device.get("role")
+        read = _of_robot(robot_of(role)) if isinstance(role, str) else _variable(device.get("param"), names)
         return MISSING if read == MISSING else Reading(read, name)
     return MISSING
+
+
+def _of_robot(robot: Expression) -> Expression:
+    """Return of what a robot's readings are: its role, or the device that it is known to be."""
+    return Constant(robot.device) if isinstance(robot, Located) and robot.device is not None else robot
 
 
 def _operation(value: Mapping[str, object], names: Names, robot_of: RobotOf, depth: int) -> Expression:
@@ -249,6 +255,8 @@ def write_value(expression: Expression | None) -> object:
             return {"param": name}
         case Reading(device=Constant(value=device), property=name):
             return {"property": [device, name]}
+        case Reading(device=Located(role=str(role)), property=name):
+            return {"property": [{"role": role}, name]}
         case Reading(device=device, property=name):
             return {"property": [write_value(device), name]}
         case Operation(operator=operator, arguments=arguments):
@@ -308,11 +316,13 @@ def rename_roles(expression: Expression, names: Mapping[str, str]) -> Expression
     match expression:
         case Located(role=str(role)):
             return Located(role=names.get(role, role))
+        case Reading(device=Located(role=str(role)), property=name):
+            return Reading(Located(role=names.get(role, role)), name)
         case Operation(operator=operator, arguments=arguments):
             return Operation(operator, tuple(rename_roles(argument, names) for argument in arguments))
     return expression
 
 
 def roles_in(expression: Expression) -> frozenset[str]:
-    """Return the roles whose places an expression asks for."""
+    """Return the roles whose robots an expression asks about: where they are, or what they tell."""
     return frozenset(part.role for part in parts_of(expression) if isinstance(part, Located) and part.role is not None)

@@ -54,6 +54,19 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "no_robot_can": "Kein Roboter an diesem Standort kann {methods}.",
     "no_robot_offers": "Kein Roboter an diesem Standort kann {method}. Roboter können hier: {options}.",
     "methods_differ": "{first} und {second} brauchen für {method} verschiedene Werte. Wählen Sie einen Roboter.",
+    "no_robot_tells": "Kein Roboter, der {role} sein kann, meldet {property}. Roboter melden hier: {options}.",
+    "readings_differ": (
+        "{first} und {second} melden {property} verschieden, nach Art oder Einheit. Wählen Sie einen Roboter."
+    ),
+    "may_not_tell": (
+        "{device} kann {role} sein und meldet {property} nicht; dann schlägt das fehl. Wählen Sie einen Roboter."
+    ),
+    "choice_looks_elsewhere": (
+        "Wer {role} ist, darf nur davon abhängen, was der Roboter selbst meldet. Nehmen Sie alles andere heraus."
+    ),
+    "never_chosen": (
+        "Kein Roboter erfüllt je die Bedingung für {role}; das Programm würde ewig warten. Ändern Sie sie."
+    ),
     "step_of_its_own": "{method} ist ein eigener Schritt, der den Weg kennt. Zeichnen Sie stattdessen diesen.",
     "not_given": "{device} gibt {object} nicht her. Es gibt: {options}.",
     "not_taken": "{device} nimmt {object} nicht an. Es nimmt: {options}.",

@@ -55,6 +55,23 @@ TEXTS: Final[Mapping[str, Text]] = {
     "no_robot_can": ("error", "No robot on this site can {methods}."),
     "no_robot_offers": ("error", "No robot on this site can {method}. Robots here can: {options}."),
     "methods_differ": ("error", "{first} and {second} take different values for {method}. Choose one robot."),
+    "no_robot_tells": ("error", "No robot that may be {role} reports {property}. Robots here report: {options}."),
+    "readings_differ": (
+        "error",
+        "{first} and {second} report {property} in kinds or units that differ. Choose one robot.",
+    ),
+    "may_not_tell": (
+        "warning",
+        "{device} may be {role} and does not report {property}; then this fails. Choose one robot.",
+    ),
+    "choice_looks_elsewhere": (
+        "error",
+        "Who {role} is may depend only on what the robot itself reports. Take all else out of the condition.",
+    ),
+    "never_chosen": (
+        "error",
+        "No robot ever meets the condition for {role}, so the program would wait for ever. Change it.",
+    ),
     "step_of_its_own": ("error", "{method} is a step of its own: it knows the way. Draw that step instead."),
     "not_given": ("error", "{device} does not give {object}. It gives: {options}."),
     "not_taken": ("error", "{device} does not take {object}. It takes: {options}."),

@@ -14,6 +14,7 @@ REFUSALS_DE: Final[Mapping[str, str]] = {
     # what was found
     "This form of for": "Diese Form von for",
     "This form of try": "Diese Form von try",
+    "A choice of one robot": "Eine Auswahl bei einem einzelnen Roboter",
     "This form of parameters": "Diese Form von Parametern",
     "This run": "Dieses run",
     "What is caught here": "Was hier gefangen wird",
@@ -68,6 +69,13 @@ REFUSALS_DE: Final[Mapping[str, str]] = {
     "Give it in run: {x}.": "Geben Sie es in run an: {x}.",
     "Give it another name.": "Geben Sie ihr einen anderen Namen.",
     "In the class there are only methods.": "In der Klasse stehen nur Methoden.",
+    "Write {x}, where=lambda robot: robot.battery > 30).": (
+        "Schreiben Sie {x}, where=lambda robot: robot.battery > 30)."
+    ),
+    "A choice looks only at what the robot itself reports, such as robot.battery > 30.": (
+        "Eine Auswahl sieht nur, was der Roboter selbst meldet, wie robot.battery > 30."
+    ),
+    "Say what it reports: {x}.battery > 30.": "Nennen Sie, was er meldet: {x}.battery > 30.",
     "In run, write {x} and {y}.": "Schreiben Sie in run {x} und {y}.",
     "In expressions only these can be called: {x}.": "In Ausdrücken können nur diese aufgerufen werden: {x}.",
     "Use readings of devices, parameters, numbers, texts and comparisons.": "Verwenden Sie Messwerte von Geräten, "

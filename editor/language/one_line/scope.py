@@ -18,6 +18,7 @@ from editor.language.expressions.value_types import TEXT, ValueType, plain_type
 from editor.language.parsing.scope import Binding, Scope
 from editor.language.reading.document import read_document
 from editor.language.site.surroundings import Surroundings
+from editor.language.tree.robots import with_crew
 
 _SETTERS = fields_by_kind("variable")
 """The kinds of steps that set a variable, with the parameter that names it."""
@@ -102,7 +103,9 @@ def _name_roles(line: LineScope, document: Mapping[str, object]) -> None:
         device = mapping(body).get("device")
         if isinstance(device, str) and device:
             line.roles[key] = Located(device=device)
-    for role in read_document(document).tree.roles:
+    roles = read_document(document).tree.roles
+    line.scope.surroundings = with_crew(line.scope.surroundings, roles)
+    for role in roles:
         line.roles[role.id or role.name] = Located(role=role.name)
         line.role_ids[role.name] = role.id or role.name
 

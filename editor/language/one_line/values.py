@@ -11,7 +11,7 @@ from typing import Final
 from editor.language.document.references import with_document_names, with_role_ids
 from editor.language.expressions.names import member_name
 from editor.language.expressions.nodes import MISSING, Expression, Located, Quantity
-from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
+from editor.language.expressions.printing import quantity_text, read_of, scalar_text, write_expression
 from editor.language.expressions.units import UNITS, unit_symbol
 from editor.language.expressions.value_types import TypeChecker, ValueType
 from editor.language.expressions.values import FUNCTIONS, UnknownParameter, read_value, write_value
@@ -20,6 +20,7 @@ from editor.language.one_line.notation import Desugared, desugar
 from editor.language.one_line.scope import LineScope
 from editor.language.parsing.expressions import parse_expression
 from editor.language.parsing.scope import Refused
+from editor.language.tree.robots import short_reading
 
 LONGEST_LINE = 2000
 _CALLED = frozenset({*FUNCTIONS, "quantity", "point"})
@@ -89,7 +90,11 @@ class _LineNames:
         description = self.line.scope.description(device)
         known = [] if description is None else [spec.name for spec in description.properties]
         member, name = member_name(property_name, known), self.line.thing("get", device)
-        return f"{name}.{member}" if member else f"{name}.read({quote(property_name)})"
+        return read_of(name, member, property_name)
+
+    def robot_reading(self, role: str, property_name: str) -> str:
+        robots = self.line.scope.robots_of(role)
+        return read_of(role, short_reading(robots, property_name), property_name)
 
     def located(self, located: Located) -> str:
         if located.role is not None:

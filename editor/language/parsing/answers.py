@@ -13,7 +13,7 @@ from editor.language.constructs.table import FORMS
 from editor.language.expressions.names import CLOSED_FUNCTIONS, ROBOT_METHODS, member_name, snake_case
 from editor.language.messages.syntax_errors import ATTRIBUTE_ALONE, NAMES, OTHER_WORDS
 from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted, written
-from editor.language.tree.robots import own_methods, robots_for, short_name
+from editor.language.tree.robots import own_methods, readings_of, short_name
 
 _MOST_NAMES: Final = 12
 _EXAMPLES: Final = {call.method: FORMS[name][1].example for name, call in CALLS.items() if call.role is None}
@@ -129,7 +129,7 @@ def abilities(name: str, scope: Scope) -> list[str]:
     binding = scope.bindings[name]
     description = scope.description(binding.id)
     if binding.kind == "any" or name in scope.robots() or (description is not None and description.kind == "robot"):
-        robots = robots_for(scope.surroundings, binding.id if binding.kind == "get" else None, binding.can)
+        robots = scope.robots_of(name)
         return [*ROBOT_METHODS, *filter(None, (short_name(robots, method) for method in own_methods(robots)))]
     return [] if description is None else _members(method.name for method in description.methods)
 
@@ -137,6 +137,8 @@ def abilities(name: str, scope: Scope) -> list[str]:
 def _readings(name: str, scope: Scope) -> list[str]:
     """Return what can be read of a machine or robot that run gives, as the script calls it."""
     description = scope.description(scope.bindings[name].id)
+    if scope.bindings[name].kind == "any" or name in scope.robots():
+        return readings_of(scope.robots_of(name))
     return [] if description is None else _members(each.name for each in description.properties)
 
 

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from editor.language.expressions import nodes as e
 from editor.language.expressions.declarations import UnknownType, parse_type
-from editor.language.expressions.names import RESERVED_ATTRIBUTES, same_name, unique_name
+from editor.language.expressions.names import CLOSED_FUNCTIONS, RESERVED_ATTRIBUTES, same_name, unique_name
 from editor.language.expressions.nodes import Expression
 from editor.language.parsing.answers import closest
 from editor.language.parsing.expressions import parse_expression, parse_scalar
 from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted, written
 from editor.language.tree import nodes as n
+from editor.language.tree.choice import foreign_part
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,9 +73,36 @@ def _given(statement: ast.stmt, scope: Scope) -> Entry | None:
             targets=[ast.Attribute(value=ast.Name(id="self"), attr=name) as target], value=ast.Call() as call
         ):
             _check_new(name, target, scope)
-            scope.bindings[name] = _binding(call, name)
+            where = next((each for each in call.keywords if each.arg == "where"), None)
+            plain = [each for each in call.keywords if each is not where]
+            scope.bindings[name] = _binding(ast.copy_location(ast.Call(call.func, call.args, plain), call), name)
+            if where is not None:
+                _read_choice(call, where.value, name, scope)
             return None
     raise Refused(statement, quoted(statement), _instead_in_run(statement))
+
+
+_CHOICE = 'Write ctx.any("pick", where=lambda robot: robot.battery > 30).'
+_OWN_ONLY = "A choice looks only at what the robot itself reports, such as robot.battery > 30."
+
+
+def _read_choice(call: ast.Call, node: ast.expr, name: str, scope: Scope) -> None:
+    """Read the condition of `ctx.any("pick", where=lambda robot: robot.battery > 30)` into the binding."""
+    binding = scope.bindings[name]
+    if binding.kind != "any" or not isinstance(node, ast.Lambda):
+        raise Refused(node, quoted(node) if binding.kind == "any" else "A choice of one robot", _CHOICE)
+    a = node.args
+    if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or a.defaults or len(a.args) != 1:
+        raise Refused(node, quoted(node), _CHOICE)
+    scope.chosen = (a.args[0].arg, name)
+    for part in ast.walk(node.body):
+        if isinstance(part, ast.Name) and part.id not in {scope.chosen[0], *CLOSED_FUNCTIONS}:
+            raise Refused(part, quoted(part), _OWN_ONLY)
+    where = parse_expression(node.body, scope)
+    scope.chosen = ("", "")
+    if foreign_part(where) is not None:
+        raise Refused(node.body, quoted(node.body), _OWN_ONLY)
+    scope.bindings[name] = replace(binding, where=None if where == e.MISSING else where)
 
 
 def takes_only(method: ast.FunctionDef, names: list[str]) -> bool:

@@ -39,7 +39,8 @@ from editor.language.parsing.answers import (
     what_is_called,
 )
 from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted
-from editor.language.tree.robots import is_robot
+from editor.language.tree.choice import ITSELF
+from editor.language.tree.robots import is_robot, own_methods, readings_called, readings_of, short_name
 from vipo_device.protocol.description import Scalar
 
 _BINARY: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
@@ -101,6 +102,8 @@ def _list(node: ast.Tuple | ast.List, scope: Scope, depth: int) -> Expression:
 def _name(node: ast.Name, scope: Scope, depth: int) -> Expression:
     if f"{node.id}.text" in scope.locals:
         raise Refused(node, quoted(node), f"Write {node.id}.text, or {node.id}.kind.")
+    if scope.is_chosen(node):
+        raise Refused(node, quoted(node), f"Say what it reports: {node.id}.battery > 30.")
     if node.id not in scope.locals:
         raise unknown_name(node, scope)
     return Variable(node.id)
@@ -110,8 +113,13 @@ def _attribute(node: ast.Attribute, scope: Scope, depth: int) -> Expression:
     name = attribute_of_self(node)
     if name is not None:
         return _own_attribute(node, name, scope)
+    if scope.is_chosen(node.value):
+        return _of_role(node, scope.chosen[1], scope, ITSELF)
     if isinstance(node.value, ast.Name) and _is_caught(node, node.value.id, scope):
         return _of_caught(node, node.value.id, scope)
+    role = attribute_of_self(node.value)
+    if role is not None and role in scope.robots():
+        return _of_role(node, role, scope, Located(role=role))
     device = parse_thing(node.value, scope)
     description = scope.description(device.device)
     names = [] if description is None else [spec.name for spec in description.properties]
@@ -121,6 +129,16 @@ def _attribute(node: ast.Attribute, scope: Scope, depth: int) -> Expression:
         able = [*ROBOT_METHODS, *(snake_case(method) for method in methods)]
         raise unknown_reading(node, [name for name in (member_name(n, names) for n in names) if name], able)
     return Reading(Constant(device.device), found)
+
+
+def _of_role(node: ast.Attribute, role: str, scope: Scope, robot: Located) -> Expression:
+    """Return the reading of a robot that only its role names, under a name that all who may have the role agree on."""
+    robots = scope.robots_of(role)
+    meant = readings_called(robots, node.attr)
+    if len(meant) == 1:
+        return Reading(robot, meant[0])
+    able = [*ROBOT_METHODS, *filter(None, (short_name(robots, method) for method in own_methods(robots)))]
+    raise unknown_reading(node, readings_of(robots), able)
 
 
 def _is_caught(node: ast.Attribute, name: str, scope: Scope) -> bool:
@@ -163,7 +181,12 @@ def _call(node: ast.Call, scope: Scope, depth: int) -> Expression:
         if function.id in FUNCTIONS:
             return _function(node, function.id, scope, depth)
     if isinstance(function, ast.Attribute) and function.attr == "read" and len(node.args) == 1:
-        device, name = parse_thing(function.value, scope), parse_scalar(node.args[0])
+        name, role = parse_scalar(node.args[0]), attribute_of_self(function.value)
+        if role is not None and role in scope.robots() and isinstance(name, str) and name:
+            return Reading(Located(role=role), name)
+        if scope.is_chosen(function.value) and isinstance(name, str) and name:
+            return Reading(ITSELF, name)
+        device = parse_thing(function.value, scope)
         if isinstance(name, str) and name and device.device is not None:
             return Reading(Constant(device.device), name)
         if isinstance(name, str) and name and device.value is not None:

@@ -7,8 +7,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from editor.language.expressions.nodes import OF_PROBLEM, PROBLEM
+from editor.language.expressions.nodes import OF_PROBLEM, PROBLEM, Expression
 from editor.language.site.surroundings import Surroundings
+from editor.language.tree.robots import Robots, robots_for
 from vipo_device.protocol.description import Description, Scalar
 
 Answer = str | Callable[[], str]
@@ -41,6 +42,8 @@ class Binding:
     at: str | None = None
     is_robot: bool = False
     """The script says that the device is a robot."""
+    where: Expression | None = None
+    """What must hold of any robot when it is chosen."""
     default: Scalar = None
     type: str = ""
     unit: str = ""
@@ -59,11 +62,28 @@ class Scope:
     """The attributes that some step drives as a robot."""
     methods: Mapping[str, ast.FunctionDef] = field(default_factory=dict)
     """The methods of the task: its functions, branches and events, new_task and run."""
+    chosen: tuple[str, str] = ("", "")
+    """In the condition of a choice: what it calls the robot, and the attribute that the robot is given to."""
+    _robots: dict[str, Robots] = field(default_factory=dict)
 
     def description(self, device_id: str | None) -> Description | None:
         """Return a device's description, if the site has the device."""
         facts = self.surroundings.devices.get(device_id or "")
         return None if facts is None else facts.description
+
+    def is_chosen(self, node: ast.expr) -> bool:
+        """Tell whether a name stands for the robot that may be chosen, in the condition of a choice."""
+        return isinstance(node, ast.Name) and node.id == self.chosen[0]
+
+    def robots_of(self, name: str) -> Robots:
+        """Return the robots that a role may be, by its attribute."""
+        binding = self.bindings.get(name)
+        if binding is None:
+            return self.surroundings.crew.robots(name)
+        if name not in self._robots:
+            device = binding.id if binding.kind == "get" else None
+            self._robots[name] = robots_for(self.surroundings, device, binding.can)
+        return self._robots[name]
 
 
 def written(node: ast.AST) -> str:

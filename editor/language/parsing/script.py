@@ -156,7 +156,7 @@ def _event(parser: Parser, entry: Entry, method: ast.FunctionDef) -> n.Event:
 def _roles_and_parameters(parser: Parser) -> tuple[tuple[n.Role, ...], tuple[n.Parameter, ...]]:
     bindings = parser.scope.bindings.items()
     roles = tuple(
-        n.Role(name, b.id if b.kind == "get" else None, b.can, b.at, name)
+        n.Role(name, b.id if b.kind == "get" else None, b.can, b.at, name, where=b.where)
         for name, b in bindings
         if name in parser.roles
     )

@@ -155,6 +155,9 @@ class Builder:
                 self._note_readings(argument)
         elif isinstance(expression, e.Reading) and isinstance(expression.device, e.Constant):
             self.readings.add((str(expression.device.value), expression.property))
+        elif isinstance(expression, e.Reading) and isinstance(expression.device, e.Located):
+            bound = next((role.device for role in self.tree.roles if role.name == expression.device.role), None)
+            self.readings.update([(bound, expression.property)] if bound is not None else [])
 
     def given(self, expression: e.Expression | None, unit: str = "") -> e.Expression | None:
         """Return an expression that may be left out as a plan has it."""

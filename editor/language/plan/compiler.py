@@ -12,6 +12,7 @@ from editor.language.expressions.values import rename_roles
 from editor.language.plan import control_flow as flow
 from editor.language.plan import instructions as p
 from editor.language.plan.builder import Builder, Compiler, Leaves
+from editor.language.plan.choices import binding_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
 from editor.language.tree.robots import described_alike, robots_for
@@ -166,7 +167,7 @@ def compile_tree(
         invoke = builder.instructions[address].do
         assert isinstance(invoke, p.Invoke)
         builder.patch(address, replace(invoke, entry=entries[method]))
-    roles = {role.id or role.name: p.RoleBinding(role.id or role.name, role.device, role.can) for role in tree.roles}
+    roles = {role.id or role.name: binding_of(role, surroundings) for role in tree.roles}
     parameters = {parameter.name: parameter.default for parameter in tree.parameters}
     instructions, events = _with_role_ids(tree, builder.instructions, events)
     return p.Plan(instructions, roles, parameters, tuple(sorted(builder.readings)), events=events, zones=zones)

@@ -225,11 +225,16 @@ class Instruction:
 
 @dataclass(frozen=True, slots=True)
 class RoleBinding:
-    """How a role finds its robot: a given device, or any that can do all of these methods."""
+    """How a role finds its robot: a given device, or any that can do all of these methods.
+
+    `where` must hold of any robot when it is chosen, a condition on the readings of its role; `said` is it in words.
+    """
 
     role: str
     device: str | None = None
     can: tuple[str, ...] = ()
+    where: Expression | None = None
+    said: str = ""
 
 
 @dataclass(frozen=True, slots=True)

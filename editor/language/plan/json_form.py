@@ -24,7 +24,7 @@ def plan_to_json(plan: p.Plan) -> dict[str, Any]:
     return {
         "format": plan.format,
         "instructions": [_instruction_to_json(instruction) for instruction in plan.instructions],
-        "roles": {name: {"device": r.device, "can": list(r.can)} for name, r in plan.roles.items()},
+        "roles": {name: _role_to_json(role) for name, role in plan.roles.items()},
         "parameters": dict(plan.parameters),
         "reads": [list(pair) for pair in plan.reads],
         "events": [_event_to_json(event) for event in plan.events],
@@ -42,13 +42,23 @@ def plan_from_json(body: Mapping[str, Any]) -> p.Plan:
         raise UnreadablePlan(f"This is not a plan of format {p.PLAN_FORMAT}. Compile the program again.")
     try:
         instructions = tuple(_instruction_from_json(item) for item in body["instructions"])
-        roles = {name: p.RoleBinding(name, r["device"], tuple(r["can"])) for name, r in body["roles"].items()}
+        roles = {name: _role_from_json(name, role) for name, role in body["roles"].items()}
         reads = tuple((str(device), str(name)) for device, name in body["reads"])
         events = tuple(_event_from_json(item) for item in body.get("events", ()))
         zones = tuple(_zone_from_json(item) for item in body.get("zones", ()))
         return p.Plan(instructions, roles, dict(body["parameters"]), reads, events=events, zones=zones)
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         raise UnreadablePlan(f"The plan cannot be read: {error!r}. Compile the program again.") from error
+
+
+def _role_to_json(role: p.RoleBinding) -> dict[str, Any]:
+    body: dict[str, Any] = {"device": role.device, "can": list(role.can)}
+    return body if role.where is None else {**body, "where": expression_to_json(role.where), "said": role.said}
+
+
+def _role_from_json(name: str, body: Mapping[str, Any]) -> p.RoleBinding:
+    where = _maybe(body.get("where"))
+    return p.RoleBinding(name, body["device"], tuple(body["can"]), where, str(body.get("said", "")))
 
 
 def expression_to_json(expression: e.Expression | None) -> Any:

@@ -10,9 +10,9 @@ from editor.language.expressions.declarations import write_type
 from editor.language.expressions.names import RESERVED_ATTRIBUTES
 from editor.language.expressions.printing import quote, scalar_text
 from editor.language.printing.steps import PRINTERS
-from editor.language.printing.writer import Printer
+from editor.language.printing.writer import CHOSEN, Printer
 from editor.language.site.surroundings import Surroundings, what_programs_see
-from editor.language.tree.nodes import DRIVES, Block, Event, Function, Parameter, Perform, Role, Tree
+from editor.language.tree.nodes import DRIVES, Block, Event, Function, Parameter, Role, Tree
 from editor.language.tree.robots import is_robot
 from editor.language.tree.variables import local_variables, program_variables
 
@@ -42,7 +42,7 @@ def print_tree(
     taken = RESERVED_ATTRIBUTES | names | shared | {parameter.name for parameter in tree.parameters}
     printer = Printer(tree, surroundings, numbers, set(taken), PRINTERS, zone_names=zone_names or {}, memo=memo)
     if memo is not None:
-        roles = [(role.name, role.device, role.can) for role in tree.roles] if tree.holds(Perform) else []
+        roles = [(role.name, role.device, role.can) for role in tree.roles]
         memo.begin((what_programs_see(surroundings), roles))
     printer.line(0, "class Task(object):")
     _print_method(printer, "def new_task(self):", tree.body)
@@ -101,7 +101,7 @@ def _print_run(printer: Printer) -> None:
     driven = frozenset(node.role for node in nodes if isinstance(node, DRIVES))
     for role in printer.tree.roles:
         sure = role.name in driven or is_robot(printer.surroundings, role.device)
-        printer.line(2, f"self.{role.name} = {_binding(role, sure=sure)}")
+        printer.line(2, f"self.{role.name} = {_binding(printer, role, sure=sure)}")
     for key, attribute in printer.attributes.items():
         get = f"ctx.get({quote(key)})" if isinstance(key, str) else f"ctx.place({quote(key.place or '')})"
         printer.line(2, f"{attribute} = {get}")
@@ -126,10 +126,14 @@ def _bodies(tree: Tree) -> tuple[Block, ...]:
     return (tree.body, *(function.body for function in tree.functions), *(event.body for event in tree.events))
 
 
-def _binding(role: Role, *, sure: bool) -> str:
+def _binding(printer: Printer, role: Role, *, sure: bool) -> str:
     """Return what gives a role its robot; it says that it is one where neither the steps nor the site tell."""
     if role.device is None:
-        return f"ctx.any({', '.join(map(quote, role.can))})"
+        given = [*map(quote, role.can)]
+        if role.where is not None:
+            printer.chosen = role.name
+            given.append(f"where=lambda {CHOSEN}: {printer.value(role.where)}")
+        return f"ctx.any({', '.join(given)})"
     at = "" if role.at is None else f", at={quote(role.at)}"
     mark = "" if sure else ', kind="robot"'
     return f"ctx.get({quote(role.device)}{at}{mark})"

@@ -8,12 +8,14 @@ from dataclasses import dataclass, field
 from editor.language.analysis.memo import Memo
 from editor.language.expressions.names import member_name, unique_name
 from editor.language.expressions.nodes import OF_PROBLEM, Expression, Located, PlaceRef, Point, Quantity
-from editor.language.expressions.printing import quantity_text, quote, scalar_text, write_expression
+from editor.language.expressions.printing import quantity_text, read_of, scalar_text, write_expression
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree.nodes import COMPOSITES, Block, Node, Tree
-from editor.language.tree.robots import described_alike, robots_for, short_name
+from editor.language.tree.robots import described_alike, robots_for, short_name, short_reading
 from vipo_device.protocol.description import MethodSpec
 
+CHOSEN = "robot"
+"""What the condition of a choice calls the robot that may be chosen."""
 _INDENTS = tuple("    " * depth for depth in range(80))
 
 
@@ -48,7 +50,7 @@ class Printer:
     branches: list[tuple[str, tuple[str, ...], Block]] = field(default_factory=list)
     """Methods of parallel branches that are still to be printed, each with what it can see."""
     method_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
-    property_names: dict[tuple[str, str], str | None] = field(default_factory=dict)
+    property_names: dict[tuple[str | Located, str], str | None] = field(default_factory=dict)
     own_methods: dict[tuple[str, str], tuple[str | None, MethodSpec | None]] = field(default_factory=dict)
     """What the methods of a role's robot are called, with their parameters, by role and method."""
     zone_names: Mapping[str, str] = field(default_factory=dict)
@@ -56,6 +58,8 @@ class Printer:
     zones: dict[str, str] = field(default_factory=dict)
     """Zones (by id) with their names in the script, in the order of first use."""
     memo: Memo | None = None
+    chosen: str = ""
+    """The role whose choice is being printed."""
     used: dict[PlaceRef | Located | str, str] = field(default_factory=dict)
     """The devices, places and zones that the step being printed names, in the order of first use."""
 
@@ -179,7 +183,14 @@ class Printer:
             self.property_names[key] = member_name(property_name, known)
         member = self.property_names[key]
         attribute = self.device(device)
-        return f"{attribute}.{member}" if member else f"{attribute}.read({quote(property_name)})"
+        return read_of(attribute, member, property_name)
+
+    def robot_reading(self, role: str, property_name: str) -> str:
+        """Return how a property of a role's robot is written."""
+        key = (Located(role=role or self.chosen), property_name)
+        if key not in self.property_names:
+            self.property_names[key] = short_reading(self.surroundings.crew.robots(role or self.chosen), property_name)
+        return read_of(f"self.{role}" if role else CHOSEN, self.property_names[key], property_name)
 
     def value(self, expression: Expression) -> str:
         """Return an expression as text."""

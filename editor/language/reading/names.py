@@ -8,7 +8,9 @@ from editor.language.constructs.table import fields_by_kind
 from editor.language.document.outline import PROGRAM, Outline, mapping
 from editor.language.expressions.declarations import normal_type
 from editor.language.expressions.names import attribute_name, local_name, unique_name
-from editor.language.expressions.values import Names, plain
+from editor.language.expressions.nodes import Expression, Located, is_missing
+from editor.language.expressions.values import Names, UnknownParameter, plain, read_value
+from editor.language.tree.choice import ITSELF, foreign_part
 from editor.language.tree.nodes import Function, Parameter, Role
 
 DEFAULT_ROLE = "robot"
@@ -84,8 +86,21 @@ def read_roles(given: Mapping[str, Mapping[str, object]], taken: Iterable[str]) 
         listed = can if isinstance(can, list | tuple) else ()
         methods = tuple(dict.fromkeys(method for method in listed if isinstance(method, str) and method))
         bound = device if isinstance(device, str) and device else None
-        roles[key] = Role(name, bound, () if bound else methods, None, key)
+        where, looks_elsewhere = (None, False) if bound else _read_choice(item.get("where"), key)
+        can_do = () if bound else methods
+        roles[key] = Role(name, bound, can_do, None, key, where=where, looks_elsewhere=looks_elsewhere)
     return roles
+
+
+def _read_choice(value: object, role: str) -> tuple[Expression | None, bool]:
+    """Return the condition by which a role's robot is chosen, and whether it speaks of anything else than the robot."""
+    try:
+        where = read_value(value, {}, lambda other: ITSELF if other == role else Located(role=other))
+    except UnknownParameter:
+        return None, True
+    if foreign_part(where) is not None:
+        return None, True
+    return (None if is_missing(where) else where), False
 
 
 def read_functions(given: Mapping[str, Mapping[str, object]], taken: Iterable[str]) -> dict[str, Function]:

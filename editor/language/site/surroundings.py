@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, Protocol
+from typing import Final, Literal, Protocol
 
-from vipo_device.protocol.description import Description, Scalar
+from vipo_device.protocol.description import Description, PropertySpec, Scalar
 
 Lifecycle = Literal["pending", "approved", "retired"]
 
@@ -54,6 +54,33 @@ class FloorFacts(Protocol):
         """Return where a robot of that radius stands to serve a machine; None when it has no room to."""
 
 
+class CrewFacts(Protocol):
+    """The robots that may take the roles of a program."""
+
+    def robots(self, role: str) -> tuple[Description, ...]:
+        """Return the descriptions of the robots that may take a role, by its name in the script; sorted by id."""
+
+    def told_by(self, role: str, name: str) -> tuple[PropertySpec | None, ...]:
+        """Return what each of these robots says of a property, in the same order; None: it does not report it."""
+
+    def reading(self, role: str, name: str) -> PropertySpec | None:
+        """Return what they say together of a property; None where they do not say the same, or nothing."""
+
+
+class _Nobody:
+    def robots(self, role: str) -> tuple[Description, ...]:
+        return ()
+
+    def told_by(self, role: str, name: str) -> tuple[PropertySpec | None, ...]:
+        return ()
+
+    def reading(self, role: str, name: str) -> PropertySpec | None:
+        return None
+
+
+NOBODY: Final[CrewFacts] = _Nobody()
+
+
 @dataclass(frozen=True, slots=True)
 class LibraryFacts:
     """A function of the site's library: what each of its versions is given, as (name, type) pairs."""
@@ -71,6 +98,8 @@ class Surroundings:
     floor: FloorFacts | None = None
     library: Mapping[str, LibraryFacts] | None = None
     """The functions of the library by id; None: nobody knows them here."""
+    crew: CrewFacts = field(default=NOBODY, compare=False, repr=False)
+    """Whose readings a role's are, in the program that is looked at."""
 
 
 def what_programs_see(surroundings: Surroundings) -> object:

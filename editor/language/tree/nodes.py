@@ -277,7 +277,8 @@ class Event:
 class Role:
     """A robot of the program, under its name in the script: one device, or any that can do all of `can`.
 
-    `at` is the device where it stands at the beginning, when the program relies on that.
+    `at` is the device where it stands at the beginning, when the program relies on that. Of any robot `where` must
+    hold when it is chosen, a condition on the readings of `tree.choice.ITSELF`.
     """
 
     name: str
@@ -285,6 +286,9 @@ class Role:
     can: tuple[str, ...] = ()
     at: str | None = None
     id: str = field(default="", compare=False)
+    where: Expression | None = None
+    looks_elsewhere: bool = field(default=False, compare=False)
+    """Its condition spoke of something else than the robot itself, and is left out."""
 
 
 @dataclass(frozen=True, slots=True)

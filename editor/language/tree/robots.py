@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from editor.language.expressions.names import RESERVED_ATTRIBUTES, ROBOT_METHODS, member_name, unique_name
+from editor.language.expressions.names import (
+    RESERVED_ATTRIBUTES,
+    ROBOT_METHODS,
+    member_name,
+    member_names,
+    unique_name,
+)
+from editor.language.expressions.value_types import joined_spec
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree.nodes import COMPOSITES, Block, Node, Operate, Perform, Role, Tree, blocks_of, with_blocks
 from editor.language.tree.traversal import in_reading_order
 from editor.language.tree.variables import program_variables
-from vipo_device.protocol.description import Description, MethodSpec
+from vipo_device.protocol.description import Description, MethodSpec, PropertySpec
 
 Robots = tuple[Description, ...]
 
@@ -65,6 +72,72 @@ def methods_called(robots: Robots, short: str) -> tuple[str, ...]:
     """Return the methods of some of the robots that the script could mean by a name; one, where it is clear."""
     names = own_methods(robots)
     return tuple(name for name in names if short_name(tuple(r for r in robots if r.method(name)), name) == short)
+
+
+def readings_told(robots: Robots) -> tuple[str, ...]:
+    """Return the properties that some of the robots tell."""
+    return tuple(dict.fromkeys(spec.name for robot in robots for spec in robot.properties))
+
+
+def short_reading(robots: Robots, name: str) -> str | None:
+    """Return what the script calls a property of these robots; None where only its full name is clear."""
+    members = {member_name(name, [*names]) for names in _different_readings(robots) if name in names}
+    short = members.pop() if len(members) == 1 else None
+    return short if short is not None and readings_called(robots, short) == (name,) else None
+
+
+def readings_of(robots: Robots) -> list[str]:
+    """Return what can be read of such robots, as the script calls it."""
+    return [short for short in (short_reading(robots, name) for name in readings_told(robots)) if short]
+
+
+def readings_called(robots: Robots, short: str) -> tuple[str, ...]:
+    """Return the properties of some of the robots that the script could mean by a name; one, where it is clear."""
+    told = map(member_names, _different_readings(robots))
+    return tuple(dict.fromkeys(names[short] for names in told if short in names))
+
+
+def _different_readings(robots: Robots) -> Iterable[tuple[str, ...]]:
+    """Return what the robots report, once for all that report the same."""
+    return dict.fromkeys(tuple(spec.name for spec in robot.properties) for robot in robots)
+
+
+class Candidates:
+    """The robots that may take the roles of one program on one site, found when they are asked for."""
+
+    def __init__(self, roles: Sequence[Role], surroundings: Surroundings) -> None:
+        """Know the roles and the site."""
+        self._roles = {role.name: role for role in roles}
+        self._surroundings = surroundings
+        self._found: dict[str, Robots] = {}
+        self._told: dict[tuple[str, str], tuple[PropertySpec | None, ...]] = {}
+        self._readings: dict[tuple[str, str], PropertySpec | None] = {}
+
+    def robots(self, role: str) -> Robots:
+        """Return the robots that may take a role, by its name in the script."""
+        if role not in self._found:
+            known = self._roles.get(role)
+            self._found[role] = robots_for(self._surroundings, known.device, known.can) if known else ()
+        return self._found[role]
+
+    def told_by(self, role: str, name: str) -> tuple[PropertySpec | None, ...]:
+        """Return what each robot that may take a role says of a property."""
+        key = (role, name)
+        if key not in self._told:
+            self._told[key] = tuple(robot.property(name) for robot in self.robots(role))
+        return self._told[key]
+
+    def reading(self, role: str, name: str) -> PropertySpec | None:
+        """Return what they say together of a property."""
+        key = (role, name)
+        if key not in self._readings:
+            self._readings[key] = joined_spec([spec for spec in self.told_by(role, name) if spec is not None])
+        return self._readings[key]
+
+
+def with_crew(surroundings: Surroundings, roles: Sequence[Role]) -> Surroundings:
+    """Return the site, which knows then whose readings those of a role are."""
+    return replace(surroundings, crew=Candidates(roles, surroundings))
 
 
 def with_roles_of_robots(tree: Tree, surroundings: Surroundings) -> Tree:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from editor.language.expressions.names import ROBOT_METHODS
 from editor.language.tree.nodes import ACTS, Block, Call, Function, Node, Perform, Role, Tree, walk
@@ -168,4 +169,4 @@ def in_reading_order(tree: Tree) -> Tree:
 def _fill(role: Role, needed: tuple[str, ...]) -> Role:
     """Add to a role for any robot what its steps need."""
     can = () if role.device is not None else tuple(dict.fromkeys([*role.can, *needed]))
-    return Role(role.name, role.device, can, role.at, role.id)
+    return replace(role, can=can)

@@ -2696,10 +2696,10 @@ export interface components {
             unit: string;
             value: boolean | number | string | null;
         };
-        /** @description What a device says of itself now: the device or the parameter that names it, and the property. */
+        /** @description What a device says of itself now: the device, or the parameter or role that names it, and the property. */
         PropertyUse: {
             property: [
-                string | components["schemas"]["ParameterUse"],
+                string | components["schemas"]["ParameterUse"] | components["schemas"]["RoleUse"],
                 string
             ];
         };
@@ -2831,11 +2831,12 @@ export interface components {
             version: number;
             width: number;
         };
-        /** @description A role: bound to a robot, or to any that can do what is named. */
+        /** @description A role: bound to a robot, or to any that can do what is named, and of which a condition on its readings holds. */
         RoleShape: {
             can?: string[] | null;
             device?: string | null;
             name?: string | null;
+            where?: components["schemas"]["Value"] | null;
         };
         /** @description Whichever robot has the role. */
         RoleUse: {

@@ -8,6 +8,7 @@ from typing import Any
 from hypothesis import strategies as st
 
 HOT = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 60]}
+CHARGED = {"op": "<", "args": [{"property": [{"role": "robot"}, "battery"]}, {"quantity": [30, "%"]}]}
 PLAIN: dict[str, dict[str, Any]] = {
     "wait": {"duration": {"quantity": [1, "MIN"]}},
     "notify": {"message": "done", "level": "warning"},
@@ -75,6 +76,9 @@ class Steps:
         params, branches = HOLDING[kind]
         if kind == "try" and self.draw(st.booleans()):
             params, branches = {"catch": False}, ("body", "finally")
+        driven = any(step["kind"] == "pick_and_drop" for step in self.steps.values())
+        if driven and "condition" in params and self.draw(st.booleans()):
+            params = {"condition": CHARGED}
         step = self.add(kind, parent, branch, order, params)
         for name in branches:
             inside = replace(around, depth=around.depth + 1, loop=around.loop or kind in LOOPS,

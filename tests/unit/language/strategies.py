@@ -36,6 +36,9 @@ readings = st.sampled_from(
         {"property": ["curingOven01", "no such"]},
         {"property": ["gone", "jobStatus"]},
         {"property": [{"param": "minutes"}, "jobStatus"]},
+        *({"property": [{"role": role}, "battery"]} for role in (*ROLES, "gone", 3, None)),
+        {"property": [{"role": "box_carrier"}, "no such"]},
+        {"property": [{"role": "robot", "param": "minutes"}, "load"]},
     ]
 )
 things = st.sampled_from(
@@ -53,6 +56,20 @@ things = st.sampled_from(
         {"quantity": [-2.5, "°C"]},
         {"quantity": [3, "widgets"]},
         {"op": "now", "args": []},
+    ]
+)
+choices = st.sampled_from(
+    [
+        None,
+        {"op": ">", "args": [{"property": [{"role": "box_carrier"}, "battery"]}, 30]},
+        {"op": "<", "args": [{"property": [{"role": "box_carrier"}, "no such"]}, {"quantity": [2, "widgets"]}]},
+        {"op": "and", "args": [{"property": [{"role": "box_carrier"}, "load"]}, None]},
+        {"op": ">", "args": [{"property": [{"role": "robot"}, "battery"]}, 30]},
+        {"op": ">", "args": [{"param": "minutes"}, 30]},
+        {"at": {"role": "box_carrier"}},
+        {"zone": "z1"},
+        "battery > 30",
+        [1, 2],
     ]
 )
 leaves = st.one_of(
@@ -166,7 +183,7 @@ def documents(draw: st.DrawFn, largest: int = 12) -> dict[str, Any]:
         "steps": steps,
         "functions": {"f": function, "g": second},
         "roles": {
-            "box_carrier": {"name": "box carrier", "can": ["pick"]},
+            "box_carrier": {"name": "box carrier", "can": ["pick"], "where": draw(choices)},
             "bound": {"name": "bound", "device": "robot01"},
             "paint_carrier": {"name": "drop off", "can": []},
         },

@@ -32,6 +32,7 @@ test("the form shows comparisons of readings with any value, joined by one word"
     hot,
     { op: "and", args: [hot, good, null] },
     { op: ">", args: [{ property: ["oven", "temperature"] }, { quantity: [1, "MIN"] }] },
+    { op: "<", args: [{ property: [{ role: "robot" }, "battery"] }, 30] },
   ];
   expect(shown.map(fitsForm)).toEqual(shown.map(() => true));
   const written: Value[] = [
@@ -51,4 +52,7 @@ test("each reading of a value is found once", () => {
     ["oven", "quality"],
   ]);
   expect(readingsOf({ property: [{ param: "mixer" }, "level"] })).toEqual([]);
+  const charge: Value = { property: [{ role: "robot" }, "battery"] };
+  expect(readingsOf(charge, { robot: { device: "robot01" } })).toEqual([["robot01", "battery"]]);
+  expect(readingsOf(charge, { robot: { can: ["pick"] } })).toEqual([]);
 });

@@ -1,5 +1,5 @@
 /** Conditions as the inspector shows them: comparisons joined by one word, and back to a value. */
-import type { Value } from "@/program/document/document";
+import type { Role, Value } from "@/program/document/document";
 
 export interface Comparison {
   readonly left: Value;
@@ -55,21 +55,31 @@ function isJoined(value: Value): boolean {
 function isNamed(value: Value | undefined): boolean {
   if (value === null || value === undefined) return true;
   if (typeof value !== "object") return false;
-  return isParameter(value) || ("property" in value && typeof value.property[0] === "string");
+  return (
+    isParameter(value) || ("property" in value && (typeof value.property[0] === "string" || isRole(value.property[0])))
+  );
 }
 
 function isParameter(value: Value | undefined): boolean {
   return typeof value === "object" && value !== null && "param" in value;
 }
 
-/** The readings that a value looks at, as device and property, each once. */
-export function readingsOf(value: Value): readonly (readonly [string, string])[] {
+function isRole(thing: object): thing is { readonly role: string } {
+  return "role" in thing;
+}
+
+/** The readings that a value looks at, as device and property, each once; a role that is bound is its device. */
+export function readingsOf(
+  value: Value,
+  roles: Readonly<Record<string, Role>> = {},
+): readonly (readonly [string, string])[] {
   const found = new Map<string, readonly [string, string]>();
   const look = (each: Value | undefined): void => {
     if (each === null || each === undefined || typeof each !== "object") return;
     if ("op" in each) each.args.forEach(look);
     if (!("property" in each)) return;
-    const [device, name] = each.property;
+    const [thing, name] = each.property;
+    const device = typeof thing === "object" && isRole(thing) ? roles[thing.role]?.device : thing;
     if (typeof device === "string") found.set(`${device}\n${name}`, [device, name]);
   };
   look(value);

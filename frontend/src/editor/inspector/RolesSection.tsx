@@ -7,6 +7,7 @@ import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import classes from "../panel.module.css";
 import { NamedField } from "./fields/NamedField";
+import { ChoiceField } from "./ChoiceField";
 import { Section } from "./fields/FieldFrame";
 
 const ANY = ":any";
@@ -76,17 +77,25 @@ function RoleCard({ id, role }: { id: string; role: Role }) {
           </ActionIcon>
         )}
       </div>
-      <Binding name={name} role={role} store={store} />
+      <Binding id={id} name={name} role={role} store={store} />
     </div>
   );
 }
 
-function Binding({ name, role, store }: { name: string; role: Role; store: (role: Role) => void }) {
+interface BindingProps {
+  readonly id: string;
+  readonly name: string;
+  readonly role: Role;
+  readonly store: (role: Role) => void;
+}
+
+function Binding({ id, name, role, store }: BindingProps) {
   const { t, devices, canEdit } = useOpenProgram();
   const robots = devices.filter((device) => device.kind === "robot" && device.lifecycle === "approved");
   const methods = [...new Set(robots.flatMap((robot) => robot.methods.map((each) => each.name)))].sort();
+  const choice = role.where === null || role.where === undefined ? {} : { where: role.where };
   const bind = (device: string | null) =>
-    store(device && device !== ANY ? { name, device } : { name, can: role.can ?? [] });
+    store(device && device !== ANY ? { name, device } : { ...choice, name, can: role.can ?? [] });
   return (
     <>
       <Select
@@ -107,8 +116,16 @@ function Binding({ name, role, store }: { name: string; role: Role; store: (role
           placeholder={role.can?.length ? undefined : t("role.can_what_is_needed")}
           data={methods}
           value={[...(role.can ?? [])]}
-          onChange={(can) => store({ name, can })}
+          onChange={(can) => store({ ...choice, name, can })}
           disabled={!canEdit}
+        />
+      )}
+      {role.device ? null : (
+        <ChoiceField
+          id={id}
+          name={name}
+          role={role}
+          store={(where) => store({ name, can: role.can ?? [], ...(where === null ? {} : { where }) })}
         />
       )}
     </>

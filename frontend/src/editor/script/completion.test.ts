@@ -72,6 +72,21 @@ test("the word that is completed begins behind the point", () => {
   expect(optionsAt("        1 + ", SCRIPT, [])).toBeNull();
 });
 
+test("behind any robot stands what robots report, each reading once", () => {
+  const robot = (id: string, ...names: string[]): NamedDevice => ({
+    id,
+    name: id,
+    kind: "robot",
+    methods: [],
+    properties: names.map((name) => ({ name, unit: null })),
+  });
+  const given = '        self.robot = ctx.any("pick")';
+  const robots = [robot("r1", "battery"), robot("r2", "battery", "wheelSlip")];
+  const labels = (using: readonly NamedDevice[]) =>
+    optionsAt(`${given}\n        self.robot.`, given, using)?.options.map(({ label, kind }) => `${kind} ${label}`);
+  expect(labels(robots)).toEqual(["verb move", "verb pick", "verb drop", "property battery", "property wheel_slip"]);
+});
+
 test("behind a robot stand its own methods too, behind any robot those of all, each once", () => {
   const robot = (id: string, ...names: string[]): NamedDevice => ({
     ...OVEN,

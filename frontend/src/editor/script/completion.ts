@@ -110,13 +110,12 @@ function membersOf(name: string, script: string, devices: readonly NamedDevice[]
   const binding = given(script).get(name);
   const device = devices.find((each) => each.id === binding?.id);
   if (binding?.kind === "any" || device?.kind === "robot") {
-    const properties = device ? propertiesOf(device) : [];
     const robots = device ? [device] : devices.filter((each) => each.kind === "robot");
-    return [...plain(ROBOT_VERBS, "verb"), ...methodsOf(robots), ...properties];
+    return [...plain(ROBOT_VERBS, "verb"), ...methodsOf(robots), ...propertiesOf(robots)];
   }
   return [
     ...methodsOf(device ? [device] : []),
-    ...(device ? propertiesOf(device) : []),
+    ...propertiesOf(device ? [device] : []),
     ...plain(["location"], "value"),
   ];
 }
@@ -133,8 +132,14 @@ function methodsOf(devices: readonly NamedDevice[]): Option[] {
   return [...found.values()];
 }
 
-function propertiesOf(device: NamedDevice): Option[] {
-  return device.properties.map(({ name, unit }) => ({ label: pythonName(name), detail: unit ?? "", kind: "property" }));
+/** What these devices report; what several robots report stands there once. */
+function propertiesOf(devices: readonly NamedDevice[]): Option[] {
+  const found = new Map<string, Option>();
+  for (const { name, unit } of devices.flatMap((each) => each.properties)) {
+    const label = pythonName(name);
+    if (!found.has(label)) found.set(label, { label, detail: unit ?? "", kind: "property" });
+  }
+  return [...found.values()];
 }
 
 /** CodeMirror's source of completions; a device that `run` does not give yet is given there, too. */

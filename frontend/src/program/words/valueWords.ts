@@ -93,7 +93,7 @@ function sayAtom(value: Atom, speaker: Speaker): string {
   if ("zone" in value) return speaker.document.zones[value.zone]?.name ?? value.zone;
   if ("at" in value) return sayLocation(value.at, speaker);
   const [device, name] = value.property;
-  if (typeof device === "object") return `${device.param} ${name}`;
+  if (typeof device === "object") return `${"role" in device ? roleName(device.role, speaker) : device.param} ${name}`;
   return speaker.full ? `${deviceName(device, speaker)} ${name}` : name;
 }
 

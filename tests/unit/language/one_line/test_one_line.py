@@ -35,6 +35,7 @@ DOCUMENT: dict[str, Any] = {
 }
 OVEN = {"at": {"device": "curingOven01"}}
 HEAT = {"property": ["curingOven01", "temperature"]}
+CHARGE = {"property": [{"role": "carrier"}, "battery"]}
 
 
 def scope(step: str = "s") -> LineScope:
@@ -70,6 +71,9 @@ def scope(step: str = "s") -> LineScope:
         ('curing_oven.read("temperature")', HEAT, "curing_oven.temperature"),
         ("count = 3", {"op": "==", "args": [{"param": "count"}, 3]}, "count == 3"),
         ("box_carrier in slow_area", {"op": "in", "args": [{"at": {"role": "carrier"}}, {"zone": "z1"}]}, None),
+        ("box_carrier.battery > 30 %", {"op": ">", "args": [CHARGE, {"quantity": [30, "PERCENT"]}]}, None),
+        ('box_carrier.read("battery")', CHARGE, "box_carrier.battery"),
+        ('box_carrier.read("wheel slip")', {"property": [{"role": "carrier"}, "wheel slip"]}, None),
         ("curing_oven not in slow_area", {"op": "not in", "args": [OVEN, {"zone": "z1"}]}, None),
         ("distance(curing_oven, dock_1)", {"op": "distance", "args": [OVEN, {"at": {"place": "dock1"}}]}, None),
         ("nearest(point(3.5, -8), curing_oven)", {"op": "nearest", "args": [{"at": {"point": [3.5, -8]}}, OVEN]}, None),
@@ -184,7 +188,7 @@ _LEAVES = st.one_of(
     st.booleans(),
     st.text(max_size=12),
     st.lists(st.integers(0, 9), min_size=1, max_size=3),
-    st.sampled_from([HEAT, OVEN, {"param": "count"}, {"param": "minutes"}, {"at": {"role": "carrier"}}]),
+    st.sampled_from([HEAT, CHARGE, OVEN, {"param": "count"}, {"param": "minutes"}, {"at": {"role": "carrier"}}]),
     st.sampled_from([{"at": {"place": "dock1"}}, {"at": {"point": [1, -2.5]}}, {"zone": "z1"}]),
     st.builds(lambda number, unit: {"quantity": [number, unit]}, st.integers(-99, 99), st.sampled_from(list(UNITS))),
 )
@@ -255,3 +259,10 @@ def test_in_a_catch_the_failure_can_be_named(step: str) -> None:
 def test_elsewhere_a_failure_is_no_value() -> None:
     with pytest.raises(NotUnderstood, match=r"There is nothing called “problem” here\."):
         parse_line("problem.text", make_line_scope(CAUGHT, factory(), "", "m"))
+
+
+def test_the_reading_of_a_role_has_its_kind_and_unit_and_an_unknown_one_is_answered_with_what_is_known() -> None:
+    found = type_of_line(CHARGE, scope())
+    assert (found.type, found.unit) == ("number", "PERCENT")
+    with pytest.raises(NotUnderstood, match="Did you mean battery"):
+        parse_line("box_carrier.batery > 3", scope())

@@ -7,7 +7,8 @@ import { useOpenProgram } from "../../state/context";
 import classes from "../../panel.module.css";
 
 export function Readings({ value }: { value: Value | undefined }) {
-  return readingsOf(value ?? null).map(([device, name]) => (
+  const { document } = useOpenProgram();
+  return readingsOf(value ?? null, document.roles).map(([device, name]) => (
     <Reading key={`${device}\n${name}`} device={device} name={name} />
   ));
 }

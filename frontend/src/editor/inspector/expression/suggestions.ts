@@ -67,7 +67,7 @@ export function suggestChoices(text: string, choices: readonly string[], all: bo
 function readings(owner: LineName | undefined, word: string, from: number): readonly Suggestion[] {
   const all = (owner?.properties ?? []).map((each) => ({
     ...entry(each.written, "reading", each.written, from),
-    device: owner?.id ?? null,
+    device: owner?.kind === "device" ? owner.id : null,
     property: each.name,
   }));
   return fitting(all, word);

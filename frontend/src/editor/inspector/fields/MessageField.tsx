@@ -3,7 +3,9 @@ import { Select, Textarea } from "@mantine/core";
 import { useEffect, useMemo, useRef, useState } from "react";
 import { insertsOf, messageFrom, messageText, type Insert } from "../../edits/message";
 import type { Value } from "@/program/document/document";
+import { readingsOfRoles } from "@/program/robotReadings";
 import { valueText } from "@/program/words/stepWords";
+import { roleName } from "@/program/words/valueWords";
 import { useOpenProgram } from "../../state/context";
 import { FieldFrame } from "./FieldFrame";
 import classes from "../../panel.module.css";
@@ -77,20 +79,29 @@ export function MessageField({ label, field, placeholder }: { label: string; fie
 
 /** Names first, then the readings of each machine; a label stands once. */
 function useInserts(): readonly { group: string; inserts: readonly Insert[] }[] {
-  const { devices, t } = useOpenProgram();
+  const { devices, document, speaker, t } = useOpenProgram();
   const { parameters } = useStepEditor();
   return useMemo(() => {
     const seen = new Set<string>();
     const once = (insert: Insert) => !seen.has(insert.label) && seen.add(insert.label) !== null;
     const names = parameters.map((each) => ({ label: each.name, value: { param: each.name } }));
+    const robots = readingsOfRoles(document, devices).map(({ role, readings: reported }) => ({
+      group: roleName(role, speaker),
+      inserts: reported
+        .map((each): Insert => ({
+          label: `${roleName(role, speaker)} ${each.name}`,
+          value: { property: [{ role }, each.name] },
+        }))
+        .filter(once),
+    }));
     const readings = devices.map((device) => ({
       group: device.name,
       inserts: device.properties
         .map((each): Insert => ({ label: `${device.name} ${each.name}`, value: { property: [device.id, each.name] } }))
         .filter(once),
     }));
-    return [{ group: t("message.names"), inserts: names.filter(once) }, ...readings].filter(
+    return [{ group: t("message.names"), inserts: names.filter(once) }, ...robots, ...readings].filter(
       (each) => each.inserts.length > 0,
     );
-  }, [devices, parameters, t]);
+  }, [devices, document, parameters, speaker, t]);
 }

@@ -5,8 +5,10 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { IconButton } from "@/design/IconButton";
 import type { Value } from "@/program/document/document";
+import { readingsOfRoles, reportedBy, robotsFor } from "@/program/robotReadings";
+import { roleName } from "@/program/words/valueWords";
 import { swapBranches } from "../../edits/branches";
-import { type Comparison, fitsForm, joinComparisons, splitComparisons } from "../../edits/conditions";
+import { type Comparison, fitsForm, joinComparisons, readingsOf, splitComparisons } from "../../edits/conditions";
 import { settle } from "../../state/actions";
 import { useOpenProgram } from "../../state/context";
 import { ExpressionField } from "../expression/ExpressionField";
@@ -15,7 +17,9 @@ import { FieldFrame, useFieldProblems } from "../fields/FieldFrame";
 import { useStepEditor } from "../fields/stepEditor";
 import classes from "../../panel.module.css";
 
-const SIGNS = [
+/** What stands before a role among the keys of the list; no device's id begins so. */
+const ROLE = ":role ";
+export const SIGNS = [
   { value: "==", label: "=" },
   { value: "!=", label: "≠" },
   { value: "<", label: "<" },
@@ -118,11 +122,12 @@ interface RowProps {
 }
 
 function Row(props: RowProps) {
-  const property = propertyOf(props.row.left);
+  const { document } = useOpenProgram();
+  const [property] = readingsOf(props.row.left, document.roles);
   return (
     <div className={classes.comparison}>
       <LeftField {...props} />
-      {property ? <Reading device={property.device} name={property.name} /> : null}
+      {property ? <Reading device={property[0]} name={property[1]} /> : null}
       <div className={classes.pair}>
         <SignField {...props} />
         <RightField {...props} />
@@ -160,11 +165,15 @@ function LeftField({ row, field, onChange, onRemove }: RowProps) {
   );
 }
 
-/** The readings of each device, and the names that the step can use. */
+/** The readings of each robot of the program and of each device, and the names that the step can use. */
 function useCompared() {
-  const { t, devices } = useOpenProgram();
+  const { t, devices, document, speaker } = useOpenProgram();
   const { parameters } = useStepEditor();
   const groups = [
+    ...readingsOfRoles(document, devices).map(({ role, readings }) => ({
+      group: t("condition.of_role", { role: roleName(role, speaker) }),
+      items: readings.map((one) => ({ value: `${ROLE}${role}\n${one.name}`, label: one.name })),
+    })),
     ...devices
       .filter((each) => each.properties.length > 0 && each.lifecycle !== "pending")
       .map((each) => ({
@@ -197,12 +206,13 @@ function SignField({ row, field, onChange }: RowProps) {
 
 /** What it is compared with: typed as the reading is, with its unit and its range. */
 function RightField({ row, field, first, onChange }: RowProps) {
-  const { t, devices } = useOpenProgram();
+  const { t, devices, document } = useOpenProgram();
   const { id, parameters } = useStepEditor();
   const property = propertyOf(row.left);
-  const reading = devices
-    .find((each) => each.id === property?.device)
-    ?.properties.find((each) => each.name === property?.name);
+  const owners = property?.role
+    ? robotsFor(document.roles[property.role], devices)
+    : devices.filter((each) => each.id === property?.device);
+  const reading = reportedBy(owners).find((each) => each.name === property?.name);
   const name = keyOf(row.left)?.slice(1);
   const facts = reading ?? parameters.find((each) => each.name === name);
   return (
@@ -221,21 +231,24 @@ function RightField({ row, field, first, onChange }: RowProps) {
   );
 }
 
-function propertyOf(left: Value): { device: string; name: string } | null {
+function propertyOf(left: Value): { device?: string; role?: string; name: string } | null {
   if (typeof left !== "object" || left === null || !("property" in left)) return null;
   const [device, name] = left.property;
-  return typeof device === "string" ? { device, name } : null;
+  if (typeof device === "string") return { device, name };
+  return "role" in device ? { role: device.role, name } : null;
 }
 
 function keyOf(left: Value): string | null {
   const property = propertyOf(left);
-  if (property) return `${property.device}\n${property.name}`;
+  if (property?.role) return `${ROLE}${property.role}\n${property.name}`;
+  if (property) return `${property.device ?? ""}\n${property.name}`;
   return typeof left === "object" && left !== null && "param" in left ? `\n${left.param}` : null;
 }
 
 function leftFrom(key: string | null): Value {
   if (key === null) return null;
   const [device = "", name = ""] = key.split("\n");
+  if (device.startsWith(ROLE)) return { property: [{ role: device.slice(ROLE.length) }, name] };
   return device ? { property: [device, name] } : { param: name };
 }
 
