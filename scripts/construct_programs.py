@@ -139,6 +139,12 @@ def _choices_and_loops() -> dict[str, Picture]:
             },
             HALL,
         ),
+        "limit": Picture(
+            {
+                "a": step("limit", 3.4, -4.0, duration={"quantity": [5, "MIN"]}),
+                "b": step("move", 3.4, -5.2, "a.body.1V", role="robot", to=STORE),
+            },
+        ),
         "try": Picture(
             {
                 "a": step("try", 3.4, -3.6, kinds=["timed_out"], **{"finally": True}),

@@ -16,13 +16,13 @@ _LEAVE = (n.Break, n.Return, n.End)
 def check_idle(context: Context) -> None:
     """Tell of steps that hold nothing, and of loops that only go round until something else happens."""
     tree = context.tree
-    if not tree.holds(n.If, n.While, n.Repeat, n.ForEach):
+    if not tree.holds(n.If, n.While, n.Repeat, n.ForEach, n.Limit):
         return
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         for node in tree.walked(block):
             if isinstance(node, n.While):
                 _check_circle(context, node)
-            elif isinstance(node, n.If | n.Repeat | n.ForEach) and not any(n.blocks_of(node)):
+            elif isinstance(node, n.If | n.Repeat | n.ForEach | n.Limit) and not any(n.blocks_of(node)):
                 context.report(node, "empty_branch", "")
 
 

@@ -36,6 +36,7 @@ actions = st.one_of(
     st.just(p.Join()),
     st.builds(p.TryBegin, addresses, kinds, st.booleans()),
     st.just(p.TryEnd()),
+    st.builds(p.LimitBegin, values),
     st.just(p.Rethrow()),
     st.builds(p.Invoke, addresses, st.just("f"), st.fixed_dictionaries({"n": values}), st.none() | names,
               st.booleans()),
