@@ -35,7 +35,7 @@ function linkTo(scene: Scene, id: string) {
   return scene.links.find((link) => link.id === id);
 }
 
-test.each(["while", "repeat", "for_each", "try"])("the frame of a %s goes around the steps beside its head", (kind) => {
+test.each(["while", "repeat", "for_each", "try", "limit"])("the frame of a %s goes around the steps beside its head", (kind) => {
   const [scene] = sceneOf({
     head: step(kind, ["program", "body", "A"], [5, -3]),
     near: step("notify", ["head", "body", "A"], [5, -4]),
