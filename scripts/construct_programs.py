@@ -141,9 +141,10 @@ def _choices_and_loops() -> dict[str, Picture]:
         ),
         "limit": Picture(
             {
-                "a": step("limit", 3.4, -4.0, duration={"quantity": [5, "MIN"]}),
-                "b": step("move", 3.4, -5.2, "a.body.1V", role="robot", to=STORE),
+                "a": step("limit", 4.2, -4.3, duration={"quantity": [5, "MIN"]}),
+                "b": step("move", 4.2, -5.4, "a.body.1V", role="robot", to=STORE),
             },
+            HALL,
         ),
         "try": Picture(
             {
