@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from math import inf
 
 from editor.language.checks.context import Context
@@ -72,10 +73,29 @@ class _Clock:
 
 
 def check_limited(context: Context) -> None:
-    """Tell of the first step on each path that surely ends later than a time limit around it."""
+    """Tell of the first step on each path that surely ends later than a time limit around it.
+
+    A wait for what never comes true lasts until the limit is over, and not for ever.
+    """
     tree = context.tree
     if not tree.holds(n.Limit):
         return
     clock = _Clock(context, frozenset(problem.step for problem, _ in context.found if problem.field == "duration"))
-    for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
+    blocks = (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions))
+    inside = {id(node) for block in blocks for node in _limited(block) if isinstance(node, n.WaitUntil)}
+    context.found[:] = [
+        (replace(found, code="past_limit") if found.code == "waits_for_ever" and key in inside else found, key)
+        for found, key in context.found
+    ]
+    for block in blocks:
         clock.block(block, 0, inf)
+
+
+def _limited(block: n.Block) -> Iterator[n.Node]:
+    """Yield the steps of a block that stand in a time limit of it."""
+    for node in block:
+        if isinstance(node, n.Limit):
+            yield from n.walk(node.body)
+        else:
+            for inner in n.blocks_of(node):
+                yield from _limited(inner)

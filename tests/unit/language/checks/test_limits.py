@@ -77,6 +77,16 @@ def test_an_inner_limit_begins_when_it_is_come_to():
     assert told(steps) == []
 
 
+COLD = {"op": "<", "args": [{"property": ["curingOven01", "temperature"]}, -300]}
+
+
+def test_a_wait_for_what_never_comes_true_lasts_until_the_limit_is_over():
+    never = {"u": step("wait", LIMIT, until=COLD)}
+    assert within(never) == [("u", "past_limit")]
+    assert told({"u": step("wait", BODY, until=COLD)}) == [("u", "waits_for_ever")]
+    assert ("u", "waits_for_ever") in told({"l": limit(), "a": wait(5), "u": step("wait", BODY, "2V", until=COLD)})
+
+
 def test_a_limit_by_a_variable_is_not_reckoned_with():
     steps = {"s": step("set", BODY, "0V", variable="v", value={"quantity": [1, "SEC"]}),
              "l": limit({"param": "v"}), "a": wait(60)}  # fmt: skip
