@@ -85,18 +85,28 @@ def new_revision() -> int:
     return time.time_ns() // 1_000
 
 
-def check_program(*, program_id: str, document: Mapping[str, Any], edited: EditedProgram | None = None) -> Checked:
-    """Check and print a program's document as its site is now. Raises NoSuchProgram.
+@dataclass(frozen=True, slots=True)
+class Around:
+    """What programs of a site are checked against, and its fingerprint."""
 
-    `edited` has what was found when the program was looked at last, where it is looked at again and again.
-    """
-    revision = new_revision()
-    program = Program.objects.select_related("site").filter(pk=program_id).first()
-    if program is None:
+    surroundings: Surroundings
+    fingerprint: str
+
+
+def read_around(program_id: str) -> Around:
+    """Return what is around a program now. Raises NoSuchProgram."""
+    site = Program.objects.filter(pk=program_id).values_list("site__slug", flat=True).first()
+    if site is None:
         raise NoSuchProgram("There is no such program. It may have been deleted.")
-    surroundings = build_surroundings(site=program.site.slug)
-    compiled = (edited or EditedProgram()).look(document, surroundings).compiled(with_plan=False)
-    return Checked(document, compiled, revision, fingerprint_of(surroundings))
+    surroundings = build_surroundings(site=site)
+    return Around(surroundings, fingerprint_of(surroundings))
+
+
+def check_document(document: Mapping[str, Any], around: Around, edited: EditedProgram) -> Checked:
+    """Check and print a program's document; `edited` has what was found when it was looked at last."""
+    revision = new_revision()
+    compiled = edited.look(document, around.surroundings).compiled(with_plan=False)
+    return Checked(document, compiled, revision, around.fingerprint)
 
 
 def store_check(program_id: str, checked: Checked) -> None:
@@ -116,11 +126,6 @@ def fingerprint_of(surroundings: Surroundings) -> str:
     floor = surroundings.floor
     mark = floor.mark if isinstance(floor, FloorPlan) else ""
     return hashlib.sha256(repr((devices, sorted(surroundings.places.items()), library, mark)).encode()).hexdigest()
-
-
-def fingerprint_of_site(site: str) -> str:
-    """Return the fingerprint of what the programs of a site are checked against now."""
-    return fingerprint_of(build_surroundings(site=site))
 
 
 def _known(surroundings: Surroundings) -> Mapping[str, LibraryFacts]:

@@ -23,13 +23,15 @@ from editor.documents.shared_document import (
 from editor.documents.store import get_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.language import Compiled, Surroundings, compile_document, compiled_to_json
+from editor.language.compiler import EditedProgram
 from editor.models import Program, Snapshot, Version
 from editor.programs.checking import (
     Checked,
     build_surroundings,
-    check_program,
+    check_document,
     fingerprint_of,
     new_revision,
+    read_around,
     store_check,
 )
 from editor.programs.views import ProgramView, VersionView, view_author
@@ -101,7 +103,7 @@ def get_compiled(*, program_id: UUID | str) -> dict[str, object]:
 
 
 def _check(program_id: str, document: Mapping[str, Any]) -> Checked:
-    checked = check_program(program_id=program_id, document=document)
+    checked = check_document(document, read_around(program_id), EditedProgram())
     store_check(program_id, checked)
     return checked
 

@@ -26,7 +26,7 @@ from editor.documents.store import (
 from editor.documents.yjs_encoding import BadFrame
 from editor.errors import NoSuchProgram
 from editor.language.compiler import EditedProgram
-from editor.programs.checking import Checked, check_program, fingerprint_of_site, store_check
+from editor.programs.checking import Around, Checked, check_document, read_around, store_check
 from editor.rooms.compiled_form import encode_check
 from editor.rooms.member import Close
 from editor.rooms.room import INTERRUPTED, Room, encode_saved_note
@@ -37,6 +37,7 @@ SAVE_EVERY_S = 0.25
 PUBLISH_EVERY_S = 0.01
 AWARENESS_EVERY_S = 0.033
 STORE_EVERY_S = 0.1
+AROUND_KEPT_S = 1.0
 REST_OF_CHECKS = 4.0
 """So many times as long as a check took the next one waits."""
 REST_S = 0.03
@@ -71,6 +72,10 @@ class OpenRoom:
         self._heard_at: dict[str, float] = {}
         self._surroundings_at = math.inf
         self._checked: Checked | None = None
+        self._around: Around | None = None
+        self._around_at = -math.inf
+        self._news = 0
+        """How often it was heard that what is around the program has changed."""
         self._events = {name: asyncio.Event() for name in ("save", "publish", "awareness", "check", "store")}
         self._tasks: list[asyncio.Task[None]] = []
         room.wake = self.wake
@@ -216,14 +221,15 @@ class OpenRoom:
     async def check(self) -> None:
         """Check the document on a thread, and tell all processes what was found."""
         room = self.room
-        room.touched = False
-        document, after = room.document.to_json(), self._after
         try:
-            checked = await in_database(check_program)(program_id=room.program, document=document, edited=self._edited)
+            around = await self._read_around()
+            room.touched = False
+            document, after = room.document.to_json(), self._after
+            checked = await asyncio.to_thread(check_document, document, around, self._edited)
             said = await asyncio.to_thread(room.form.change_to, checked.form)
         except (DatabaseError, NoSuchProgram) as error:
             log.warning("Program %s was not checked: %s", room.program, error)
-            room.touched = isinstance(error, DatabaseError)  # then it is tried again
+            room.touched = isinstance(error, DatabaseError)  # then it is tried again a little later
             return
         except Exception:  # the edge of the room: a fault in the checks must not end those of later edits
             log.exception("Program %s was not checked; the next edit is looked at from the beginning.", room.program)
@@ -236,6 +242,14 @@ class OpenRoom:
             self._end(error)
         self._checked = checked
         self._events["store"].set()
+
+    async def _read_around(self) -> Around:
+        """Return what is around the program: as it was read last, for a second and while nothing is heard of it."""
+        around, began, news = self._around, time.monotonic(), self._news
+        if around is None or began - self._around_at > AROUND_KEPT_S:
+            around = await in_database(read_around)(self.room.program)
+            self._around, self._around_at = around if news == self._news else None, began
+        return around
 
     async def _store(self) -> None:
         """Store what lists show, if this process made the last check; others may hold the program's row meanwhile."""
@@ -250,6 +264,7 @@ class OpenRoom:
 
     def take_in_surroundings(self) -> None:
         """Have the program checked against what is around it now: by one of the processes, the others look after it."""
+        self._around, self._news = None, self._news + 1
         if self.room.origin == min([self.room.origin, *self._heard_at]):
             self.room.touched = True
             self.wake()
@@ -273,11 +288,11 @@ class OpenRoom:
 
     async def _compare_surroundings(self) -> None:
         try:
-            against = await in_database(fingerprint_of_site)(self.room.site)
-        except DatabaseError as error:
+            around = await self._read_around()
+        except (DatabaseError, NoSuchProgram) as error:
             log.warning("What is around program %s could not be read: %s", self.room.program, error)
             return
-        if against != self.room.form.against:
+        if around.fingerprint != self.room.form.against:
             self.room.touched = True
 
 
