@@ -104,9 +104,8 @@ _FLOOR: Final = {
 }
 _WAYS: Final = {
     "never_reached": "The first step behind a Return, a Break, an End, an endless loop or an endless call.",
-    "past_limit": "The waits up to here take at least as long as the Time limit around them allows, or what is waited for "
-    "can never come true, so what follows in "
-    "it is never come to, and it always fails as timed out.",
+    "past_limit": "The waits up to here take at least as long as the Time limit around them allows, or what is waited "
+    "for can never come true. So what follows in it is never come to, and it always fails as timed out.",
     "never_ends": "The condition of a While is constantly true, and neither Break, Return nor End stands in it.",
     "may_never_end": "What the condition of a While looks at is neither measured nor set while it repeats.",
     "never_runs": "The condition is constantly false.",

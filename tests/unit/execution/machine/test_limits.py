@@ -456,6 +456,52 @@ def test_a_failure_in_a_final_part_within_one_by_which_the_program_ends_is_not_c
     assert (state.status, state.reason) == ("failed", "Second.")
 
 
+def test_a_failure_that_takes_the_place_of_a_limit_in_such_a_final_part_may_be_caught_there_too():
+    plan = plan_of(
+        TryBegin(2, (), final=True),
+        End(early=True),
+        TryBegin(11, ()),
+        limit(),
+        TryBegin(7, (), final=True),
+        Instruction(Move("robot", OVEN), "m"),
+        TryEnd(),
+        Instruction(Move("robot", SHELF), "f"),
+        Rethrow(),
+        over(),
+        TryEnd(),
+        Instruction(Notify(Constant("Tidy.")), "n"),
+        Rethrow(),
+    )
+    state, (_, _, ended) = carry(plan, r.TimerFired(1), r.TaskFailed(3, "offline", "Gone."))
+    assert ("Tell", "Tidy.") in ended
+    assert (state.status, state.reason) == ("finished", "")
+
+
+def test_a_branch_that_is_called_off_in_a_final_part_carries_that_out_with_what_it_catches():
+    plan = plan_of(
+        Fork((2, 4), 1),
+        End(),
+        Instruction(Move("a", SHELF), "a"),
+        Join(),
+        TryBegin(7, (), final=True),
+        Instruction(Fail(Constant("First.")), "x"),
+        TryEnd(),
+        TryBegin(13, ()),
+        TryBegin(11, (), final=True),
+        Instruction(Fail(Constant("Second.")), "y"),
+        TryEnd(),
+        Instruction(Move("b", OVEN), "b"),
+        Rethrow(),
+        Instruction(Notify(Constant("Tidy.")), "n"),
+        Rethrow(),
+        Join(),
+    )
+    state, (_, off, ended) = carry(plan, r.TaskFailed(3, "offline", "Gone."), r.TaskDone(4))
+    assert ("Cancel", 4) not in off
+    assert ("Tell", "Tidy.") in ended
+    assert (state.status, state.reason) == ("failed", "Gone.")
+
+
 def test_a_negative_limit_is_refused_and_one_of_nothing_strikes_at_once():
     state, _ = carry(plan_of(limit(seconds=-5), over()))
     assert (state.status, state.reason) == ("failed", "The time limit is -5 s; it cannot be less than nothing.")

@@ -42,6 +42,9 @@ def within(inner, **more):
         ({"r": step("for_each", LIMIT, variable="x", items=[1, 2, 3]), "a": wait(20, ("r", "body"))}, ["r"]),
         ({"w": step("while", LIMIT, condition=HOT), "a": wait(59, ("w", "body"))}, []),
         ({"w": step("while", LIMIT, condition=HOT), "a": wait(60, ("w", "body"))}, ["a"]),
+        ({"w": step("while", LIMIT, condition=HOT), "a": wait(50, ("w", "body")), "b": wait(50, order="2V")}, []),
+        ({"t": step("try", LIMIT), "a": wait(50, ("t", "body")), "b": wait(50, order="2V")}, []),
+        ({"t": step("try", LIMIT, catch=False), "a": wait(50, ("t", "body")), "b": wait(50, order="2V")}, ["b"]),
         ({"i": step("if", LIMIT, condition=HOT), "a": wait(60, ("i", "then"))}, ["a"]),
         ({"i": step("if", LIMIT, condition=HOT), "a": wait(50, ("i", "then")), "b": wait(50, order="2V")}, []),
         ({"t": step("try", LIMIT), "a": wait(50, ("t", "body")), "b": wait(50, ("t", "catch"))}, []),
@@ -138,7 +141,8 @@ def test_a_function_that_never_ends_is_fine_where_a_limit_is_around_its_call_alo
     body = {"w": step("while", ("f", "body"), condition=True), "a": wait(5, ("w", "body"))}
     called = step("call", LIMIT, function="f")
     assert told({"l": limit(), "c": called, **body}, functions=TURNS) == []
-    both = {"l": limit(), "c": called, "d": step("call", BODY, "0V", function="f"), **body}
+    choice = {"i": step("if", condition=HOT), "l": limit(60, ("i", "then")), "c": called}
+    both = {**choice, "d": step("call", ("i", "else"), function="f"), **body}
     assert ("w", "never_ends") in told(both, functions=TURNS)
 
 
