@@ -28,7 +28,7 @@ function say(kind: string, params: Step["params"]): string {
 test.each<[string, Step["params"], string]>([
   ["repeat", { times: 3 }, "repeat 3 ×"],
   ["repeat", {}, "repeat ? ×"],
-  ["limit", { duration: { quantity: [5, "MIN"] } }, "At most 5 min"],
+  ["limit", { duration: { quantity: [5, "MIN"] } }, "At most 5\u202fmin"],
   ["limit", {}, "At most ?"],
   ["for_each", { variable: "box", items: ["a", "b", "c"] }, "each box in a, b +1"],
   ["for_each", { variable: "box", items: [] }, "each box in ?"],
