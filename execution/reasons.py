@@ -19,6 +19,8 @@ SENTENCES: Mapping[str, str] = {
     "branch_failed": "Another branch failed.",
     "program_over": "The program was over.",
     "condition_late": "The condition did not come true in time.",
+    "limit_over": "The time limit of {seconds} s was over.",
+    "negative_limit": "The time limit is {seconds} s; it cannot be less than nothing.",
     "unanswered": "Nobody answered in time.",
     "too_many_branches": "More than {count} branches would run at once.",
     "too_deep": "“{function}” calls itself more than {count} times deep.",

@@ -26,6 +26,7 @@ _ENTERED: Final = {
     "missing_question": "An Ask has no question.",
     "missing_options": "An Ask for a choice offers fewer than two answers.",
     "missing_message": "A Notify says nothing.",
+    "missing_limit": "A Time limit does not say how long its steps may take.",
     "missing_reason": "A Fail does not say why.",
     "empty_program": "Nothing is joined to the beginning.",
 }
@@ -80,6 +81,7 @@ _VALUES: Final = {
     "may_be_out_of_range": "As far as variables are known here, the number may lie outside of what is declared.",
     "out_of_range": "The number is below or above what the description declares.",
     "not_an_option": "The description lists the values that are allowed.",
+    "limit_not_positive": "With no time at all the limit strikes before the first step has done anything.",
     "quantity_not_positive": "Nobody can carry none, or half an object.",
     "quantity_above_capacity": "The largest robot that can take the role holds fewer.",
     "times_not_whole": "A Repeat counts whole rounds.",
@@ -107,6 +109,8 @@ _FLOOR: Final = {
 }
 _WAYS: Final = {
     "never_reached": "The first step behind a Return, a Break, an End, an endless loop or an endless call.",
+    "past_limit": "The waits up to here take at least as long as the Time limit around them allows, or what is waited "
+    "for can never come true. So what follows in it is never come to, and it always fails as timed out.",
     "never_ends": "The condition of a While is constantly true, and neither Break, Return nor End stands in it.",
     "may_never_end": "What the condition of a While looks at is neither measured nor set while it repeats.",
     "never_runs": "The condition is constantly false.",
@@ -116,7 +120,7 @@ _WAYS: Final = {
     "break_outside_loop": "A Break stands in no loop of its own function or branch.",
     "leaves_parallel": "A Return or a Break would leave one branch while the others go on.",
     "leaves_finally": "A Return or a Break would leave the branch that is carried out whatever happens.",
-    "empty_branch": "An If with two empty branches, or a Repeat or a For-each without a step in it.",
+    "empty_branch": "An If with two empty branches, or a Repeat, a For-each or a Time limit without a step in it.",
     "busy_circle": "A While waits for what is measured, and no step in it takes time or changes what it looks at.",
     "starts_unasked": "A parameter has no default, and an event starts the program without anybody who enters a value.",
     "draft": "The step is drawn and not joined.",

@@ -139,6 +139,13 @@ def _choices_and_loops() -> dict[str, Picture]:
             },
             HALL,
         ),
+        "limit": Picture(
+            {
+                "a": step("limit", 4.2, -4.3, duration={"quantity": [5, "MIN"]}),
+                "b": step("move", 4.2, -5.4, "a.body.1V", role="robot", to=STORE),
+            },
+            HALL,
+        ),
         "try": Picture(
             {
                 "a": step("try", 3.4, -3.6, kinds=["timed_out"], **{"finally": True}),

@@ -32,8 +32,9 @@ LEAST_CURING_S, MOST_CURING_S = 1, 3600
 CAPACITY = 2
 MOST_EVENTS = 600
 NAMES = ("n", "left", "seconds")
-_TOO_DEEP = "calls itself more than"
-"""A function that calls itself until a reading changes may well be clean, and comes to the machine's limit."""
+_MAY_BE = ("calls itself more than", "The time limit of")
+"""Why a clean program may fail: a function that calls itself until a reading changes comes to the machine's limit, and
+what takes longer than its time limit has timed out."""
 HARMLESS = {"unused_variable", "unused_parameter", "empty_branch", "busy_circle"}
 """What is told of a program that does all the same what it says."""
 MORE = 0.75
@@ -71,6 +72,7 @@ class Draft:
                 "while",
                 "call",
                 "parallel",
+                "limit",
             ]
             kind = self.chance.choice(kinds[: 7 if depth > 3 else None] + [k for k in ("break",) if k in inside])
             getattr(self, f"_{kind}")(parent, branch, depth, inside)
@@ -149,6 +151,18 @@ class Draft:
         self._wait(step, "b", depth, frozenset())
         self.block(step, self.chance.choice("ab"), depth + 1)
 
+    def _limit(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        before, caught = set(self.known), self.chance.random() < 0.5
+        if caught:
+            parent, branch = self.add(parent, branch, "try", {"kinds": ["timed_out"]}), "body"
+        time = {"op": "*", "args": [self.number(), {"quantity": [1, "MIN"]}]}
+        step = self.add(parent, branch, "limit", {"duration": self.chance.choice([600, time])})
+        self.block(step, "body", depth + 1, inside)
+        if caught:  # what is known behind a failure is little, and little is told of it
+            self.known = before
+            self.add(parent, "catch", "notify", {"message": {"param": "problem.text"}, "level": "info"})
+            self.add(parent, "catch", "end", {})
+
     def _break(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         self.add(parent, branch, "break", {})
 
@@ -189,6 +203,8 @@ class Judge:
         waits: list[m.Ask | m.SetTimer | m.AskPeople] = []
         for _ in range(MOST_EVENTS):
             waits += [a for a in actions if isinstance(a, m.Ask | m.SetTimer | m.AskPeople)]
+            dropped = {a.task for a in actions if isinstance(a, m.Cancel)}
+            waits = [wait for wait in waits if not (isinstance(wait, m.Ask) and wait.task in dropped)]
             if state.status != "running" or self.wrong:
                 break
             event = self._something(waits)
@@ -198,7 +214,7 @@ class Judge:
             state, actions = machine.step(self.plan, state, event)
         if not self.wrong and state.status == "failed":
             reason = next(a.reason for a in actions if isinstance(a, m.Finished))
-            self.wrong = "" if _TOO_DEEP in reason else reason
+            self.wrong = "" if any(said in reason for said in _MAY_BE) else reason
         return self.wrong
 
     def _readings(self) -> Mapping[tuple[str, str], float]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from editor.language.plan import instructions as p
@@ -18,31 +18,40 @@ PROGRAM_OVER = "The program was over."
 def unwind(turn: Turn, thread: Thread, wake: Wake) -> None:
     """Go on at the innermost guard that takes this; without one the thread ends, and its parent or the run fails."""
     thread = _mark(turn, replace(thread, wake=None), len(thread.open), wake)
-    index = _guard_for(thread, wake)
-    if not wake.final and _is_leaving(thread) and index < _inside(thread):
-        wake = replace(wake, final=True)
-        _note_failure(turn, wake)
+    while True:
+        index, leaving = _guard_for(thread, wake), _leaving(thread)
+        if not wake.final and leaving is not None and index < leaving.guards:
+            wake = replace(wake, final=True, limit=leaving.wake.limit)
+            _note_failure(turn, wake)
+        elif index >= 0 and thread.guards[index].limit:
+            thread = _leave_guards(turn, thread, index, wake)
+            wake = Wake(wake.kind, wake.why)
+        else:
+            break
     if index < 0:
         _end(turn, thread, wake)
     else:
         _handle(turn, thread, index, wake)
 
 
-def _inside(thread: Thread) -> int:
-    """Return from which guard on a failure may be caught: a `final` handler of an end keeps what fails in it."""
-    return thread.pending[-1].guards if _is_leaving(thread) else 0
-
-
-def _is_leaving(thread: Thread) -> bool:
-    return bool(thread.pending) and thread.pending[-1].wake.final
+def _leaving(thread: Thread) -> Pending | None:
+    """Return the innermost `final` handler by which the thread leaves for good, or what a time limit is around."""
+    return next((item for item in reversed(thread.pending) if item.wake.final), None)
 
 
 def _guard_for(thread: Thread, wake: Wake) -> int:
-    """Return the index of the innermost guard that takes this, or -1."""
-    inside = _inside(thread)
+    """Return the index of the innermost guard that takes this, or -1.
+
+    A `final` handler by which a thread leaves keeps what fails in it: no guard outside of that may catch it.
+    """
+    leaving = _leaving(thread)
+    inside = leaving.guards if leaving is not None else 0
     for index in range(len(thread.guards) - 1, -1, -1):
         guard = thread.guards[index]
-        fits = not wake.final and index >= inside and (not guard.kinds or wake.kind in guard.kinds)
+        if guard.limit:
+            fits = guard.limit == wake.limit
+        else:
+            fits = not wake.final and index >= inside and (not guard.kinds or wake.kind in guard.kinds)
         if guard.final or fits:
             return index
     return -1
@@ -50,19 +59,34 @@ def _guard_for(thread: Thread, wake: Wake) -> int:
 
 def _note_failure(turn: Turn, wake: Wake) -> None:
     """A failure in a `final` handler on the way out makes a run fail that would have ended well."""
-    if turn.ending is not None and turn.ending.status == "finished":
+    if not wake.limit and turn.ending is not None and turn.ending.status == "finished":
         turn.ending = Ending("failed", wake.why)
+
+
+def _leave_guards(turn: Turn, thread: Thread, index: int, wake: Wake) -> Thread:
+    """Return a thread that stands where it began this guard, with the steps in it marked, and keep it."""
+    guard = thread.guards[index]
+    thread = _mark(turn, thread, guard.open, wake)
+    _drop_frames(turn, thread, guard.calls)
+    drop_limits(turn, thread.guards[index + 1 :])
+    pending = tuple(item for item in thread.pending if item.guards <= index)
+    calls, guards = thread.calls[: guard.calls], thread.guards[:index]
+    return turn.keep(replace(thread, calls=calls, guards=guards, pending=pending))
+
+
+def drop_limits(turn: Turn, guards: Iterable[Guard]) -> None:
+    """Say that the timers of time limits that are left are not needed any more."""
+    for guard in guards:
+        turn.drop_timer(guard.limit)
 
 
 def _handle(turn: Turn, thread: Thread, index: int, wake: Wake) -> None:
     guard = thread.guards[index]
-    thread = _mark(turn, thread, guard.open, wake)
-    _drop_frames(turn, thread, guard.calls)
-    pending = tuple(item for item in thread.pending if item.guards <= index)
+    thread = _leave_guards(turn, thread, index, wake)
+    pending = thread.pending
     if guard.final:
         pending = (*pending, Pending(guard.handler, guard.calls, index, wake))
-    calls, guards = thread.calls[: guard.calls], thread.guards[:index]
-    thread = turn.keep(replace(thread, at=guard.handler, calls=calls, guards=guards, pending=pending))
+    thread = turn.keep(replace(thread, at=guard.handler, pending=pending))
     instructions = turn.plan.instructions
     begins = instructions[guard.handler].do if 0 <= guard.handler < len(instructions) else None
     if isinstance(begins, p.Caught):
@@ -80,16 +104,22 @@ def _end(turn: Turn, thread: Thread, wake: Wake) -> None:
     if parent is None:
         end_run(turn, "failed", wake.why)
         return
-    above = {parent.id, *(thread.id for thread in turn.ancestors(parent))}
-    for other in list(_descendants(turn, parent)):
-        if not _is_spared(turn, other, above):
-            _tell(turn, other, CALLED_OFF)
+    call_off_branches(turn, parent, CALLED_OFF)
     if parent.wake is None:
         turn.keep(replace(parent, wake=Wake(wake.kind, wake.why)))
 
 
+def call_off_branches(turn: Turn, thread: Thread, wake: Wake) -> None:
+    """Tell the branches that a thread has forked to end, with theirs."""
+    above = {thread.id, *(other.id for other in turn.ancestors(thread))}
+    for other in list(_descendants(turn, thread)):
+        if not _is_spared(turn, other, above):
+            _tell(turn, other, wake)
+
+
 def remove(turn: Turn, thread: Thread) -> None:
-    """Take a thread away with the frames of its functions."""
+    """Take a thread away with the frames of its functions and its time limits."""
+    drop_limits(turn, thread.guards)
     _drop_frames(turn, thread, 0 if thread.event >= 0 else 1)
     turn.threads.pop(thread.id, None)
 
@@ -126,11 +156,16 @@ def _is_spared(turn: Turn, thread: Thread, above: set[int]) -> bool:
 
 
 def _tell(turn: Turn, thread: Thread, wake: Wake) -> None:
-    """Tell a thread to end; one that is in a `final` handler carries it out first."""
+    """Tell a thread to end; one that is in a `final` handler carries it out first, with what has failed in that."""
     if thread.pending:
-        pending = tuple(replace(item, wake=wake) for item in thread.pending)
-        turn.keep(replace(thread, pending=pending))
+        first, *inner = thread.pending
+        turn.keep(replace(thread, pending=(replace(first, wake=wake), *inner)))
         return
+    tell_at_once(turn, thread, wake)
+
+
+def tell_at_once(turn: Turn, thread: Thread, wake: Wake) -> None:
+    """Tell a thread to end, whatever it waits for; for the branches that it has forked it still waits."""
     call_off(turn, thread)
     waits = thread.waits_for if thread.waits_for == "join" else ""
     turn.keep(replace(thread, waits_for=waits, waits_id=0, wake=wake))
@@ -183,6 +218,7 @@ def begin_guard(turn: Turn, thread: Thread, guard: Guard) -> Thread:
 
 def end_guard(turn: Turn, thread: Thread) -> Thread:
     """Leave the innermost guarded stretch."""
+    drop_limits(turn, thread.guards[-1:])
     guards = thread.guards[:-1]
     return turn.go(replace(thread, guards=guards, pending=_still_pending(thread, len(guards), len(thread.calls))))
 
@@ -191,8 +227,9 @@ def _still_pending(thread: Thread, guards: int, calls: int) -> tuple[Pending, ..
     return tuple(item for item in thread.pending if item.guards <= guards and item.calls <= calls)
 
 
-def leave_call(thread: Thread, calls: int) -> Thread:
+def leave_call(turn: Turn, thread: Thread, calls: int) -> Thread:
     """Drop the guards and handlers of a function that is over."""
+    drop_limits(turn, (guard for guard in thread.guards if guard.calls > calls))
     guards = tuple(guard for guard in thread.guards if guard.calls <= calls)
     return replace(thread, guards=guards, pending=_still_pending(thread, len(guards), calls))
 

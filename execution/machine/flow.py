@@ -62,7 +62,7 @@ def leave_function(turn: Turn, thread: Thread, value: e.Expression | None) -> Th
     if call.back_to < 0:
         return end_thread(turn, thread)
     del turn.frames[call.frame]
-    thread = leave_call(replace(thread, calls=thread.calls[:-1]), len(thread.calls) - 1)
+    thread = leave_call(turn, replace(thread, calls=thread.calls[:-1]), len(thread.calls) - 1)
     turn.assign(thread, call.result, result, shared=call.shared)
     thread = turn.leave(thread, tuple(reversed(thread.open[call.open :])))
     return turn.go(replace(thread, at=call.back_to - 1))

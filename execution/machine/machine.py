@@ -17,6 +17,7 @@ from execution.machine.ending import begin_guard, end_guard, end_run, finish, re
 from execution.machine.evaluation import EvaluationError, NoReading, bound_roles, in_words
 from execution.machine.floor_task import Target, TaskKind, TaskOrder
 from execution.machine.flow import end, end_thread, fork, invoke, leave_function, remember_truths, start_events
+from execution.machine.limits import begin_limit, strike
 from execution.machine.messages import (
     Action,
     Answered,
@@ -84,6 +85,7 @@ def _take(turn: Turn, event: Event) -> None:
         case TaskFailed(task=task, kind=kind, why=why):
             _wake(turn, FLOOR_TASK, task, Wake(kind, why))
         case TimerFired(timer=timer):
+            strike(turn, timer)
             for waits_for, wake in (("timer", Wake()), ("yield", Wake()), ("until", TIMED_OUT), ("ask", UNANSWERED)):
                 _wake(turn, waits_for, timer, wake)
         case Answered(question=question, value=value):
@@ -216,9 +218,8 @@ def _change_flow(turn: Turn, thread: Thread, action: p.Action) -> Thread:
             return fork(turn, thread, branches)
         case p.Join() | p.EventEnd():
             return end_thread(turn, thread)
-        case p.TryBegin(handler=handler, kinds=kinds, final=final):
-            guard = Guard(handler, kinds, len(thread.calls), len(thread.open), final)
-            return begin_guard(turn, thread, guard)
+        case p.TryBegin() | p.LimitBegin():
+            return _begin_stretch(turn, thread, action)
         case p.Caught():
             return turn.go(thread)
         case p.TryEnd():
@@ -232,6 +233,14 @@ def _change_flow(turn: Turn, thread: Thread, action: p.Action) -> Thread:
         case p.End():
             return end(turn, thread)
     raise AssertionError(f"no such instruction: {action!r}")
+
+
+def _begin_stretch(turn: Turn, thread: Thread, action: p.TryBegin | p.LimitBegin) -> Thread:
+    """Enter what a Try or a time limit stands around."""
+    if isinstance(action, p.LimitBegin):
+        return begin_limit(turn, thread, action.seconds)
+    guard = Guard(action.handler, action.kinds, len(thread.calls), len(thread.open), action.final)
+    return begin_guard(turn, thread, guard)
 
 
 def _ask_floor(turn: Turn, thread: Thread, action: FloorAction) -> Thread:

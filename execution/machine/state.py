@@ -18,13 +18,18 @@ MAIN = 0
 
 @dataclass(frozen=True, slots=True)
 class Guard:
-    """A Try around the running stretch; `calls` and `open` say how deep the thread stood when it began."""
+    """A Try or a time limit around the running stretch; `calls` and `open` say how deep the thread stood at its begin.
+
+    A time limit of so many seconds has the number of its timer as `limit`, and takes nothing but what that ends.
+    """
 
     handler: int
     kinds: tuple[str, ...]
     calls: int
     open: int
     final: bool = False
+    limit: int = 0
+    seconds: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,13 +47,15 @@ class Activation:
 class Wake:
     """What a thread was told: it may go on, or it fails, or (`final`) it is to end, past all but `final` guards.
 
-    A `final` one without a kind ends in good order: its steps count as done.
+    A `final` one without a kind ends in good order: its steps count as done. One with a `limit` ends what stands in
+    the time limit with this timer, and is an ordinary failure from there on.
     """
 
     kind: str = ""
     why: str = ""
     final: bool = False
     value: Scalar = None
+    limit: int = 0
 
     @property
     def ends(self) -> bool:

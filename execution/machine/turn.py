@@ -14,6 +14,8 @@ from vipo_device.protocol.description import Scalar
 
 GLUE_LIMIT = 200
 """Instructions that a thread and its branches may carry out in one go without waiting for anything."""
+LONGEST_WAIT_S = 1e9
+"""About thirty years; calendars end soon after."""
 YIELD_S = 1.0
 """How long a thread rests that has used up its share; a loop without a wait cannot stop the others."""
 _LEAVES = (p.Move, p.Pick, p.Drop, p.Call, p.Perform, p.Wait, p.WaitUntil, p.Assign, p.AskPerson, p.Notify, p.Fail,
@@ -116,7 +118,7 @@ class Turn:
         seconds = self.number(thread, expression)
         if seconds < 0:
             raise Failure("refused", f"It is told to wait {seconds:g} s; a wait cannot be less than nothing.")
-        return seconds
+        return min(seconds, LONGEST_WAIT_S)
 
     def wait(self, thread: Thread, waits_for: str, seconds: float | None) -> Thread:
         """Let a thread wait, for so many seconds when they are given."""

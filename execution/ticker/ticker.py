@@ -75,9 +75,10 @@ class Ticker:
 
 
 def fire_timers(now: datetime) -> int:
-    """Turn due timers into events; returns how many."""
+    """Turn due timers into events, the earliest first; returns how many."""
     with transaction.atomic():
-        due = list(Timer.objects.select_for_update(skip_locked=True).filter(due_at__lte=now)[:500])
+        rows = Timer.objects.select_for_update(skip_locked=True).filter(due_at__lte=now)
+        due = list(rows.order_by("due_at", "timer")[:500])
         for row in due:
             mailbox.post_to_run(row.run_id, [(f"timer:{row.run_id}:{row.timer}", TimerFired(row.timer))])
         Timer.objects.filter(id__in=[row.id for row in due]).delete()

@@ -102,12 +102,15 @@ def _leaves(walk: Walk) -> Leaves:
 def _left_by(
     walk: Walk, node: n.While, over: States | None, exits: Sequence[States], leaves: Leaves
 ) -> States | None:  # fmt: skip
-    """Note whether a loop is left at all, by a step in it or otherwise."""
+    """Note whether a loop is left at all, by a step in it, by a time limit around it, or otherwise."""
+    left = exits or leaves != _leaves(walk)
     if not walk.silent:
-        if exits or leaves != _leaves(walk):
+        if left or walk.limited:
             walk.broken.add(id(node))
         elif over is None:
             walk.endless.add(id(node))
+    if over is None and walk.limited and not left:
+        walk.failures.append("timed_out")
     return over
 
 
@@ -221,6 +224,14 @@ def _try(walk: Walk, node: n.Try, states: States) -> States | None:
     return end
 
 
+def _limit(walk: Walk, node: n.Limit, states: States) -> States | None:
+    """What comes behind is come to from the end of the body alone: past its time a limit fails, as a step does."""
+    walk.limited += 1
+    after = walk.block(node.body, states)
+    walk.limited -= 1
+    return after
+
+
 def _exits_through(walk: Walk, node: n.Try, marks: tuple[int, int], ended: States | None) -> None:
     """What is left by a break or a return is known as far as the final part does not change it."""
     frame, effects = walk.frame, walk.effects.of(node.final)
@@ -287,7 +298,7 @@ def _called(walk: Walk, node: n.Call, function: n.Function, states: States) -> S
     rows = zip(walk.domains, states, strict=True)
     walk.states = states
     keys = tuple(domain.key(walk, known, node, function) for domain, known in rows)
-    key = function.method, keys, frozenset(walk.volatile.items()), walk.silent
+    key = function.method, keys, frozenset(walk.volatile.items()), walk.silent, walk.limited > 0
     if key in walk.running:
         if walk.running[key] != walk.ways_out():
             return walk.disturb(states, unfollowed)
@@ -346,6 +357,7 @@ FOLLOW: Final[Mapping[type[n.Node], Callable[[Walk, Any, States], States | None]
     n.Repeat: _repeat,
     n.ForEach: _for_each,
     n.Try: _try,
+    n.Limit: _limit,
     n.Parallel: _parallel,
     n.Call: _call,
     n.Break: _break,

@@ -26,6 +26,7 @@ from editor.language.tree.nodes import (
     ForEach,
     Function,
     If,
+    Limit,
     Move,
     Node,
     Notify,
@@ -51,8 +52,8 @@ Standing = dict[str, PlaceRef]
 """Role → where its robot stands; a role that is not in it may stand anywhere."""
 
 
-_Composite = If | While | Repeat | ForEach | Parallel | Try
-_COMPOSITE: Final = (If, While, Repeat, ForEach, Parallel, Try)
+_Composite = If | While | Repeat | ForEach | Parallel | Try | Limit
+_COMPOSITE: Final = (If, While, Repeat, ForEach, Parallel, Try, Limit)
 _SETS: Final = (Set, Ask)
 _STAYING: Final = frozenset({Operate, Perform, Wait, WaitUntil, Notify})
 """Steps after which all robots stand as before."""
@@ -172,6 +173,9 @@ class _Follower:
                 return If(node.condition, first, second, node.step), _agreed(after_first, after_second)
             case Try():
                 return self._try(node, before)
+            case Limit(body=body):
+                inside, after = self.block(body, before)
+                return Limit(node.seconds, inside, node.step), after
             case Parallel(branches=branches):
                 followed = [self.block(branch, self._beside(branches, branch, before)) for branch in branches]
                 inner = Parallel(tuple(block for block, _ in followed), node.step)

@@ -93,6 +93,8 @@ class Walk:
     """Functions that were not followed somewhere with what is known there."""
     silent: bool = False
     finals: int = 0
+    limited: int = 0
+    """Time limits around the step, which end whatever never ends by itself."""
     undecided: int = 0
     """Branches around the step of which nobody knows whether they are taken."""
     returned: int = 0
@@ -146,7 +148,7 @@ class Walk:
 
     def _remembered(self, memo: Memo, node: n.Node, states: States) -> States | None:
         """Follow a step that holds others; what depends on nothing but what is known before it is remembered."""
-        known: _Found | None = memo.get(node, states)
+        known: _Found | None = memo.get(node, (self.limited > 0, states))
         if known is None or known.steps > self.left:
             known = self._found_in(memo, node, states)
         else:
@@ -169,7 +171,7 @@ class Walk:
         known = _Found(kept, left - self.left, *inside)
         self.visited, self.falls_off, self.endless, self.broken, self.found = outside
         if exits == self._exits() and not self.effects.of_node(node).calls and not self.finals:
-            memo.put(node, known, given)
+            memo.put(node, known, (self.limited > 0, given))
         return known
 
     def _exits(self) -> tuple[int, int, int, int]:

@@ -13,6 +13,7 @@ from editor.language.checks.devices import check_floor, check_load_place, check_
 from editor.language.checks.exits import check_exits
 from editor.language.checks.idle import check_idle
 from editor.language.checks.library import check_library
+from editor.language.checks.limits import check_limited
 from editor.language.checks.parallel import check_branches, check_parallel
 from editor.language.checks.paths import check_paths
 from editor.language.checks.possible import check_held_device
@@ -77,6 +78,7 @@ def check(
     check_paths(context, bodies, CHECKS)
     check_use(context)
     check_idle(context)
+    check_limited(context)
     _check_starts(context)
     check_parallel(context)
     check_updates(context)
@@ -168,6 +170,16 @@ def _wait_until(context: Context, node: n.WaitUntil) -> None:
 
 def _check_time(context: Context, node: n.Node, value: Expression, field: str, subject: str) -> None:
     check_limits(context, node, field, range_in(context, value, "SEC"), (0, None), subject, "SEC")
+
+
+def _limit(context: Context, node: n.Limit) -> None:
+    if has_missing(node.seconds):
+        context.report(node, "missing_limit", "duration")
+    elif check_value(context, node, node.seconds, "duration", SECONDS, "The time limit"):
+        if range_in(context, node.seconds, "SEC").most <= 0:
+            context.report(node, "limit_not_positive", "duration")
+        else:
+            _check_time(context, node, node.seconds, "duration", "The time limit")
 
 
 def _if(context: Context, node: n.If) -> None:
@@ -306,6 +318,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.While: _while,
     n.Parallel: _parallel,
     n.Try: _try,
+    n.Limit: _limit,
     n.Call: _call,
     n.Repeat: _repeat,
     n.ForEach: _for_each,

@@ -51,6 +51,8 @@ def _block(context: Context, block: n.Block, around: _Around) -> None:
                 _block(context, body, around)
                 _block(context, catch, around)
                 _block(context, final, around.behind("leaves_finally"))
+            case n.Limit(body=body):
+                _block(context, body, around)
             case n.If(then=then, otherwise=otherwise):
                 _block(context, then, around)
                 _block(context, otherwise, around)

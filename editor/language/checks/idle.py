@@ -17,7 +17,7 @@ _LEAVE = (n.Break, n.Return, n.End)
 def check_idle(context: Context) -> None:
     """Tell of steps that hold nothing, and of loops that only go round until something else happens."""
     tree = context.tree
-    for kind in (n.If, n.Repeat, n.ForEach):
+    for kind in (n.If, n.Repeat, n.ForEach, n.Limit):
         for node in tree.of_kind(kind):
             if not any(n.blocks_of(node)):
                 context.report(node, "empty_branch", "")

@@ -124,6 +124,12 @@ _TRY = Construct(
     Look("try", "logic", "header", "T"),
     (("body", "body"), ("catch", "catch"), ("finally", "final")),
 )
+_LIMIT = Construct(
+    "limit",
+    (Form("Limit", (Field("duration", wanted="time", at="seconds"),)),),
+    Look("limit", "logic", "header", rare=True, letters=9),
+    BODY,
+)
 _ON_EVENT = Construct(
     "on_event",
     (
@@ -202,7 +208,7 @@ CONSTRUCTS: Final[Mapping[str, Construct]] = {
     construct.kind: construct
     for construct in (
         _MOVE, _PICK, _DROP, _PICK_AND_DROP, _OPERATE, _WAIT, _IF, _WHILE, _REPEAT, _FOR_EACH, _PARALLEL, _TRY,
-        _ON_EVENT, _BREAK, _RETURN, _END, _FAIL, _CALL, _SET, _NOTIFY, _ASK, _COMMENT,
+        _LIMIT, _ON_EVENT, _BREAK, _RETURN, _END, _FAIL, _CALL, _SET, _NOTIFY, _ASK, _COMMENT,
     )
 }  # fmt: skip
 """By kind."""

@@ -27,6 +27,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "missing_question": "Geben Sie die Frage ein.",
     "missing_options": "Geben Sie mindestens zwei Antworten zur Wahl ein.",
     "missing_message": "Geben Sie ein, was mitgeteilt wird.",
+    "missing_limit": "Geben Sie ein, wie lange die Schritte darin dauern dürfen, etwa 5 min.",
     "missing_reason": "Geben Sie ein, warum es hier misslingt, etwa „Die Kiste ist nass.“.",
     "empty_program": "Dieses Programm hat noch keine Schritte. Beginnen Sie mit Holen und Bringen.",
     # it speaks of something that does not exist
@@ -81,6 +82,9 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "may_be_out_of_range": "{subject} muss {range} sein und liegt hier vielleicht außerhalb. Prüfen Sie es vorher.",
     "out_of_range": "{subject} muss {range} sein.",
     "not_an_option": "{subject} ist eines von: {options}.",
+    "limit_not_positive": (
+        "Ein Zeitlimit muss länger als 0 s sein. Geben Sie ein, wie lange die Schritte darin dauern dürfen."
+    ),
     "quantity_not_positive": "Die Menge muss eine ganze Zahl über 0 sein.",
     "quantity_above_capacity": "{robot} trägt {range} auf einmal. Geben Sie weniger ein, oder fahren Sie zweimal.",
     "carrying_too_much": "{robot} trägt hier schon {carried} und fasst höchstens {capacity}.",
@@ -112,6 +116,10 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "too_deep": "Dieser Schritt liegt zu tief in anderen und läuft nicht. Machen Sie aus einigen eine Funktion.",
     # the ways through a program
     "never_reached": "Dieser Schritt wird nie erreicht: Was davor kommt, endet immer hier oder geht ewig weiter.",
+    "past_limit": (
+        "Das Zeitlimit darum ist immer vorbei, bevor dies fertig ist. Geben Sie dem Limit mehr Zeit, "
+        "oder kürzen Sie dies."
+    ),
     "never_ends": (
         "Diese Schritte wiederholen sich ewig: Die Bedingung ist immer wahr, und kein Schritt "
         "verlässt die Schleife."

@@ -29,6 +29,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "missing_question": ("error", "Enter what to ask."),
     "missing_options": ("error", "Enter at least two answers to choose from."),
     "missing_message": ("error", "Enter what to tell people."),
+    "missing_limit": ("error", "Enter how long the steps in it may take, such as 5 min."),
     "missing_reason": ("error", "Enter why it fails here, such as \"The box is wet.\"."),
     "empty_program": ("error", "This program has no steps yet. Draw a Pick-and-Drop to begin."),
     # it speaks of something that does not exist
@@ -86,6 +87,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "may_be_out_of_range": ("warning", "{subject} must be {range}, and may lie outside here. Check it first."),
     "out_of_range": ("error", "{subject} must be {range}."),
     "not_an_option": ("error", "{subject} is one of: {options}."),
+    "limit_not_positive": ("error", "A time limit must be longer than 0 s. Enter how long the steps in it may take."),
     "quantity_not_positive": ("error", "The quantity must be a whole number above 0."),
     "quantity_above_capacity": ("error", "{robot} carries {range} at a time. Enter less, or go twice."),
     "carrying_too_much": ("error", "{robot} already carries {carried} here and holds {capacity} at most."),
@@ -120,6 +122,10 @@ TEXTS: Final[Mapping[str, Text]] = {
         "warning",
         "This step is never reached: what comes before it always ends here or goes on for "
         "ever.",
+    ),
+    "past_limit": (
+        "warning",
+        "The time limit around this is always over before this is done. Give the limit more time, or shorten this.",
     ),
     "never_ends": ("error", "These steps repeat for ever: the condition is always true and no step leaves the loop."),
     "no_value_on_some_way": (

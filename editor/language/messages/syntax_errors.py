@@ -19,6 +19,10 @@ _ONE_PAIR: Final = "Write one pair of brackets only."
 
 _NO_PROBLEM: Final = "What failed cannot be read. Write a text of your own."
 
+LIMIT: Final = 'Write with self.limit(quantity(5, "min")): and under it the steps that may take so long.'
+LIMITING: Final = ("limit", "timeout", "timeout_after", "time_limit", "fail_after", "move_on_after")
+"""Calls by which Python writers limit a time."""
+
 STATEMENTS: Final[Mapping[type[ast.AST], str]] = {
     ast.Import: _NO_IMPORT,
     ast.ImportFrom: _NO_IMPORT,
@@ -75,6 +79,7 @@ CALLS: Final[Mapping[str, str]] = {
     "open": "A script reads no files. Use readings of devices, parameters and questions.",
     "__import__": _NO_IMPORT,
     "repeat": "Write for _ in range(3):.",
+    **dict.fromkeys(LIMITING, LIMIT),
     "range": "range stands only in a loop: for _ in range(3):.",
     "sum": "Add the values: self.first + self.second.",
     "any": "Join the conditions with “or”.",

@@ -13,6 +13,8 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "new_task, in class Task: def mix_paint(self, minutes):.",
     "A script has one class, Task. Write a function instead: def mix_paint(self):.": "Ein Skript hat eine Klasse, "
     "Task. Schreiben Sie stattdessen eine Funktion: def mix_paint(self):.",
+    'Write with self.limit(quantity(5, "min")): and under it the steps that may take so long.': "Schreiben Sie "
+    'with self.limit(quantity(5, "min")): und darunter die Schritte, die so lange dauern dürfen.',
     "Leave “with” out and write its lines as they are.": "Lassen Sie „with“ weg und schreiben Sie seine Zeilen so, "
     "wie sie sind.",
     "Write if, and inside it self.notify(…) or self.end().": "Schreiben Sie if und darin self.notify(…) oder "

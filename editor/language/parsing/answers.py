@@ -11,7 +11,7 @@ from typing import Final
 from editor.language.constructs.script_form import CALLS
 from editor.language.constructs.table import FORMS
 from editor.language.expressions.names import CLOSED_FUNCTIONS, ROBOT_METHODS, member_name, snake_case
-from editor.language.messages.syntax_errors import ATTRIBUTE_ALONE, NAMES, OTHER_WORDS
+from editor.language.messages.syntax_errors import ATTRIBUTE_ALONE, LIMIT, LIMITING, NAMES, OTHER_WORDS
 from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted, written
 from editor.language.tree.robots import own_methods, readings_of, short_name
 
@@ -52,6 +52,7 @@ def unknown_function(call: ast.Call, name: str, scope: Scope) -> Refused:
     """Return the refusal of `self.name(…)`."""
     functions = [each for each in scope.methods if each not in {"new_task", "run"}]
     known = f"There is no such function. Functions of this task: {_listed(functions) or 'none yet'}."
+    known = LIMIT if name in LIMITING else known
     return Refused(call, quoted(call), _about(name, scope, known))
 
 

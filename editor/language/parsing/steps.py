@@ -12,7 +12,13 @@ from editor.language.document.outline import DEEPEST_STEP
 from editor.language.expressions import nodes as e
 from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
 from editor.language.expressions.nodes import Expression, PlaceRef
-from editor.language.messages.syntax_errors import instead_of_call, instead_of_expression, instead_of_statement
+from editor.language.messages.syntax_errors import (
+    LIMIT,
+    LIMITING,
+    instead_of_call,
+    instead_of_expression,
+    instead_of_statement,
+)
 from editor.language.parsing.answers import (
     alone,
     unknown_device,
@@ -119,6 +125,8 @@ class Parser:
                 return self._for(statement)
             case ast.Try():
                 return self._try(statement)
+            case ast.With() | ast.AsyncWith() if _speaks_of_limit(statement):
+                return n.Limit(_limit(self, statement), self.block(statement.body))
             case ast.Expr(value=ast.Attribute() as value):
                 raise alone(value, self.scope)
             case ast.Expr(value=ast.Name() as value):
@@ -315,6 +323,21 @@ def _parallel(parser: Parser, call: ast.Call) -> n.Node:
         parser.branches.add(name or "")
         branches.append(parser.block(method.body))
     return n.Parallel(tuple(branches))
+
+
+def _speaks_of_limit(statement: ast.With | ast.AsyncWith) -> bool:
+    called = (item.context_expr.func for item in statement.items if isinstance(item.context_expr, ast.Call))
+    return any(getattr(each, "attr", getattr(each, "id", "")) in LIMITING for each in called)
+
+
+def _limit(parser: Parser, statement: ast.With | ast.AsyncWith) -> Expression:
+    """Return how long what stands under `with self.limit(quantity(5, "min")):` may take."""
+    match statement:
+        case ast.With(
+            items=[ast.withitem(context_expr=ast.Call(func=function, args=[value], keywords=[]), optional_vars=None)]
+        ) if attribute_of_self(function) == "limit" and not isinstance(value, ast.Starred):
+            return parser.value(value)
+    raise Refused(statement, quoted(statement), LIMIT)
 
 
 def _refused_loop(loop: ast.For, scope: Scope) -> Refused:

@@ -53,6 +53,8 @@ def _blocks_of(statement: ast.stmt) -> Iterator[list[ast.stmt]]:
     if isinstance(statement, _PER_LOOP):
         yield statement.body
         yield statement.orelse
+    if isinstance(statement, ast.With):
+        yield statement.body
     if isinstance(statement, ast.Try):
         yield from (handler.body for handler in statement.handlers)
         yield statement.finalbody

@@ -140,6 +140,7 @@ COMPILERS: Mapping[type[n.Node], Compiler] = {
     n.ForEach: flow.compile_for_each,
     n.Parallel: flow.compile_parallel,
     n.Try: flow.compile_try,
+    n.Limit: flow.compile_limit,
     n.Call: _call,
     n.Set: _set,
     n.Ask: _ask,

@@ -147,6 +147,14 @@ def compile_try(builder: Builder, node: n.Try, leaves: Leaves) -> None:
     builder.leave(node)
 
 
+def compile_limit(builder: Builder, node: n.Limit, leaves: Leaves) -> None:
+    """Compile a Limit: a guarded stretch that a timer ends; whoever leaves it leaves the guard as that of a Try."""
+    builder.add(p.LimitBegin(builder.value(node.seconds, "SEC")), node, enters=(node.step,))
+    with builder.inside(Composite(node.step), Guard()):
+        builder.block(node.body)
+    builder.add(p.TryEnd(), node, leaves=leaves)
+
+
 def _flag(builder: Builder, node: n.Try) -> str:
     """Return the variable for exits through the final part, empty where there are none."""
     inside = (part for block in (node.body, node.catch) for part in walk(block))

@@ -134,6 +134,16 @@ class TryEnd:
 
 
 @dataclass(frozen=True, slots=True)
+class LimitBegin:
+    """From here to the matching TryEnd there are so many seconds; past them all in it ends, and fails as `timed_out`.
+
+    What ends in it carries out `final` guards alone; guards around it take the failure as any other.
+    """
+
+    seconds: Expression
+
+
+@dataclass(frozen=True, slots=True)
 class Rethrow:
     """Behind a `final` handler: go on failing, or ending, as before it."""
 
@@ -206,7 +216,8 @@ class EventEnd:
 
 Action = (
     Move | Pick | Drop | Call | Perform | Wait | WaitUntil | Branch | Jump | Fork | Join
-    | TryBegin | Caught | TryEnd | Rethrow | Invoke | Return | Assign | AskPerson | Notify | Fail | End | EventEnd
+    | TryBegin | Caught | TryEnd | LimitBegin | Rethrow | Invoke | Return | Assign | AskPerson | Notify | Fail | End
+    | EventEnd
 )  # fmt: skip
 
 

@@ -214,6 +214,7 @@ ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "TryBegin": lambda b: p.TryBegin(int(b["handler"]), tuple(b["kinds"]), b.get("final", False)),
     "Caught": lambda b: p.Caught(b["text"], b["kind"]),
     "TryEnd": lambda b: p.TryEnd(),
+    "LimitBegin": lambda b: p.LimitBegin(expression_from_json(b["seconds"])),
     "Rethrow": lambda b: p.Rethrow(),
     "Invoke": lambda b: p.Invoke(
         int(b["entry"]), b["function"], _named(b["arguments"]), b["result"], b.get("shared", False)

@@ -18,6 +18,7 @@ from editor.language.tree.nodes import (
     Fail,
     ForEach,
     If,
+    Limit,
     Node,
     Operate,
     Parallel,
@@ -125,6 +126,11 @@ def _try(printer: Printer, node: Try, depth: int) -> None:
         printer.block(node.final, depth + 1)
 
 
+def _limit(printer: Printer, node: Limit, depth: int) -> None:
+    printer.line(depth, f"with self.limit({printer.value(node.seconds)}):", node.step)
+    printer.block(node.body, depth + 1)
+
+
 def _call(printer: Printer, node: Call, depth: int) -> None:
     arguments = ", ".join(f"{name}={printer.value(value)}" for name, value in node.arguments)
     text = f"self.{node.function}({arguments})" if node.function else "self.call(None)"
@@ -172,6 +178,7 @@ _OWN: Mapping[type[Node], Prints] = {
     While: _while,
     Parallel: _parallel,
     Try: _try,
+    Limit: _limit,
     Call: _call,
     Repeat: _repeat,
     ForEach: _for_each,

@@ -215,6 +215,15 @@ class Try:
 
 
 @dataclass(frozen=True, slots=True)
+class Limit:
+    """The body, which may take so many seconds; what is then under way in it is called off, and it has timed out."""
+
+    seconds: Expression
+    body: Block = ()
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Call:
     """A function of this program, by its method name (empty: still to be chosen)."""
 
@@ -226,8 +235,8 @@ class Call:
 
 
 Node = (
-    Move | Pick | Drop | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Call
-    | Set | Ask | Notify | End | Fail | Return | Break
+    Move | Pick | Drop | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Limit
+    | Call | Set | Ask | Notify | End | Fail | Return | Break
 )  # fmt: skip
 Block = tuple[Node, ...]
 D = TypeVar("D")

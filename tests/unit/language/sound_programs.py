@@ -30,6 +30,7 @@ HOLDING: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "repeat": ({"times": 2}, ("body",)),
     "for_each": ({"variable": "item", "items": [1, 2, 3]}, ("body",)),
     "try": ({"kinds": ["failed"]}, ("body", "catch", "finally")),
+    "limit": ({"duration": {"quantity": [10, "MIN"]}}, ("body",)),
     "parallel": ({"branches": ["a", "b"]}, ("a", "b")),
 }
 LOOPS = frozenset({"while", "repeat", "for_each"})

@@ -135,6 +135,7 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "try": st.sampled_from(
         [{"kinds": []}, {"kinds": ["failed", "offline"]}, {"kinds": ["timed_out"]}, {}, {"catch": False}]
     ),
+    "limit": st.fixed_dictionaries({"duration": values}),
     "call": st.fixed_dictionaries(
         {
             "function": st.sampled_from(["f", "g", "gone", None]),

@@ -88,6 +88,10 @@ def told(case: str, fails: str = "") -> str:
         ("try-finally-in-a-finally", "+t +w 5s -w +u +n “done” -n +o “done” -o -u -t"),
         ("end-through-a-finally", "+t +e -e +n “done” -n -t"),
         ("end-in-a-branch", "+i +e -e -i"),
+        ("limit-in-a-loop", "+r +l 60s +w 5s -w CancelTimer -l +l 60s +w 5s -w CancelTimer -l -r"),
+        ("limit-left-by-a-break", "+r +l 60s +b -b CancelTimer -l -r +w 5s -w"),
+        ("limit-left-by-a-return", "+c +l 60s +t +r -r +n “Over.” -n CancelTimer -t -l -c +w 4s -w"),
+        ("limit-by-a-variable", "+s -s +l 120s +w -w CancelTimer -l"),
     ],
 )
 def test_a_construct_does_what_it_says(case: str, story: str) -> None:

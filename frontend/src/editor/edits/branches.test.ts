@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { applyEdits, type Decision } from "./edits";
-import { liftOut, moveIn, swapBranches, takeApart } from "./branches";
+import { liftOut, moveIn, swapBranches, takeApart, wrapIn } from "./branches";
 import { readTree } from "@/program/document/tree";
 import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
 
@@ -71,4 +71,35 @@ test("an If taken apart keeps its true branch; an event's steps become drafts", 
   expect(readTree(apart).drafts).toEqual(["e"]);
   expect(readTree(after(takeApart(program, "hot"))).drafts).toEqual(["w"]);
   expect(takeApart(program, "last")).toEqual({ refused: "nothing" });
+});
+
+const limit = { id: "limit", kind: "limit", params: {} } as const;
+
+test("neighbours are put into a new frame that stands where they stood", () => {
+  const wrapped = after(wrapIn(program, ["choice", "last"], limit));
+  expect(branch(wrapped, "program", "body")).toEqual(["guard", "limit"]);
+  expect(branch(wrapped, "limit", "body")).toEqual(["choice", "last"]);
+  expect(branch(wrapped, "choice", "then")).toEqual(["t"]);
+});
+
+test("one step in a frame gets a frame of its own there", () => {
+  const wrapped = after(wrapIn(program, ["q"], limit));
+  expect([branch(wrapped, "guard", "body"), branch(wrapped, "limit", "body")]).toEqual([["p", "limit"], ["q"]]);
+});
+
+test("the head of the new frame stands above its steps", () => {
+  expect(after(wrapIn(program, ["last"], limit)).steps.limit?.pos).toEqual([1, -0.1]);
+});
+
+test("what is no row of neighbours, and what begins by itself, gets no frame", () => {
+  expect(wrapIn(program, ["guard", "last"], limit)).toEqual({ refused: "one_branch" });
+  expect(wrapIn(program, [], limit)).toEqual({ refused: "nothing" });
+  expect(wrapIn(program, ["hot"], limit)).toEqual({ refused: "event" });
+});
+
+test("a frame around a step is undone by taking it apart", () => {
+  const wrapped = after(wrapIn(program, ["p", "q"], limit));
+  const apart = takeApart(wrapped, "limit");
+  if ("refused" in apart) throw new Error(apart.refused);
+  expect(branch(applyEdits(wrapped, apart.edits), "guard", "body")).toEqual(["p", "q"]);
 });

@@ -2,7 +2,8 @@
 import type { Decision, Edit, StepPlace } from "./edits";
 import { branchOf, moveSteps, neighbours, roomAt, type Goal } from "./joints";
 import { branchesOf, readTree, EVENTS, type BranchRef } from "@/program/document/tree";
-import type { ProgramDocument } from "@/program/document/document";
+import type { Position, ProgramDocument, Step, StepKind } from "@/program/document/document";
+import { toCentimetre } from "./clipping";
 
 /** Take neighbours out of their frame: they follow it. */
 export function liftOut(document: ProgramDocument, ids: readonly string[]): Decision {
@@ -30,6 +31,39 @@ export function firstBranch(document: ProgramDocument, id: string): BranchRef | 
   const step = document.steps[id];
   const branch = step ? branchesOf(step)[0] : undefined;
   return branch === undefined ? null : { parent: id, branch };
+}
+
+/** Put neighbours into a new frame that stands where they stood. */
+export function wrapIn(
+  document: ProgramDocument,
+  ids: readonly string[],
+  fresh: { id: string; kind: StepKind; params: Step["params"] },
+): Decision {
+  const found = neighbours(document, ids);
+  if (!found) return { refused: ids.length > 0 ? "one_branch" : "nothing" };
+  if (isEvents(found.goal.branch)) return { refused: "event" };
+  const { steps } = found;
+  const body = { parent: fresh.id, branch: "body" };
+  const { places } = roomAt(document, { branch: body, after: null }, steps.length);
+  const frame: Step = {
+    kind: fresh.kind,
+    place: document.steps[steps[0] ?? ""]?.place,
+    pos: above(document, steps),
+    params: fresh.params,
+  };
+  return {
+    edits: [
+      { do: "add_step", id: fresh.id, step: frame },
+      ...steps.map((id, index): Edit => ({ do: "set_place", id, place: places[index] ?? null })),
+    ],
+  };
+}
+
+/** Over the first of the steps, above all of them. */
+function above(document: ProgramDocument, ids: readonly string[]): Position {
+  const positions = ids.map((id) => document.steps[id]?.pos ?? [0, 0]);
+  const left = positions[0]?.[0] ?? 0;
+  return [left, toCentimetre(Math.max(...positions.map(([, y]) => y)) + 0.9)];
 }
 
 /** True and false change their steps. */

@@ -5,7 +5,7 @@ import { liftOut, moveIn, swapBranches, takeApart } from "../edits/branches";
 import { disconnect, joinDrafts, shiftStep } from "../edits/joints";
 import { outermost } from "@/program/document/tree";
 import type { ProgramDocument } from "@/program/document/document";
-import { duplicateSelected, makeId, removeSelected, settle } from "../state/actions";
+import { canLimit, duplicateSelected, limitSteps, makeId, removeSelected, settle } from "../state/actions";
 import type { OpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
 import { copyToSystem } from "./clipboard";
@@ -77,6 +77,7 @@ export const COMMANDS: readonly Command[] = [
   decided("lift_out", "Ctrl+Shift+ArrowLeft", liftOut),
   decided("move_in", "Ctrl+Shift+ArrowRight", moveIn),
   decided("swap_branches", "", one(swapBranches)),
+  { id: "limit", keys: "", applies: canLimit, run: limitSteps },
   decided("take_apart", "Ctrl+Shift+Backspace", one(takeApart), selectMoved),
   acting("make_function", "Ctrl+G", () => useUi.setState({ dialog: "function" })),
   decided(

@@ -9,7 +9,7 @@ import { useGestures } from "../state/gestures";
 import { knownNames } from "../edits/variables";
 import type { StepKind } from "@/api/types";
 import { isStepKind, kindOf } from "@/program/kinds";
-import { duplicateSelected, removeSelected } from "../state/actions";
+import { canLimit, duplicateSelected, limitSteps, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import { say, select, useUi } from "../state/ui";
 import { CallForm } from "./forms/CallForm";
@@ -175,7 +175,9 @@ function Footer() {
 }
 
 function Several({ count }: { count: number }) {
-  const { t, canEdit, document, apply } = useOpenProgram();
+  const open = useOpenProgram();
+  const { t, canEdit, document, apply } = open;
+  const selected = useUi((ui) => ui.selected);
   return (
     <aside className={classes.panel} aria-label={t("inspector.label")}>
       <header className={classes.head}>
@@ -191,6 +193,11 @@ function Several({ count }: { count: number }) {
           <Button variant="default" onClick={() => useUi.setState({ dialog: "function" })}>
             {t("inspector.make_function")}
           </Button>
+          {canLimit(open, selected) ? (
+            <Button variant="default" onClick={() => limitSteps(open, selected)}>
+              {t("gesture.command.limit")}
+            </Button>
+          ) : null}
           <Button variant="default" onClick={() => duplicateSelected(document, apply)}>
             {t("duplicate")}
           </Button>

@@ -51,6 +51,7 @@ test("behind self stand what run gives, functions, variables and the site's othe
     "notify",
     "ask",
     "parallel",
+    "limit",
     "paint_mixer_a",
   ]);
   const mixer = optionsAt("        self.pa", SCRIPT, [OVEN, MIXER])?.options.at(-1);

@@ -4,6 +4,7 @@ import type { BranchRef } from "@/program/document/tree";
 import { clip, type Clipping, paste } from "../edits/clipping";
 import type { Decision, Edit } from "../edits/edits";
 import { addStep, branchForNew, branchOf, deleteSteps, endOfBranch, type Goal, type NewStep } from "../edits/joints";
+import { wrapIn } from "../edits/branches";
 import { changedSince } from "../edits/undo";
 import type { OpenProgram } from "./context";
 import { finish } from "./tool";
@@ -92,4 +93,17 @@ export function settle({ apply, t }: OpenProgram, decision: Decision): boolean {
   }
   say(t(`refused.${decision.refused}`));
   return false;
+}
+
+/** Tell whether steps can be put into a time limit: neighbours in one branch. */
+export function canLimit({ document, canEdit }: OpenProgram, ids: readonly string[]): boolean {
+  return canEdit && "edits" in wrapIn(document, ids, { id: "", kind: "limit", params: {} });
+}
+
+/** Put steps into a time limit, and open it: its time is still to be entered. */
+export function limitSteps(open: OpenProgram, ids: readonly string[]): void {
+  const id = makeId();
+  if (!settle(open, wrapIn(open.document, ids, { id, kind: "limit", params: {} }))) return;
+  select([id]);
+  useUi.setState({ fresh: id, inspector: true });
 }

@@ -35,17 +35,20 @@ function linkTo(scene: Scene, id: string) {
   return scene.links.find((link) => link.id === id);
 }
 
-test.each(["while", "repeat", "for_each", "try"])("the frame of a %s goes around the steps beside its head", (kind) => {
-  const [scene] = sceneOf({
-    head: step(kind, ["program", "body", "A"], [5, -3]),
-    near: step("notify", ["head", "body", "A"], [5, -4]),
-    far: step("notify", ["head", "body", "B"], [15, -9]),
-  });
-  const [frame] = scene.frames;
-  expect([...(frame?.holds ?? [])]).toEqual(["near"]);
-  const near = scene.chips.get("near")?.box;
-  expect(frame && near && frame.box.left < near.left && frame.box.bottom > near.bottom).toBe(true);
-});
+test.each(["while", "repeat", "for_each", "try", "limit"])(
+  "the frame of a %s goes around the steps beside its head",
+  (kind) => {
+    const [scene] = sceneOf({
+      head: step(kind, ["program", "body", "A"], [5, -3]),
+      near: step("notify", ["head", "body", "A"], [5, -4]),
+      far: step("notify", ["head", "body", "B"], [15, -9]),
+    });
+    const [frame] = scene.frames;
+    expect([...(frame?.holds ?? [])]).toEqual(["near"]);
+    const near = scene.chips.get("near")?.box;
+    expect(frame && near && frame.box.left < near.left && frame.box.bottom > near.bottom).toBe(true);
+  },
+);
 
 test("loops in loops: the outer frame goes around the inner one", () => {
   const [scene] = sceneOf({

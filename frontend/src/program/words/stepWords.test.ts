@@ -28,6 +28,8 @@ function say(kind: string, params: Step["params"]): string {
 test.each<[string, Step["params"], string]>([
   ["repeat", { times: 3 }, "repeat 3 ×"],
   ["repeat", {}, "repeat ? ×"],
+  ["limit", { duration: { quantity: [5, "MIN"] } }, "At most 5\u202fmin"],
+  ["limit", {}, "At most ?"],
   ["for_each", { variable: "box", items: ["a", "b", "c"] }, "each box in a, b +1"],
   ["for_each", { variable: "box", items: [] }, "each box in ?"],
   ["set", { variable: "count", value: { op: "+", args: [{ param: "count" }, 1] } }, "count = count + 1"],

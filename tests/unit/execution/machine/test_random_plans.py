@@ -36,6 +36,7 @@ actions = st.one_of(
     st.just(p.Join()),
     st.builds(p.TryBegin, addresses, kinds, st.booleans()),
     st.just(p.TryEnd()),
+    st.builds(p.LimitBegin, values),
     st.just(p.Rethrow()),
     st.builds(p.Invoke, addresses, st.just("f"), st.fixed_dictionaries({"n": values}), st.none() | names,
               st.booleans()),
@@ -153,3 +154,24 @@ def test_what_is_called_off_was_asked_for_and_everything_is_once(plan):
     assert {a.task for a in actions if isinstance(a, r.Cancel)} <= set(asked)
     assert {a.question for a in actions if isinstance(a, r.CancelQuestion)} <= set(questions)
     assert sum(isinstance(a, r.Finished) for a in actions) == 1
+
+
+@settings(max_examples=2 * settings.default.max_examples, deadline=None)
+@given(plans, st.lists(happenings, max_size=25))
+def test_every_timer_has_a_thread_that_waits_for_it_or_a_time_limit(plan, happened):
+    """With all timers and questions that are open: what nobody needs any more is dropped."""
+    asked, running = [], set()
+    state, done = machine.start(plan, {}, {("oven", "heat"): 20})
+    for event in [*happened, r.CancelAsked("over")]:
+        note(done, asked)
+        running |= {action.timer for action in done if isinstance(action, r.SetTimer)}
+        running -= {action.timer for action in done if isinstance(action, r.CancelTimer)}
+        limits = {guard.limit for thread in state.threads.values() for guard in thread.guards}
+        assert running <= limits | {thread.waits_id for thread in state.threads.values()}
+        if event == "answer":
+            if not asked:
+                continue
+            event = answer(asked)
+        running -= {event.timer} if isinstance(event, r.TimerFired) else set()
+        state, done = machine.step(plan, state, event)
+    assert state.threads == {}
