@@ -70,7 +70,9 @@ class Draft:
                 "call",
                 "parallel",
             ]
-            kind = self.chance.choice(kinds[: 7 if depth > 3 else None] + [k for k in ("break",) if k in inside])
+            kind = self.chance.choice(
+                kinds[: 7 if depth > 3 else None] + [k for k in ("break", "next_round") if k in inside]
+            )
             getattr(self, f"_{kind}")(parent, branch, depth, inside)
 
     def number(self) -> Any:
@@ -131,12 +133,12 @@ class Draft:
     def _repeat(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         times = self.chance.choice([0, 1, 2, 3]) if self.chance.random() < 0.7 else self.number()
         step = self.add(parent, branch, "repeat", {"times": times})
-        self.block(step, "body", depth + 1, inside | {"break"})
+        self.block(step, "body", depth + 1, inside | {"break", "next_round"})
 
     def _while(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         step = self.add(parent, branch, "while", {"condition": self.condition()})
         before = set(self.known)
-        self.block(step, "body", depth + 1, inside | {"break"})
+        self.block(step, "body", depth + 1, inside | {"break", "next_round"})
         if self.chance.random() < 0.8:
             self.known = before
 
@@ -148,6 +150,9 @@ class Draft:
 
     def _break(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         self.add(parent, branch, "break", {})
+
+    def _next_round(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        self.add(parent, branch, "continue", {})
 
     def _call(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         function = self.chance.choice(["f", "g"])

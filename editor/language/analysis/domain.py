@@ -30,7 +30,13 @@ class Frame:
     function: n.Function | None = None
     loops: tuple[n.ForEach, ...] = ()
     breaks: list[list[States]] = field(default_factory=list)
+    continues: list[list[States]] = field(default_factory=list)
+    """For each loop around, what is known at the steps that go on with its next round."""
     returns: list[States] = field(default_factory=list)
+
+    def exits(self) -> tuple[list[States], ...]:
+        """Return what is known at the steps that lead out of what stands around, to be added to and changed."""
+        return (*self.breaks[-1:], *self.continues[-1:], self.returns)
 
 
 class Place(Protocol):

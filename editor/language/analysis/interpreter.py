@@ -183,14 +183,17 @@ def _round(
     """Follow a loop's body once; what is known where a step leaves the loop is added to the exits."""
     frame, outside = walk.frame, walk.frame.loops
     frame.breaks.append([])
+    frame.continues.append([])
     if isinstance(node, n.ForEach):
         rows = zip(walk.domains, states, strict=True)
         states = [domain.enter_round(walk, known, node, items or ()) for domain, known in rows]
         frame.loops = (*outside, node)
+    begun = walk.copy(states) if walk.tree.holds(n.Continue) else states
     after = walk.block(node.body, states)
     frame.loops = outside
     exits.extend(frame.breaks.pop())
-    return after
+    early = frame.continues.pop()
+    return walk.meet(begun, [*early, after], walk.effects.of(node.body)) if early else after
 
 
 # failures, and what happens at once
@@ -198,8 +201,7 @@ def _round(
 
 def _try(walk: Walk, node: n.Try, states: States) -> States | None:
     """The catch begins anywhere in the body, the final part anywhere in both; every exit leads through it."""
-    frame = walk.frame
-    marks = len(frame.breaks[-1]) if frame.breaks else 0, len(frame.returns)
+    marks = tuple(map(len, walk.frame.exits()))
     after = walk.block(node.body, walk.copy(states))
     if node.catches:
         with walk.unsure():
@@ -219,10 +221,10 @@ def _try(walk: Walk, node: n.Try, states: States) -> States | None:
     return end
 
 
-def _exits_through(walk: Walk, node: n.Try, marks: Leaves, ended: States | None) -> None:
-    """What is left by a break or a return is known as far as the final part does not change it."""
-    frame, effects = walk.frame, walk.effects.of(node.final)
-    for exits, mark in ((frame.breaks[-1] if frame.breaks else [], marks[0]), (frame.returns, marks[1])):
+def _exits_through(walk: Walk, node: n.Try, marks: Sequence[int], ended: States | None) -> None:
+    """What is left by a break, a continue or a return is known as far as the final part does not change it."""
+    effects = walk.effects.of(node.final)
+    for exits, mark in zip(walk.frame.exits(), marks, strict=True):
         exits[mark:] = [] if ended is None else [walk.disturb(each, effects) for each in exits[mark:]]
 
 
@@ -260,8 +262,10 @@ def _branches(
             for place, (domain, known) in enumerate(zip(walk.domains, walk.copy(states), strict=True))
         ]
         walk.frame.breaks.append([])
+        walk.frame.continues.append([])
         ends.append(walk.block(branch, begin))
         walk.frame.breaks.pop()
+        walk.frame.continues.pop()
     walk.volatile = outside
     return ends
 
@@ -325,6 +329,11 @@ def _break(walk: Walk, node: n.Break, states: States) -> None:
         walk.frame.breaks[-1].append(states)
 
 
+def _continue(walk: Walk, node: n.Continue, states: States) -> None:
+    if walk.frame.continues:
+        walk.frame.continues[-1].append(states)
+
+
 def _return(walk: Walk, node: n.Return, states: States) -> None:
     walk.transfer(node, states)
     walk.returned += 1
@@ -345,6 +354,7 @@ FOLLOW: Final[Mapping[type[n.Node], Callable[[Walk, Any, States], States | None]
     n.Parallel: _parallel,
     n.Call: _call,
     n.Break: _break,
+    n.Continue: _continue,
     n.Return: _return,
     n.End: Walk.end,
     n.Fail: _fail,

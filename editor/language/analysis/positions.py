@@ -20,6 +20,7 @@ from editor.language.tree.nodes import (
     Block,
     Break,
     Call,
+    Continue,
     Drop,
     End,
     Fail,
@@ -56,7 +57,7 @@ _COMPOSITE: Final = (If, While, Repeat, ForEach, Parallel, Try)
 _SETS: Final = (Set, Ask)
 _STAYING: Final = frozenset({Operate, Perform, Wait, WaitUntil, Notify})
 """Steps after which all robots stand as before."""
-_LEAVES: Final = (End, Fail, Return, Break)
+_LEAVES: Final = (End, Fail, Return, Break, Continue)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +88,7 @@ class _Follower:
     """Picks and drops of a script before which no move is known."""
     exits: dict[str, Standing] = field(default_factory=dict)
     breaks: list[list[Standing]] = field(default_factory=list)
-    """For each loop around, innermost last, where the robots stand at the steps that leave it."""
+    """For each loop around, innermost last, where the robots stand at the steps that leave it, or one of its rounds."""
     returns: list[Standing] = field(default_factory=list)
     memo: Memo | None = None
     calls: int = 0
@@ -137,10 +138,10 @@ class _Follower:
         self.relied_on.update(known.relied_on)
         return known.node, known.after
 
-    def _leave(self, node: End | Fail | Return | Break, standing: Standing) -> None:
+    def _leave(self, node: End | Fail | Return | Break | Continue, standing: Standing) -> None:
         if isinstance(node, Return):
             self.returns.append(standing)
-        elif isinstance(node, Break) and self.breaks:
+        elif isinstance(node, Break | Continue) and self.breaks:
             self.breaks[-1].append(standing)
 
     def _load(self, node: Pick | Drop, standing: Standing, nodes: list[Node]) -> Standing:

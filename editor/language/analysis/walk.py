@@ -170,9 +170,8 @@ class Walk:
             memo.put(node, known, given)
         return known
 
-    def _exits(self) -> tuple[int, int, int]:
-        frame = self.frame
-        return len(frame.breaks[-1]) if frame.breaks else 0, len(frame.returns), self.ended
+    def _exits(self) -> tuple[tuple[int, ...], int]:
+        return tuple(map(len, self.frame.exits())), self.ended
 
     def read(self, node: n.Node, states: States) -> None:
         """Have a look at a step that reads variables."""

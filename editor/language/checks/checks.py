@@ -289,7 +289,7 @@ def _return(context: Context, node: n.Return) -> None:
             check_value(context, node, node.value, "value", context.result, "The result")
 
 
-def _leave(context: Context, node: n.End | n.Break) -> None:
+def _leave(context: Context, node: n.End | n.Break | n.Continue) -> None:
     """What these leave is checked for all of them at once."""
 
 
@@ -315,6 +315,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Fail: _fail,
     n.Return: _return,
     n.Break: _leave,
+    n.Continue: _leave,
 }
 
 

@@ -136,6 +136,7 @@ _ON_EVENT = Construct(
     BODY,
 )
 _BREAK = Construct("break", (Form("Break"),), Look("break", "logic", "box", rare=True))
+_CONTINUE = Construct("continue", (Form("Continue"),), Look("continue", "logic", "box", rare=True))
 _RETURN = Construct(
     "return", (Form("Return", (Field("value", optional=True),)),), Look("return", "logic", "box", rare=True)
 )
@@ -202,7 +203,7 @@ CONSTRUCTS: Final[Mapping[str, Construct]] = {
     construct.kind: construct
     for construct in (
         _MOVE, _PICK, _DROP, _PICK_AND_DROP, _OPERATE, _WAIT, _IF, _WHILE, _REPEAT, _FOR_EACH, _PARALLEL, _TRY,
-        _ON_EVENT, _BREAK, _RETURN, _END, _FAIL, _CALL, _SET, _NOTIFY, _ASK, _COMMENT,
+        _ON_EVENT, _BREAK, _CONTINUE, _RETURN, _END, _FAIL, _CALL, _SET, _NOTIFY, _ASK, _COMMENT,
     )
 }  # fmt: skip
 """By kind."""

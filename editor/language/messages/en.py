@@ -83,6 +83,10 @@ TEXTS: Final[Mapping[str, Text]] = {
     "times_not_whole": ("error", "How many times must be a whole number, 0 or more."),
     "return_outside_function": ("error", "Only a function can give something back. End the program instead."),
     "break_outside_loop": ("error", "There is no loop around this step that could be left."),
+    "continue_outside_loop": (
+        "error",
+        "There is no loop around this step that could go on with its next round. Put it into one, or delete it.",
+    ),
     "leaves_parallel": ("error", "This step would leave a branch of a Parallel. Let the branch come to its end."),
     "leaves_finally": ("error", "This step would leave a Finally, which is always carried out whole."),
     "gives_nothing": ("error", "{function} gives nothing back. Take no value from it, or give it a result."),

@@ -31,7 +31,6 @@ STATEMENTS: Final[Mapping[type[ast.AST], str]] = {
     ast.Delete: "Leave it out: nothing needs to be deleted.",
     ast.Global: "Leave it out: self.count is seen everywhere.",
     ast.Nonlocal: "Leave it out: self.count is seen everywhere.",
-    ast.Continue: "Put what follows into an if instead of leaving it out by continue.",
     ast.Match: "Write if and else instead.",
     ast.TryStar: "Write except without the star.",
     ast.AsyncFor: "Leave “async” out: a script waits by itself until a step is done.",

@@ -19,8 +19,6 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "self.end().",
     "Leave it out: nothing needs to be deleted.": "Lassen Sie es weg: Nichts muss gelöscht werden.",
     "Leave it out: self.count is seen everywhere.": "Lassen Sie es weg: self.count ist überall bekannt.",
-    "Put what follows into an if instead of leaving it out by continue.": "Setzen Sie, was folgt, in ein if, statt es "
-    "mit continue auszulassen.",
     "Write if and else instead.": "Schreiben Sie stattdessen if und else.",
     "Write a function beside new_task, in class Task: def mix_paint(self, minutes):.": "Schreiben Sie eine Funktion "
     "neben new_task, in class Task: def mix_paint(self, minutes):.",

@@ -100,8 +100,8 @@ class Parser:
             case ast.Return(value=value):
                 given = e.MISSING if value is None else self.value(value)
                 return n.Return(None if given == e.MISSING else given)
-            case ast.Break():
-                return n.Break()
+            case ast.Break() | ast.Continue():
+                return n.Break() if isinstance(statement, ast.Break) else n.Continue()
             case ast.Raise(exc=ast.Call(func=ast.Name(id="Failed"), args=[message], keywords=[]), cause=None):
                 return n.Fail(self.value(message))
         return self._composite(statement)

@@ -29,9 +29,11 @@ class Guard:
 
 @dataclass(slots=True, eq=False)
 class Loop:
-    """A loop around the step being compiled, with the addresses of the jumps that leave it."""
+    """A loop around the step being compiled, with the addresses of the jumps that leave it, or its round."""
 
     jumps: list[int] = field(default_factory=list)
+    rounds: list[int] = field(default_factory=list)
+    """The jumps to the end of the body, where the next round begins."""
 
 
 @dataclass(slots=True, eq=False)

@@ -147,6 +147,7 @@ COMPILERS: Mapping[type[n.Node], Compiler] = {
     n.Fail: _fail,
     n.Return: flow.compile_return,
     n.Break: flow.compile_break,
+    n.Continue: flow.compile_continue,
 }
 
 

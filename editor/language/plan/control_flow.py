@@ -13,7 +13,7 @@ from editor.language.tree.nodes import walk
 from editor.language.tree.variable_types import type_of_items
 from editor.language.tree.variables import reads_problem
 
-_LEAVE = frozenset({n.Return, n.Break})
+_LEAVE = frozenset({n.Return, n.Break, n.Continue})
 _ONE = e.Constant(1)
 _ZERO = e.Constant(0)
 
@@ -100,6 +100,8 @@ def _body(builder: Builder, node: n.While | n.Repeat | n.ForEach) -> Loop:
     loop = Loop()
     with builder.inside(loop):
         builder.block(node.body)
+    for address in loop.rounds:
+        builder.patch(address, p.Jump(builder.here()))
     return loop
 
 
@@ -184,13 +186,26 @@ def _final(builder: Builder, node: n.Try, guard: Guard) -> None:
 
 def compile_break(builder: Builder, node: n.Break, leaves: Leaves) -> None:
     """Compile a Break: final parts on the path are carried out."""
+    loop = _left_to_loop(builder, node, leaves)
+    loop.jumps.append(builder.here() - 1)
+
+
+def compile_continue(builder: Builder, node: n.Continue, leaves: Leaves) -> None:
+    """Compile a Continue: as a Break, but that it goes on at the end of the body."""
+    loop = _left_to_loop(builder, node, leaves)
+    loop.rounds.append(builder.here() - 1)
+
+
+def _left_to_loop(builder: Builder, node: n.Break | n.Continue, leaves: Leaves) -> Loop:
+    """Leave all that stands between a step and its loop, by a jump, the last instruction, that is still open."""
     loop = next((item for item in reversed(builder.around) if isinstance(item, Loop)), None)
     assert loop is not None, "the checks found a loop around this step"
     passed = _until(builder.around, loop)
     builder.add(p.Jump(builder.here() + 1), node, enters=(node.step,), leaves=leaves)
     _leave_guards(builder, passed, passed)
     over = tuple(item.step for item in passed if isinstance(item, Composite))
-    loop.jumps.append(builder.add(p.Jump(0), leaves=over))
+    builder.add(p.Jump(0), leaves=over)
+    return loop
 
 
 def _until(around: list[Around], loop: Loop) -> list[Around]:

@@ -15,6 +15,7 @@ from editor.language.tree.nodes import (
     NODES,
     Break,
     Call,
+    Continue,
     Fail,
     ForEach,
     If,
@@ -165,6 +166,10 @@ def _break(printer: Printer, node: Break, depth: int) -> None:
     printer.line(depth, "break", node.step)
 
 
+def _continue(printer: Printer, node: Continue, depth: int) -> None:
+    printer.line(depth, "continue", node.step)
+
+
 _OWN: Mapping[type[Node], Prints] = {
     Operate: _operate,
     Perform: _perform,
@@ -179,6 +184,7 @@ _OWN: Mapping[type[Node], Prints] = {
     Return: _return,
     Fail: _fail,
     Break: _break,
+    Continue: _continue,
 }
 """The nodes that are written in Python's own grammar, or by what a device or a function says of itself."""
 PRINTERS: Mapping[type[Node], Prints] = {

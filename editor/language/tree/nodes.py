@@ -192,6 +192,13 @@ class Break:
 
 
 @dataclass(frozen=True, slots=True)
+class Continue:
+    """The innermost loop goes on with its next round."""
+
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Parallel:
     """All branches at once; what follows begins when all have ended."""
 
@@ -227,7 +234,7 @@ class Call:
 
 Node = (
     Move | Pick | Drop | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Call
-    | Set | Ask | Notify | End | Fail | Return | Break
+    | Set | Ask | Notify | End | Fail | Return | Break | Continue
 )  # fmt: skip
 Block = tuple[Node, ...]
 LOADS: Final = (Pick, Drop)

@@ -13,6 +13,8 @@ SCRIPT = """class Task(object):
         for _ in range(2):
             self.count = self.count + 1
         for station in [self.shelf, self.booth]:
+            if self.count > 5:
+                continue
             self.robot.move(station.location)
             if distance(self.robot, self.shelf) < 3:
                 self.notify(f"At the shelf, {self.count}", level="info")

@@ -62,7 +62,7 @@ class Steps:
         for index in range(self.draw(st.integers(0, 3))):
             kinds = [*PLAIN, *(HOLDING if around.depth < DEEPEST else ())]
             kinds += ["tell"] if around.caught else []
-            kinds += (["break"] * 2 if around.loop else []) + (["return"] * 2 if around.function else [])
+            kinds += (["break", "continue"] if around.loop else []) + (["return"] * 2 if around.function else [])
             kind = self.draw(st.sampled_from(kinds))
             if kind == "tell":
                 self.add("notify", parent, branch, f"{index}V", self.draw(st.sampled_from(TOLD)))

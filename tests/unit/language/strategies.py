@@ -136,6 +136,7 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "fail": st.fixed_dictionaries({"message": values}),
     "return": st.fixed_dictionaries({"value": values}),
     "break": st.just({}),
+    "continue": st.just({}),
     "on_event": st.fixed_dictionaries({"condition": values, "starts": st.sampled_from(["branch", "run", None])}),
 }
 BRANCHES = ["body", "then", "else", "catch", "finally", "a", "b", "c"]

@@ -75,6 +75,16 @@ def told(case: str, fails: str = "") -> str:
         ("break-leaves-only-the-innermost", "+r +q +b -b -q +n “done” -n +q +b -b -q +n “done” -n -r"),
         ("break-in-a-for-each-by-value", "+f +i -i +n “done” -n +i +b -b -i -f"),
         ("break-through-a-finally", "+r +t +b -b +n “done” -n -t -r +w 5s -w"),
+        ("continue-in-a-for-each", "+f +i -i +n “done” -n +i +c -c -i +i -i +n “done” -n -f"),
+        ("continue-through-a-finally", "+r +t +c -c +n “done” -n -t +t +c -c +n “done” -n -t -r +w 5s -w"),
+        (
+            "continue-in-a-while",
+            "+s -s +w +a -a +i -i +m “n 1” -m +a -a +i +c -c -i +a -a +i -i +m “n 3” -m -w",
+        ),
+        (
+            "continue-goes-on-with-the-innermost",
+            "+r +q +c -c +c -c -q +m “again” -m +q +c -c +c -c -q +m “again” -m -r",
+        ),
         ("set-and-count", "+s -s +r +t -t +t -t +t -t -r +n “Painted 3” -n"),
         ("set-in-a-function-is-its-own", "+c +s -s +w 2s -w -c"),
         ("set-in-a-function-for-the-program", "+s -s +c +t -t -c +w 2s -w"),

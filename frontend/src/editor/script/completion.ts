@@ -23,7 +23,7 @@ const CALLED = STEP_KINDS.filter((each) => each.method);
 const VERBS = [...CALLED.filter((each) => !each.drives).map((each) => each.method ?? ""), "parallel"];
 const ROBOT_VERBS = CALLED.filter((each) => each.drives).map((each) => each.method ?? "");
 const GIVERS = ["get", "any", "place", "parameter", "zone", "when", "start_when"];
-const WORDS = ["self", "if", "else", "while", "for", "try", "except", "finally", "return", "raise", "break", "pass"];
+const WORDS = ["self", "if", "else", "while", "for", "try", "except", "finally", "return", "raise", "break", "continue", "pass"];
 const GIVEN = /self\.(\w+)\s*=\s*ctx\.(\w+)\(\s*(?:["']([^"']*)["'])?/g;
 const DEFINED = /^ {4}def (\w+)\(self(?:,\s*([^)]*))?\)/gm;
 const SET = /^\s+self\.(\w+)\s*=(?!=)/gm;

@@ -20,6 +20,7 @@ from editor.language.tree.nodes import (
     Block,
     Break,
     Call,
+    Continue,
     End,
     Event,
     ForEach,
@@ -116,6 +117,28 @@ def test_a_loop_that_nothing_leaves_never_ends() -> None:
     assert flow(While(TRUE, (PAUSE,))) == [("s1", "never_ends")]
     assert flow(While(TRUE, (While(HOT, (Break(),)),))) == [("s1", "never_ends")]
     assert flow(While(TRUE, (Try((), (If(HOT, (Break(),)),)),))) == []
+
+
+@pytest.mark.parametrize(
+    ("program", "found"),
+    [
+        ((While(HOT, named((Continue(), PAUSE), "t")),), "never_reached"),
+        ((While(TRUE, (PAUSE, Continue())),), "never_ends"),
+        ((While(TRUE, (If(HOT, (Continue(),)), PAUSE, Break())), PAUSE), ""),
+        ((Repeat(Constant(2), (PAUSE, Continue())), PAUSE), ""),
+        ((ForEach("i", (ONE,), (If(HOT, (Continue(),), (End(),)),)), PAUSE), ""),
+        ((ForEach("i", (ONE,), (If(HOT, (End(),)), Continue())), PAUSE), ""),
+        ((Repeat(ONE, (Try((), (Continue(),), (), (PAUSE,), catches=False),)), PAUSE), ""),
+    ],
+)
+def test_a_round_that_is_left_goes_on_with_the_next(program: tuple[Node, ...], found: str) -> None:
+    assert [code for _, code in flow(*program)] == ([found] if found else [])
+
+
+def test_what_is_set_before_a_round_is_left_is_known_in_the_next() -> None:
+    left = (Set("x", ONE), If(HOT, (Continue(),)), Set("y", ONE))
+    assert variables(Repeat(Constant(2), left), *use(X)) == ["unused_variable"]
+    assert variables(Repeat(Constant(2), left), *use(X, Y)) == ["may_be_unset"]
 
 
 def test_a_loop_must_look_at_something_that_changes() -> None:

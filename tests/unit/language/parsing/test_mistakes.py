@@ -59,7 +59,6 @@ MISTAKES = [
     ("raise ValueError()", 0, 'Write raise Failed("The box is wet.").'),
     ("del self.robot", 0, "Leave it out: nothing needs to be deleted."),
     ("global x", 0, "Leave it out: self.count is seen everywhere."),
-    ("continue", 0, "Put what follows into an if instead of leaving it out by continue."),
     ("match 5:\n            case 5: pass", 0, "Write if and else instead."),
     ("wait(60)", 0, "Write self. before it: self.wait(60)."),
     ("time.sleep(5)", 0, "Wait by self.wait(60)."),
