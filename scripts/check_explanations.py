@@ -109,6 +109,7 @@ _WAYS: Final = {
     "calls_itself": "Every way through the function calls it again; a call that only some ways make is allowed.",
     "return_outside_function": "A Return stands in the program's own body.",
     "break_outside_loop": "A Break stands in no loop of its own function or branch.",
+    "same_name": "In a For-each the item and the number of the round have one name; the number is not set then.",
     "continue_outside_loop": "A Next round stands in no loop of its own function or branch.",
     "leaves_parallel": "A Return, a Break or a Next round would leave one branch while the others go on.",
     "leaves_finally": "A Return, a Break or a Next round would leave the branch that is carried out whatever happens.",

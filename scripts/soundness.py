@@ -66,6 +66,7 @@ class Draft:
                 "notify",
                 "if",
                 "repeat",
+                "each",
                 "while",
                 "call",
                 "parallel",
@@ -134,6 +135,15 @@ class Draft:
         times = self.chance.choice([0, 1, 2, 3]) if self.chance.random() < 0.7 else self.number()
         step = self.add(parent, branch, "repeat", {"times": times})
         self.block(step, "body", depth + 1, inside | {"break", "next_round"})
+
+    def _each(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        """A loop over numbers, which may look at the number and at the item of its round."""
+        items = [self.number() for _ in range(self.chance.randrange(1, 4))]
+        step = self.add(parent, branch, "for_each", {"variable": "item", "index": "round", "items": items})
+        before = set(self.known)
+        self.known |= {"item", "round"}
+        self.block(step, "body", depth + 1, inside | {"break", "next_round"})
+        self.known -= {"item", "round"} - before
 
     def _while(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         step = self.add(parent, branch, "while", {"condition": self.condition()})

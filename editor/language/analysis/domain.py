@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 from editor.language.analysis.effects import Effects, EffectTable
 from editor.language.expressions.nodes import Expression
-from editor.language.expressions.ranges import Known
+from editor.language.expressions.ranges import Known, Range
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.tree import nodes as n
 
@@ -113,8 +113,10 @@ class Domain(ABC, Generic[K]):
         """Return what is known after a call, given what is known where the function comes back."""
         return after
 
-    def enter_round(self, place: Place, known: K, node: n.ForEach, items: Sequence[Expression]) -> K:
-        """Return what is known in a round in which the loop's variable is one of these items."""
+    def enter_round(
+        self, place: Place, known: K, node: n.ForEach, items: Sequence[Expression], rounds: Range
+    ) -> K:  # fmt: skip
+        """Return what is known in one of these rounds, in which the loop's variable is one of these items."""
         return known
 
     def end(self, place: Place, node: n.Node | None, known: K) -> None:

@@ -17,7 +17,7 @@ from editor.language.analysis.effects import NOTHING, Effects, together
 from editor.language.analysis.walk import Walk
 from editor.language.document.outline import PROGRAM
 from editor.language.expressions.nodes import Constant, Expression
-from editor.language.expressions.ranges import Known
+from editor.language.expressions.ranges import Known, Range
 from editor.language.tree import nodes as n
 
 Loop = n.While | n.Repeat | n.ForEach
@@ -130,12 +130,12 @@ def _counted(walk: Walk, node: n.Repeat | n.ForEach, items: Sequence[Any], state
     """Follow a loop round by round."""
     exits = list[States]()
     now: States | None = walk.copy(states)
-    for item in items:
+    for number, item in enumerate(items, start=1):
         assert now is not None
         if walk.left < 0:
             return _uncounted(walk, node, states, now, exits, goes_round=True)
         begun = walk.copy(now)
-        now = _round(walk, node, now, exits, None if item is None else (item,))
+        now = _round(walk, node, now, exits, () if item is None else (item,), Range(number, number))
         if now is None or (item is None and now == begun):
             break  # the rounds that are left bring nothing new
     return walk.meet(states, [*exits, now], walk.effects.of(node.body))
@@ -145,7 +145,7 @@ def _uncounted(
     walk: Walk, node: Loop, before: States, now: States, exits: list[States], *, goes_round: bool
 ) -> States | None:
     """Follow the body in silence until another round teaches nothing new, then once more to tell."""
-    items = node.items if isinstance(node, n.ForEach) else None
+    items = node.items if isinstance(node, n.ForEach) else ()
     with walk.unsure():
         entry = _settled(walk, node, now)
         walk.read(node, entry)
@@ -159,7 +159,7 @@ def _uncounted(
 
 def _settled(walk: Walk, node: Loop, entry: States) -> States:
     """Return what is known at the beginning of every round."""
-    items = node.items if isinstance(node, n.ForEach) else None
+    items = node.items if isinstance(node, n.ForEach) else ()
     effects = walk.effects.of(node.body)
     if effects is NOTHING:
         return entry
@@ -177,8 +177,13 @@ def _settled(walk: Walk, node: Loop, entry: States) -> States:
     return walk.disturb(entry, effects)
 
 
-def _round(
-    walk: Walk, node: Loop, states: States, exits: list[States], items: Sequence[Expression] | None = None
+def _round(  # noqa: PLR0913 - a loop with what is known, and which of its rounds it is
+    walk: Walk,
+    node: Loop,
+    states: States,
+    exits: list[States],
+    items: Sequence[Expression] = (),
+    rounds: Range | None = None,
 ) -> States | None:
     """Follow a loop's body once; what is known where a step leaves the loop is added to the exits."""
     frame, outside = walk.frame, walk.frame.loops
@@ -186,7 +191,8 @@ def _round(
     frame.continues.append([])
     if isinstance(node, n.ForEach):
         rows = zip(walk.domains, states, strict=True)
-        states = [domain.enter_round(walk, known, node, items or ()) for domain, known in rows]
+        these = rounds or Range(1, max(1, len(node.items)))
+        states = [domain.enter_round(walk, known, node, items, these) for domain, known in rows]
         frame.loops = (*outside, node)
     begun = walk.copy(states) if walk.tree.holds(n.Continue) else states
     after = walk.block(node.body, states)

@@ -182,7 +182,7 @@ class _Follower:
     def _loop(self, node: While | Repeat | ForEach, before: Standing) -> tuple[Node, Standing | None]:
         """A loop is left before its body, after it, or by a step in it."""
         self.breaks.append([])
-        own = {node.variable} if isinstance(node, ForEach) else set()
+        own = set(node.names) if isinstance(node, ForEach) else set()
         inner, after = self.block(node.body, _without_values(self._after_some_of(node.body, before), own))
         exits = self.breaks.pop()
         over = _agreed(before, after)

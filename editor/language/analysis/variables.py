@@ -148,11 +148,14 @@ class Variables(Domain[Env]):
             value = given.get(parameter.name, Constant(parameter.default))
             yield (function.method, parameter.name), (SET, self._value(place, known, value, parameter.unit, node))
 
-    def enter_round(self, place: Place, known: Env, node: n.ForEach, items: Sequence[Expression]) -> Env:
-        """Return that the loop's variable is one of the items."""
+    def enter_round(
+        self, place: Place, known: Env, node: n.ForEach, items: Sequence[Expression], rounds: Range
+    ) -> Env:  # fmt: skip
+        """Return that the loop's variable is one of the items, and its number one of the rounds."""
         inside = self.types_at(place.frame.name, node.body[0]) if node.body else {}
         unit = inside.get(node.variable, UNKNOWN_TYPE).unit
         contents = [(SET, self._value(place, known, item, unit, node)) for item in items]
+        known[id(node), node.index] = (SET, rounds)
         known[id(node), node.variable] = reduce(_either, contents) if contents else _ANYTHING
         return known
 
@@ -293,7 +296,7 @@ class Variables(Domain[Env]):
     def _key_of(self, place: Place, name: str) -> Key:
         frame = place.frame
         for loop in reversed(frame.loops):
-            if loop.variable == name:
+            if name in loop.names:
                 return id(loop), name
         function = frame.function
         if function is not None and name in place.effects.own[function.method]:

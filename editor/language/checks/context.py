@@ -78,7 +78,7 @@ class Context:
             tree = self.tree
             bodies = (tree.body, *(event.body for event in tree.events), *(each.body for each in tree.functions))
             nodes = [node for body in bodies for node in tree.walked(body)]
-            loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
+            loops = {name for node in nodes if isinstance(node, n.ForEach) for name in node.names}
             self._changing = frozenset(loops.union(map(set_by, nodes)))
         return self._changing
 

@@ -99,7 +99,16 @@ _REPEAT = Construct(
 )
 _FOR_EACH = Construct(
     "for_each",
-    (Form("ForEach", (Field("variable", "loop_variable", suggested="item"), Field("items", "values"))),),
+    (
+        Form(
+            "ForEach",
+            (
+                Field("variable", "loop_variable", suggested="item"),
+                Field("items", "values"),
+                Field("index", "loop_variable", optional=True),
+            ),
+        ),
+    ),
     Look("foreach", "logic", "header", "E"),
     BODY,
     loops=True,

@@ -89,7 +89,11 @@ def _call(encoder: StepEncoder, node: n.Call) -> EncodedStep:
 
 def _for_each(encoder: StepEncoder, node: n.ForEach) -> EncodedStep:
     items = [write_value(item) for item in node.items]
-    return "for_each", _present(variable=node.variable or None, items=items), (("body", node.body),)
+    return (
+        "for_each",
+        _present(variable=node.variable or None, items=items, index=node.index or None),
+        (("body", node.body),),
+    )
 
 
 Encode = Callable[[StepEncoder, Any], EncodedStep]

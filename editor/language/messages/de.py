@@ -82,6 +82,7 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "times_not_whole": "Wie oft, ist eine ganze Zahl ab 0.",
     "return_outside_function": "Nur eine Funktion kann etwas zurückgeben. Beenden Sie stattdessen das Programm.",
     "break_outside_loop": "Um diesen Schritt gibt es keine Schleife, die er verlassen könnte.",
+    "same_name": "Die Nummer der Runde braucht einen anderen Namen als der Eintrag, {variable}.",
     "continue_outside_loop": "Um diesen Schritt gibt es keine Schleife, die mit der nächsten Runde weitermachen "
     "könnte. Setzen Sie ihn in eine, oder löschen Sie ihn.",
     "leaves_parallel": "Dieser Schritt würde einen parallelen Zweig verlassen. Lassen Sie den Zweig zu Ende gehen.",

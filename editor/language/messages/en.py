@@ -83,6 +83,7 @@ TEXTS: Final[Mapping[str, Text]] = {
     "times_not_whole": ("error", "How many times must be a whole number, 0 or more."),
     "return_outside_function": ("error", "Only a function can give something back. End the program instead."),
     "break_outside_loop": ("error", "There is no loop around this step that could be left."),
+    "same_name": ("error", "The number of the round needs another name than the item, {variable}."),
     "continue_outside_loop": (
         "error",
         "There is no loop around this step that could go on with its next round. Put it into one, or delete it.",

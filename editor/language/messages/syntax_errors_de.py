@@ -164,6 +164,8 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "Name each: {x}.": "Nennen Sie jedes einzeln: {x}.",
     "A loop has one name, without self. Write {x}: or {y}:.": "Eine Schleife hat einen Namen, ohne self. Schreiben Sie "
     "{x}: oder {y}:.",
+    "Rounds are counted from 1. Write {x}:.": "Runden werden von 1 an gezählt. Schreiben Sie {x}:.",
+    "Give the number of the round a name of its own.": "Geben Sie der Nummer der Runde einen eigenen Namen.",
     "Set one variable on each line: self.count = 1.": "Setzen Sie in jeder Zeile eine Variable: self.count = 1.",
     "Leave the type out: {x}.": "Lassen Sie den Typ weg: {x}.",
     # run and the class

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import OF_PROBLEM
+from editor.language.expressions.value_types import NUMBER
 from editor.language.plan import instructions as p
 from editor.language.plan.builder import Around, Builder, Composite, Guard, Leaves, Loop
 from editor.language.tree import nodes as n
@@ -61,9 +62,13 @@ def compile_for_each(builder: Builder, node: n.ForEach, leaves: Leaves) -> None:
     items = [_kept(builder, item) for item in items]
     outside, types = builder.renamed, builder.types
     variable = builder.hide(node.variable)
-    builder.renamed, builder.types = {**outside, node.variable: variable}, {**types, node.variable: value_type}
     branch = builder.add(p.Jump(0), node)
     _choose(builder, index, variable, items)
+    builder.renamed, builder.types = {**outside, node.variable: variable}, {**types, node.variable: value_type}
+    if node.index:
+        number = builder.hide(node.index)
+        builder.renamed[node.index], builder.types = number, {**builder.types, node.index: NUMBER}
+        builder.add(p.Assign(number, e.Operation("+", (index, _ONE))))
     loop = _body(builder, node)
     builder.renamed, builder.types = outside, types
     builder.add(p.Assign(index.name, e.Operation("+", (index, _ONE))))

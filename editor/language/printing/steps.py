@@ -140,10 +140,11 @@ def _repeat(printer: Printer, node: Repeat, depth: int) -> None:
 
 def _for_each(printer: Printer, node: ForEach, depth: int) -> None:
     items = ", ".join(map(printer.value, node.items))
-    printer.line(depth, f"for {node.variable or '_'} in [{items}]:", node.step)
+    name, listed = node.variable or "_", f"[{items}]"
+    head = f"for {node.index}, {name} in enumerate({listed}, 1):" if node.index else f"for {name} in {listed}:"
+    printer.line(depth, head, node.step)
     outside = printer.locals
-    if node.variable and node.variable not in outside:
-        printer.locals = (*outside, node.variable)
+    printer.locals = (*outside, *(each for each in node.names if each not in outside))
     printer.block(node.body, depth + 1)
     printer.locals = outside
 

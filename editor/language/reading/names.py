@@ -39,10 +39,15 @@ def _root_of(step: str, name: str, outline: Outline, parents: Mapping[str, str])
     """Return the program or the function that a step belongs to; None for a draft, or for a loop's own variable."""
     here = parents.get(step)
     while here is not None and here in outline.kinds:
-        if outline.kinds[here] == "for_each" and text_of(outline.params[here].get("variable")) == name:
+        if outline.kinds[here] == "for_each" and name in names_of_loop(outline.params[here]):
             return None
         here = parents.get(here)
     return here
+
+
+def names_of_loop(params: Mapping[str, object]) -> tuple[str, ...]:
+    """Return the names that a For-each gives to its item and to the number of the round."""
+    return tuple(filter(None, (text_of(params.get("variable")), text_of(params.get("index")))))
 
 
 def by_id(value: object) -> dict[str, Mapping[str, object]]:

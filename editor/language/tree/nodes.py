@@ -124,12 +124,18 @@ class Repeat:
 
 @dataclass(frozen=True, slots=True)
 class ForEach:
-    """The body once for each item, which `variable` holds."""
+    """The body once for each item, which `variable` holds; `index` holds the number of the round, from 1."""
 
     variable: str
     items: tuple[Expression, ...] = ()
+    index: str = ""
     body: Block = ()
     step: str = field(default="", compare=False)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Return the names that its body alone sees."""
+        return tuple(name for name in (self.variable, self.index) if name)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from editor.language.expressions.nodes import OF_PROBLEM, Expression, Variable
 from editor.language.expressions.units import PLAIN, UNSAID, is_measure
-from editor.language.expressions.value_types import TEXT, UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
+from editor.language.expressions.value_types import NUMBER, TEXT, UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
 from editor.language.expressions.values import parts_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
@@ -55,7 +55,8 @@ def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings) -> 
     for node, loops in with_loops(block):
         if loops not in inside:
             around, loop = inside[loops[:-1]], loops[-1]
-            inside[loops] = {**around, loop.variable: type_of_items(loop.items, around, surroundings)}
+            items = type_of_items(loop.items, around, surroundings)
+            inside[loops] = {**around, loop.index: NUMBER, loop.variable: items}
         if loops:
             found[id(node)] = inside[loops]
     return found
@@ -73,7 +74,7 @@ class _Setter:
         hidden: set[str] = set()
         for loop in self.loops:
             yield from (name for name in _names_in(loop.items) if name not in hidden)
-            hidden.add(loop.variable)
+            hidden.update(loop.names)
         yield from (name for name in read_by(self.node) if name not in hidden)
 
 
@@ -128,7 +129,7 @@ class _Inference:
         for loop in loops:
             checker = TypeChecker(self.surroundings, types, [])
             item = _joined(map(checker.type_of, loop.items)) or UNKNOWN_TYPE
-            types = ChainMap({loop.variable: item}, types)  # type: ignore[arg-type]  # only read
+            types = ChainMap({loop.index: NUMBER, loop.variable: item}, types)  # type: ignore[arg-type]  # only read
         return types
 
 
@@ -144,7 +145,7 @@ def _with_types_set_in(
     for body in bodies:
         for node, loops in with_loops(body):
             name = set_by(node)
-            if name in wanted and all(loop.variable != name for loop in loops):
+            if name in wanted and all(name not in loop.names for loop in loops):
                 inference.setters.setdefault(name, []).append(_Setter(node, loops))
     inference.run()
     return {name: found if name in known else _settled(found) for name, found in inference.types.items()}

@@ -136,6 +136,6 @@ def _names_set_in(block: Block, loops: frozenset[str]) -> Iterator[str]:
         name = set_by(node)
         if name and name not in loops:
             yield name
-        inside = loops | {node.variable} if isinstance(node, ForEach) else loops
+        inside = loops.union(node.names) if isinstance(node, ForEach) else loops
         for inner in blocks_of(node):
             yield from _names_set_in(inner, inside)

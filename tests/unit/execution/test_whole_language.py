@@ -12,8 +12,8 @@ SCRIPT = """class Task(object):
         self.count = 0
         for _ in range(2):
             self.count = self.count + 1
-        for station in [self.shelf, self.booth]:
-            if self.count > 5:
+        for number, station in enumerate([self.shelf, self.booth], 1):
+            if number > 5:
                 continue
             self.robot.move(station.location)
             if distance(self.robot, self.shelf) < 3:

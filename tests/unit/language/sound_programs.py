@@ -27,7 +27,7 @@ HOLDING: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "if": ({"condition": HOT}, ("then", "else")),
     "while": ({"condition": HOT}, ("body",)),
     "repeat": ({"times": 2}, ("body",)),
-    "for_each": ({"variable": "item", "items": [1, 2, 3]}, ("body",)),
+    "for_each": ({"variable": "item", "items": [1, 2, 3], "index": "number"}, ("body",)),
     "try": ({"kinds": ["failed"]}, ("body", "catch", "finally")),
     "parallel": ({"branches": ["a", "b"]}, ("a", "b")),
 }

@@ -126,7 +126,9 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
         }
     ),
     "repeat": st.fixed_dictionaries({"times": values}),
-    "for_each": st.fixed_dictionaries({"variable": variables, "items": st.lists(values, max_size=3)}),
+    "for_each": st.fixed_dictionaries(
+        {"variable": variables, "items": st.lists(values, max_size=3), "index": variables}
+    ),
     "set": st.fixed_dictionaries({"variable": variables, "value": values}),
     "ask": st.fixed_dictionaries(
         {"question": values, "answer": answers, "variable": variables, "timeout": st.one_of(st.none(), values)}

@@ -85,6 +85,11 @@ def told(case: str, fails: str = "") -> str:
             "continue-goes-on-with-the-innermost",
             "+r +q +c -c +c -c -q +m “again” -m +q +c -c +c -c -q +m “again” -m -r",
         ),
+        ("for-each-with-its-number", "+f +n “1: a” -n +w 60s -w +n “2: b” -n +w 120s -w -f"),
+        (
+            "for-each-numbers-in-each-other",
+            "+f +g +n “1: a” -n -g +m “1: a” -m +g +n “1: b” -n -g +m “2: b” -m -f",
+        ),
         ("set-and-count", "+s -s +r +t -t +t -t +t -t -r +n “Painted 3” -n"),
         ("set-in-a-function-is-its-own", "+c +s -s +w 2s -w -c"),
         ("set-in-a-function-for-the-program", "+s -s +c +t -t -c +w 2s -w"),

@@ -15,6 +15,8 @@ const DOCUMENT: ProgramDocument = {
   steps: {
     ask: step("ask", ["program", "body", "A"], { variable: "dry", answer: { type: "choice", options: ["a"] } }),
     loop: step("for_each", ["program", "body", "B"], { variable: "mixer", items: [{ at: { device: "m1" } }] }),
+    counted: step("for_each", ["program", "body", "D"], { variable: "colour", items: ["red"], index: "number" }),
+    inCounted: step("wait", ["counted", "body", "A"]),
     inner: step("operate", ["loop", "body", "A"]),
     call: step("call", ["program", "body", "C"], { function: "mix", result: "total" }),
     local: step("set", ["mix", "body", "A"], { variable: "count", value: { quantity: [3, "MIN"] } }),
@@ -32,6 +34,14 @@ test("inside a loop its variable comes first, then what the program sets and tak
     { name: "total", type: "number" },
     { name: "boxes", type: "number" },
   ]);
+});
+
+test("a loop that counts its rounds has a number, too", () => {
+  expect(knownNames(DOCUMENT, "inCounted").slice(0, 2)).toEqual([
+    { name: "number", type: "number" },
+    { name: "colour", type: "text" },
+  ]);
+  expect(freshName(DOCUMENT, "number")).toBe("number2");
 });
 
 test("inside a function its parameters and its own names come before the program's", () => {

@@ -35,7 +35,7 @@ export function namesSet(document: ProgramDocument, functionId: string | null): 
 export function freshName(document: ProgramDocument, stem: string): string {
   const taken = new Set(
     Object.values(document.steps)
-      .map((step) => step.params.variable ?? step.params.result)
+      .flatMap((step) => [step.params.variable ?? step.params.result, step.params.index])
       .concat(Object.values(document.parameters).map((parameter) => parameter.name)),
   );
   for (let count = 1; ; count += 1) {
@@ -69,7 +69,7 @@ function setName(step: Step, document: ProgramDocument): Parameter[] {
 function loopName(step: Step | undefined): Parameter[] {
   if (step?.kind !== "for_each") return [];
   const items = Array.isArray(step.params.items) ? (step.params.items as unknown[]) : [];
-  return named(step.params.variable, typeOf(items[0]));
+  return [...named(step.params.index, { type: "number" }), ...named(step.params.variable, typeOf(items[0]))];
 }
 
 /** What a catch knows of the failure; `inner` is the step that stands in the Try. */

@@ -30,6 +30,7 @@ test.each<[string, Step["params"], string]>([
   ["repeat", {}, "repeat ? ×"],
   ["for_each", { variable: "box", items: ["a", "b", "c"] }, "each box in a, b +1"],
   ["for_each", { variable: "box", items: [] }, "each box in ?"],
+  ["for_each", { variable: "box", items: ["a"], index: "number" }, "each box (number) in a"],
   ["set", { variable: "count", value: { op: "+", args: [{ param: "count" }, 1] } }, "count = count + 1"],
   ["set", {}, "? = ?"],
   ["ask", { question: "Is it dry?" }, "Ask Is it dry?"],

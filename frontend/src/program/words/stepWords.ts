@@ -126,8 +126,9 @@ function forEachText(step: Step, speaker: Speaker): TextPart[] {
   const [first, second, ...rest] = items.map((each) => valueText(each, speaker) ?? "?");
   const names = [first, second].filter((name) => name !== undefined).join(", ");
   const variable = textOf(step.params.variable) || "?";
+  const index = textOf(step.params.index);
   return [
-    plain(speaker.t("chip.for_each", { variable })),
+    plain(speaker.t(index ? "chip.for_each_counted" : "chip.for_each", { variable, index })),
     items.length === 0 ? MISSING : plain(rest.length > 0 ? `${names} +${rest.length}` : names),
   ];
 }

@@ -16,6 +16,7 @@ export function ForEachForm() {
       <ItemsField />
       <VariableField label={t("for_each.variable")} field="variable" />
       <p className={classes.now}>{t("for_each.note")}</p>
+      <VariableField label={t("for_each.index")} field="index" optional placeholder={t("for_each.no_index")} />
     </>
   );
 }
