@@ -177,7 +177,7 @@ def _settled(walk: Walk, node: Loop, entry: States) -> States:
     return walk.disturb(entry, effects)
 
 
-def _round(  # noqa: PLR0913 - a loop with what is known, and which of its rounds it is
+def _round(
     walk: Walk,
     node: Loop,
     states: States,

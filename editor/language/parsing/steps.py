@@ -12,7 +12,7 @@ from editor.language.document.outline import DEEPEST_STEP
 from editor.language.expressions import nodes as e
 from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
 from editor.language.expressions.nodes import Expression, PlaceRef
-from editor.language.messages.syntax_errors import instead_of_call, instead_of_expression, instead_of_statement
+from editor.language.messages.syntax_errors import instead_of_call, instead_of_statement
 from editor.language.parsing.answers import (
     alone,
     unknown_device,
@@ -20,7 +20,6 @@ from editor.language.parsing.answers import (
     unknown_method,
     unknown_name,
     unknown_robot,
-    what_it_is,
 )
 from editor.language.parsing.bindings import parse_arguments
 from editor.language.parsing.calls import ASSIGNED_CALLS, OWN_CALLS, ROBOT_CALLS

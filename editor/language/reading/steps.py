@@ -12,7 +12,7 @@ from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, i
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.reading.fields import FIELD_READERS, LISTS, read_route
-from editor.language.reading.names import names_of_loop, text_of
+from editor.language.reading.names import names_of_loop
 from editor.language.reading.reader import Reader, Reads, operated_role
 from editor.language.tree.nodes import (
     ERROR_CLASSES,
