@@ -46,6 +46,8 @@ class Draft:
     steps: Json = field(default_factory=dict)
     known: set[str] = field(default_factory=set)
     functions: Json = field(default_factory=dict)
+    lists: bool = False
+    """Whether some step has set a list."""
 
     def add(self, parent: str, branch: str, kind: str, params: Json) -> str:
         """Add a step at the end of a branch."""
@@ -67,6 +69,9 @@ class Draft:
                 "if",
                 "repeat",
                 "each",
+                "list",
+                "of_list",
+                "item",
                 "while",
                 "call",
                 "parallel",
@@ -144,6 +149,35 @@ class Draft:
         self.known |= {"item", "round"}
         self.block(step, "body", depth + 1, inside | {"break", "next_round"})
         self.known -= {"item", "round"} - before
+
+    def _list(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        """A list that is set anew, or gets an item more."""
+        item = {"op": "list", "args": [self.number()]}
+        longer = {"op": "+", "args": [{"param": "items"}, item]}
+        whole = {"op": "list", "args": [self.number() for _ in range(self.chance.randrange(3))]}
+        again = self.lists and self.chance.random() < 0.6
+        self.add(parent, branch, "set", {"variable": "items", "value": longer if again else whole})
+        self.lists = True
+
+    def _of_list(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        if self.lists:
+            params = {"variable": "item", "index": "round", "list": {"param": "items"}}
+            step, before = self.add(parent, branch, "for_each", params), set(self.known)
+            self.known |= {"item", "round"}
+            self.block(step, "body", depth + 1, inside | {"break", "next_round"})
+            self.known -= {"item", "round"} - before
+
+    def _item(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        """One item, by a number that may be too large, sometimes only where the list is long enough."""
+        if not self.lists:
+            return
+        number = self.number()
+        if self.chance.random() < 0.5:
+            enough = {"op": ">=", "args": [{"op": "len", "args": [{"param": "items"}]}, 2]}
+            parent, branch, number = self.add(parent, branch, "if", {"condition": enough}), "then", 2
+        name = self.chance.choice(NAMES)
+        value = {"op": "nth", "args": [{"param": "items"}, number]}
+        self.add(parent, branch, "set", {"variable": name, "value": value})
 
     def _while(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         step = self.add(parent, branch, "while", {"condition": self.condition()})

@@ -120,10 +120,11 @@ def _repeat(walk: Walk, node: n.Repeat, states: States) -> States | None:
 
 
 def _for_each(walk: Walk, node: n.ForEach, states: States) -> States | None:
+    least, most = walk.length(node, states)
     with walk.again():
-        if not walk.domains or len(node.items) > MOST_COUNTED:
-            return _uncounted(walk, node, states, walk.copy(states), [], goes_round=bool(node.items))
-        return _counted(walk, node, node.items, states)
+        if not walk.domains or least < most or most > MOST_COUNTED:
+            return _uncounted(walk, node, states, walk.copy(states), [], goes_round=least > 0)
+        return _counted(walk, node, node.items if node.over is None else [node.over] * most, states)
 
 
 def _counted(walk: Walk, node: n.Repeat | n.ForEach, items: Sequence[Any], states: States) -> States | None:
@@ -191,7 +192,7 @@ def _round(
     frame.continues.append([])
     if isinstance(node, n.ForEach):
         rows = zip(walk.domains, states, strict=True)
-        these = rounds or Range(1, max(1, len(node.items)))
+        these = rounds or Range(1, max(1, walk.length(node, states)[1]))
         states = [domain.enter_round(walk, known, node, items, these) for domain, known in rows]
         frame.loops = (*outside, node)
     begun = walk.copy(states) if walk.tree.holds(n.Continue) else states

@@ -8,16 +8,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
-from math import inf
+from math import ceil, floor, inf
 from typing import ClassVar, Final
 
 from editor.language.analysis.domain import Domain, Place, Transfer
 from editor.language.analysis.effects import Effects
-from editor.language.expressions.nodes import Constant, Expression, Operation, Variable
-from editor.language.expressions.ranges import ANY, Here, Known, Range, limited
+from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
+from editor.language.expressions.ranges import ANY, MOST_WORDS, Here, Items, Known, Range, either_known, limited
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker, ValueType
-from editor.language.expressions.values import is_number
+from editor.language.expressions.values import MOST_ITEMS, is_number
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
 
@@ -32,7 +32,6 @@ _ANYTHING: Final[Content] = (SET, None)
 _ELSE: Final = ("", "")
 """The key of what holds for every variable of the program that is not named."""
 _RESULT: Final = ("", "result")
-MOST_WORDS = 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +154,9 @@ class Variables(Domain[Env]):
         inside = self.types_at(place.frame.name, node.body[0]) if node.body else {}
         unit = inside.get(node.variable, UNKNOWN_TYPE).unit
         contents = [(SET, self._value(place, known, item, unit, node)) for item in items]
+        if node.over is not None:
+            listed = self._value(place, known, node.over, "", node)
+            contents = [(SET, listed.each if isinstance(listed, Items) else None)]
         known[id(node), node.index] = (SET, rounds)
         known[id(node), node.variable] = reduce(_either, contents) if contents else _ANYTHING
         return known
@@ -197,7 +199,7 @@ class Variables(Domain[Env]):
         if name:
             key = self._key_of(place, name)
             if place.put is not None and isinstance(key, str):
-                place.put[key] = _together(place.put.get(key, value), value)
+                place.put[key] = either_known(place.put.get(key, value), value)
             known[key] = (SET, value)
         return known
 
@@ -210,7 +212,7 @@ class Variables(Domain[Env]):
         if name not in place.volatile or not isinstance(key, str):
             return found
         beside = place.volatile[name]
-        return found[0], beside if found[0] == UNSET or beside is None else _together(found[1], beside)
+        return found[0], beside if found[0] == UNSET or beside is None else either_known(found[1], beside)
 
     def state_of(self, place: Place, name: str) -> int:
         """Return whether a variable has a value at a place: `SET`, `MAYBE` or `UNSET`."""
@@ -231,6 +233,13 @@ class Variables(Domain[Env]):
             return 0, None
         least = max(0, int(found.least)) if found.least > -inf else 0
         return least, None if found.most == inf else max(0, int(found.most))
+
+    def length(self, place: Place, known: Env, node: n.ForEach) -> tuple[int, int]:
+        """Return how many items a loop goes through, at least and at most."""
+        if node.over is None:
+            return len(node.items), len(node.items)
+        listed = self._value(place, known, node.over, "", node)
+        return (listed.least, listed.most) if isinstance(listed, Items) else (0, MOST_ITEMS)
 
     def value(self, place: Place, expression: Expression, node: n.Node) -> Known:
         """Return what is known of a value at a place."""
@@ -278,9 +287,33 @@ class Variables(Domain[Env]):
             ) if is_number(value) and (name == "!=") == holds:
                 self._narrow(place, known, variable, _without(self.content(place, known, variable)[1], value))
             case Operation(operator=name, arguments=arguments) if name in _OPPOSITE:
-                found = limited(condition if holds else Operation(_OPPOSITE[name], arguments))
-                if found is not None and isinstance(found[0], Variable):
-                    self._narrow(place, known, found[0].name, found[1])
+                self._limit(place, known, condition if holds else Operation(_OPPOSITE[name], arguments))
+
+    def _limit(self, place: Place, known: Env, comparison: Operation) -> None:
+        """Take in a comparison that holds: of a variable with a number, or of how long its list is."""
+        match comparison:
+            case Operation(
+                operator=name, arguments=(Operation(operator="len", arguments=(Variable() as whole,)), most)
+            ):
+                self._narrow_length(place, known, whole.name, limited(Operation(name, (whole, most))))
+                return
+        found = limited(comparison)
+        if found is not None and isinstance(found[0], Variable):
+            self._narrow(place, known, found[0].name, found[1])
+
+    def _narrow_length(
+        self, place: Place, known: Env, name: str, found: tuple[Reading | Variable, Range] | None
+    ) -> None:  # fmt: skip
+        """Take in that a list has so many items."""
+        listed = self.content(place, known, name)[1]
+        if found is None:
+            return
+        items, limits = listed if isinstance(listed, Items) else Items(), found[1]
+        least = floor(limits.least) + 1 if limits.least_open else ceil(limits.least) if limits.least > -inf else 0
+        most = ceil(limits.most) - 1 if limits.most_open else floor(limits.most) if limits.most < inf else items.most
+        least, most = max(items.least, least), min(items.most, most)
+        if least <= most:
+            self._narrow(place, known, name, Items(least, most, items.each))
 
     def _narrow(self, place: Place, known: Env, name: str, to: Known) -> None:
         state, value = self.content(place, known, name)
@@ -324,17 +357,7 @@ def _either(first: Content, second: Content) -> Content:
     state = first[0] if first[0] == second[0] else MAYBE
     if UNSET in {first[0], second[0]}:
         return state, first[1] if second[0] == UNSET else second[1]
-    return state, _together(first[1], second[1])
-
-
-def _together(first: Known, second: Known) -> Known:
-    if isinstance(first, Range) and isinstance(second, Range):
-        low = min((first.least, first.least_open), (second.least, second.least_open))
-        high = max((first.most, not first.most_open), (second.most, not second.most_open))
-        return Range(low[0], high[0], low[1], not high[1], not (first.has_zero or second.has_zero))
-    if isinstance(first, frozenset) and isinstance(second, frozenset) and len(first | second) <= MOST_WORDS:
-        return first | second
-    return None
+    return state, either_known(first[1], second[1])
 
 
 def _without(known: Known, number: float) -> Known:
@@ -352,6 +375,10 @@ def _widened(before: Content, after: Content) -> Content:
         falls, grows = value.least < first.least, value.most > first.most
         found = Range(-inf if falls else value.least, inf if grows else value.most)
         return state, None if found == ANY else found
+    if isinstance(first, Items) and isinstance(value, Items) and value != first:
+        least, most = 0 if value.least < first.least else first.least, first.most
+        each = value.each if value.each == first.each else None
+        return state, Items(least, MOST_ITEMS if value.most > most else most, each)
     return state, value
 
 

@@ -12,7 +12,7 @@ from editor.language.analysis.effects import Effects, EffectTable, together
 from editor.language.analysis.memo import Memo
 from editor.language.expressions.nodes import Constant
 from editor.language.expressions.ranges import Known
-from editor.language.expressions.values import is_number
+from editor.language.expressions.values import MOST_ITEMS, is_number
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.tree import nodes as n
 
@@ -31,6 +31,9 @@ class Values(Protocol):
 
     def count(self, place: Place, known: Any, node: n.Repeat) -> tuple[int, int | None]:
         """Return how often a counted loop goes round, at least and at most."""
+
+    def length(self, place: Place, known: Any, node: n.ForEach) -> tuple[int, int]:
+        """Return how many items a loop goes through, at least and at most."""
 
     def assume(self, place: Place, known: Any, node: n.If | n.While, *, holds: bool) -> Any:
         """Return what is known of the variables where a step's condition holds, or does not."""
@@ -245,6 +248,12 @@ class Walk:
         if is_number(times):
             return (max(0, int(times)),) * 2
         return (0, None) if self.values is None else self.values.count(self, states[0], node)
+
+    def length(self, node: n.ForEach, states: States) -> tuple[int, int]:
+        """Return how many items a loop goes through, at least and at most."""
+        if self.values is not None:
+            return self.values.length(self, states[0], node)
+        return (len(node.items),) * 2 if node.over is None else (0, MOST_ITEMS)
 
     def assume(self, states: States, node: n.Node, *, holds: bool) -> States:
         """Return what is known where a step's condition holds, or does not; `states` is used up."""

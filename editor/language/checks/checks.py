@@ -24,6 +24,7 @@ from editor.language.checks.values import (
     check_condition,
     check_given,
     check_kept,
+    check_length,
     check_limits,
     check_quantity,
     check_value,
@@ -34,7 +35,7 @@ from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Expression
 from editor.language.expressions.units import PLAIN
-from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value
+from editor.language.expressions.value_types import LIST, NUMBER, SECONDS, TEXT, ValueType, constant_value
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
 from editor.language.messages.phrases import Options
 from editor.language.reading.document import ReadDocument
@@ -237,9 +238,14 @@ def _repeat(context: Context, node: n.Repeat) -> None:
 def _for_each(context: Context, node: n.ForEach) -> None:
     if not node.variable:
         context.report(node, "missing_variable", "variable")
-    if not node.items or any(map(has_missing, node.items)):
-        context.report(node, "missing_items", "items")
-    items = type_of_items(node.items, context.variables, context.surroundings)
+    if node.over is not None:
+        check_value(context, node, node.over, "list", LIST, "What the loop goes through")
+    elif not node.items or any(map(has_missing, node.items)):
+        chosen = context.raw_value(node.step, "list") is not None
+        context.report(node, "missing_items", "list" if chosen else "items")
+    else:
+        check_length(context, node, node.items, "items")
+    items = type_of_items(node, context.variables, context.surroundings)
     for item in node.items:
         if not has_missing(item):
             check_kept(context, node, item, "items", items if items.type == "number" else ValueType(), "A value")

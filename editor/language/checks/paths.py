@@ -33,6 +33,7 @@ _MILDER: Mapping[str, str] = {
     "unset_variable": "may_be_unset",
     "out_of_range": "may_be_out_of_range",
     "divided_by_zero": "may_divide_by_zero",
+    "no_such_item": "may_be_no_such_item",
     "no_robot_yet": "perhaps_no_robot_yet",
 }
 """What is sure on one path is not told again as what may be on another."""

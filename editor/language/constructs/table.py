@@ -106,6 +106,7 @@ _FOR_EACH = Construct(
                 Field("variable", "loop_variable", suggested="item"),
                 Field("items", "values"),
                 Field("index", "loop_variable", optional=True),
+                Field("list", "value", "list", at="over", optional=True),
             ),
         ),
     ),

@@ -27,8 +27,10 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "Write if and else on lines of their own.": "Schreiben Sie if und else in eigene Zeilen.",
     "Set the variable on a line of its own: self.count = 1.": "Setzen Sie die Variable in einer eigenen Zeile: "
     "self.count = 1.",
-    "Name a value itself; the language has no places in lists.": "Nennen Sie den Wert selbst; die Sprache hat keine "
-    "Plätze in Listen.",
+    "Take one item at a time: {x}.": "Nehmen Sie einen Eintrag auf einmal: {x}.",
+    'Write a text with the value in it: f"{self.count} boxes".': "Schreiben Sie einen Text mit dem Wert darin: "
+    'f"{{self.count}} boxes".',
+    "Items are counted from 1. Write {x}.": "Einträge werden von 1 an gezählt. Schreiben Sie {x}.",
     "Leave “await” out: a script waits by itself until a step is done.": "Lassen Sie „await“ weg: Ein Skript wartet "
     "von selbst, bis ein Schritt fertig ist.",
     "Write return to give a value.": "Schreiben Sie return, um einen Wert zu geben.",
@@ -49,9 +51,6 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "Write the value itself.": "Schreiben Sie den Wert selbst.",
     "A script reads no files. Use readings of devices, parameters and questions.": "Ein Skript liest keine Dateien. "
     "Verwenden Sie Messwerte von Geräten, Parameter und Fragen.",
-    "Use count(condition, …), or write the number.": "Verwenden Sie count(Bedingung, …) oder schreiben Sie die Zahl.",
-    'Write a text with the value in it: f"{self.count} boxes".': "Schreiben Sie einen Text mit dem Wert darin: "
-    'f"{{self.count}} boxes".',
     "Use round(…), or write the number.": "Verwenden Sie round(…) oder schreiben Sie die Zahl.",
     "Leave “float” out and write the value.": "Lassen Sie „float“ weg und schreiben Sie den Wert.",
     "Say what it does, for example {x} or {y}.": "Sagen Sie, was es tut, zum Beispiel {x} oder {y}.",

@@ -22,7 +22,15 @@ from editor.language.expressions.nodes import (
     Variable,
 )
 from editor.language.expressions.units import UNITS, unit_code
-from editor.language.expressions.values import DEEPEST_EXPRESSION, FUNCTIONS, arity_fits, is_number, operation, plain
+from editor.language.expressions.values import (
+    DEEPEST_EXPRESSION,
+    FUNCTIONS,
+    MOST_ITEMS,
+    arity_fits,
+    is_number,
+    operation,
+    plain,
+)
 from editor.language.messages.syntax_errors import (
     NAMES,
     instead_of_call,
@@ -38,7 +46,7 @@ from editor.language.parsing.answers import (
     unknown_value,
     what_is_called,
 )
-from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted
+from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted, written
 from editor.language.tree.robots import is_robot
 from vipo_device.protocol.description import Scalar
 
@@ -91,7 +99,11 @@ def _constant(node: ast.Constant, scope: Scope, depth: int) -> Expression:
     return MISSING if scalar is None else Constant(scalar)
 
 
-def _list(node: ast.Tuple | ast.List, scope: Scope, depth: int) -> Expression:
+def _list(node: ast.List, scope: Scope, depth: int) -> Expression:
+    return operation("list", tuple(parse_expression(item, scope, depth) for item in node.elts))
+
+
+def _tuple(node: ast.Tuple, scope: Scope, depth: int) -> Expression:
     scalars = tuple(parse_scalar(item) for item in node.elts)
     if not scalars or None in scalars:
         raise Refused(node, quoted(node), "Write at least one value between the brackets.")
@@ -249,6 +261,20 @@ def _binary_operation(node: ast.BinOp, scope: Scope, depth: int) -> Expression:
     return operation(name, (parse_expression(node.left, scope, depth), parse_expression(node.right, scope, depth)))
 
 
+def _item(node: ast.Subscript, scope: Scope, depth: int) -> Expression:
+    """Refuse `items[0]`: what it means differs by one from how people count."""
+    match node.slice:
+        case ast.Constant(value=int(number)) if 0 <= number < MOST_ITEMS:
+            instead = f"Items are counted from 1. Write nth({written(node.value)}, {number + 1})."
+        case ast.Constant(value=int()) | ast.UnaryOp():
+            instead = f"Items are counted from 1. Write nth({written(node.value)}, len({written(node.value)}))."
+        case ast.Slice() | ast.Constant():
+            raise Refused(node, quoted(node), "Take one item at a time: nth(self.colours, 1).")
+        case position:
+            instead = f"Items are counted from 1. Write nth({written(node.value)}, {written(position)} + 1)."
+    raise Refused(node, quoted(node), instead)
+
+
 def _comparison(node: ast.Compare, scope: Scope, depth: int) -> Expression:
     name = _COMPARE.get(type(node.ops[0]))
     if len(node.ops) == 1 and name is None:
@@ -261,7 +287,7 @@ def _comparison(node: ast.Compare, scope: Scope, depth: int) -> Expression:
 
 _PARSERS: Mapping[type[ast.expr], Callable[..., Expression]] = {
     ast.Constant: _constant,
-    ast.Tuple: _list,
+    ast.Tuple: _tuple,
     ast.List: _list,
     ast.Name: _name,
     ast.Attribute: _attribute,
@@ -271,6 +297,7 @@ _PARSERS: Mapping[type[ast.expr], Callable[..., Expression]] = {
     ast.BinOp: _binary_operation,
     ast.Compare: _comparison,
     ast.JoinedStr: _formatted,
+    ast.Subscript: _item,
 }
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from editor.language.messages.syntax_errors import instead_of_expression
 from editor.language.parsing.answers import unknown_device, what_it_is
-from editor.language.parsing.scope import Refused, Scope, quoted, written
+from editor.language.parsing.scope import Refused, Scope, attribute_of_self, quoted, written
 from editor.language.parsing.variables import check_local
 
 _MOST_TIMES = 10**6
@@ -22,6 +22,8 @@ class LoopHead:
     variable: str
     index: str
     items: list[ast.expr]
+    over: ast.expr | None = None
+    """The variable whose list it goes through."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -36,12 +38,12 @@ def parse_loop(loop: ast.For, scope: Scope) -> LoopHead:
         Refused: it is written otherwise.
     """
     match loop.target, loop.iter:
-        case ast.Name(id=name), ast.List(elts=items):
-            return LoopHead(_checked(name, loop.target), "", items)
+        case ast.Name(id=name), whole if _is_list(whole, scope):
+            return LoopHead(_checked(name, loop.target), "", *_listed(whole))
         case ast.Tuple(elts=[ast.Name() as index, ast.Name() as item]), ast.Call(func=ast.Name(id="enumerate")) as call:
             if index.id in {"_", item.id}:
                 raise Refused(index, quoted(index), "Give the number of the round a name of its own.")
-            return LoopHead(_checked(item.id, item), _checked(index.id, index), _numbered(call))
+            return LoopHead(_checked(item.id, item), _checked(index.id, index), *_listed(_numbered(call, scope)))
     raise _refused_loop(loop, scope)
 
 
@@ -52,14 +54,29 @@ def _checked(name: str, node: ast.AST) -> str:
     return name
 
 
-def _numbered(call: ast.Call) -> list[ast.expr]:
-    """Return the items of `enumerate([…], 1)`."""
+def _is_list(node: ast.expr, scope: Scope) -> bool:
+    """Tell whether something is a list that is written out, or a variable that may hold one."""
+    if isinstance(node, ast.Name):
+        return node.id in scope.locals
+    own = attribute_of_self(node)
+    binding = scope.bindings.get(own or "")
+    held = own is not None and (own in scope.variables or (binding is not None and binding.kind == "parameter"))
+    return isinstance(node, ast.List) or held
+
+
+def _listed(node: ast.expr) -> tuple[list[ast.expr], ast.expr | None]:
+    """Return the items that are written out, or else the variable."""
+    return (node.elts, None) if isinstance(node, ast.List) else ([], node)
+
+
+def _numbered(call: ast.Call, scope: Scope) -> ast.expr:
+    """Return what `enumerate(…, 1)` goes through."""
     match call:
         case (
-            ast.Call(args=[ast.List(elts=items), ast.Constant(value=1)], keywords=[])
-            | ast.Call(args=[ast.List(elts=items)], keywords=[ast.keyword(arg="start", value=ast.Constant(value=1))])
-        ):
-            return items
+            ast.Call(args=[whole, ast.Constant(value=1)], keywords=[])
+            | ast.Call(args=[whole], keywords=[ast.keyword(arg="start", value=ast.Constant(value=1))])
+        ) if _is_list(whole, scope):
+            return whole
     raise Refused(call, quoted(call), _NUMBERED)
 
 

@@ -162,11 +162,13 @@ class Parser:
                 return n.Repeat(self.value(times), self.block(statement.body))
         head = parse_loop(statement, self.scope)
         values = tuple(self.value(item) for item in head.items)
+        over = None if head.over is None else self.value(head.over)
+        assert over is None or isinstance(over, e.Variable), "the head of a loop names a variable"
         outside = self.scope.locals
         self.scope.locals = outside.union(head.names)
         body = self.block(statement.body)
         self.scope.locals = outside
-        return n.ForEach(head.variable, values, head.index, body)
+        return n.ForEach(head.variable, values, head.index, over, body)
 
     def _assign(self, target: ast.expr, value: ast.expr) -> n.Node:
         """Return the node of `self.x = 1`, `self.x = self.ask(…)` or `self.x = self.function(…)`."""

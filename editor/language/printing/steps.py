@@ -140,7 +140,7 @@ def _repeat(printer: Printer, node: Repeat, depth: int) -> None:
 
 def _for_each(printer: Printer, node: ForEach, depth: int) -> None:
     items = ", ".join(map(printer.value, node.items))
-    name, listed = node.variable or "_", f"[{items}]"
+    name, listed = node.variable or "_", f"[{items}]" if node.over is None else printer.value(node.over)
     head = f"for {node.index}, {name} in enumerate({listed}, 1):" if node.index else f"for {name} in {listed}:"
     printer.line(depth, head, node.step)
     outside = printer.locals

@@ -8,7 +8,7 @@ from editor.language.constructs.record import Construct, Form
 from editor.language.constructs.table import STEPS
 from editor.language.document.outline import Params, mapping
 from editor.language.expressions.names import local_name
-from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, is_missing
+from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, Variable, is_missing
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.reading.fields import FIELD_READERS, LISTS, read_route
@@ -109,8 +109,10 @@ def _call_argument(reader: Reader, step: str, given: Params, name: str) -> Expre
 
 def _for_each(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
     """The names of the loop can be seen in its body, and hide what else has these names."""
-    listed, named = params.get("items"), names_of_loop(params)
-    items = listed if isinstance(listed, list | tuple) else ()
+    written, named = params.get("items"), names_of_loop(params)
+    listed = reader.given(step, params, "list")
+    over = listed if isinstance(listed, Variable) else None
+    items = written if over is None and isinstance(written, list | tuple) else ()
     values = tuple(reader.value(step, {"items": item}, "items") for item in items)
     outside = reader.names
     for wanted in named:
@@ -123,7 +125,7 @@ def _for_each(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
         index = ""
         fix = Fix("remove", step, "index", None, {"value": variable})
         reader.problems.append(Problem("same_name", step, "index", {"variable": variable}, fix))
-    return (ForEach(variable, values, index, body, step),)
+    return (ForEach(variable, values, index, over, body, step),)
 
 
 _OWN: Mapping[str, Reads] = {

@@ -8,7 +8,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final, cast, get_args
 
 from editor.language.constructs.table import FORMS
-from editor.language.expressions.nodes import AnswerSpec, Expression, PlaceRef, Point
+from editor.language.expressions.nodes import AnswerSpec, Expression, PlaceRef, Point, Variable
 from vipo_device.protocol.description import Scalar
 
 if TYPE_CHECKING:
@@ -129,6 +129,8 @@ class ForEach:
     variable: str
     items: tuple[Expression, ...] = ()
     index: str = ""
+    over: Variable | None = None
+    """The variable whose list it goes through; then there are no `items`."""
     body: Block = ()
     step: str = field(default="", compare=False)
 

@@ -7,7 +7,7 @@ number. So a value's unit is known wherever it is read, and no step can make of 
 from __future__ import annotations
 
 from collections import ChainMap, deque
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.expressions.nodes import OF_PROBLEM, Expression, Variable
@@ -42,10 +42,20 @@ def types_in_function(tree: n.Tree, function: n.Function, outside: Types, surrou
     return _with_types_set_in((function.body,), own, known, tree, surroundings)
 
 
-def type_of_items(items: Sequence[Expression], types: Types, surroundings: Surroundings) -> ValueType:
-    """Return what the variable of a loop over these values holds."""
-    found = _joined(TypeChecker(surroundings, types, []).type_of(item) for item in items)
+def type_of_items(loop: n.ForEach, types: Types, surroundings: Surroundings) -> ValueType:
+    """Return what the variable of a loop over values holds."""
+    found = _item_type(loop, TypeChecker(surroundings, types, []))
     return UNKNOWN_TYPE if found is None else _settled(found)
+
+
+def _item_type(loop: n.ForEach, checker: TypeChecker) -> ValueType | None:
+    if loop.over is not None:
+        return checker.type_of(loop.over).item
+    return _joined(map(checker.type_of, loop.items))
+
+
+def _given_to(loop: n.ForEach) -> tuple[Expression, ...]:
+    return loop.items if loop.over is None else (loop.over,)
 
 
 def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings) -> dict[int, Types]:
@@ -55,7 +65,7 @@ def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings) -> 
     for node, loops in with_loops(block):
         if loops not in inside:
             around, loop = inside[loops[:-1]], loops[-1]
-            items = type_of_items(loop.items, around, surroundings)
+            items = type_of_items(loop, around, surroundings)
             inside[loops] = {**around, loop.index: NUMBER, loop.variable: items}
         if loops:
             found[id(node)] = inside[loops]
@@ -73,7 +83,7 @@ class _Setter:
         """Yield the names of variables on whose types the type that it sets depends."""
         hidden: set[str] = set()
         for loop in self.loops:
-            yield from (name for name in _names_in(loop.items) if name not in hidden)
+            yield from (name for name in _names_in(_given_to(loop)) if name not in hidden)
             hidden.update(loop.names)
         yield from (name for name in read_by(self.node) if name not in hidden)
 
@@ -128,7 +138,7 @@ class _Inference:
         types: Types = self.types
         for loop in loops:
             checker = TypeChecker(self.surroundings, types, [])
-            item = _joined(map(checker.type_of, loop.items)) or UNKNOWN_TYPE
+            item = _item_type(loop, checker) or UNKNOWN_TYPE
             types = ChainMap({loop.index: NUMBER, loop.variable: item}, types)  # type: ignore[arg-type]  # only read
         return types
 
@@ -174,6 +184,9 @@ def _joined(found: Iterable[ValueType]) -> ValueType | None:
         elif {joined.type, other.type} <= {"number", ""}:
             unit = max(joined.unit, other.unit, key=_exactness)
             joined = ValueType(joined.type or other.type, unit)
+        elif joined.type == other.type == "list" and (joined.of == other.of or not (joined.of and other.of)):
+            unit = max(joined.unit, other.unit, key=_exactness)
+            joined = ValueType("list", unit, joined.of or other.of)
     return joined
 
 
@@ -186,4 +199,6 @@ def _exactness(unit: str) -> int:
 
 def _settled(found: ValueType) -> ValueType:
     """Return the type of a variable of which all is known: what was given no unit is a plain number."""
+    if found.type == "list":
+        return ValueType("list", found.unit or PLAIN if found.of == "number" else "", found.of)
     return declared_type(found.type, found.unit) if found.type == "number" else ValueType(found.type)

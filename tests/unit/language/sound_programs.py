@@ -12,6 +12,7 @@ PLAIN: dict[str, dict[str, Any]] = {
     "wait": {"duration": {"quantity": [1, "MIN"]}},
     "notify": {"message": "done", "level": "warning"},
     "set": {"variable": "total", "value": 1},
+    "collect": {"variable": "all", "value": {"op": "+", "args": [{"param": "all"}, {"op": "list", "args": [4]}]}},
     "ask": {"question": "How many?", "answer": {"type": "number"}, "variable": "count"},
     "call": {"function": "f", "result": "total"},
     "end": {},
@@ -28,10 +29,11 @@ HOLDING: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "while": ({"condition": HOT}, ("body",)),
     "repeat": ({"times": 2}, ("body",)),
     "for_each": ({"variable": "item", "items": [1, 2, 3], "index": "number"}, ("body",)),
+    "for_each_of": ({"variable": "one", "list": {"param": "all"}}, ("body",)),
     "try": ({"kinds": ["failed"]}, ("body", "catch", "finally")),
     "parallel": ({"branches": ["a", "b"]}, ("a", "b")),
 }
-LOOPS = frozenset({"while", "repeat", "for_each"})
+LOOPS = frozenset({"while", "repeat", "for_each", "for_each_of"})
 DEEPEST = 4
 TOLD = [{"message": {"param": name}, "level": "info"} for name in ("problem.text", "problem.kind")]
 
@@ -69,13 +71,14 @@ class Steps:
             elif kind in HOLDING:
                 self.holding(kind, parent, branch, f"{index}V", around)
             else:
-                self.add(kind, parent, branch, f"{index}V", PLAIN.get(kind, {"value": 2} if kind == "return" else {}))
+                params = PLAIN.get(kind, {"value": 2} if kind == "return" else {})
+                self.add("set" if kind == "collect" else kind, parent, branch, f"{index}V", params)
 
     def holding(self, kind: str, parent: str, branch: str, order: str, around: Around) -> None:
         params, branches = HOLDING[kind]
         if kind == "try" and self.draw(st.booleans()):
             params, branches = {"catch": False}, ("body", "finally")
-        step = self.add(kind, parent, branch, order, params)
+        step = self.add(kind.removesuffix("_of"), parent, branch, order, params)
         for name in branches:
             inside = replace(around, depth=around.depth + 1, loop=around.loop or kind in LOOPS,
                              caught=around.caught or name == "catch")  # fmt: skip
@@ -88,6 +91,7 @@ def sound_documents(draw: st.DrawFn) -> dict[str, Any]:
     """Draw a program with a function and with events."""
     steps = Steps(draw)
     steps.add("wait", "program", "body", "0", PLAIN["wait"])
+    steps.add("set", "program", "body", "00", {"variable": "all", "value": {"op": "list", "args": []}})
     steps.block("program", "body", Around())
     steps.block("f", "body", Around(1, function=True))
     steps.add("return", "f", "body", "zz", {"value": 4})

@@ -87,6 +87,9 @@ def _operations(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
             st.lists(inner, min_size=2, max_size=3),
         ),
         st.builds(lambda a, b: {"op": "distance", "args": [a, b]}, inner, inner),
+        st.builds(lambda items: {"op": "list", "args": items}, st.lists(inner, max_size=3)),
+        st.builds(lambda a: {"op": "len", "args": [a]}, inner),
+        st.builds(lambda a, b: {"op": "nth", "args": [a, b]}, inner, inner),
     )
 
 
@@ -127,7 +130,12 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     ),
     "repeat": st.fixed_dictionaries({"times": values}),
     "for_each": st.fixed_dictionaries(
-        {"variable": variables, "items": st.lists(values, max_size=3), "index": variables}
+        {
+            "variable": variables,
+            "items": st.lists(values, max_size=3),
+            "index": variables,
+            "list": st.one_of(st.none(), leaves),
+        }
     ),
     "set": st.fixed_dictionaries({"variable": variables, "value": values}),
     "ask": st.fixed_dictionaries(

@@ -44,6 +44,21 @@ test("a loop that counts its rounds has a number, too", () => {
   expect(freshName(DOCUMENT, "number")).toBe("number2");
 });
 
+test("what is set to a list is one, and the item of a loop over it is what stands in it", () => {
+  const longer = { op: "+", args: [{ op: "list", args: [] }, ["red"]] };
+  const steps = {
+    set: step("set", ["program", "body", "A"], { variable: "colours", value: ["red", "blue"] }),
+    more: step("set", ["program", "body", "B"], { variable: "more", value: longer }),
+    loop: step("for_each", ["program", "body", "C"], { variable: "colour", list: { param: "colours" } }),
+    inner: step("wait", ["loop", "body", "A"]),
+  };
+  expect(knownNames({ ...EMPTY_DOCUMENT, steps }, "inner")).toEqual([
+    { name: "colour", type: "text" },
+    { name: "colours", type: "list" },
+    { name: "more", type: "list" },
+  ]);
+});
+
 test("inside a function its parameters and its own names come before the program's", () => {
   expect(knownNames(DOCUMENT, "local").map((each) => each.name)).toEqual(["minutes", "count", "dry", "total", "boxes"]);
   expect(namesSet(DOCUMENT, "mix")).toEqual([{ name: "count", type: "number", unit: "MIN" }]);

@@ -127,9 +127,11 @@ function forEachText(step: Step, speaker: Speaker): TextPart[] {
   const names = [first, second].filter((name) => name !== undefined).join(", ");
   const variable = textOf(step.params.variable) || "?";
   const index = textOf(step.params.index);
+  const listed = valueText((step.params.list ?? null) as Value, speaker);
+  const whole = items.length === 0 ? MISSING : plain(rest.length > 0 ? `${names} +${rest.length}` : names);
   return [
     plain(speaker.t(index ? "chip.for_each_counted" : "chip.for_each", { variable, index })),
-    items.length === 0 ? MISSING : plain(rest.length > 0 ? `${names} +${rest.length}` : names),
+    (step.params.list ?? null) === null ? whole : listed === null || listed === "?" ? MISSING : plain(listed),
   ];
 }
 
