@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.tree import nodes as n
-from editor.language.tree.traversal import callees_first
+from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import local_variables, program_variables, read_by, set_by
 
 Names = frozenset[str]
@@ -73,7 +73,7 @@ class EffectTable:
             self.functions[function.method] = NOTHING
         order = callees_first(self.tree)
         read = {function.method: _read_in(self.tree, function.body) for function in order}
-        while self._grow(order, read):
+        while self._grow(order, read) and functions_in_circles(self.tree):
             self._blocks.clear()
 
     def _grow(self, order: tuple[n.Function, ...], read: Mapping[str, Names]) -> bool:

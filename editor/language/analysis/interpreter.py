@@ -21,8 +21,8 @@ from editor.language.expressions.ranges import Known, Range
 from editor.language.tree import nodes as n
 
 Loop = n.While | n.Repeat | n.ForEach
-Leaves = tuple[int, int]
-"""How often a function was left so far, and the program."""
+Leaves = tuple[int, int, int]
+"""How often a function was left so far, the program ended, and a failure brought about that nothing has caught."""
 MOST_COUNTED = 100
 """A loop of more rounds is followed as one that nobody has counted."""
 MOST_SILENT = 3
@@ -96,7 +96,7 @@ def _while(walk: Walk, node: n.While, states: States) -> States | None:
 
 
 def _leaves(walk: Walk) -> Leaves:
-    return len(walk.frame.returns), walk.ended
+    return len(walk.frame.returns), walk.ended, len(walk.failures)
 
 
 def _left_by(
@@ -209,8 +209,10 @@ def _round(
 def _try(walk: Walk, node: n.Try, states: States) -> States | None:
     """The catch begins anywhere in the body, the final part anywhere in both; every exit leads through it."""
     marks = tuple(map(len, walk.frame.exits()))
+    failures = len(walk.failures)
     after = walk.block(node.body, walk.copy(states))
     if node.catches:
+        walk.failures[failures:] = [kind for kind in walk.failures[failures:] if node.kinds and kind not in node.kinds]
         with walk.unsure():
             caught = walk.block(node.catch, walk.disturb(states, walk.effects.of(node.body)))
         after = walk.meet(states, (after, caught), walk.changes(node.body, node.catch))
@@ -310,8 +312,9 @@ def _called(walk: Walk, node: n.Call, function: n.Function, states: States) -> S
             return walk.disturb(states, unfollowed)
         walk.known_calls[function.method] = known_calls + 1
         walk.contexts[key] = _followed(walk, key, node, function, states)
-    over, ends = walk.contexts[key]
+    over, ends, failures = walk.contexts[key]
     walk.ended += ends
+    walk.failures += failures
     if over is None:
         return None
     ended = zip(walk.domains, states, over, strict=True)
@@ -320,15 +323,16 @@ def _called(walk: Walk, node: n.Call, function: n.Function, states: States) -> S
 
 def _followed(
     walk: Walk, key: object, node: n.Call, function: n.Function, states: States
-) -> tuple[States | None, bool]:  # fmt: skip
-    ended = walk.ended
+) -> tuple[States | None, bool, list[str]]:  # fmt: skip
+    ended, failures = walk.ended, len(walk.failures)
     walk.running[key] = walk.ways_out()
     with walk.again():
         rows = zip(walk.domains, states, strict=True)
         begin = [domain.enter(walk, known, node, function) for domain, known in rows]
         over = follow_function(walk, function, begin)
     del walk.running[key]
-    return over, walk.ended > ended
+    failed, walk.failures[failures:] = {*walk.failures[failures:]}, []
+    return over, walk.ended > ended, sorted(failed)
 
 
 def _break(walk: Walk, node: n.Break, states: States) -> None:
@@ -349,7 +353,7 @@ def _return(walk: Walk, node: n.Return, states: States) -> None:
 
 def _fail(walk: Walk, node: n.Fail, states: States) -> None:
     """A Try around may catch it, which begins with whatever may be known there; nothing else goes on from here."""
-    walk.ended += 1
+    walk.failures.append("failed")
 
 
 FOLLOW: Final[Mapping[type[n.Node], Callable[[Walk, Any, States], States | None]]] = {

@@ -56,14 +56,22 @@ def _methods_of(uses: set[type[Node]], own: set[str]) -> tuple[str, ...]:
 
 def calls_by_function(tree: Tree) -> dict[str, tuple[str, ...]]:
     """Return the functions that each function calls itself."""
+    return tree.derived(_calls_by_function)
+
+
+def _calls_by_function(tree: Tree) -> dict[str, tuple[str, ...]]:
     return {
-        function.method: tuple(dict.fromkeys(n.function for n in walk(function.body) if isinstance(n, Call)))
+        function.method: tuple(dict.fromkeys(n.function for n in tree.walked(function.body) if n.__class__ is Call))
         for function in tree.functions
     }
 
 
 def callees_first(tree: Tree) -> tuple[Function, ...]:
     """Return the functions so that each comes after those that it calls, as far as that can be."""
+    return tree.derived(_callees_first)
+
+
+def _callees_first(tree: Tree) -> tuple[Function, ...]:
     by_method = {function.method: function for function in tree.functions}
     calls = calls_by_function(tree)
     done: dict[str, Function] = {}
@@ -81,6 +89,10 @@ def callees_first(tree: Tree) -> tuple[Function, ...]:
 
 def functions_in_circles(tree: Tree) -> frozenset[str]:
     """Return the functions that call themselves, directly or by way of others (Tarjan's components, without depth)."""
+    return tree.derived(_functions_in_circles)
+
+
+def _functions_in_circles(tree: Tree) -> frozenset[str]:
     calls = calls_by_function(tree)
     order: dict[str, int] = {}
     lowest: dict[str, int] = {}

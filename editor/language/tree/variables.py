@@ -114,6 +114,10 @@ def worked_out(node: n.Node) -> list[tuple[str, Expression]]:
 
 def program_variables(tree: Tree) -> frozenset[str]:
     """Return the variables that the program's body or an event's sets; they can be seen everywhere."""
+    return tree.derived(_program_variables)
+
+
+def _program_variables(tree: Tree) -> frozenset[str]:
     if not tree.holds(*SETTERS):
         return frozenset()
     bodies = (tree.body, *(event.body for event in tree.events))
