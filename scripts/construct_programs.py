@@ -131,6 +131,16 @@ def _choices_and_loops() -> dict[str, Picture]:
             (0.2, -0.2, 10.2, -7.1),
             (1.6, -3.8),
         ),
+        "continue": Picture(
+            {
+                "a": step("for_each", 5.6, -1.0, variable="mixer", items=mixers),
+                "b": step("if", 5.0, -3.4, "a.body.1V", condition=HOT),
+                "c": step("continue", 8.2, -4.8, "b.then.1V"),
+                "d": wait(5.0, -5.8, "a.body.2V"),
+            },
+            (0.2, -0.2, 10.2, -7.1),
+            (1.6, -3.8),
+        ),
         "parallel": Picture(
             {
                 "a": step("parallel", 4.0, -3.9, branches=["a", "b"]),

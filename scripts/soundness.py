@@ -49,6 +49,8 @@ class Draft:
     steps: Json = field(default_factory=dict)
     known: set[str] = field(default_factory=set)
     functions: Json = field(default_factory=dict)
+    lists: bool = False
+    """Whether some step has set a list."""
 
     def add(self, parent: str, branch: str, kind: str, params: Json) -> str:
         """Add a step at the end of a branch."""
@@ -69,12 +71,18 @@ class Draft:
                 "notify",
                 "if",
                 "repeat",
+                "each",
+                "list",
+                "of_list",
+                "item",
                 "while",
                 "call",
                 "parallel",
                 "limit",
             ]
-            kind = self.chance.choice(kinds[: 7 if depth > 3 else None] + [k for k in ("break",) if k in inside])
+            kind = self.chance.choice(
+                kinds[: 7 if depth > 3 else None] + [k for k in ("break", "next_round") if k in inside]
+            )
             getattr(self, f"_{kind}")(parent, branch, depth, inside)
 
     def number(self) -> Any:
@@ -136,12 +144,50 @@ class Draft:
     def _repeat(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         times = self.chance.choice([0, 1, 2, 3]) if self.chance.random() < 0.7 else self.number()
         step = self.add(parent, branch, "repeat", {"times": times})
-        self.block(step, "body", depth + 1, inside | {"break"})
+        self.block(step, "body", depth + 1, inside | {"break", "next_round"})
+
+    def _each(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        """A loop over numbers, which may look at the number and at the item of its round."""
+        items = [self.number() for _ in range(self.chance.randrange(1, 4))]
+        step = self.add(parent, branch, "for_each", {"variable": "item", "index": "round", "items": items})
+        before = set(self.known)
+        self.known |= {"item", "round"}
+        self.block(step, "body", depth + 1, inside | {"break", "next_round"})
+        self.known -= {"item", "round"} - before
+
+    def _list(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        """A list that is set anew, or gets an item more."""
+        item = {"op": "list", "args": [self.number()]}
+        longer = {"op": "+", "args": [{"param": "items"}, item]}
+        whole = {"op": "list", "args": [self.number() for _ in range(self.chance.randrange(3))]}
+        again = self.lists and self.chance.random() < 0.6
+        self.add(parent, branch, "set", {"variable": "items", "value": longer if again else whole})
+        self.lists = True
+
+    def _of_list(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        if self.lists:
+            params = {"variable": "item", "index": "round", "list": {"param": "items"}}
+            step, before = self.add(parent, branch, "for_each", params), set(self.known)
+            self.known |= {"item", "round"}
+            self.block(step, "body", depth + 1, inside | {"break", "next_round"})
+            self.known -= {"item", "round"} - before
+
+    def _item(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        """One item, by a number that may be too large, sometimes only where the list is long enough."""
+        if not self.lists:
+            return
+        number = self.number()
+        if self.chance.random() < 0.5:
+            enough = {"op": ">=", "args": [{"op": "len", "args": [{"param": "items"}]}, 2]}
+            parent, branch, number = self.add(parent, branch, "if", {"condition": enough}), "then", 2
+        name = self.chance.choice(NAMES)
+        value = {"op": "nth", "args": [{"param": "items"}, number]}
+        self.add(parent, branch, "set", {"variable": name, "value": value})
 
     def _while(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         step = self.add(parent, branch, "while", {"condition": self.condition()})
         before = set(self.known)
-        self.block(step, "body", depth + 1, inside | {"break"})
+        self.block(step, "body", depth + 1, inside | {"break", "next_round"})
         if self.chance.random() < 0.8:
             self.known = before
 
@@ -165,6 +211,9 @@ class Draft:
 
     def _break(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         self.add(parent, branch, "break", {})
+
+    def _next_round(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        self.add(parent, branch, "continue", {})
 
     def _call(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         function = self.chance.choice(["f", "g"])

@@ -11,7 +11,7 @@ from editor.language.plan.instructions import Plan
 from editor.language.plan.json_form import UnreadablePlan, plan_from_json, plan_to_json
 from editor.language.site.json_form import UnreadableSite, surroundings_from_json, surroundings_to_json
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, PlaceFacts, Surroundings
-from editor.language.tree.nodes import Tree
+from editor.language.tree.program import Tree
 
 __all__ = [
     "Compiled",

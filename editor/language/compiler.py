@@ -16,9 +16,10 @@ from editor.language.plan.instructions import Plan
 from editor.language.printing.script import Script, print_tree
 from editor.language.reading.document import ReadDocument, read_document
 from editor.language.site.surroundings import Surroundings, standing_places
-from editor.language.tree.nodes import COMPOSITES, Block, Tree, blocks_of
+from editor.language.tree.nodes import COMPOSITES, Block, blocks_of
 from editor.language.tree.nodes import Move as MoveNode
 from editor.language.tree.numbering import number_steps, numbers_in_script
+from editor.language.tree.program import Tree
 from editor.language.tree.robots import with_crew, with_roles_of_robots
 from editor.language.tree.zones import read_zones, zone_names
 

@@ -17,7 +17,7 @@ from editor.language.expressions.nodes import (
     Reading,
     Variable,
 )
-from editor.language.expressions.values import arity_fits
+from editor.language.expressions.values import MOST_ITEMS, arity_fits
 from editor.language.plan.instructions import Plan
 from execution.machine.places import CLOCK, NO_ZONES, ROLE, Facts, Point, Zones, distance_m, lies_in, position_of
 from vipo_device.protocol.description import Scalar
@@ -52,13 +52,13 @@ _RECKON: Mapping[str, Callable[[float, float], float]] = {
 class _Evaluation:
     """What an expression is worked out from."""
 
-    variables: Mapping[str, Scalar]
+    variables: Mapping[str, Value]
     facts: Facts
     zones: Zones
 
 
 def evaluate(
-    expression: Expression, variables: Mapping[str, Scalar], facts: Facts, zones: Zones = NO_ZONES
+    expression: Expression, variables: Mapping[str, Value], facts: Facts, zones: Zones = NO_ZONES
 ) -> Value:  # fmt: skip
     """Return the expression's value.
 
@@ -69,24 +69,21 @@ def evaluate(
 
 
 def evaluate_scalar(
-    expression: Expression, variables: Mapping[str, Scalar], facts: Facts, zones: Zones = NO_ZONES
+    expression: Expression, variables: Mapping[str, Value], facts: Facts, zones: Zones = NO_ZONES
 ) -> Scalar:
     """Return the expression's value, which must be a single one. Raises EvaluationError."""
-    value = evaluate(expression, variables, facts, zones)
-    if isinstance(value, tuple):
-        raise EvaluationError("A list stands where one value is needed.")
-    return value
+    return _single(evaluate(expression, variables, facts, zones))
 
 
 def evaluate_number(
-    expression: Expression, variables: Mapping[str, Scalar], facts: Facts, zones: Zones = NO_ZONES
+    expression: Expression, variables: Mapping[str, Value], facts: Facts, zones: Zones = NO_ZONES
 ) -> float:
     """Return the expression's value, which must be a finite number. Raises EvaluationError."""
     return _number(evaluate(expression, variables, facts, zones))
 
 
 def is_true(
-    expression: Expression, variables: Mapping[str, Scalar], facts: Facts, zones: Zones = NO_ZONES
+    expression: Expression, variables: Mapping[str, Value], facts: Facts, zones: Zones = NO_ZONES
 ) -> bool:  # fmt: skip
     """Tell whether a condition holds; only yes and no will do. Raises EvaluationError."""
     return _truth(evaluate(expression, variables, facts, zones))
@@ -116,6 +113,40 @@ def _truth(value: Value) -> bool:
     if not isinstance(value, bool):
         raise EvaluationError(f"The condition gives {value!r} where yes or no is needed.")
     return value
+
+
+def _list(arguments: tuple[Expression, ...], of: _Evaluation, depth: int) -> Value:
+    return _bounded(tuple(_single(_value(a, of, depth)) for a in arguments))
+
+
+def _single(value: Value) -> Scalar:
+    if isinstance(value, tuple):
+        raise EvaluationError("A list stands where one value is needed.")
+    return value
+
+
+def _bounded(items: tuple[Scalar, ...]) -> tuple[Scalar, ...]:
+    if len(items) > MOST_ITEMS:
+        raise EvaluationError(f"A list has more than {MOST_ITEMS:,} items.")
+    return items
+
+
+def _items(value: Value) -> tuple[Scalar, ...]:
+    if not isinstance(value, tuple):
+        raise EvaluationError(f"{value!r} stands where a list is needed.")
+    return value
+
+
+def _len(arguments: tuple[Expression, ...], of: _Evaluation, depth: int) -> Value:
+    return len(_items(_value(arguments[0], of, depth)))
+
+
+def _nth(arguments: tuple[Expression, ...], of: _Evaluation, depth: int) -> Value:
+    """Return one item; the first has the number 1."""
+    items, number = _items(_value(arguments[0], of, depth)), _number(_value(arguments[1], of, depth))
+    if number != int(number) or not 1 <= number <= len(items):
+        raise EvaluationError(f"There is no item {in_words(number)}: the list has {len(items)}.")
+    return items[int(number) - 1]
 
 
 def _read(reading: Reading, of: _Evaluation, depth: int) -> Scalar:
@@ -220,6 +251,7 @@ def _in_zone(thing: Expression, zone: str, of: _Evaluation, depth: int) -> bool:
 
 _SPECIAL: Mapping[str, Callable[[tuple[Expression, ...], _Evaluation, int], Value]] = {
     "not": _not, "distance": _distance, "nearest": _nearest, "count": _count, "now": _now, "text": _text,
+    "list": _list, "len": _len, "nth": _nth,
 }  # fmt: skip
 
 
@@ -244,6 +276,10 @@ def _apply_two(name: str, left: Value, right: Value) -> Value:
         if isinstance(left, str) and isinstance(right, str):
             return _COMPARE[name](left, right)
         return _COMPARE[name](_number(left), _number(right))
+    if isinstance(left, tuple) and name in _RECKON:
+        if name == "+" and isinstance(right, tuple):
+            return _bounded(left + right)
+        return tuple(_reckon(name, _number(item), _number(right)) for item in left)  # into another unit
     if name in _RECKON:
         return _reckon(name, _number(left), _number(right))
     raise EvaluationError(f"“{name}” is not an operator of this language.")

@@ -48,7 +48,7 @@ def invoke(turn: Turn, thread: Thread, action: p.Invoke) -> Thread:
     depth = len(thread.calls) + sum(len(ancestor.calls) for ancestor in turn.ancestors(thread))
     if depth >= DEEPEST_CALL:
         raise Failure("failed", f"“{action.function}” calls itself more than {DEEPEST_CALL} times deep.")
-    values = {name: turn.scalar(thread, value) for name, value in action.arguments.items()}
+    values = {name: turn.value(thread, value) for name, value in action.arguments.items()}
     frame = turn.new_id()
     turn.frames[frame] = values
     call = Activation(frame, thread.at + 1, action.result, len(thread.open), action.shared)
@@ -57,7 +57,7 @@ def invoke(turn: Turn, thread: Thread, action: p.Invoke) -> Thread:
 
 def leave_function(turn: Turn, thread: Thread, value: e.Expression | None) -> Thread:
     """Leave the function's frame, with its value."""
-    result = None if value is None else turn.scalar(thread, value)
+    result = None if value is None else turn.value(thread, value)
     call = thread.calls[-1]
     if call.back_to < 0:
         return end_thread(turn, thread)

@@ -204,7 +204,7 @@ def _carry_out(turn: Turn, thread: Thread) -> Thread:
         case p.Jump(to=to):
             return turn.go(thread, to)
         case p.Assign(name=name, value=value, shared=shared):
-            turn.assign(thread, name, turn.scalar(thread, value), shared=shared)
+            turn.assign(thread, name, turn.value(thread, value), shared=shared)
             return turn.go(thread)
         case p.AskPerson() | p.Notify() | p.Fail():
             return _speak(turn, thread, action)
@@ -304,4 +304,4 @@ def _ask_people(turn: Turn, thread: Thread, action: p.AskPerson) -> Thread:
 
 def _text(turn: Turn, thread: Thread, message: Expression) -> str:
     """Return what people are told, in a reasonable length."""
-    return in_words(turn.scalar(thread, message)).strip()[:500]
+    return in_words(turn.value(thread, message)).strip()[:500]

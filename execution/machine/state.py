@@ -114,7 +114,7 @@ class RunState:
     status: RunStatus = "running"
     reason: str = ""
     threads: Mapping[int, Thread] = field(default_factory=dict)
-    frames: Mapping[int, Mapping[str, Scalar]] = field(default_factory=dict)
+    frames: Mapping[int, Mapping[str, Scalar | tuple[Scalar, ...]]] = field(default_factory=dict)
     facts: Mapping[tuple[str, str], Scalar] = field(default_factory=dict)
     next_id: int = 1
     truths: Mapping[int, bool] = field(default_factory=dict)
@@ -144,12 +144,17 @@ def from_json(data: Mapping[str, Any]) -> RunState:
         status=data["status"],
         reason=data["reason"],
         threads={thread.id: thread for thread in threads},
-        frames={int(number): dict(frame) for number, frame in data["frames"].items()},
+        frames={int(number): _frame(frame) for number, frame in data["frames"].items()},
         facts={(device, name): value for device, name, value in data["facts"]},
         next_id=data["next_id"],
         truths={int(event): truth for event, truth in data["truths"]},
         ending=Ending(**data["ending"]) if data["ending"] else None,
     )
+
+
+def _frame(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the variables of a frame; JSON knows only one kind of list."""
+    return {name: tuple(value) if isinstance(value, list) else value for name, value in data.items()}
 
 
 def climb(data: Mapping[str, Any]) -> Mapping[str, Any]:

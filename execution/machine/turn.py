@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from editor.language.expressions import nodes as e
 from editor.language.plan import instructions as p
-from execution.machine.evaluation import evaluate_number, evaluate_scalar, is_true
+from execution.machine.evaluation import Value, evaluate, evaluate_number, evaluate_scalar, is_true
 from execution.machine.messages import Action, CancelTimer, SetTimer, StepEntered, StepLeft
 from execution.machine.state import MAIN, RunState, RunStatus, Thread, Wake
 from vipo_device.protocol.description import Scalar
@@ -91,18 +91,22 @@ class Turn:
         self._spent[root] = self._spent.get(root, 0) + 1
         return self._spent[root] <= GLUE_LIMIT
 
-    def variables(self, thread: Thread) -> Mapping[str, Scalar]:
+    def variables(self, thread: Thread) -> Mapping[str, Value]:
         """Return what the names mean where the thread is, the function's own before the program's."""
         frame = thread.calls[-1].frame
         return self.frames[MAIN] if frame == MAIN else {**self.frames[MAIN], **self.frames[frame]}
 
-    def assign(self, thread: Thread, name: str | None, value: Scalar, *, shared: bool) -> None:
+    def assign(self, thread: Thread, name: str | None, value: Value, *, shared: bool) -> None:
         """Give a variable of the program or of the thread's frame a value; no name, no variable."""
         if name is not None:
             self.frames[MAIN if shared else thread.calls[-1].frame][name] = value
 
+    def value(self, thread: Thread, expression: e.Expression) -> Value:
+        """Return what an expression is worth in a thread; it may be a list."""
+        return evaluate(expression, self.variables(thread), self.facts, self.zones)
+
     def scalar(self, thread: Thread, expression: e.Expression) -> Scalar:
-        """Return what an expression is worth in a thread."""
+        """Return what an expression that gives a single value is worth in a thread."""
         return evaluate_scalar(expression, self.variables(thread), self.facts, self.zones)
 
     def number(self, thread: Thread, expression: e.Expression) -> float:

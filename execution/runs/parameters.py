@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from editor.language.expressions.units import unit_symbol
-from editor.language.tree.nodes import Parameter
+from editor.language.tree.program import Parameter
 from execution.errors import NotReady
 from vipo_device.protocol.arguments import is_number
 from vipo_device.protocol.description import Scalar

@@ -14,9 +14,10 @@ from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 from editor.language.analysis.effects import Effects, EffectTable
 from editor.language.expressions.nodes import Expression
-from editor.language.expressions.ranges import Known
+from editor.language.expressions.ranges import Known, Range
 from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Tree
 
 States = list[Any]
 """What each domain knows at one point. Where no path leads there are no states (None)."""
@@ -27,16 +28,22 @@ class Frame:
     """One call of a function, or a body of the program, with the loops around and how these are left."""
 
     name: str
-    function: n.Function | None = None
+    function: Function | None = None
     loops: tuple[n.ForEach, ...] = ()
     breaks: list[list[States]] = field(default_factory=list)
+    continues: list[list[States]] = field(default_factory=list)
+    """For each loop around, what is known at the steps that go on with its next round."""
     returns: list[States] = field(default_factory=list)
+
+    def exits(self) -> tuple[list[States], ...]:
+        """Return what is known at the steps that lead out of what stands around, to be added to and changed."""
+        return (*self.breaks[-1:], *self.continues[-1:], self.returns)
 
 
 class Place(Protocol):
     """Where a walk stands: what a domain may ask there, and tell."""
 
-    tree: n.Tree
+    tree: Tree
     effects: EffectTable
     frame: Frame
     states: States
@@ -95,20 +102,22 @@ class Domain(ABC, Generic[K]):
         """Return what is known in a branch of a Parallel, given the ends of those before it and what others may do."""
         return self.disturb(place, known, effects)
 
-    def key(self, place: Place, known: K, node: n.Call, function: n.Function) -> object:
+    def key(self, place: Place, known: K, node: n.Call, function: Function) -> object:
         """Return all of what is known that a function depends on which is called here, to be compared."""
         return known
 
-    def enter(self, place: Place, known: K, node: n.Call, function: n.Function) -> K:
+    def enter(self, place: Place, known: K, node: n.Call, function: Function) -> K:
         """Return what is known where a function begins that is called here."""
         return known
 
-    def leave(self, place: Place, known: K, after: K, function: n.Function) -> K:
+    def leave(self, place: Place, known: K, after: K, function: Function) -> K:
         """Return what is known after a call, given what is known where the function comes back."""
         return after
 
-    def enter_round(self, place: Place, known: K, node: n.ForEach, items: Sequence[Expression]) -> K:
-        """Return what is known in a round in which the loop's variable is one of these items."""
+    def enter_round(
+        self, place: Place, known: K, node: n.ForEach, items: Sequence[Expression], rounds: Range
+    ) -> K:  # fmt: skip
+        """Return what is known in one of these rounds, in which the loop's variable is one of these items."""
         return known
 
     def end(self, place: Place, node: n.Node | None, known: K) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Tree
 from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import local_variables, program_variables, read_by, set_by
 
@@ -55,7 +56,7 @@ def together(effects: Iterable[Effects]) -> Effects:
 class EffectTable:
     """The effects of a tree's blocks and functions, each worked out once."""
 
-    tree: n.Tree
+    tree: Tree
     own: dict[str, frozenset[str]] = field(default_factory=dict)
     """Function → its parameters and the variables that belong to one call of it."""
     functions: dict[str, Effects] = field(default_factory=dict)
@@ -76,7 +77,7 @@ class EffectTable:
         while self._grow(order, read) and functions_in_circles(self.tree):
             self._blocks.clear()
 
-    def _grow(self, order: tuple[n.Function, ...], read: Mapping[str, Names]) -> bool:
+    def _grow(self, order: tuple[Function, ...], read: Mapping[str, Names]) -> bool:
         """Work out the effects of the functions once more; tell whether one of them changes more than was known."""
         again = False
         for function in order:
@@ -119,5 +120,5 @@ class EffectTable:
         return found
 
 
-def _read_in(tree: n.Tree, block: n.Block) -> Names:
+def _read_in(tree: Tree, block: n.Block) -> Names:
     return frozenset(name for node in tree.walked(block) for name in read_by(node))

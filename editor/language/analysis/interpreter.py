@@ -17,8 +17,9 @@ from editor.language.analysis.effects import NOTHING, Effects, together
 from editor.language.analysis.walk import Walk
 from editor.language.document.outline import PROGRAM
 from editor.language.expressions.nodes import Constant, Expression
-from editor.language.expressions.ranges import Known
+from editor.language.expressions.ranges import Known, Range
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function
 
 Loop = n.While | n.Repeat | n.ForEach
 Leaves = tuple[int, int, int]
@@ -50,7 +51,7 @@ def interpret(walk: Walk) -> None:
             follow_function(walk, function, walk.somewhere())
 
 
-def follow_function(walk: Walk, function: n.Function, states: States) -> States | None:
+def follow_function(walk: Walk, function: Function, states: States) -> States | None:
     """Follow a function's body and return what holds where it comes back; None where it never does."""
     outside, walk.frame = walk.frame, Frame(function.method, function)
     end = walk.block(function.body, walk.copy(states))
@@ -123,22 +124,23 @@ def _repeat(walk: Walk, node: n.Repeat, states: States) -> States | None:
 
 
 def _for_each(walk: Walk, node: n.ForEach, states: States) -> States | None:
+    least, most = walk.length(node, states)
     with walk.again():
-        if not walk.domains or len(node.items) > MOST_COUNTED:
-            return _uncounted(walk, node, states, walk.copy(states), [], goes_round=bool(node.items))
-        return _counted(walk, node, node.items, states)
+        if not walk.domains or least < most or most > MOST_COUNTED:
+            return _uncounted(walk, node, states, walk.copy(states), [], goes_round=least > 0)
+        return _counted(walk, node, node.items if node.over is None else [node.over] * most, states)
 
 
 def _counted(walk: Walk, node: n.Repeat | n.ForEach, items: Sequence[Any], states: States) -> States | None:
     """Follow a loop round by round."""
     exits = list[States]()
     now: States | None = walk.copy(states)
-    for item in items:
+    for number, item in enumerate(items, start=1):
         assert now is not None
         if walk.left < 0:
             return _uncounted(walk, node, states, now, exits, goes_round=True)
         begun = walk.copy(now)
-        now = _round(walk, node, now, exits, None if item is None else (item,))
+        now = _round(walk, node, now, exits, () if item is None else (item,), Range(number, number))
         if now is None or (item is None and now == begun):
             break  # the rounds that are left bring nothing new
     return walk.meet(states, [*exits, now], walk.effects.of(node.body))
@@ -148,7 +150,7 @@ def _uncounted(
     walk: Walk, node: Loop, before: States, now: States, exits: list[States], *, goes_round: bool
 ) -> States | None:
     """Follow the body in silence until another round teaches nothing new, then once more to tell."""
-    items = node.items if isinstance(node, n.ForEach) else None
+    items = node.items if isinstance(node, n.ForEach) else ()
     with walk.unsure():
         entry = _settled(walk, node, now)
         walk.read(node, entry)
@@ -162,7 +164,7 @@ def _uncounted(
 
 def _settled(walk: Walk, node: Loop, entry: States) -> States:
     """Return what is known at the beginning of every round."""
-    items = node.items if isinstance(node, n.ForEach) else None
+    items = node.items if isinstance(node, n.ForEach) else ()
     effects = walk.effects.of(node.body)
     if effects is NOTHING:
         return entry
@@ -181,19 +183,28 @@ def _settled(walk: Walk, node: Loop, entry: States) -> States:
 
 
 def _round(
-    walk: Walk, node: Loop, states: States, exits: list[States], items: Sequence[Expression] | None = None
+    walk: Walk,
+    node: Loop,
+    states: States,
+    exits: list[States],
+    items: Sequence[Expression] = (),
+    rounds: Range | None = None,
 ) -> States | None:
     """Follow a loop's body once; what is known where a step leaves the loop is added to the exits."""
     frame, outside = walk.frame, walk.frame.loops
     frame.breaks.append([])
+    frame.continues.append([])
     if isinstance(node, n.ForEach):
         rows = zip(walk.domains, states, strict=True)
-        states = [domain.enter_round(walk, known, node, items or ()) for domain, known in rows]
+        these = rounds or Range(1, max(1, walk.length(node, states)[1]))
+        states = [domain.enter_round(walk, known, node, items, these) for domain, known in rows]
         frame.loops = (*outside, node)
+    begun = walk.copy(states) if walk.tree.holds(n.Continue) else states
     after = walk.block(node.body, states)
     frame.loops = outside
     exits.extend(frame.breaks.pop())
-    return after
+    early = frame.continues.pop()
+    return walk.meet(begun, [*early, after], walk.effects.of(node.body)) if early else after
 
 
 # failures, and what happens at once
@@ -201,8 +212,7 @@ def _round(
 
 def _try(walk: Walk, node: n.Try, states: States) -> States | None:
     """The catch begins anywhere in the body, the final part anywhere in both; every exit leads through it."""
-    frame = walk.frame
-    marks = len(frame.breaks[-1]) if frame.breaks else 0, len(frame.returns)
+    marks = tuple(map(len, walk.frame.exits()))
     failures = len(walk.failures)
     after = walk.block(node.body, walk.copy(states))
     if node.catches:
@@ -232,10 +242,10 @@ def _limit(walk: Walk, node: n.Limit, states: States) -> States | None:
     return after
 
 
-def _exits_through(walk: Walk, node: n.Try, marks: tuple[int, int], ended: States | None) -> None:
-    """What is left by a break or a return is known as far as the final part does not change it."""
-    frame, effects = walk.frame, walk.effects.of(node.final)
-    for exits, mark in ((frame.breaks[-1] if frame.breaks else [], marks[0]), (frame.returns, marks[1])):
+def _exits_through(walk: Walk, node: n.Try, marks: Sequence[int], ended: States | None) -> None:
+    """What is left by a break, a continue or a return is known as far as the final part does not change it."""
+    effects = walk.effects.of(node.final)
+    for exits, mark in zip(walk.frame.exits(), marks, strict=True):
         exits[mark:] = [] if ended is None else [walk.disturb(each, effects) for each in exits[mark:]]
 
 
@@ -273,8 +283,10 @@ def _branches(
             for place, (domain, known) in enumerate(zip(walk.domains, walk.copy(states), strict=True))
         ]
         walk.frame.breaks.append([])
+        walk.frame.continues.append([])
         ends.append(walk.block(branch, begin))
         walk.frame.breaks.pop()
+        walk.frame.continues.pop()
     walk.volatile = outside
     return ends
 
@@ -291,7 +303,7 @@ def _call(walk: Walk, node: n.Call, states: States) -> States | None:
     return after
 
 
-def _called(walk: Walk, node: n.Call, function: n.Function, states: States) -> States | None:
+def _called(walk: Walk, node: n.Call, function: Function, states: States) -> States | None:
     unfollowed = walk.effects.functions[function.method]
     if walk.summaries is not None:
         return walk.disturb(states, unfollowed) if walk.summaries[function.method] else None
@@ -322,7 +334,7 @@ def _called(walk: Walk, node: n.Call, function: n.Function, states: States) -> S
 
 
 def _followed(
-    walk: Walk, key: object, node: n.Call, function: n.Function, states: States
+    walk: Walk, key: object, node: n.Call, function: Function, states: States
 ) -> tuple[States | None, bool, list[str]]:  # fmt: skip
     ended, failures = walk.ended, len(walk.failures)
     walk.running[key] = walk.ways_out()
@@ -338,6 +350,11 @@ def _followed(
 def _break(walk: Walk, node: n.Break, states: States) -> None:
     if walk.frame.breaks:
         walk.frame.breaks[-1].append(states)
+
+
+def _continue(walk: Walk, node: n.Continue, states: States) -> None:
+    if walk.frame.continues:
+        walk.frame.continues[-1].append(states)
 
 
 def _return(walk: Walk, node: n.Return, states: States) -> None:
@@ -361,6 +378,7 @@ FOLLOW: Final[Mapping[type[n.Node], Callable[[Walk, Any, States], States | None]
     n.Parallel: _parallel,
     n.Call: _call,
     n.Break: _break,
+    n.Continue: _continue,
     n.Return: _return,
     n.End: Walk.end,
     n.Fail: _fail,

@@ -18,6 +18,7 @@ from editor.language.expressions.nodes import Constant, Expression
 from editor.language.expressions.ranges import Range
 from editor.language.messages.phrases import Argument
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function
 
 Count = tuple[int, float | None]
 """At least, at most; without end where each round of a loop brings more, None: nobody can tell."""
@@ -67,12 +68,12 @@ class Loads(PairwiseDomain[Carried]):
             joined.update({key: count for key, count in carried.items() if key[0] in effects.loaded})
         return joined
 
-    def key(self, place: Place, known: Carried, node: n.Call, function: n.Function) -> object:
+    def key(self, place: Place, known: Carried, node: n.Call, function: Function) -> object:
         """Return what the function's robots carry."""
         loaded = place.effects.functions[function.method].loaded
         return frozenset((key, count) for key, count in known.items() if key[0] in loaded)
 
-    def leave(self, place: Place, known: Carried, after: Carried, function: n.Function) -> Carried:
+    def leave(self, place: Place, known: Carried, after: Carried, function: Function) -> Carried:
         """Return what the function left its robots with; the others carry what they did."""
         loaded = place.effects.functions[function.method].loaded
         kept = {key: count for key, count in known.items() if key[0] not in loaded}

@@ -20,11 +20,11 @@ from editor.language.tree.nodes import (
     Block,
     Break,
     Call,
+    Continue,
     Drop,
     End,
     Fail,
     ForEach,
-    Function,
     If,
     Limit,
     Move,
@@ -36,15 +36,14 @@ from editor.language.tree.nodes import (
     Pick,
     Repeat,
     Return,
-    Role,
     Set,
-    Tree,
     Try,
     Wait,
     WaitUntil,
     While,
     walk,
 )
+from editor.language.tree.program import Function, Role, Tree
 from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import set_in, sets_of_functions
 
@@ -57,7 +56,7 @@ _COMPOSITE: Final = (If, While, Repeat, ForEach, Parallel, Try, Limit)
 _SETS: Final = (Set, Ask)
 _STAYING: Final = frozenset({Operate, Perform, Wait, WaitUntil, Notify})
 """Steps after which all robots stand as before."""
-_LEAVES: Final = (End, Fail, Return, Break)
+_LEAVES: Final = (End, Fail, Return, Break, Continue)
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +87,7 @@ class _Follower:
     """Picks and drops of a script before which no move is known."""
     exits: dict[str, Standing] = field(default_factory=dict)
     breaks: list[list[Standing]] = field(default_factory=list)
-    """For each loop around, innermost last, where the robots stand at the steps that leave it."""
+    """For each loop around, innermost last, where the robots stand at the steps that leave it, or one of its rounds."""
     returns: list[Standing] = field(default_factory=list)
     memo: Memo | None = None
     calls: int = 0
@@ -138,10 +137,10 @@ class _Follower:
         self.relied_on.update(known.relied_on)
         return known.node, known.after
 
-    def _leave(self, node: End | Fail | Return | Break, standing: Standing) -> None:
+    def _leave(self, node: End | Fail | Return | Break | Continue, standing: Standing) -> None:
         if isinstance(node, Return):
             self.returns.append(standing)
-        elif isinstance(node, Break) and self.breaks:
+        elif isinstance(node, Break | Continue) and self.breaks:
             self.breaks[-1].append(standing)
 
     def _load(self, node: Pick | Drop, standing: Standing, nodes: list[Node]) -> Standing:
@@ -185,7 +184,7 @@ class _Follower:
     def _loop(self, node: While | Repeat | ForEach, before: Standing) -> tuple[Node, Standing | None]:
         """A loop is left before its body, after it, or by a step in it."""
         self.breaks.append([])
-        own = {node.variable} if isinstance(node, ForEach) else set()
+        own = set(node.names) if isinstance(node, ForEach) else set()
         inner, after = self.block(node.body, _without_values(self._after_some_of(node.body, before), own))
         exits = self.breaks.pop()
         over = _agreed(before, after)

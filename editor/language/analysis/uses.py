@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from editor.language.analysis.memo import Memo
 from editor.language.expressions.values import roles_in
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Tree
 from editor.language.tree.variables import read_by, set_by, worked_out
 
 
@@ -28,7 +29,7 @@ class Uses:
         self.sets.update(other.sets)
 
 
-def uses_of(tree: n.Tree, memo: Memo | None) -> Uses:
+def uses_of(tree: Tree, memo: Memo | None) -> Uses:
     """Return what the program's steps use; of a step that is the same as at the last look, `memo` knows it."""
     memo = memo or Memo()
     memo.begin(None)

@@ -8,18 +8,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
-from math import inf
+from math import ceil, floor, inf
 from typing import ClassVar, Final
 
 from editor.language.analysis.domain import Domain, Place, Transfer
 from editor.language.analysis.effects import Effects
-from editor.language.expressions.nodes import Constant, Expression, Operation, Variable
-from editor.language.expressions.ranges import ANY, Here, Known, Range, limited
+from editor.language.expressions.nodes import Constant, Expression, Operation, Reading, Variable
+from editor.language.expressions.ranges import ANY, MOST_WORDS, Here, Items, Known, Range, either_known, limited
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker, ValueType
-from editor.language.expressions.values import is_number
+from editor.language.expressions.values import MOST_ITEMS, is_number
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Parameter
 
 UNSET, MAYBE, SET = 0, 1, 2
 Content = tuple[int, Known]
@@ -32,7 +33,6 @@ _ANYTHING: Final[Content] = (SET, None)
 _ELSE: Final = ("", "")
 """The key of what holds for every variable of the program that is not named."""
 _RESULT: Final = ("", "result")
-MOST_WORDS = 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ class Variables(Domain[Env]):
     """The domain of variables of one program on one site."""
 
     surroundings: Surroundings
-    parameters: Sequence[n.Parameter]
+    parameters: Sequence[Parameter]
     types_at: Callable[[str, n.Node], Mapping[str, ValueType]]
     """Returns the types that are seen at a step of a body, which is told by its name."""
     tracked: frozenset[str]
@@ -119,20 +119,20 @@ class Variables(Domain[Env]):
             joined[key] = (max(each[0] for each in contents), contents[0][1] if len(envs) == 1 else None)
         return joined
 
-    def key(self, place: Place, known: Env, node: n.Call, function: n.Function) -> object:
+    def key(self, place: Place, known: Env, node: n.Call, function: Function) -> object:
         """Return what is known of the arguments, and of the program's variables that the function reads or sets."""
         effects = place.effects.functions[function.method]
         names = sorted(effects.reads | effects.shared)
         given = tuple(content for _, content in self._arguments(place, known, node, function))
         return given, tuple(_content(known, name) for name in names)
 
-    def enter(self, place: Place, known: Env, node: n.Call, function: n.Function) -> Env:
+    def enter(self, place: Place, known: Env, node: n.Call, function: Function) -> Env:
         """Return the program's variables and the arguments; the function's own variables have no value yet."""
         inside: Env = {key: content for key, content in known.items() if isinstance(key, str) or key == _ELSE}
         inside.update(self._arguments(place, known, node, function))
         return inside
 
-    def leave(self, place: Place, known: Env, after: Env, function: n.Function) -> Env:
+    def leave(self, place: Place, known: Env, after: Env, function: Function) -> Env:
         """Return what the caller knows, with what the function set."""
         left = dict(known)
         for name in place.effects.functions[function.method].shared:
@@ -141,18 +141,24 @@ class Variables(Domain[Env]):
         return left
 
     def _arguments(
-        self, place: Place, known: Env, node: n.Call, function: n.Function
+        self, place: Place, known: Env, node: n.Call, function: Function
     ) -> Iterator[tuple[Key, Content]]:  # fmt: skip
         given = dict(node.arguments)
         for parameter in function.parameters:
             value = given.get(parameter.name, Constant(parameter.default))
             yield (function.method, parameter.name), (SET, self._value(place, known, value, parameter.unit, node))
 
-    def enter_round(self, place: Place, known: Env, node: n.ForEach, items: Sequence[Expression]) -> Env:
-        """Return that the loop's variable is one of the items."""
+    def enter_round(
+        self, place: Place, known: Env, node: n.ForEach, items: Sequence[Expression], rounds: Range
+    ) -> Env:  # fmt: skip
+        """Return that the loop's variable is one of the items, and its number one of the rounds."""
         inside = self.types_at(place.frame.name, node.body[0]) if node.body else {}
         unit = inside.get(node.variable, UNKNOWN_TYPE).unit
         contents = [(SET, self._value(place, known, item, unit, node)) for item in items]
+        if node.over is not None:
+            listed = self._value(place, known, node.over, "", node)
+            contents = [(SET, listed.each if isinstance(listed, Items) else None)]
+        known[id(node), node.index] = (SET, rounds)
         known[id(node), node.variable] = reduce(_either, contents) if contents else _ANYTHING
         return known
 
@@ -194,7 +200,7 @@ class Variables(Domain[Env]):
         if name:
             key = self._key_of(place, name)
             if place.put is not None and isinstance(key, str):
-                place.put[key] = _together(place.put.get(key, value), value)
+                place.put[key] = either_known(place.put.get(key, value), value)
             known[key] = (SET, value)
         return known
 
@@ -207,7 +213,7 @@ class Variables(Domain[Env]):
         if name not in place.volatile or not isinstance(key, str):
             return found
         beside = place.volatile[name]
-        return found[0], beside if found[0] == UNSET or beside is None else _together(found[1], beside)
+        return found[0], beside if found[0] == UNSET or beside is None else either_known(found[1], beside)
 
     def state_of(self, place: Place, name: str) -> int:
         """Return whether a variable has a value at a place: `SET`, `MAYBE` or `UNSET`."""
@@ -228,6 +234,13 @@ class Variables(Domain[Env]):
             return 0, None
         least = max(0, int(found.least)) if found.least > -inf else 0
         return least, None if found.most == inf else max(0, int(found.most))
+
+    def length(self, place: Place, known: Env, node: n.ForEach) -> tuple[int, int]:
+        """Return how many items a loop goes through, at least and at most."""
+        if node.over is None:
+            return len(node.items), len(node.items)
+        listed = self._value(place, known, node.over, "", node)
+        return (listed.least, listed.most) if isinstance(listed, Items) else (0, MOST_ITEMS)
 
     def value(self, place: Place, expression: Expression, node: n.Node) -> Known:
         """Return what is known of a value at a place."""
@@ -275,9 +288,33 @@ class Variables(Domain[Env]):
             ) if is_number(value) and (name == "!=") == holds:
                 self._narrow(place, known, variable, _without(self.content(place, known, variable)[1], value))
             case Operation(operator=name, arguments=arguments) if name in _OPPOSITE:
-                found = limited(condition if holds else Operation(_OPPOSITE[name], arguments))
-                if found is not None and isinstance(found[0], Variable):
-                    self._narrow(place, known, found[0].name, found[1])
+                self._limit(place, known, condition if holds else Operation(_OPPOSITE[name], arguments))
+
+    def _limit(self, place: Place, known: Env, comparison: Operation) -> None:
+        """Take in a comparison that holds: of a variable with a number, or of how long its list is."""
+        match comparison:
+            case Operation(
+                operator=name, arguments=(Operation(operator="len", arguments=(Variable() as whole,)), most)
+            ):
+                self._narrow_length(place, known, whole.name, limited(Operation(name, (whole, most))))
+                return
+        found = limited(comparison)
+        if found is not None and isinstance(found[0], Variable):
+            self._narrow(place, known, found[0].name, found[1])
+
+    def _narrow_length(
+        self, place: Place, known: Env, name: str, found: tuple[Reading | Variable, Range] | None
+    ) -> None:  # fmt: skip
+        """Take in that a list has so many items."""
+        listed = self.content(place, known, name)[1]
+        if found is None:
+            return
+        items, limits = listed if isinstance(listed, Items) else Items(), found[1]
+        least = floor(limits.least) + 1 if limits.least_open else ceil(limits.least) if limits.least > -inf else 0
+        most = ceil(limits.most) - 1 if limits.most_open else floor(limits.most) if limits.most < inf else items.most
+        least, most = max(items.least, least), min(items.most, most)
+        if least <= most:
+            self._narrow(place, known, name, Items(least, most, items.each))
 
     def _narrow(self, place: Place, known: Env, name: str, to: Known) -> None:
         state, value = self.content(place, known, name)
@@ -293,7 +330,7 @@ class Variables(Domain[Env]):
     def _key_of(self, place: Place, name: str) -> Key:
         frame = place.frame
         for loop in reversed(frame.loops):
-            if loop.variable == name:
+            if name in loop.names:
                 return id(loop), name
         function = frame.function
         if function is not None and name in place.effects.own[function.method]:
@@ -321,17 +358,7 @@ def _either(first: Content, second: Content) -> Content:
     state = first[0] if first[0] == second[0] else MAYBE
     if UNSET in {first[0], second[0]}:
         return state, first[1] if second[0] == UNSET else second[1]
-    return state, _together(first[1], second[1])
-
-
-def _together(first: Known, second: Known) -> Known:
-    if isinstance(first, Range) and isinstance(second, Range):
-        low = min((first.least, first.least_open), (second.least, second.least_open))
-        high = max((first.most, not first.most_open), (second.most, not second.most_open))
-        return Range(low[0], high[0], low[1], not high[1], not (first.has_zero or second.has_zero))
-    if isinstance(first, frozenset) and isinstance(second, frozenset) and len(first | second) <= MOST_WORDS:
-        return first | second
-    return None
+    return state, either_known(first[1], second[1])
 
 
 def _without(known: Known, number: float) -> Known:
@@ -349,6 +376,10 @@ def _widened(before: Content, after: Content) -> Content:
         falls, grows = value.least < first.least, value.most > first.most
         found = Range(-inf if falls else value.least, inf if grows else value.most)
         return state, None if found == ANY else found
+    if isinstance(first, Items) and isinstance(value, Items) and value != first:
+        least, most = 0 if value.least < first.least else first.least, first.most
+        each = value.each if value.each == first.each else None
+        return state, Items(least, MOST_ITEMS if value.most > most else most, each)
     return state, value
 
 

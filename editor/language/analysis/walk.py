@@ -12,9 +12,10 @@ from editor.language.analysis.effects import Effects, EffectTable, together
 from editor.language.analysis.memo import Memo
 from editor.language.expressions.nodes import Constant
 from editor.language.expressions.ranges import Known
-from editor.language.expressions.values import is_number
+from editor.language.expressions.values import MOST_ITEMS, is_number
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Tree
 
 _DECIDING = (n.If, n.While)
 MOST_STEPS_AGAIN = 5000
@@ -31,6 +32,9 @@ class Values(Protocol):
 
     def count(self, place: Place, known: Any, node: n.Repeat) -> tuple[int, int | None]:
         """Return how often a counted loop goes round, at least and at most."""
+
+    def length(self, place: Place, known: Any, node: n.ForEach) -> tuple[int, int]:
+        """Return how many items a loop goes through, at least and at most."""
 
     def assume(self, place: Place, known: Any, node: n.If | n.While, *, holds: bool) -> Any:
         """Return what is known of the variables where a step's condition holds, or does not."""
@@ -54,7 +58,7 @@ class _Found:
 class Walk:
     """One walk over one tree; what it found stands in `found`, `visited` and the sets after them."""
 
-    tree: n.Tree
+    tree: Tree
     domains: Sequence[Domain[Any]]
     effects: EffectTable
     follow: Mapping[type[n.Node], Callable[[Walk, Any, States], States | None]]
@@ -83,7 +87,7 @@ class Walk:
     """Loops and calls that are begun and never left, by identity."""
     broken: set[int] = field(default_factory=set)
     """Loops that a step in them may leave."""
-    functions: dict[str, n.Function] = field(init=False)
+    functions: dict[str, Function] = field(init=False)
     contexts: dict[object, tuple[States | None, bool, list[str]]] = field(default_factory=dict)
     """Calls that were followed → what holds after them, whether the program may end in them, and how they may fail."""
     running: dict[object, object] = field(default_factory=dict)
@@ -174,9 +178,8 @@ class Walk:
             memo.put(node, known, (self.limited > 0, given))
         return known
 
-    def _exits(self) -> tuple[int, int, int, int]:
-        frame = self.frame
-        return len(frame.breaks[-1]) if frame.breaks else 0, len(frame.returns), self.ended, len(self.failures)
+    def _exits(self) -> tuple[tuple[int, ...], int, int]:
+        return tuple(map(len, self.frame.exits())), self.ended, len(self.failures)
 
     def read(self, node: n.Node, states: States) -> None:
         """Have a look at a step that reads variables."""
@@ -250,6 +253,12 @@ class Walk:
         if is_number(times):
             return (max(0, int(times)),) * 2
         return (0, None) if self.values is None else self.values.count(self, states[0], node)
+
+    def length(self, node: n.ForEach, states: States) -> tuple[int, int]:
+        """Return how many items a loop goes through, at least and at most."""
+        if self.values is not None:
+            return self.values.length(self, states[0], node)
+        return (len(node.items),) * 2 if node.over is None else (0, MOST_ITEMS)
 
     def assume(self, states: States, node: n.Node, *, holds: bool) -> States:
         """Return what is known where a step's condition holds, or does not; `states` is used up."""

@@ -26,6 +26,7 @@ from editor.language.checks.values import (
     check_condition,
     check_given,
     check_kept,
+    check_length,
     check_limits,
     check_quantity,
     check_value,
@@ -36,13 +37,14 @@ from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Expression
 from editor.language.expressions.units import PLAIN
-from editor.language.expressions.value_types import NUMBER, SECONDS, TEXT, ValueType, constant_value
+from editor.language.expressions.value_types import LIST, NUMBER, SECONDS, TEXT, ValueType, constant_value
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments, fix_value
 from editor.language.messages.phrases import Options
 from editor.language.reading.document import ReadDocument
 from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
+from editor.language.tree.program import Tree
 from editor.language.tree.traversal import needed_of_roles
 from editor.language.tree.variable_types import (
     type_of_items,
@@ -53,7 +55,7 @@ from vipo_device.protocol.description import Description, ParameterSpec
 
 def check(
     reading: ReadDocument,
-    tree: n.Tree,
+    tree: Tree,
     surroundings: Surroundings,
     document: object = None,
     memos: Memos | None = None,
@@ -108,7 +110,7 @@ def _all_around(context: Context) -> object:
     return functions, roles, context.zones, what_programs_see(context.surroundings)
 
 
-def _bodies(tree: n.Tree) -> tuple[n.Block, ...]:
+def _bodies(tree: Tree) -> tuple[n.Block, ...]:
     return (tree.body, *(function.body for function in tree.functions), *(event.body for event in tree.events))
 
 
@@ -250,9 +252,14 @@ def _repeat(context: Context, node: n.Repeat) -> None:
 def _for_each(context: Context, node: n.ForEach) -> None:
     if not node.variable:
         context.report(node, "missing_variable", "variable")
-    if not node.items or any(map(has_missing, node.items)):
-        context.report(node, "missing_items", "items")
-    items = type_of_items(node.items, context.variables, context.surroundings)
+    if node.over is not None:
+        check_value(context, node, node.over, "list", LIST, "What the loop goes through")
+    elif not node.items or any(map(has_missing, node.items)):
+        chosen = context.raw_value(node.step, "list") is not None
+        context.report(node, "missing_items", "list" if chosen else "items")
+    else:
+        check_length(context, node, node.items, "items")
+    items = type_of_items(node, context.variables, context.surroundings)
     for item in node.items:
         if not has_missing(item):
             check_kept(context, node, item, "items", items if items.type == "number" else ValueType(), "A value")
@@ -302,7 +309,7 @@ def _return(context: Context, node: n.Return) -> None:
             check_value(context, node, node.value, "value", context.result, "The result")
 
 
-def _leave(context: Context, node: n.End | n.Break) -> None:
+def _leave(context: Context, node: n.End | n.Break | n.Continue) -> None:
     """What these leave is checked for all of them at once."""
 
 
@@ -329,6 +336,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Fail: _fail,
     n.Return: _return,
     n.Break: _leave,
+    n.Continue: _leave,
 }
 
 

@@ -14,6 +14,7 @@ from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Driver, Robot
 from editor.language.site.surroundings import DeviceFacts, Surroundings
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Role, Tree
 from editor.language.tree.variables import set_by
 from vipo_device.protocol.description import Description
 
@@ -24,7 +25,7 @@ _NUMBER_AT_THE_END = re.compile(r"[\s_-]*\d+$")
 class Context:
     """One checking of one program."""
 
-    tree: n.Tree
+    tree: Tree
     surroundings: Surroundings
     variables: Mapping[str, ValueType] = field(default_factory=dict)
     """What is known of the parameters and variables that can be seen in the block being checked."""
@@ -37,8 +38,8 @@ class Context:
     zones: frozenset[str] = frozenset()
     """The ids of the zones that the document has."""
     found: list[tuple[Problem, int]] = field(default_factory=list)
-    functions: Mapping[str, n.Function] = field(init=False)
-    roles: Mapping[str, n.Role] = field(init=False)
+    functions: Mapping[str, Function] = field(init=False)
+    roles: Mapping[str, Role] = field(init=False)
     memos: Memos | None = None
     """What was found at the last look."""
     params: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
@@ -78,7 +79,7 @@ class Context:
             tree = self.tree
             bodies = (tree.body, *(event.body for event in tree.events), *(each.body for each in tree.functions))
             nodes = [node for body in bodies for node in tree.walked(body)]
-            loops = {node.variable for node in nodes if isinstance(node, n.ForEach)}
+            loops = {name for node in nodes if isinstance(node, n.ForEach) for name in node.names}
             self._changing = frozenset(loops.union(map(set_by, nodes)))
         return self._changing
 
@@ -90,7 +91,7 @@ class Context:
             self._robots[role] = tuple(sorted(fitting, key=lambda description: description.id))
         return self._robots[role]
 
-    def fits(self, facts: DeviceFacts, role: n.Role) -> bool:
+    def fits(self, facts: DeviceFacts, role: Role) -> bool:
         """Tell whether a device can take a role, now or when it is back."""
         description = facts.description
         if role.device is not None:

@@ -17,6 +17,7 @@ from editor.language.messages.diagnostics import Fix, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.site.surroundings import DeviceFacts
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Role
 from editor.language.tree.robots import robots_for
 from editor.language.tree.zones import area_m2, is_in, read_zones
 from vipo_device.protocol.description import Description
@@ -138,7 +139,7 @@ def _check_reported(context: Context, node: n.Node, reading: Reading, field: str
         tell_unknown(context, node, reading, field, facts.description)
 
 
-def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, ...]) -> None:
+def check_role(context: Context, node: n.Node, role: Role, needed: tuple[str, ...]) -> None:
     """Check that there is a robot for a role; it is reported at the first step that needs it."""
     field = n.robot_field(node)
     told = {method for method in needed if _is_told_at_its_step(context, role, method)}
@@ -163,7 +164,7 @@ def check_role(context: Context, node: n.Node, role: n.Role, needed: tuple[str, 
         context.report(node, "no_robot_online", field, methods)
 
 
-def _is_told_at_its_step(context: Context, role: n.Role, method: str) -> bool:
+def _is_told_at_its_step(context: Context, role: Role, method: str) -> bool:
     """Tell whether a method that a role needs is one that no robot in question has, which its step tells."""
     offering = robots_for(context.surroundings, role.device, ())
     return method not in ROBOT_METHODS and not any(robot.method(method) for robot in offering)

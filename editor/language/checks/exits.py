@@ -7,17 +7,18 @@ from dataclasses import dataclass, replace
 from editor.language.checks.context import Context
 from editor.language.messages.diagnostics import Fix
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function
 
 
 @dataclass(frozen=True, slots=True)
 class _Around:
     """What stands around a step; `None` where there is none, else the code of what would be left on the path there."""
 
-    function: n.Function | None = None
+    function: Function | None = None
     barrier: str = ""
     """What keeps a return from leaving the function."""
     loop: str | None = None
-    """What keeps a break from leaving the innermost loop; empty: nothing does."""
+    """What keeps a break or a continue from its innermost loop; empty: nothing does."""
 
     def behind(self, code: str) -> _Around:
         """Return what stands around the steps in something that no step may leave."""
@@ -25,9 +26,9 @@ class _Around:
 
 
 def check_exits(context: Context) -> None:
-    """Check every break and every return of the program."""
+    """Check every break, every continue and every return of the program."""
     tree = context.tree
-    if not tree.holds(n.Break, n.Return):
+    if not tree.holds(n.Break, n.Continue, n.Return):
         return
     for block in (tree.body, *(event.body for event in tree.events)):
         _block(context, block, _Around())
@@ -38,8 +39,8 @@ def check_exits(context: Context) -> None:
 def _block(context: Context, block: n.Block, around: _Around) -> None:
     for node in block:
         match node:
-            case n.Break():
-                _break(context, node, around)
+            case n.Break() | n.Continue():
+                _of_loop(context, node, around)
             case n.Return():
                 _return(context, node, around)
             case n.While(body=body) | n.Repeat(body=body) | n.ForEach(body=body):
@@ -58,9 +59,10 @@ def _block(context: Context, block: n.Block, around: _Around) -> None:
                 _block(context, otherwise, around)
 
 
-def _break(context: Context, node: n.Break, around: _Around) -> None:
+def _of_loop(context: Context, node: n.Break | n.Continue, around: _Around) -> None:
     if around.loop is None:
-        context.report(node, "break_outside_loop", "")
+        code = "break_outside_loop" if isinstance(node, n.Break) else "continue_outside_loop"
+        context.report(node, code, "")
     elif around.loop:
         context.report(node, around.loop, "")
 

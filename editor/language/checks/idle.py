@@ -7,6 +7,7 @@ from editor.language.expressions.nodes import Constant, Variable
 from editor.language.expressions.value_types import constant_value, is_measured
 from editor.language.expressions.values import parts_of
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Tree
 from editor.language.tree.traversal import calls_by_function
 from editor.language.tree.variables import set_by
 
@@ -57,7 +58,7 @@ def takes_time(block: n.Block, slow: frozenset[str]) -> bool:
     return False
 
 
-def slow_functions(tree: n.Tree) -> frozenset[str]:
+def slow_functions(tree: Tree) -> frozenset[str]:
     """Return the functions in which any step waits for something, also in those that they call."""
     slow = {f.method for f in tree.functions if takes_time(f.body, frozenset())}
     callers: dict[str, list[str]] = {}

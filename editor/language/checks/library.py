@@ -11,6 +11,7 @@ from editor.language.messages.phrases import Options
 from editor.language.site.surroundings import LibraryFacts
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
+from editor.language.tree.program import Function, Tree
 
 
 def check_library(context: Context, document: object) -> None:
@@ -35,7 +36,7 @@ def _sources(document: object) -> Iterator[tuple[str, str, int]]:
             yield str(name), library, version
 
 
-def _where(tree: n.Tree, function: n.Function) -> str:
+def _where(tree: Tree, function: Function) -> str:
     """Return the step where a function is called first, else its own first step."""
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         for node in walk(block):
@@ -45,7 +46,7 @@ def _where(tree: n.Tree, function: n.Function) -> str:
 
 
 def _check_version(
-    context: Context, function: n.Function, step: str, source: tuple[str, int], facts: LibraryFacts | None
+    context: Context, function: Function, step: str, source: tuple[str, int], facts: LibraryFacts | None
 ) -> None:
     library, version = source
     name: TextArguments = {"function": function.name or function.method, "version": version}

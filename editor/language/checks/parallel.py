@@ -13,6 +13,7 @@ from editor.language.expressions.values import parts_of
 from editor.language.messages.diagnostics import Fix
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
+from editor.language.tree.program import Tree
 from editor.language.tree.traversal import roles_used
 from editor.language.tree.variables import SETTERS, program_variables, set_by, set_in, sets_of_functions
 
@@ -157,6 +158,6 @@ def _with(expression: Expression, values: Mapping[str, Expression]) -> Expressio
     return expression
 
 
-def _all_nodes(tree: n.Tree) -> Iterator[n.Node]:
+def _all_nodes(tree: Tree) -> Iterator[n.Node]:
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         yield from tree.walked(block)

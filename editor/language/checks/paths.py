@@ -24,6 +24,7 @@ from editor.language.messages.diagnostics import Fix
 from editor.language.site.surroundings import what_programs_see
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import blocks_of
+from editor.language.tree.program import Function, Tree
 from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import SETTERS
 
@@ -34,6 +35,7 @@ _MILDER: Mapping[str, str] = {
     "unset_variable": "may_be_unset",
     "out_of_range": "may_be_out_of_range",
     "divided_by_zero": "may_divide_by_zero",
+    "no_such_item": "may_be_no_such_item",
     "no_robot_yet": "perhaps_no_robot_yet",
 }
 """What is sure on one path is not told again as what may be on another."""
@@ -139,18 +141,18 @@ def _loads(context: Context, variables: Variables) -> Iterator[Loads]:
         yield Loads(variables, context.capacity, context.robot_name, frozenset(context.roles))
 
 
-def _has_variables(tree: n.Tree) -> bool:
+def _has_variables(tree: Tree) -> bool:
     given = any(function.parameters for function in tree.functions)
     return given or bool(tree.parameters) or tree.holds(*SETTERS, n.ForEach)
 
 
-def _blocks(tree: n.Tree) -> Iterator[n.Block]:
+def _blocks(tree: Tree) -> Iterator[n.Block]:
     yield tree.body
     yield from (event.body for event in tree.events)
     yield from (function.body for function in tree.functions)
 
 
-def _all_nodes(tree: n.Tree) -> Iterator[n.Node]:
+def _all_nodes(tree: Tree) -> Iterator[n.Node]:
     for block in _blocks(tree):
         yield from tree.walked(block)
 
@@ -205,7 +207,7 @@ def _tell_endless_calls(context: Context, walk: Walk) -> None:
             context.report(call, "calls_itself", "function", {"function": called.name or called.method})
 
 
-def functions_without_end(tree: n.Tree, effects: EffectTable) -> frozenset[str]:
+def functions_without_end(tree: Tree, effects: EffectTable) -> frozenset[str]:
     """Return the functions that neither come back nor end the program; a call that never comes back leads nowhere."""
     leaves = {function.method: False for function in tree.functions}
     comes_back = dict(leaves)
@@ -228,7 +230,7 @@ def functions_without_end(tree: n.Tree, effects: EffectTable) -> frozenset[str]:
     return frozenset(method for method, leaves_it in leaves.items() if not leaves_it)
 
 
-def _calls(walk: Walk, tree: n.Tree, function: n.Function) -> Iterator[n.Call]:
+def _calls(walk: Walk, tree: Tree, function: Function) -> Iterator[n.Call]:
     """Yield the calls that a walk over a function came to."""
     for node in tree.walked(function.body):
         if isinstance(node, n.Call) and id(node) in walk.visited and node.function in walk.functions:

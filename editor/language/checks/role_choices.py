@@ -7,12 +7,13 @@ from editor.language.checks.values import check_condition, has_missing
 from editor.language.expressions.ranges import possible
 from editor.language.tree import nodes as n
 from editor.language.tree.choice import of_role
+from editor.language.tree.program import Role
 
 _SAID_HERE = frozenset({"may_not_tell", "never_true_in_range", "contradiction"})
 """A robot that does not report it is not chosen; a choice that nobody meets has a sentence of its own."""
 
 
-def check_choice(context: Context, node: n.Node, role: n.Role) -> None:
+def check_choice(context: Context, node: n.Node, role: Role) -> None:
     """Check a condition: it looks at the robot's own readings, gives yes or no, and some robot can meet it."""
     field = n.robot_field(node)
     if role.looks_elsewhere:

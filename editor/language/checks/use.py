@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from editor.language.checks.context import Context
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
+from editor.language.tree.program import Tree
 from editor.language.tree.variables import SETTERS, read_by, set_by
 
 
@@ -64,6 +65,6 @@ def _check_parameters(context: Context) -> None:
                 context.report_step("", "unused_parameter", "parameters", {"parameter": parameter.name})
 
 
-def _all_nodes(tree: n.Tree) -> Iterator[n.Node]:
+def _all_nodes(tree: Tree) -> Iterator[n.Node]:
     for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
         yield from tree.walked(block)

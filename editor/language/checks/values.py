@@ -23,9 +23,10 @@ from editor.language.expressions.value_types import (
     constant_value,
     plain_type,
     property_spec,
+    type_word,
     unit_word,
 )
-from editor.language.expressions.values import is_number, parts_of
+from editor.language.expressions.values import MOST_ITEMS, is_number, parts_of
 from editor.language.messages.diagnostics import Fix, TextArguments, fix_value
 from editor.language.messages.phrases import Amounts, Driver, Options, Plural, Span
 from editor.language.tree import nodes as n
@@ -51,6 +52,8 @@ def check_value(
         check_readings(context, node, parts, field)
         _check_divisors(context, node, parts, field)
         _check_things(context, node, parts, field)
+        _check_numbers_of_items(context, node, parts, field)
+    _check_lengths(context, node, value, field)
     checker = TypeChecker(context.surroundings, context.variables, [])
     value_type = checker.type_of(value)
     for mismatch in checker.mismatches:
@@ -58,7 +61,10 @@ def check_value(
     if value_type.type and wanted.type and value_type.type != plain_type(wanted.type):
         details = {"subject": subject, "wanted": TYPE_WORDS[wanted.type], "given": TYPE_WORDS[value_type.type]}
         context.report(node, "wrong_type", field, details)
-    elif value_type.type == "number" == wanted.type:
+    elif value_type.of and wanted.of and value_type.of != wanted.of:
+        details = {"subject": subject, "wanted": type_word(wanted), "given": type_word(value_type)}
+        context.report(node, "wrong_type", field, details)
+    elif value_type.type == "number" == wanted.type or value_type.of == "number" == wanted.of:
         _check_unit(context, node, value, field, (value_type.unit, wanted.unit), subject)
     return len(context.found) == before
 
@@ -72,6 +78,36 @@ def _check_divisors(context: Context, node: n.Node, parts: Sequence[Expression],
                 context.report(node, "divided_by_zero", field)
             elif divisor != ANY and divisor.has_zero:
                 context.report(node, "may_divide_by_zero", field)
+
+
+def _check_numbers_of_items(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
+    """Tell of an item that the list does not have, or may not have as far as it is known."""
+    here = Here(context.surroundings, context.known)
+    for part in parts:
+        if not isinstance(part, Operation) or part.operator != "nth":
+            continue
+        items, number = here.items(part.arguments[0]), here.range(converted(context, part.arguments[1], ""))
+        broken = -inf < number.least == number.most and number.least != int(number.least)
+        if broken or number.most < 1 or (items is not None and number.least > items.most):
+            context.report(node, "no_such_item", field)
+            continue
+        told = context.known is not NOTHING_KNOWN and items is not None and number != ANY
+        if told and items is not None and (number.least < 1 or number.most > items.least):
+            context.report(node, "may_be_no_such_item", field)
+
+
+def _check_lengths(context: Context, node: n.Node, value: Expression, field: str) -> None:
+    for part in [value] if isinstance(value, Constant) else parts_of(value):
+        if isinstance(part, Constant) and isinstance(part.value, tuple):
+            check_length(context, node, part.value, field)
+        elif isinstance(part, Operation) and part.operator == "list":
+            check_length(context, node, part.arguments, field)
+
+
+def check_length(context: Context, node: n.Node, items: Sequence[object], field: str) -> None:
+    """Tell of a list that is longer than a list can be."""
+    if len(items) > MOST_ITEMS:
+        context.report(node, "list_too_long", field, {"count": len(items)})
 
 
 def check_limits(  # noqa: PLR0913 - a value, its limits, and how to speak of it
@@ -103,18 +139,20 @@ def _check_unit(
         if is_measure(given) and not same_dimension(given, wanted):
             context.report(node, "wrong_unit", field, words)
         elif given == PLAIN:
-            context.report(node, "plain_number", field, words, _with_unit(context, node, field, "*", wanted))
+            context.report(node, "plain_number", field, words, _with_unit(context, node, value, field, ("*", wanted)))
     elif is_measure(given) and (wanted == PLAIN or not isinstance(value, Reading)):
-        context.report(node, "unit_not_taken", field, words, _with_unit(context, node, field, "/", given))
+        context.report(node, "unit_not_taken", field, words, _with_unit(context, node, value, field, ("/", given)))
 
 
-def _with_unit(context: Context, node: n.Node, field: str, operator: str, unit: str) -> Fix | None:
-    """Return the fix that takes a value in a unit, or takes the unit from it."""
-    raw = context.raw_value(node.step, field)
-    if raw is None:
+def _with_unit(
+    context: Context, node: n.Node, value: Expression, field: str, into: tuple[str, str]
+) -> Fix | None:  # fmt: skip
+    """Return the fix that takes a value in a unit, or takes the unit from it; a list has one for each item."""
+    raw, (operator, unit) = context.raw_value(node.step, field), into
+    if raw is None or TypeChecker(context.surroundings, context.variables, []).type_of(value).type == "list":
         return None
-    value = {"op": operator, "args": [raw, {"quantity": [1, unit]}]}
-    return Fix("take_in" if operator == "*" else "number_of", node.step, field, value, {"value": unit_word(unit)})
+    taken = {"op": operator, "args": [raw, {"quantity": [1, unit]}]}
+    return Fix("take_in" if operator == "*" else "number_of", node.step, field, taken, {"value": unit_word(unit)})
 
 
 def check_kept(
@@ -125,10 +163,11 @@ def check_kept(
         return
     unit = TypeChecker(context.surroundings, context.variables, []).type_of(value).unit
     has_zero = UNITS[kept.unit].dimension != "temperature" if kept.unit in UNITS else True
-    if unit or (has_zero and constant_value(value) == 0):
+    empty = isinstance(value, Operation) and value.operator == "list" and not value.arguments
+    if unit or empty or (has_zero and constant_value(value) == 0):
         return
     words = {"subject": subject, "wanted": unit_word(kept.unit)}
-    fix = _with_unit(context, node, field, "*", kept.unit)
+    fix = _with_unit(context, node, value, field, ("*", kept.unit))
     if isinstance(value, Constant) and is_number(value.value):
         shown = f"{value.value} {unit_word(kept.unit)}"
         fix = Fix("set_to", node.step, field, {"quantity": [value.value, kept.unit]}, {"value": shown})

@@ -31,7 +31,7 @@ FieldType = Literal[
 """What can stand in a field. `own_robot`: the role whose robot does a method of its own; `variable`: the name of one
 that the step sets; `loop_variable`: its body alone sees it; `choice`: one of fixed words, `choices`: several of them;
 `route`: points; `text`: plain text without values."""
-Wanted = Literal["", "time", "number", "text", "boolean", "object"]
+Wanted = Literal["", "time", "number", "text", "boolean", "object", "list"]
 
 
 @dataclass(frozen=True, slots=True)

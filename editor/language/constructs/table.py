@@ -99,7 +99,17 @@ _REPEAT = Construct(
 )
 _FOR_EACH = Construct(
     "for_each",
-    (Form("ForEach", (Field("variable", "loop_variable", suggested="item"), Field("items", "values"))),),
+    (
+        Form(
+            "ForEach",
+            (
+                Field("variable", "loop_variable", suggested="item"),
+                Field("items", "values"),
+                Field("index", "loop_variable", optional=True),
+                Field("list", "value", "list", at="over", optional=True),
+            ),
+        ),
+    ),
     Look("foreach", "logic", "header", "E"),
     BODY,
     loops=True,
@@ -142,6 +152,7 @@ _ON_EVENT = Construct(
     BODY,
 )
 _BREAK = Construct("break", (Form("Break"),), Look("break", "logic", "box", rare=True))
+_CONTINUE = Construct("continue", (Form("Continue"),), Look("continue", "logic", "box", rare=True))
 _RETURN = Construct(
     "return", (Form("Return", (Field("value", optional=True),)),), Look("return", "logic", "box", rare=True)
 )
@@ -208,7 +219,7 @@ CONSTRUCTS: Final[Mapping[str, Construct]] = {
     construct.kind: construct
     for construct in (
         _MOVE, _PICK, _DROP, _PICK_AND_DROP, _OPERATE, _WAIT, _IF, _WHILE, _REPEAT, _FOR_EACH, _PARALLEL, _TRY,
-        _LIMIT, _ON_EVENT, _BREAK, _RETURN, _END, _FAIL, _CALL, _SET, _NOTIFY, _ASK, _COMMENT,
+        _LIMIT, _ON_EVENT, _BREAK, _CONTINUE, _RETURN, _END, _FAIL, _CALL, _SET, _NOTIFY, _ASK, _COMMENT,
     )
 }  # fmt: skip
 """By kind."""

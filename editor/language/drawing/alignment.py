@@ -14,6 +14,7 @@ from typing import Any, get_args
 
 from editor.language.drawing.steps import Drawable, natural_length
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Role, Tree
 
 _LARGEST_TABLE = 250_000
 _CLASSES: tuple[Any, ...] = (*get_args(n.Node), n.Event)
@@ -48,7 +49,7 @@ class _Unit:
 _SAMENESS: tuple[Callable[[_Unit], str], ...] = (lambda unit: unit.deep, lambda unit: unit.own)
 
 
-def align(tree: n.Tree, before: n.Tree) -> n.Tree:
+def align(tree: Tree, before: Tree) -> Tree:
     """Return the tree with the ids of steps, functions and roles that the tree before has, too."""
     renamed = Renamed(_same_roles(tree, before), _same_functions(tree, before))
     former = {function.method: function for function in before.functions}
@@ -68,12 +69,12 @@ def align(tree: n.Tree, before: n.Tree) -> n.Tree:
     return replace(tree, body=body, events=events, functions=tuple(functions), roles=tuple(roles))
 
 
-def _function(function: n.Function, body: n.Block, former: Mapping[str, n.Function], renamed: Renamed) -> n.Function:
+def _function(function: Function, body: n.Block, former: Mapping[str, Function], renamed: Renamed) -> Function:
     old = former.get(renamed.functions.get(function.method, ""))
     return replace(function, body=body, id=old.id if old else "")
 
 
-def _role(role: n.Role, before: n.Tree, renamed: Renamed) -> n.Role:
+def _role(role: Role, before: Tree, renamed: Renamed) -> Role:
     old = next((item for item in before.roles if item.name == renamed.roles.get(role.name)), None)
     return replace(role, id=old.id if old else "")
 
@@ -273,7 +274,7 @@ def _slot(node: Drawable, unit: _Unit) -> str:
     return f"way to {type(unit.nodes[place + 1]).__name__}"
 
 
-def _same_roles(tree: n.Tree, before: n.Tree) -> dict[str, str]:
+def _same_roles(tree: Tree, before: Tree) -> dict[str, str]:
     """Return the roles with their former names: the same name, else the same robot, else the only one left."""
     former = {role.name: role for role in before.roles}
     pairs = {role.name: role.name for role in tree.roles if role.name in former}
@@ -288,7 +289,7 @@ def _same_roles(tree: n.Tree, before: n.Tree) -> dict[str, str]:
     return pairs
 
 
-def _same_functions(tree: n.Tree, before: n.Tree) -> dict[str, str]:
+def _same_functions(tree: Tree, before: Tree) -> dict[str, str]:
     """Return the functions with their former names: the same name, else the body that has most in common."""
     former = {function.method: function for function in before.functions}
     pairs = {function.method: function.method for function in tree.functions if function.method in former}
@@ -302,7 +303,7 @@ def _same_functions(tree: n.Tree, before: n.Tree) -> dict[str, str]:
     return pairs
 
 
-def _likeness(function: n.Function, other: n.Function) -> int:
+def _likeness(function: Function, other: Function) -> int:
     """Return how many steps two functions have in common."""
     said = [unit.own for unit in _all_units(_units(other.body, None))]
     count = 0

@@ -27,6 +27,7 @@ from editor.language.expressions.values import read_point
 from editor.language.reading.document import read_document
 from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Tree
 from editor.language.tree.robots import with_roles_of_robots
 
 VARIABLE_FIELDS = frozenset({"variable", "result"})
@@ -177,7 +178,7 @@ def _letters(params: object, count: int | None) -> list[str]:
 
 
 def tree_to_document(
-    tree: n.Tree, surroundings: Surroundings, previous: Mapping[str, object] | None = None
+    tree: Tree, surroundings: Surroundings, previous: Mapping[str, object] | None = None
 ) -> dict[str, object]:
     """Return the document of a tree; what the previous document has, too, stays there as it is.
 
@@ -186,7 +187,7 @@ def tree_to_document(
     """
     old = mapping(migrate(previous or {})) if previous else {}
     if not old:
-        return _draw(tree, surroundings, {}, n.Tree())
+        return _draw(tree, surroundings, {}, Tree())
     before = _read(old, surroundings)
     drawn = _draw(tree, surroundings, old, before)
     if _read(drawn, surroundings) == tree:
@@ -194,12 +195,12 @@ def tree_to_document(
     return _draw(tree, surroundings, _without_unknown_names(old, before), before)
 
 
-def _read(document: Mapping[str, object], surroundings: Surroundings) -> n.Tree:
+def _read(document: Mapping[str, object], surroundings: Surroundings) -> Tree:
     tree = with_roles_of_robots(read_document(document).tree, surroundings)
     return add_moves(tree, standing_places(surroundings))
 
 
-def _without_unknown_names(old: Mapping[str, object], tree: n.Tree) -> dict[str, object]:
+def _without_unknown_names(old: Mapping[str, object], tree: Tree) -> dict[str, object]:
     """Return the document without values that name what did not exist: a name that is new now would give them sense."""
     before = _look_back(old, tree)
     steps: dict[str, object] = dict(before.raw)
@@ -209,9 +210,7 @@ def _without_unknown_names(old: Mapping[str, object], tree: n.Tree) -> dict[str,
     return {**old, "steps": steps}
 
 
-def _draw(
-    tree: n.Tree, surroundings: Surroundings, old: Mapping[str, object], tree_before: n.Tree
-) -> dict[str, object]:
+def _draw(tree: Tree, surroundings: Surroundings, old: Mapping[str, object], tree_before: Tree) -> dict[str, object]:
     aligned = align(tree, tree_before) if old else tree
     functions = merge_functions(aligned, tree_before, mapping(old.get("functions")), set(mapping(old.get("steps"))))
     roles, role_ids = merge_roles(aligned, tree_before, mapping(old.get("roles")))
@@ -240,7 +239,7 @@ def _draw(
     }
 
 
-def _look_back(old: Mapping[str, object], tree: n.Tree) -> _Before:
+def _look_back(old: Mapping[str, object], tree: Tree) -> _Before:
     roles = {role.name: role.id for role in tree.roles}
     encoder = StepEncoder(roles, {function.method: function.id for function in tree.functions})
     said: dict[str, tuple[str, Mapping[str, object]]] = {}

@@ -10,7 +10,7 @@ from editor.language.document.outline import PROGRAM, mapping
 from editor.language.document.references import with_role_ids
 from editor.language.expressions.names import attribute_name
 from editor.language.expressions.values import write_value
-from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Parameter, Role, Tree
 
 Plain = Mapping[str, object]
 Names = Mapping[str, str]
@@ -53,7 +53,7 @@ def _same(first: object, second: object) -> bool:
     return json.dumps(first, sort_keys=True) == json.dumps(second, sort_keys=True)
 
 
-def document_names(given: object, parameters: Sequence[n.Parameter]) -> dict[str, str]:
+def document_names(given: object, parameters: Sequence[Parameter]) -> dict[str, str]:
     """Return what the document calls the parameters that a tree has read from it."""
     listed = sorted(given.items()) if isinstance(given, Mapping) else [("", item) for item in _list(given)]
     wanted = dict.fromkeys(_text(mapping(item).get("name")) or str(key) for key, item in listed)
@@ -68,7 +68,7 @@ def _text(value: object) -> str:
     return value if isinstance(value, str) else ""
 
 
-def merge_roles(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, object], dict[str, str]]:
+def merge_roles(tree: Tree, before: Tree, old: Plain) -> tuple[dict[str, object], dict[str, str]]:
     """Return the document's roles, and the id of each role by its name in the script; unused roles stay."""
     roles: dict[str, object] = dict(old)
     ids: dict[str, str] = {}
@@ -87,7 +87,7 @@ def merge_roles(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, obj
     return roles, ids
 
 
-def _choice_of(role: n.Role) -> object:
+def _choice_of(role: Role) -> object:
     """Return all that the document says of a role."""
     return role.name, role.device, role.can, repr(role.where)
 
@@ -96,7 +96,7 @@ def _role_name(key: str, old: Plain) -> str:
     return key if key == _DEFAULT_ROLE else _text(mapping(old.get(key)).get("name")) or key
 
 
-def _may_be_called(role: n.Role) -> bool:
+def _may_be_called(role: Role) -> bool:
     """The default role keeps its name always; under another name it is another role."""
     return (role.id == _DEFAULT_ROLE) == (role.name == _DEFAULT_ROLE)
 
@@ -116,7 +116,7 @@ class Functions:
     names: Mapping[str, Names]
 
 
-def merge_functions(tree: n.Tree, before: n.Tree, old: Plain, taken: set[str]) -> Functions:
+def merge_functions(tree: Tree, before: Tree, old: Plain, taken: set[str]) -> Functions:
     """Return the functions of a tree as the document has them."""
     functions: dict[str, object] = {}
     ids: dict[str, str] = {}
@@ -132,7 +132,7 @@ def merge_functions(tree: n.Tree, before: n.Tree, old: Plain, taken: set[str]) -
     return Functions(functions, ids, names)
 
 
-def _function(function: n.Function, former: n.Function | None, raw: Plain, known: Names) -> dict[str, object]:
+def _function(function: Function, former: Function | None, raw: Plain, known: Names) -> dict[str, object]:
     changed = dict(raw)
     if former is None or former.method != function.method:
         changed["name"] = function.name or function.method
@@ -149,7 +149,7 @@ def _function(function: n.Function, former: n.Function | None, raw: Plain, known
     return changed
 
 
-def merge_parameters(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str, object], Names]:
+def merge_parameters(tree: Tree, before: Tree, old: Plain) -> tuple[dict[str, object], Names]:
     """Return the program's parameters as the document has them, and their names there."""
     known = document_names(old, before.parameters)
     former = {p.name: p for p in before.parameters}
@@ -163,7 +163,7 @@ def merge_parameters(tree: n.Tree, before: n.Tree, old: Plain) -> tuple[dict[str
     return parameters, known
 
 
-def _parameter(parameter: n.Parameter, former: n.Parameter | None, raw: Plain) -> dict[str, object]:
+def _parameter(parameter: Parameter, former: Parameter | None, raw: Plain) -> dict[str, object]:
     """Return a parameter's definition, which stays as it is where the script says the same of it."""
     if former is not None and _facts(former) == _facts(parameter):
         return dict(raw)
@@ -172,5 +172,5 @@ def _parameter(parameter: n.Parameter, former: n.Parameter | None, raw: Plain) -
     return body if parameter.default is None else {**body, "default": parameter.default}
 
 
-def _facts(parameter: n.Parameter) -> tuple[str, str, str]:
+def _facts(parameter: Parameter) -> tuple[str, str, str]:
     return repr(parameter.default), parameter.type, parameter.unit

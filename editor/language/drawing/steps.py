@@ -89,7 +89,8 @@ def _call(encoder: StepEncoder, node: n.Call) -> EncodedStep:
 
 def _for_each(encoder: StepEncoder, node: n.ForEach) -> EncodedStep:
     items = [write_value(item) for item in node.items]
-    return "for_each", _present(variable=node.variable or None, items=items), (("body", node.body),)
+    names = {"variable": node.variable or None, "index": node.index or None}
+    return "for_each", _present(**names, items=items, list=write_value(node.over)), (("body", node.body),)
 
 
 Encode = Callable[[StepEncoder, Any], EncodedStep]

@@ -14,7 +14,20 @@ from unicodedata import normalize
 from editor.language.constructs.script_form import CALLS
 
 ROBOT_METHODS = tuple(call.method for call in CALLS.values() if call.role is not None)
-CLOSED_FUNCTIONS = ("abs", "count", "distance", "max", "min", "nearest", "now", "point", "quantity", "round")
+CLOSED_FUNCTIONS = (
+    "abs",
+    "count",
+    "distance",
+    "len",
+    "max",
+    "min",
+    "nearest",
+    "now",
+    "nth",
+    "point",
+    "quantity",
+    "round",
+)
 _OF_THE_TASK = {
     "new_task",
     "run",

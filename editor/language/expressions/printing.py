@@ -63,8 +63,15 @@ def _constant(expression: Constant, names: Names, around: int) -> str:
     value = expression.value
     if not isinstance(value, tuple):
         return scalar_text(value)
-    inside = ", ".join(map(scalar_text, value))
-    return f"({inside},)" if len(value) == 1 else f"({inside})"
+    return f"[{', '.join(map(scalar_text, value))}]"
+
+
+def _choice(expression: Expression, names: Names) -> str:
+    """Return what may be on the right of `in`; values that are written out stand in round brackets there."""
+    if not isinstance(expression, Constant) or not isinstance(expression.value, tuple):
+        return _write(expression, names, _COMPARISON + 1)
+    inside = ", ".join(map(scalar_text, expression.value))
+    return f"({inside},)" if len(expression.value) == 1 else f"({inside})"
 
 
 def _reading(expression: Reading, names: Names, around: int) -> str:
@@ -89,12 +96,17 @@ def _operation(expression: Operation, names: Names, around: int) -> str:
         written = [_write(argument, names, 0) for argument in arguments]
         formatted = _formatted(arguments, written) if operator == "text" else None
         return formatted or f"{operator}({', '.join(written)})"
+    if operator == "list":
+        return f"[{', '.join(_write(argument, names, 0) for argument in arguments)}]"
     if len(arguments) == 1:
         return _unary(operator, arguments[0], names, around)
     strength = _STRENGTH.get(operator, _COMPARISON)
     first = strength + 1 if strength in {1, 2, _COMPARISON} else strength
     written = [_write(arguments[0], names, first)]
-    written += [_write(argument, names, strength + 1) for argument in arguments[1:]]
+    if operator in {"in", "not in"}:
+        written.append(_choice(arguments[1], names))
+    else:
+        written += [_write(argument, names, strength + 1) for argument in arguments[1:]]
     text = f" {operator} ".join(written)
     return f"({text})" if strength < around else text
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import reduce
 from math import inf
 from typing import TYPE_CHECKING, Final, Protocol
 
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.expressions.unit_conversion import convert_units
 from editor.language.expressions.value_types import TypeChecker, ValueType, property_spec
-from editor.language.expressions.values import COMPARISONS, is_number, parts_of
+from editor.language.expressions.values import COMPARISONS, MOST_ITEMS, is_number, parts_of
 from editor.language.site.surroundings import Surroundings
 
 if TYPE_CHECKING:
@@ -54,8 +55,43 @@ ANY = Range()
 
 Words = frozenset[str | bool]
 """The texts, devices or truths that a value is one of."""
-Known = Range | Words | None
+MOST_WORDS = 16
+MOST_LOOKED_AT = 100
+"""Of a longer list nothing is known but its length."""
+
+
+@dataclass(frozen=True, slots=True)
+class Items:
+    """A list: how many items it has at least and at most, and what each of them may be."""
+
+    least: int = 0
+    most: int = MOST_ITEMS
+    each: Range | Words | None = None
+
+
+Known = Range | Words | Items | None
 """What is known of a value; None: nothing."""
+
+
+def either_known(first: Known, second: Known) -> Known:
+    """Return what is known of a value that is one or the other."""
+    if isinstance(first, Range) and isinstance(second, Range):
+        low = min((first.least, first.least_open), (second.least, second.least_open))
+        high = max((first.most, not first.most_open), (second.most, not second.most_open))
+        return Range(low[0], high[0], low[1], not high[1], not (first.has_zero or second.has_zero))
+    if isinstance(first, frozenset) and isinstance(second, frozenset) and len(first | second) <= MOST_WORDS:
+        return first | second
+    if isinstance(first, Items) and isinstance(second, Items):
+        return Items(min(first.least, second.least), max(first.most, second.most), _each_of(first, second))
+    return None
+
+
+def _each_of(first: Items, second: Items) -> Range | Words | None:
+    """Return what an item of one list or of the other may be; an empty one has no say."""
+    if not first.most or not second.most:
+        return second.each if not first.most else first.each
+    found = either_known(first.each, second.each)
+    return None if isinstance(found, Items) else found
 
 
 class Variables(Protocol):
@@ -82,6 +118,9 @@ class Here:
 
     def known(self, expression: Expression) -> Known:
         """Return what is known of a value."""
+        items = self.items(expression)
+        if items is not None:
+            return items
         words = self.words(expression)
         if words:
             return words
@@ -90,6 +129,29 @@ class Here:
             return None if truth is None else frozenset({truth})
         found = self.range(expression)
         return None if found == ANY else found
+
+    def items(self, expression: Expression) -> Items | None:
+        """Return what is known of a list; None where nothing is, or where it is none."""
+        match expression:
+            case Constant(value=tuple(values)):
+                return self._listed([Constant(value) for value in values])
+            case Operation(operator="list", arguments=arguments):
+                return self._listed(arguments)
+            case Variable(name=name):
+                known = self.variables.get(name)
+                return known if isinstance(known, Items) else None
+            case Operation(operator="+", arguments=(left, right)):
+                first, second = self.items(left), self.items(right)
+                if first is not None and second is not None:
+                    most = min(first.most + second.most, max(MOST_ITEMS, first.least + second.least))
+                    return Items(first.least + second.least, most, _each_of(first, second))
+        return None
+
+    def _listed(self, items: Sequence[Expression]) -> Items:
+        if not items or len(items) > MOST_LOOKED_AT:
+            return Items(len(items), len(items))
+        known = reduce(either_known, map(self.known, items))
+        return Items(len(items), len(items), None if isinstance(known, Items) else known)
 
     def range(self, expression: Expression) -> Range:
         """Return between which numbers a value lies."""
@@ -101,6 +163,12 @@ class Here:
             case Variable(name=name):
                 known = self.variables.get(name)
                 return known if isinstance(known, Range) else ANY
+            case Operation(operator="len", arguments=(whole,)):
+                items = self.items(whole) or Items()
+                return Range(items.least, items.most)
+            case Operation(operator="nth", arguments=(whole, _)):
+                each = (self.items(whole) or Items()).each
+                return each if isinstance(each, Range) else ANY
             case Operation(operator="count" | "now" | "distance" as name, arguments=arguments):
                 return self._counted(name, arguments)
             case Operation(operator=name, arguments=arguments):
@@ -187,6 +255,9 @@ class Here:
                 return known if isinstance(known, frozenset) else frozenset()
             case Located(device=str(value)) | Located(place=str(value)):
                 return frozenset({value})
+            case Operation(operator="nth", arguments=(whole, _)):
+                each_item = (self.items(whole) or Items()).each
+                return each_item if isinstance(each_item, frozenset) else frozenset()
             case Operation(operator="nearest", arguments=(_, *candidates)):
                 each = [self.words(candidate) for candidate in candidates]
                 return frozenset().union(*each) if all(each) else frozenset()

@@ -6,11 +6,11 @@ from editor.language.expressions.nodes import Constant, Expression, Located, Ope
 from editor.language.expressions.products import product_of
 from editor.language.expressions.units import conversion, convert, is_measure, same_dimension, tidy, unit_symbol
 from editor.language.expressions.value_types import TypeChecker, ValueType, common_unit, is_written
-from editor.language.expressions.values import ARITHMETIC, COMPARISONS, is_number
+from editor.language.expressions.values import ARITHMETIC, COMPARISONS, is_number, operation
 from editor.language.site.surroundings import Surroundings
 
 _WITH_UNITS = frozenset({"now", "distance", "nearest", "text"})
-_MEETING = frozenset({*COMPARISONS, "+", "-", "min", "max", "abs", "round"})
+_MEETING = frozenset({*COMPARISONS, "+", "-", "min", "max", "abs", "round", "list"})
 
 
 def convert_units(expression: Expression, wanted_unit: str, checker: TypeChecker) -> Expression:
@@ -50,6 +50,8 @@ def _convert(expression: Expression, checker: TypeChecker) -> Expression:
                 return Operation(name, _placed(name, arguments, checker))
             if name in {"*", "/"}:
                 return _folded(Operation(name, _multiplied(name, arguments, checker)), expression)
+            if name == "list":
+                return operation(name, _met(name, arguments, checker))
             if name in _MEETING:
                 return _folded(Operation(name, _met(name, arguments, checker)), expression)
             return _folded(Operation(name, tuple(_convert(argument, checker) for argument in arguments)), expression)
@@ -62,7 +64,8 @@ def _met(name: str, arguments: tuple[Expression, ...], checker: TypeChecker) -> 
     unit = common_unit(arguments, types)
     converted = []
     for index, (argument, value_type) in enumerate(zip(arguments, types, strict=True)):
-        aside = name in {"+", "-"} and len(arguments) == 2 and _is_difference(index, arguments)
+        reckons = name in {"+", "-"} and len(arguments) == 2 and value_type.type != "list"
+        aside = reckons and _is_difference(index, arguments)
         converted.append(into_unit(_convert(argument, checker), value_type.unit, unit, difference=aside))
     return tuple(converted)
 
@@ -138,6 +141,8 @@ def into_unit(expression: Expression, source: str, target: str, *, difference: b
     if source == target or not is_measure(source) or not same_dimension(source, target):
         return expression
     factor, offset = conversion(source, target)
+    if isinstance(expression, Operation) and expression.operator == "list":
+        return operation("list", tuple(into_unit(item, source, target) for item in expression.arguments))
     if isinstance(expression, Constant) and is_number(expression.value):
         value = expression.value
         return Constant(tidy(value * factor) if difference else convert(value, source, target))

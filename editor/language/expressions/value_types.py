@@ -32,6 +32,11 @@ TYPE_WORDS: Mapping[str, str] = {
     "number": "a number", "text": "a text", "boolean": "yes or no", "list": "a list", "object": "a kind of object",
     "device": "a device", "place": "a place", "location": "a place", "zone": "a zone", "point": "a point",
 }  # fmt: skip
+LIST_OF = "list of "
+"""How the name of a declared type of lists begins; that of its items follows."""
+LIST_WORDS: Mapping[str, str] = {
+    "number": "a list of numbers", "text": "a list of texts", "boolean": "a list of yes or no",
+}  # fmt: skip
 _NUMBERS = (int, float)
 _COMPARISONS = frozenset(COMPARISONS)
 _TEXT_LIKE = frozenset({"object", "device", "place", "location"})
@@ -47,6 +52,13 @@ class ValueType:
 
     type: str = ""
     unit: str = ""
+    of: str = ""
+    """The type of the items, where it is a list; then the unit is theirs."""
+
+    @property
+    def item(self) -> ValueType:
+        """Return the type of an item of a list."""
+        return ValueType(self.of, self.unit) if self.of else UNKNOWN_TYPE
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +133,9 @@ class TypeChecker:
             return WRITTEN
         if isinstance(value, str):
             return TEXT
-        return LIST if isinstance(value, tuple) else UNKNOWN_TYPE
+        if not isinstance(value, tuple):
+            return UNKNOWN_TYPE
+        return self._list_of([self.constant(Constant(item)) for item in value])
 
     def variable(self, expression: Variable) -> ValueType:
         """Return the type of a parameter or a variable."""
@@ -147,6 +161,9 @@ class TypeChecker:
     def operation(self, expression: Operation) -> ValueType:
         """Return the type of what an operation gives."""
         name, arguments = expression.operator, expression.arguments
+        if name in {"in", "not in"} and isinstance(arguments[1], Constant) and isinstance(arguments[1].value, tuple):
+            self.type_of(arguments[0])
+            return BOOLEAN
         types = [self.type_of(argument) for argument in arguments]
         if name in {"and", "or", "not", "count"}:
             for value_type in types:
@@ -161,7 +178,50 @@ class TypeChecker:
             return METRES if name == "distance" else TEXT
         if name in {"text", "now"}:
             return TEXT if name == "text" else SECONDS
+        if name in {"list", "len", "nth"}:
+            return self._of_list(expression, types)
+        if name == "+" and len(types) == 2 and "list" in {types[0].type, types[1].type}:
+            return self._longer(expression, types)
         return self._computed(expression, types)
+
+    def _of_list(self, expression: Operation, types: list[ValueType]) -> ValueType:
+        """Return the type of a list, of how many items it has, or of one of them."""
+        name = expression.operator
+        if name == "list":
+            unit = common_unit(expression.arguments, types) if types else ""
+            return replace(self._list_of(types), unit=unit)
+        self._need(types[0], "list", f"“{name}”")
+        if name == "len":
+            return NUMBER
+        self._need(types[1], "number", f"“{name}”")
+        if is_measure(types[1].unit):
+            words = {"subject": "The number of the item", "given": unit_word(types[1].unit)}
+            self.mismatches.append(Mismatch("unit_not_taken", words))
+        return types[0].item if types[0].type == "list" else UNKNOWN_TYPE
+
+    def _list_of(self, types: Sequence[ValueType]) -> ValueType:
+        """Return the type of a list of such items, which must all be of one type that a list can hold."""
+        known = [each.type for each in types if each.type]
+        bad = next((each for each in known if each not in LIST_WORDS), "")
+        other = next((each for each in known if each != known[0]), "")
+        if bad:
+            self.mismatches.append(Mismatch("not_in_a_list", {"given": TYPE_WORDS[bad]}))
+        elif other:
+            words = {"left": TYPE_WORDS[known[0]], "right": TYPE_WORDS[other]}
+            self.mismatches.append(Mismatch("mixed_list", words))
+        elif known and known[0] == "number":
+            self._same_unit(list(types))
+        return ValueType("list", "", "" if bad or not known else known[0])
+
+    def _longer(self, expression: Operation, types: list[ValueType]) -> ValueType:
+        """Return the type of two lists one behind the other."""
+        for value_type in types:
+            if value_type.type not in {"", "list"}:
+                words = {"left": "A list", "right": TYPE_WORDS[value_type.type]}
+                self.mismatches.append(Mismatch("list_and_item", words))
+        items = [each.item for each in types]
+        joined = self._list_of([item for item in items if item.type])
+        return replace(joined, unit=common_unit(expression.arguments, types))
 
     def _computed(self, expression: Operation, types: list[ValueType]) -> ValueType:
         """Return the type of a number that is worked out from numbers."""
@@ -194,7 +254,7 @@ class TypeChecker:
         if not left.type or not right.type:
             return
         if name in {"in", "not in"}:
-            fits = right.type == "list" or (left.type == right.type == "text")
+            fits = (right.type == "list" and right.of in {"", left.type}) or (left.type == right.type == "text")
         elif name in {"==", "!="}:
             fits = left.type == right.type and left.type not in {"zone", "point"}
         else:
@@ -202,7 +262,7 @@ class TypeChecker:
         if not fits:
             words = {"left": TYPE_WORDS[left.type], "right": TYPE_WORDS[right.type], "operator": f"“{name}”"}
             self.mismatches.append(Mismatch("not_comparable", {**words, "left": words["left"].capitalize()}))
-        elif left.type == "number":
+        elif left.type == "number" or left.of == right.of == "number":
             self._same_unit([left, right])
 
     def _same_unit(self, types: list[ValueType]) -> None:
@@ -258,7 +318,15 @@ def is_written(expression: Expression) -> bool:
 
 def declared_type(type_name: str, unit: str) -> ValueType:
     """Return the type of what is declared; a number without a unit is a plain one."""
+    if type_name.startswith(LIST_OF):
+        item = declared_type(type_name.removeprefix(LIST_OF), unit)
+        return ValueType("list", item.unit, item.type)
     return ValueType(plain_type(type_name), unit or PLAIN if type_name == "number" else "")
+
+
+def type_word(value_type: ValueType) -> str:
+    """Return how people speak of a value of this type."""
+    return LIST_WORDS.get(value_type.of) or TYPE_WORDS[value_type.type]
 
 
 def plain_type(name: str) -> str:

@@ -26,7 +26,7 @@ COMPARISONS = ("<", "<=", ">", ">=", "==", "!=", "in", "not in")
 ARITHMETIC = ("+", "-", "*", "/")
 FUNCTIONS: Mapping[str, tuple[int, int | None]] = {
     "abs": (1, 1), "round": (1, 1), "min": (2, None), "max": (2, None), "distance": (2, 2), "nearest": (2, None),
-    "count": (1, None), "now": (0, 0), "text": (1, None),
+    "count": (1, None), "now": (0, 0), "text": (1, None), "len": (1, 1), "nth": (2, 2),
 }  # fmt: skip
 """The functions of the language, with how many values they take at least and at most."""
 _NUMBERS: Final = (int, float)
@@ -35,6 +35,8 @@ _SCALARS: Final = (str, bool, float, int)
 _LISTS: Final = (list, tuple)
 DEEPEST_EXPRESSION = 24
 LARGEST = 1e15
+MOST_ITEMS = 1000
+"""A list has at most so many items."""
 
 Names = Mapping[str, str]
 """Parameters that can be seen here: the name in the document → the name in the script."""
@@ -72,6 +74,8 @@ def operation(operator: str, arguments: tuple[Expression, ...]) -> Expression:
         return flat[0] if len(flat) == 1 else Operation(operator, flat)
     if operator == "text":
         return _text(_flat(operator, arguments))
+    if operator == "list":
+        return _list(arguments)
     if operator == "-" and len(arguments) == 1:
         return _negative(arguments[0])
     return Operation(operator, arguments)
@@ -114,8 +118,17 @@ def _text(parts: tuple[Expression, ...]) -> Expression:
     return Operation("text", tuple(joined))
 
 
+def _list(items: tuple[Expression, ...]) -> Expression:
+    """Return a list; one of values that are all written out is a constant, an empty one is none."""
+    values = tuple(item.value for item in items if isinstance(item, Constant) and not isinstance(item.value, tuple))
+    whole = values and len(values) == len(items) and None not in values
+    return Constant(values) if whole else Operation("list", items)
+
+
 def arity_fits(operator: str, count: int) -> bool:
     """Tell whether an operator of the language takes so many arguments."""
+    if operator == "list":
+        return True
     if operator in {"and", "or"}:
         return count >= 1
     if operator == "not":

@@ -79,6 +79,15 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "no_such_product": "{left} {operator} {right} misst nichts. Nehmen Sie für eines davon eine bloße Zahl.",
     "divided_by_zero": "Hier wird durch 0 geteilt. Geben Sie eine andere Zahl ein, oder prüfen Sie sie vorher.",
     "may_divide_by_zero": "Auf einem der Wege zu diesem Schritt wird durch 0 geteilt. Prüfen Sie die Zahl vorher.",
+    "no_such_item": "Die Liste hat keinen Eintrag mit dieser Nummer. Einträge werden von 1 an gezählt.",
+    "may_be_no_such_item": "Die Liste hat hier vielleicht keinen Eintrag mit dieser Nummer. Vergleichen Sie die Nummer "
+    "vorher mit len(…).",
+    "not_in_a_list": "Eine Liste enthält Zahlen, Texte, ja oder nein, Geräte oder Orte, aber nicht {given}.",
+    "mixed_list": "Die Einträge einer Liste sind alle von einer Art, und hier sind {left} und {right}.",
+    "list_and_item": "{left} und {right} lassen sich nicht zusammenfügen. Schreiben Sie eckige Klammern um den "
+    "Eintrag.",
+    "list_too_long": "Die Liste hat {count} Einträge, und höchstens 1000 sind möglich. Machen Sie mehrere Listen "
+    "daraus.",
     "may_be_out_of_range": "{subject} muss {range} sein und liegt hier vielleicht außerhalb. Prüfen Sie es vorher.",
     "out_of_range": "{subject} muss {range} sein.",
     "not_an_option": "{subject} ist eines von: {options}.",
@@ -99,6 +108,9 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "times_not_whole": "Wie oft, ist eine ganze Zahl ab 0.",
     "return_outside_function": "Nur eine Funktion kann etwas zurückgeben. Beenden Sie stattdessen das Programm.",
     "break_outside_loop": "Um diesen Schritt gibt es keine Schleife, die er verlassen könnte.",
+    "same_name": "Die Nummer der Runde braucht einen anderen Namen als der Eintrag, {variable}.",
+    "continue_outside_loop": "Um diesen Schritt gibt es keine Schleife, die mit der nächsten Runde weitermachen "
+    "könnte. Setzen Sie ihn in eine, oder löschen Sie ihn.",
     "leaves_parallel": "Dieser Schritt würde einen parallelen Zweig verlassen. Lassen Sie den Zweig zu Ende gehen.",
     "leaves_finally": "Dieser Schritt würde ein Finally verlassen, das immer ganz ausgeführt wird.",
     "gives_nothing": "{function} gibt nichts zurück. Nehmen Sie nichts davon, oder geben Sie ihr ein Ergebnis.",
@@ -217,6 +229,11 @@ WORDS_DE: Final[Mapping[str, str]] = {
     "a text": "ein Text",
     "yes or no": "ja oder nein",
     "a list": "eine Liste",
+    "a list of numbers": "eine Liste von Zahlen",
+    "a list of texts": "eine Liste von Texten",
+    "a list of yes or no": "eine Liste von Ja oder Nein",
+    "What the loop goes through": "Was die Schleife durchgeht",
+    "The number of the item": "Die Nummer des Eintrags",
     "a kind of object": "eine Objektart",
     "a device": "ein Gerät",
     "a place": "ein Ort",

@@ -21,8 +21,6 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "self.end().",
     "Leave it out: nothing needs to be deleted.": "Lassen Sie es weg: Nichts muss gelöscht werden.",
     "Leave it out: self.count is seen everywhere.": "Lassen Sie es weg: self.count ist überall bekannt.",
-    "Put what follows into an if instead of leaving it out by continue.": "Setzen Sie, was folgt, in ein if, statt es "
-    "mit continue auszulassen.",
     "Write if and else instead.": "Schreiben Sie stattdessen if und else.",
     "Write a function beside new_task, in class Task: def mix_paint(self, minutes):.": "Schreiben Sie eine Funktion "
     "neben new_task, in class Task: def mix_paint(self, minutes):.",
@@ -31,8 +29,10 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "Write if and else on lines of their own.": "Schreiben Sie if und else in eigene Zeilen.",
     "Set the variable on a line of its own: self.count = 1.": "Setzen Sie die Variable in einer eigenen Zeile: "
     "self.count = 1.",
-    "Name a value itself; the language has no places in lists.": "Nennen Sie den Wert selbst; die Sprache hat keine "
-    "Plätze in Listen.",
+    "Take one item at a time: {x}.": "Nehmen Sie einen Eintrag auf einmal: {x}.",
+    'Write a text with the value in it: f"{self.count} boxes".': "Schreiben Sie einen Text mit dem Wert darin: "
+    'f"{{self.count}} boxes".',
+    "Items are counted from 1. Write {x}.": "Einträge werden von 1 an gezählt. Schreiben Sie {x}.",
     "Leave “await” out: a script waits by itself until a step is done.": "Lassen Sie „await“ weg: Ein Skript wartet "
     "von selbst, bis ein Schritt fertig ist.",
     "Write return to give a value.": "Schreiben Sie return, um einen Wert zu geben.",
@@ -53,9 +53,6 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "Write the value itself.": "Schreiben Sie den Wert selbst.",
     "A script reads no files. Use readings of devices, parameters and questions.": "Ein Skript liest keine Dateien. "
     "Verwenden Sie Messwerte von Geräten, Parameter und Fragen.",
-    "Use count(condition, …), or write the number.": "Verwenden Sie count(Bedingung, …) oder schreiben Sie die Zahl.",
-    'Write a text with the value in it: f"{self.count} boxes".': "Schreiben Sie einen Text mit dem Wert darin: "
-    'f"{{self.count}} boxes".',
     "Use round(…), or write the number.": "Verwenden Sie round(…) oder schreiben Sie die Zahl.",
     "Leave “float” out and write the value.": "Lassen Sie „float“ weg und schreiben Sie den Wert.",
     "Say what it does, for example {x} or {y}.": "Sagen Sie, was es tut, zum Beispiel {x} oder {y}.",
@@ -168,6 +165,8 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "Name each: {x}.": "Nennen Sie jedes einzeln: {x}.",
     "A loop has one name, without self. Write {x}: or {y}:.": "Eine Schleife hat einen Namen, ohne self. Schreiben Sie "
     "{x}: oder {y}:.",
+    "Rounds are counted from 1. Write {x}:.": "Runden werden von 1 an gezählt. Schreiben Sie {x}:.",
+    "Give the number of the round a name of its own.": "Geben Sie der Nummer der Runde einen eigenen Namen.",
     "Set one variable on each line: self.count = 1.": "Setzen Sie in jeder Zeile eine Variable: self.count = 1.",
     "Leave the type out: {x}.": "Lassen Sie den Typ weg: {x}.",
     # run and the class

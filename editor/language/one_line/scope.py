@@ -137,6 +137,7 @@ def _visible(document: Mapping[str, object], step: str) -> Iterator[tuple[str, P
         params = mapping(mapping(steps.get(name)).get("params"))
         kind, place = mapping(steps.get(name)).get("kind"), mapping(steps.get(inner)).get("place")
         if kind == "for_each":
+            yield _text(params.get("index")), {"type": "number"}
             yield _text(params.get("variable")), {}
         elif kind == "try" and isinstance(place, list | tuple) and len(place) > 1 and place[1] == "catch":
             yield from ((part, {}) for part in OF_PROBLEM)

@@ -15,6 +15,7 @@ from editor.language.parsing.expressions import parse_expression, parse_scalar
 from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted, written
 from editor.language.tree import nodes as n
 from editor.language.tree.choice import foreign_part
+from editor.language.tree.program import Parameter
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,7 +193,7 @@ def read_type(node: ast.expr | None) -> tuple[str, str]:
         raise Refused(node or ast.Pass(), quoted(node or ast.Pass()), str(error)) from error
 
 
-def parse_parameters(method: ast.FunctionDef) -> tuple[n.Parameter, ...]:
+def parse_parameters(method: ast.FunctionDef) -> tuple[Parameter, ...]:
     """Return the parameters of a function's method.
 
     Raises:
@@ -205,7 +206,7 @@ def parse_parameters(method: ast.FunctionDef) -> tuple[n.Parameter, ...]:
     given = a.args[1:]
     defaults = [None] * (len(given) - len(a.defaults)) + [parse_scalar(default) for default in a.defaults]
     return tuple(
-        n.Parameter(argument.arg, default, *read_type(argument.annotation))
+        Parameter(argument.arg, default, *read_type(argument.annotation))
         for argument, default in zip(given, defaults, strict=True)
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import Final
 
 from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
@@ -22,7 +22,15 @@ from editor.language.expressions.nodes import (
     Variable,
 )
 from editor.language.expressions.units import UNITS, unit_code
-from editor.language.expressions.values import DEEPEST_EXPRESSION, FUNCTIONS, arity_fits, is_number, operation, plain
+from editor.language.expressions.values import (
+    DEEPEST_EXPRESSION,
+    FUNCTIONS,
+    MOST_ITEMS,
+    arity_fits,
+    is_number,
+    operation,
+    plain,
+)
 from editor.language.messages.syntax_errors import (
     NAMES,
     instead_of_call,
@@ -38,9 +46,9 @@ from editor.language.parsing.answers import (
     unknown_value,
     what_is_called,
 )
-from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted
+from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted, written
 from editor.language.tree.choice import ITSELF
-from editor.language.tree.robots import is_robot, own_methods, readings_called, readings_of, short_name
+from editor.language.tree.robots import own_methods, readings_called, readings_of, short_name
 from vipo_device.protocol.description import Scalar
 
 _BINARY: Mapping[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
@@ -92,7 +100,11 @@ def _constant(node: ast.Constant, scope: Scope, depth: int) -> Expression:
     return MISSING if scalar is None else Constant(scalar)
 
 
-def _list(node: ast.Tuple | ast.List, scope: Scope, depth: int) -> Expression:
+def _list(node: ast.List, scope: Scope, depth: int) -> Expression:
+    return operation("list", tuple(parse_expression(item, scope, depth) for item in node.elts))
+
+
+def _tuple(node: ast.Tuple, scope: Scope, depth: int) -> Expression:
     scalars = tuple(parse_scalar(item) for item in node.elts)
     if not scalars or None in scalars:
         raise Refused(node, quoted(node), "Write at least one value between the brackets.")
@@ -272,6 +284,20 @@ def _binary_operation(node: ast.BinOp, scope: Scope, depth: int) -> Expression:
     return operation(name, (parse_expression(node.left, scope, depth), parse_expression(node.right, scope, depth)))
 
 
+def _item(node: ast.Subscript, scope: Scope, depth: int) -> Expression:
+    """Refuse `items[0]`: what it means differs by one from how people count."""
+    match node.slice:
+        case ast.Constant(value=int(number)) if 0 <= number < MOST_ITEMS:
+            instead = f"Items are counted from 1. Write nth({written(node.value)}, {number + 1})."
+        case ast.Constant(value=int()) | ast.UnaryOp():
+            instead = f"Items are counted from 1. Write nth({written(node.value)}, len({written(node.value)}))."
+        case ast.Slice() | ast.Constant():
+            raise Refused(node, quoted(node), "Take one item at a time: nth(self.colours, 1).")
+        case position:
+            instead = f"Items are counted from 1. Write nth({written(node.value)}, {written(position)} + 1)."
+    raise Refused(node, quoted(node), instead)
+
+
 def _comparison(node: ast.Compare, scope: Scope, depth: int) -> Expression:
     name = _COMPARE.get(type(node.ops[0]))
     if len(node.ops) == 1 and name is None:
@@ -284,7 +310,7 @@ def _comparison(node: ast.Compare, scope: Scope, depth: int) -> Expression:
 
 _PARSERS: Mapping[type[ast.expr], Callable[..., Expression]] = {
     ast.Constant: _constant,
-    ast.Tuple: _list,
+    ast.Tuple: _tuple,
     ast.List: _list,
     ast.Name: _name,
     ast.Attribute: _attribute,
@@ -294,6 +320,7 @@ _PARSERS: Mapping[type[ast.expr], Callable[..., Expression]] = {
     ast.BinOp: _binary_operation,
     ast.Compare: _comparison,
     ast.JoinedStr: _formatted,
+    ast.Subscript: _item,
 }
 
 
@@ -353,44 +380,3 @@ def parse_place(node: ast.expr, scope: Scope) -> PlaceRef:
     if isinstance(known, str) and known in scope.bindings:
         raise Refused(node, quoted(node), f"Write self.{known}.location.")
     raise Refused(node, quoted(node), "Write where it goes as self.oven.location, or as a point (x, y).")
-
-
-def calls_in(module: ast.Module) -> list[ast.Call]:
-    """Return every call in a script, in any order."""
-    found: list[ast.Call] = []
-    left: list[ast.AST] = [module]
-    while left:
-        node = left.pop()
-        if node.__class__ is ast.Call:
-            found.append(node)
-        for name in node._fields:
-            value = getattr(node, name, None)
-            if value.__class__ is list:
-                left.extend(item for item in value if isinstance(item, ast.AST))
-            elif isinstance(value, ast.AST) and value.__class__ not in _BARE:
-                left.append(value)
-    return found
-
-
-_BARE: Final = frozenset({ast.Load, ast.Store, ast.Constant, ast.Name})
-"""What a syntax tree has most of; nothing stands in it."""
-
-
-def robots_driven(calls: Iterable[ast.Call], scope: Scope) -> frozenset[str]:
-    """Return the attributes of the task that some step has as a robot: x of `self.x.pick(…)` or of its own method."""
-    found: set[str] = set()
-    for call in calls:
-        function = call.func
-        name = attribute_of_self(function.value) if isinstance(function, ast.Attribute) else None
-        if name is None or not isinstance(function, ast.Attribute) or function.attr == "read":
-            continue
-        if function.attr in ROBOT_METHODS or is_sure_robot(scope.bindings.get(name), scope):
-            found.add(name)
-    return frozenset(found)
-
-
-def is_sure_robot(binding: Binding | None, scope: Scope) -> bool:
-    """Tell whether what `run` gives is a robot, whatever the steps do with it."""
-    if binding is None or binding.kind not in {"get", "any"}:
-        return False
-    return binding.kind == "any" or binding.is_robot or is_robot(scope.surroundings, binding.id)

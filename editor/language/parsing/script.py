@@ -18,12 +18,13 @@ from editor.language.messages.diagnostics import Diagnostic, Problem, put_into_w
 from editor.language.messages.syntax_errors import STATEMENTS, count_characters, explain_syntax, instead_of_import
 from editor.language.parsing.answers import unplaced_load
 from editor.language.parsing.bindings import Entry, parse_parameters, parse_run, read_type, takes_only
-from editor.language.parsing.expressions import calls_in, robots_driven
+from editor.language.parsing.robots import calls_in, robots_driven
 from editor.language.parsing.scope import Refused, Scope, attribute_of_self, quoted, written
 from editor.language.parsing.steps import Parser
 from editor.language.parsing.variables import check_local, names_assigned
 from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Parameter, Role, Tree
 from editor.language.tree.traversal import in_reading_order
 
 LONGEST_SCRIPT = 2_000_000
@@ -35,7 +36,7 @@ MOST_TOLD = 20
 class Parsed:
     """What a script means, or why it means nothing."""
 
-    tree: n.Tree | None
+    tree: Tree | None
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
@@ -99,7 +100,7 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
         scope.locals = own | frozenset(parameter.name for parameter in function.parameters)
         parser.functions[name] = replace(function, body=parser.block(methods[name].body))
     roles, parameters = _roles_and_parameters(parser)
-    tree = in_reading_order(n.Tree(body, tuple(parser.functions.values()), roles, parameters, events))
+    tree = in_reading_order(Tree(body, tuple(parser.functions.values()), roles, parameters, events))
     placed, unplaced = place_loads(tree, standing_places(surroundings))
     for node in unplaced:
         where = parser.origins[id(node)]
@@ -118,7 +119,7 @@ def _told(refusals: list[Refused]) -> tuple[Diagnostic, ...]:
     return (*told, _diagnostic("more_mistakes", *place, {"count": len(more)}))
 
 
-def _signature(name: str, method: ast.FunctionDef) -> n.Function:
+def _signature(name: str, method: ast.FunctionDef) -> Function:
     """Return a function still without its steps."""
     known = unique_name(name, RESERVED_ATTRIBUTES)
     if name == "__init__":
@@ -128,7 +129,7 @@ def _signature(name: str, method: ast.FunctionDef) -> n.Function:
     parameters = parse_parameters(method)
     for argument in method.args.args[1:]:
         check_local(argument.arg, argument)
-    return n.Function(name, parameters, (), *read_type(method.returns), name=name)
+    return Function(name, parameters, (), *read_type(method.returns), name=name)
 
 
 def _handlers(entries: list[Entry], methods: Mapping[str, ast.FunctionDef]) -> list[ast.FunctionDef]:
@@ -153,14 +154,14 @@ def _event(parser: Parser, entry: Entry, method: ast.FunctionDef) -> n.Event:
     return n.Event(condition, parser.block(method.body), entry.starts)
 
 
-def _roles_and_parameters(parser: Parser) -> tuple[tuple[n.Role, ...], tuple[n.Parameter, ...]]:
+def _roles_and_parameters(parser: Parser) -> tuple[tuple[Role, ...], tuple[Parameter, ...]]:
     bindings = parser.scope.bindings.items()
     roles = tuple(
-        n.Role(name, b.id if b.kind == "get" else None, b.can, b.at, name, where=b.where)
+        Role(name, b.id if b.kind == "get" else None, b.can, b.at, name, where=b.where)
         for name, b in bindings
         if name in parser.roles
     )
-    return roles, tuple(n.Parameter(name, b.default, b.type, b.unit) for name, b in bindings if b.kind == "parameter")
+    return roles, tuple(Parameter(name, b.default, b.type, b.unit) for name, b in bindings if b.kind == "parameter")
 
 
 def _is_method(statement: ast.stmt) -> bool:

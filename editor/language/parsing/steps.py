@@ -16,7 +16,6 @@ from editor.language.messages.syntax_errors import (
     LIMIT,
     LIMITING,
     instead_of_call,
-    instead_of_expression,
     instead_of_statement,
 )
 from editor.language.parsing.answers import (
@@ -26,23 +25,22 @@ from editor.language.parsing.answers import (
     unknown_method,
     unknown_name,
     unknown_robot,
-    what_it_is,
 )
 from editor.language.parsing.bindings import parse_arguments
 from editor.language.parsing.calls import ASSIGNED_CALLS, OWN_CALLS, ROBOT_CALLS
 from editor.language.parsing.excepts import kinds_of_all, kinds_together
 from editor.language.parsing.expressions import parse_expression, parse_thing
+from editor.language.parsing.loops import parse_loop
 from editor.language.parsing.scope import Refused, Scope, attribute_of_self, of_problem, quoted, written
-from editor.language.parsing.variables import check_local, parse_target
+from editor.language.parsing.variables import parse_target
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function
 from editor.language.tree.robots import Robots, described_alike, methods_called, own_methods, robots_for, short_name
 
 _STATEMENTS = (
     "Use the robots' move, pick and drop, machines' methods, wait, ask, notify, if, while, for, try, parallel, "
     "variables and functions."
 )
-_MOST_TIMES = 10**6
-_FOR = "Write for _ in range(3): or for oven in [self.oven_a, self.oven_b]:."
 
 
 @dataclass(slots=True)
@@ -52,7 +50,7 @@ class Parser:
     methods: Mapping[str, ast.FunctionDef]
     scope: Scope
     refusals: list[Refused] = field(default_factory=list)
-    functions: dict[str, n.Function] = field(default_factory=dict)
+    functions: dict[str, Function] = field(default_factory=dict)
     origins: dict[int, ast.AST] = field(default_factory=dict)
     """The place in the script of each pick and drop, by identity."""
     roles: set[str] = field(default_factory=set)
@@ -106,8 +104,8 @@ class Parser:
             case ast.Return(value=value):
                 given = e.MISSING if value is None else self.value(value)
                 return n.Return(None if given == e.MISSING else given)
-            case ast.Break():
-                return n.Break()
+            case ast.Break() | ast.Continue():
+                return n.Break() if isinstance(statement, ast.Break) else n.Continue()
             case ast.Raise(exc=ast.Call(func=ast.Name(id="Failed"), args=[message], keywords=[]), cause=None):
                 return n.Fail(self.value(message))
         return self._composite(statement)
@@ -170,17 +168,15 @@ class Parser:
         match statement.target, statement.iter:
             case ast.Name(id="_"), ast.Call(func=ast.Name(id="range"), args=[times], keywords=[]):
                 return n.Repeat(self.value(times), self.block(statement.body))
-            case ast.Name(id=name), ast.List(elts=items):
-                values = tuple(self.value(item) for item in items)
-                if name == "_":
-                    return n.ForEach("", values, self.block(statement.body))
-                check_local(name, statement.target)
-                outside = self.scope.locals
-                self.scope.locals = outside | {name}
-                body = self.block(statement.body)
-                self.scope.locals = outside
-                return n.ForEach(name, values, body)
-        raise _refused_loop(statement, self.scope)
+        head = parse_loop(statement, self.scope)
+        values = tuple(self.value(item) for item in head.items)
+        over = None if head.over is None else self.value(head.over)
+        assert over is None or isinstance(over, e.Variable), "the head of a loop names a variable"
+        outside = self.scope.locals
+        self.scope.locals = outside.union(head.names)
+        body = self.block(statement.body)
+        self.scope.locals = outside
+        return n.ForEach(head.variable, values, head.index, over, body)
 
     def _assign(self, target: ast.expr, value: ast.expr) -> n.Node:
         """Return the node of `self.x = 1`, `self.x = self.ask(…)` or `self.x = self.function(…)`."""
@@ -338,37 +334,6 @@ def _limit(parser: Parser, statement: ast.With | ast.AsyncWith) -> Expression:
         ) if attribute_of_self(function) == "limit" and not isinstance(value, ast.Starred):
             return parser.value(value)
     raise Refused(statement, quoted(statement), LIMIT)
-
-
-def _refused_loop(loop: ast.For, scope: Scope) -> Refused:
-    """Return the refusal of a loop, which says what is wrong with its name or with what it goes through."""
-    match loop.target, loop.iter:
-        case ast.Name(id=name), ast.Call(func=ast.Name(id="range"), args=[_], keywords=[]):
-            used = any(isinstance(node, ast.Name) and node.id == name for part in loop.body for node in ast.walk(part))
-            instead = f"Count it yourself: self.{name} = 0 before the loop, self.{name} = self.{name} + 1 at its end."
-            return Refused(loop.target, quoted(loop.target), instead if used else "Write for _ in range(3):.")
-        case _, ast.Call(func=ast.Name(id="range"), args=[ast.Constant(value=int(a)), ast.Constant(value=int(b))]) if (
-            abs(a) < _MOST_TIMES > abs(b)
-        ):
-            return Refused(loop.iter, quoted(loop.iter), f"Say how often: for _ in range({max(b - a, 0)}):.")
-        case _, ast.Call(func=ast.Name(id="range")):
-            return Refused(loop.iter, quoted(loop.iter), "Say how often, with one number: for _ in range(3):.")
-        case _, ast.Constant(value=int(times)) if times < _MOST_TIMES:
-            return Refused(loop.iter, quoted(loop.iter), f"Say how often: for _ in range({times}):.")
-        case ast.Name(id=name), ast.Tuple() as items:
-            listed = ", ".join(map(written, items.elts))
-            return Refused(items, quoted(items), f"Write square brackets: for {name} in [{listed}]:.")
-        case ast.Name(id=name), ast.Attribute(attr=own) as items if what_it_is(own, scope, frozenset()):
-            return Refused(items, quoted(items), f"Name each: for {name} in [{written(items)}]:.")
-        case ast.Name(), ast.Attribute(value=ast.Name(id="self"), attr=own) as items:
-            return unknown_device(items, own, scope)
-        case ast.Name(), _:
-            return Refused(loop.iter, quoted(loop.iter), instead_of_expression(loop.iter) or _FOR)
-    return Refused(
-        loop.target,
-        quoted(loop.target),
-        "A loop has one name, without self. Write for _ in range(3): or for oven in [self.oven_a, self.oven_b]:.",
-    )
 
 
 def _missing_set(parser: Parser, call: ast.Call) -> n.Node:

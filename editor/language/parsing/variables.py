@@ -38,8 +38,9 @@ def _targets(
             case ast.Assign(targets=[target]) | ast.AugAssign(target=target):
                 if not (isinstance(target, ast.Name) and target.id in loops):
                     yield target
-            case ast.For(target=ast.Name(id=name)):
-                inside = loops | {name}
+            case ast.For(target=ast.Name() | ast.Tuple() as target):
+                named = target.elts if isinstance(target, ast.Tuple) else [target]
+                inside = loops.union(name.id for name in named if isinstance(name, ast.Name))
             case ast.Expr(value=ast.Call() as call) if attribute_of_self(call.func) == "parallel":
                 for branch in map(attribute_of_self, call.args):
                     if branch is not None and branch in methods and branch not in seen:

@@ -12,6 +12,7 @@ from editor.language.expressions.value_types import UNKNOWN_TYPE, TypeChecker, V
 from editor.language.plan import instructions as p
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Tree
 from vipo_device.protocol.description import Description
 
 Leaves = tuple[str, ...]
@@ -29,9 +30,11 @@ class Guard:
 
 @dataclass(slots=True, eq=False)
 class Loop:
-    """A loop around the step being compiled, with the addresses of the jumps that leave it."""
+    """A loop around the step being compiled, with the addresses of the jumps that leave it, or its round."""
 
     jumps: list[int] = field(default_factory=list)
+    rounds: list[int] = field(default_factory=list)
+    """The jumps to the end of the body, where the next round begins."""
 
 
 @dataclass(slots=True, eq=False)
@@ -48,7 +51,7 @@ Around = Guard | Loop | Composite
 class Builder:
     """The instructions so far; jumps are written when their address is known."""
 
-    tree: n.Tree
+    tree: Tree
     surroundings: Surroundings
     line_of: Mapping[int, int]
     compilers: Mapping[type[n.Node], Compiler]
@@ -64,8 +67,8 @@ class Builder:
     """The parameters and variables of the function being compiled."""
     renamed: dict[str, str] = field(default_factory=dict)
     """The variables of the loops around, each with its hidden name."""
-    function: n.Function | None = None
-    functions: Mapping[str, n.Function] = field(init=False)
+    function: Function | None = None
+    functions: Mapping[str, Function] = field(init=False)
     hidden: dict[str, int] = field(default_factory=dict)
     methods: dict[str, frozenset[str]] = field(default_factory=dict)
     """What devices can do, as far as it was asked for."""

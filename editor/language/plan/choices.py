@@ -13,7 +13,7 @@ from editor.language.expressions.values import COMPARISONS, is_number, rename_ro
 from editor.language.plan.instructions import RoleBinding
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree.choice import of_role
-from editor.language.tree.nodes import Role
+from editor.language.tree.program import Role
 
 
 def binding_of(role: Role, surroundings: Surroundings) -> RoleBinding:

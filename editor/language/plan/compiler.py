@@ -15,6 +15,7 @@ from editor.language.plan.builder import Builder, Compiler, Leaves
 from editor.language.plan.choices import binding_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
+from editor.language.tree.program import Function, Tree
 from editor.language.tree.robots import described_alike, robots_for
 from editor.language.tree.variable_types import types_in_function, types_in_program
 from editor.language.tree.variables import local_variables, program_variables
@@ -149,11 +150,12 @@ COMPILERS: Mapping[type[n.Node], Compiler] = {
     n.Fail: _fail,
     n.Return: flow.compile_return,
     n.Break: flow.compile_break,
+    n.Continue: flow.compile_continue,
 }
 
 
 def compile_tree(
-    tree: n.Tree, surroundings: Surroundings, line_of: Mapping[int, int], zones: tuple[e.Zone, ...] = ()
+    tree: Tree, surroundings: Surroundings, line_of: Mapping[int, int], zones: tuple[e.Zone, ...] = ()
 ) -> p.Plan:
     """Return the plan of a tree that the checks found no error in; `line_of` gives the script line of each node."""
     shared = program_variables(tree)
@@ -174,7 +176,7 @@ def compile_tree(
     return p.Plan(instructions, roles, parameters, tuple(sorted(builder.readings)), events=events, zones=zones)
 
 
-def _function(builder: Builder, function: n.Function) -> int:
+def _function(builder: Builder, function: Function) -> int:
     """Compile a function and return where it begins."""
     entry = builder.here()
     outside, builder.types = (
@@ -200,7 +202,7 @@ def _event(builder: Builder, event: n.Event) -> p.EventEntry:
 Compiled = tuple[tuple[p.Instruction, ...], tuple[p.EventEntry, ...]]
 
 
-def _with_role_ids(tree: n.Tree, instructions: list[p.Instruction], events: tuple[p.EventEntry, ...]) -> Compiled:
+def _with_role_ids(tree: Tree, instructions: list[p.Instruction], events: tuple[p.EventEntry, ...]) -> Compiled:
     """The plan knows roles by their ids in the document, the script by their names."""
     renamed = {role.name: role.id for role in tree.roles if role.id and role.id != role.name}
     if not renamed:

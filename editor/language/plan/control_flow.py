@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import OF_PROBLEM
+from editor.language.expressions.value_types import NUMBER
+from editor.language.expressions.values import operation
 from editor.language.plan import instructions as p
 from editor.language.plan.builder import Around, Builder, Composite, Guard, Leaves, Loop
 from editor.language.tree import nodes as n
@@ -13,7 +15,7 @@ from editor.language.tree.nodes import walk
 from editor.language.tree.variable_types import type_of_items
 from editor.language.tree.variables import reads_problem
 
-_LEAVE = frozenset({n.Return, n.Break})
+_LEAVE = frozenset({n.Return, n.Break, n.Continue})
 _ONE = e.Constant(1)
 _ZERO = e.Constant(0)
 
@@ -54,22 +56,46 @@ def compile_repeat(builder: Builder, node: n.Repeat, leaves: Leaves) -> None:
 
 def compile_for_each(builder: Builder, node: n.ForEach, leaves: Leaves) -> None:
     """Compile a For-each: a hidden variable counts, and tells which item comes next."""
-    value_type = type_of_items(node.items, builder.types, builder.surroundings)
-    items = [builder.value(item, value_type.unit) for item in node.items]
+    value_type = type_of_items(node, builder.types, builder.surroundings)
     index = e.Variable(builder.hide("item"))
     builder.add(p.Assign(index.name, _ZERO), node, enters=(node.step,))
-    items = [_kept(builder, item) for item in items]
+    choose, count = _chooser(builder, node, index, value_type.unit)
     outside, types = builder.renamed, builder.types
     variable = builder.hide(node.variable)
-    builder.renamed, builder.types = {**outside, node.variable: variable}, {**types, node.variable: value_type}
     branch = builder.add(p.Jump(0), node)
-    _choose(builder, index, variable, items)
+    choose(variable)
+    builder.renamed, builder.types = {**outside, node.variable: variable}, {**types, node.variable: value_type}
+    if node.index:
+        number = builder.hide(node.index)
+        builder.renamed[node.index], builder.types = number, {**builder.types, node.index: NUMBER}
+        builder.add(p.Assign(number, e.Operation("+", (index, _ONE))))
     loop = _body(builder, node)
     builder.renamed, builder.types = outside, types
     builder.add(p.Assign(index.name, e.Operation("+", (index, _ONE))))
     builder.add(p.Jump(branch))
-    builder.patch(branch, p.Branch(e.Operation("<", (index, e.Constant(len(items)))), builder.here()))
+    builder.patch(branch, p.Branch(e.Operation("<", (index, count)), builder.here()))
     _close(builder, node, loop)
+
+
+def _chooser(
+    builder: Builder, node: n.ForEach, index: e.Variable, unit: str
+) -> tuple[Callable[[str], None], e.Expression]:  # fmt: skip
+    """Keep what a loop goes through; return what gives a variable the item whose turn it is, and how many there are.
+
+    A robot is looked up in its own round, for its role may have got it only in the round before.
+    """
+    if any(isinstance(item, e.Located) and item.role is not None for item in node.items):
+        items = [_kept(builder, builder.value(item, unit)) for item in node.items]
+        return lambda variable: _choose(builder, index, variable, items), e.Constant(len(items))
+    listed = builder.value(operation("list", node.items) if node.over is None else node.over, unit)
+    kept = e.Variable(builder.hide("list"))
+    builder.add(p.Assign(kept.name, listed))
+
+    def choose(variable: str) -> None:
+        item = e.Operation("nth", (kept, e.Operation("+", (index, _ONE))))
+        builder.add(p.Assign(variable, item))
+
+    return choose, e.Operation("len", (kept,))
 
 
 def _kept(builder: Builder, item: e.Expression) -> e.Expression:
@@ -100,6 +126,8 @@ def _body(builder: Builder, node: n.While | n.Repeat | n.ForEach) -> Loop:
     loop = Loop()
     with builder.inside(loop):
         builder.block(node.body)
+    for address in loop.rounds:
+        builder.patch(address, p.Jump(builder.here()))
     return loop
 
 
@@ -192,13 +220,26 @@ def _final(builder: Builder, node: n.Try, guard: Guard) -> None:
 
 def compile_break(builder: Builder, node: n.Break, leaves: Leaves) -> None:
     """Compile a Break: final parts on the path are carried out."""
+    loop = _left_to_loop(builder, node, leaves)
+    loop.jumps.append(builder.here() - 1)
+
+
+def compile_continue(builder: Builder, node: n.Continue, leaves: Leaves) -> None:
+    """Compile a Continue: as a Break, but that it goes on at the end of the body."""
+    loop = _left_to_loop(builder, node, leaves)
+    loop.rounds.append(builder.here() - 1)
+
+
+def _left_to_loop(builder: Builder, node: n.Break | n.Continue, leaves: Leaves) -> Loop:
+    """Leave all that stands between a step and its loop, by a jump, the last instruction, that is still open."""
     loop = next((item for item in reversed(builder.around) if isinstance(item, Loop)), None)
     assert loop is not None, "the checks found a loop around this step"
     passed = _until(builder.around, loop)
     builder.add(p.Jump(builder.here() + 1), node, enters=(node.step,), leaves=leaves)
     _leave_guards(builder, passed, passed)
     over = tuple(item.step for item in passed if isinstance(item, Composite))
-    loop.jumps.append(builder.add(p.Jump(0), leaves=over))
+    builder.add(p.Jump(0), leaves=over)
+    return loop
 
 
 def _until(around: list[Around], loop: Loop) -> list[Around]:

@@ -12,7 +12,8 @@ from editor.language.expressions.printing import quote, scalar_text
 from editor.language.printing.steps import PRINTERS
 from editor.language.printing.writer import CHOSEN, Printer
 from editor.language.site.surroundings import Surroundings, what_programs_see
-from editor.language.tree.nodes import DRIVES, Block, Event, Function, Parameter, Role, Tree
+from editor.language.tree.nodes import DRIVES, Block, Event
+from editor.language.tree.program import Function, Parameter, Role, Tree
 from editor.language.tree.robots import is_robot
 from editor.language.tree.variables import local_variables, program_variables
 

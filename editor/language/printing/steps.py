@@ -15,6 +15,7 @@ from editor.language.tree.nodes import (
     NODES,
     Break,
     Call,
+    Continue,
     Fail,
     ForEach,
     If,
@@ -145,10 +146,11 @@ def _repeat(printer: Printer, node: Repeat, depth: int) -> None:
 
 def _for_each(printer: Printer, node: ForEach, depth: int) -> None:
     items = ", ".join(map(printer.value, node.items))
-    printer.line(depth, f"for {node.variable or '_'} in [{items}]:", node.step)
+    name, listed = node.variable or "_", f"[{items}]" if node.over is None else printer.value(node.over)
+    head = f"for {node.index}, {name} in enumerate({listed}, 1):" if node.index else f"for {name} in {listed}:"
+    printer.line(depth, head, node.step)
     outside = printer.locals
-    if node.variable and node.variable not in outside:
-        printer.locals = (*outside, node.variable)
+    printer.locals = (*outside, *(each for each in node.names if each not in outside))
     printer.block(node.body, depth + 1)
     printer.locals = outside
 
@@ -171,6 +173,10 @@ def _break(printer: Printer, node: Break, depth: int) -> None:
     printer.line(depth, "break", node.step)
 
 
+def _continue(printer: Printer, node: Continue, depth: int) -> None:
+    printer.line(depth, "continue", node.step)
+
+
 _OWN: Mapping[type[Node], Prints] = {
     Operate: _operate,
     Perform: _perform,
@@ -186,6 +192,7 @@ _OWN: Mapping[type[Node], Prints] = {
     Return: _return,
     Fail: _fail,
     Break: _break,
+    Continue: _continue,
 }
 """The nodes that are written in Python's own grammar, or by what a device or a function says of itself."""
 PRINTERS: Mapping[type[Node], Prints] = {

@@ -10,7 +10,8 @@ from editor.language.expressions.names import member_name, unique_name
 from editor.language.expressions.nodes import OF_PROBLEM, Expression, Located, PlaceRef, Point, Quantity
 from editor.language.expressions.printing import quantity_text, read_of, scalar_text, write_expression
 from editor.language.site.surroundings import Surroundings
-from editor.language.tree.nodes import COMPOSITES, Block, Node, Tree
+from editor.language.tree.nodes import COMPOSITES, Block, Node
+from editor.language.tree.program import Tree
 from editor.language.tree.robots import described_alike, robots_for, short_name, short_reading
 from vipo_device.protocol.description import MethodSpec
 

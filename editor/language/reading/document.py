@@ -21,7 +21,8 @@ from editor.language.reading.names import (
 )
 from editor.language.reading.reader import Reader
 from editor.language.reading.steps import READERS
-from editor.language.tree.nodes import Event, Function, Tree
+from editor.language.tree.nodes import Event
+from editor.language.tree.program import Function, Tree
 from editor.language.tree.traversal import in_reading_order
 
 

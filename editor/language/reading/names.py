@@ -11,7 +11,7 @@ from editor.language.expressions.names import attribute_name, local_name, unique
 from editor.language.expressions.nodes import Expression, Located, is_missing
 from editor.language.expressions.values import Names, UnknownParameter, plain, read_value
 from editor.language.tree.choice import ITSELF, foreign_part
-from editor.language.tree.nodes import Function, Parameter, Role
+from editor.language.tree.program import Function, Parameter, Role
 
 DEFAULT_ROLE = "robot"
 _SETTERS = fields_by_kind("variable")
@@ -41,10 +41,15 @@ def _root_of(step: str, name: str, outline: Outline, parents: Mapping[str, str])
     """Return the program or the function that a step belongs to; None for a draft, or for a loop's own variable."""
     here = parents.get(step)
     while here is not None and here in outline.kinds:
-        if outline.kinds[here] == "for_each" and text_of(outline.params[here].get("variable")) == name:
+        if outline.kinds[here] == "for_each" and name in names_of_loop(outline.params[here]):
             return None
         here = parents.get(here)
     return here
+
+
+def names_of_loop(params: Mapping[str, object]) -> tuple[str, ...]:
+    """Return the names that a For-each gives to its item and to the number of the round."""
+    return tuple(filter(None, (text_of(params.get("variable")), text_of(params.get("index")))))
 
 
 def by_id(value: object) -> dict[str, Mapping[str, object]]:

@@ -12,7 +12,8 @@ from editor.language.expressions.nodes import MISSING, NOWHERE, OF_PROBLEM, Expr
 from editor.language.expressions.values import Names, UnknownParameter, read_place, read_value
 from editor.language.messages.diagnostics import Fix, Problem
 from editor.language.reading.names import DEFAULT_ROLE, text_of
-from editor.language.tree.nodes import Block, Function, Node, Role
+from editor.language.tree.nodes import Block, Node
+from editor.language.tree.program import Function, Role
 
 _DRIVING = fields_by_kind("role")
 

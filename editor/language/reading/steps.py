@@ -8,11 +8,11 @@ from editor.language.constructs.record import Construct, Form
 from editor.language.constructs.table import STEPS
 from editor.language.document.outline import Params, mapping
 from editor.language.expressions.names import local_name
-from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, is_missing
-from editor.language.messages.diagnostics import Problem, TextArguments
+from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, Variable, is_missing
+from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.reading.fields import FIELD_READERS, LISTS, read_route
-from editor.language.reading.names import text_of
+from editor.language.reading.names import names_of_loop
 from editor.language.reading.reader import Reader, Reads, operated_role
 from editor.language.tree.nodes import (
     ERROR_CLASSES,
@@ -108,17 +108,24 @@ def _call_argument(reader: Reader, step: str, given: Params, name: str) -> Expre
 
 
 def _for_each(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    """The variable of the loop can be seen in its body, and hides what else has its name."""
-    listed, wanted = params.get("items"), text_of(params.get("variable"))
-    items = listed if isinstance(listed, list | tuple) else ()
+    """The names of the loop can be seen in its body, and hide what else has these names."""
+    written, named = params.get("items"), names_of_loop(params)
+    listed = reader.given(step, params, "list")
+    over = listed if isinstance(listed, Variable) else None
+    items = written if over is None and isinstance(written, list | tuple) else ()
     values = tuple(reader.value(step, {"items": item}, "items") for item in items)
     outside = reader.names
-    if wanted:
-        hidden = (script for name, script in outside.items() if name != wanted)
-        reader.names = {**outside, wanted: local_name(wanted, hidden)}
+    for wanted in named:
+        hidden = (script for name, script in reader.names.items() if name != wanted)
+        reader.names = {**reader.names, wanted: local_name(wanted, hidden)}
     body = reader.block(step, "body")
-    variable, reader.names = reader.variable(params), outside
-    return (ForEach(variable, values, body, step),)
+    variable, index = reader.variable(params), reader.variable(params, "index")
+    reader.names = outside
+    if index and index == variable:
+        index = ""
+        fix = Fix("remove", step, "index", None, {"value": variable})
+        reader.problems.append(Problem("same_name", step, "index", {"variable": variable}, fix))
+    return (ForEach(variable, values, index, over, body, step),)
 
 
 _OWN: Mapping[str, Reads] = {

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, Final, TypeVar, cast, get_args
+from typing import TYPE_CHECKING, Any, Final, cast, get_args
 
 from editor.language.constructs.table import FORMS
-from editor.language.expressions.nodes import AnswerSpec, Expression, PlaceRef, Point
-from vipo_device.protocol.description import Scalar
+from editor.language.expressions.nodes import AnswerSpec, Expression, PlaceRef, Point, Variable
 
 if TYPE_CHECKING:
     from dataclasses import dataclass
@@ -124,12 +123,20 @@ class Repeat:
 
 @dataclass(frozen=True, slots=True)
 class ForEach:
-    """The body once for each item, which `variable` holds."""
+    """The body once for each item, which `variable` holds; `index` holds the number of the round, from 1."""
 
     variable: str
     items: tuple[Expression, ...] = ()
+    index: str = ""
+    over: Variable | None = None
+    """The variable whose list it goes through; then there are no `items`."""
     body: Block = ()
     step: str = field(default="", compare=False)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Return the names that its body alone sees."""
+        return tuple(name for name in (self.variable, self.index) if name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,6 +199,13 @@ class Break:
 
 
 @dataclass(frozen=True, slots=True)
+class Continue:
+    """The innermost loop goes on with its next round."""
+
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Parallel:
     """All branches at once; what follows begins when all have ended."""
 
@@ -236,40 +250,14 @@ class Call:
 
 Node = (
     Move | Pick | Drop | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Limit
-    | Call | Set | Ask | Notify | End | Fail | Return | Break
+    | Call | Set | Ask | Notify | End | Fail | Return | Break | Continue
 )  # fmt: skip
 Block = tuple[Node, ...]
-D = TypeVar("D")
-K = TypeVar("K", bound=Node)
 LOADS: Final = (Pick, Drop)
 DRIVES: Final = (Move, Pick, Drop)
 """What a robot goes for. (A check of a class against such a row is several times as quick as against a union.)"""
 ACTS: Final = (*DRIVES, Perform)
 """What a robot does, there or where it stands."""
-
-
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    """A parameter of a function or of the program, under its name in the script; an empty type is not known."""
-
-    name: str
-    default: Scalar = None
-    type: str = ""
-    unit: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Function:
-    """A function: `method` is its name in the script, `id` and `name` those in the document."""
-
-    method: str
-    parameters: tuple[Parameter, ...] = ()
-    body: Block = ()
-    result_type: str = ""
-    """Empty: it gives nothing back."""
-    result_unit: str = ""
-    id: str = field(default="", compare=False)
-    name: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,72 +268,6 @@ class Event:
     body: Block = ()
     starts: str = "branch"
     step: str = field(default="", compare=False)
-
-
-@dataclass(frozen=True, slots=True)
-class Role:
-    """A robot of the program, under its name in the script: one device, or any that can do all of `can`.
-
-    `at` is the device where it stands at the beginning, when the program relies on that. Of any robot `where` must
-    hold when it is chosen, a condition on the readings of `tree.choice.ITSELF`.
-    """
-
-    name: str
-    device: str | None = None
-    can: tuple[str, ...] = ()
-    at: str | None = None
-    id: str = field(default="", compare=False)
-    where: Expression | None = None
-    looks_elsewhere: bool = field(default=False, compare=False)
-    """Its condition spoke of something else than the robot itself, and is left out."""
-
-
-@dataclass(frozen=True, slots=True)
-class Tree:
-    """A whole program."""
-
-    body: Block = ()
-    functions: tuple[Function, ...] = ()
-    roles: tuple[Role, ...] = ()
-    parameters: tuple[Parameter, ...] = ()
-    events: tuple[Event, ...] = ()
-    _walked: dict[int, list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
-    _derived: dict[object, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
-    _by_kind: dict[type[Node], list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
-
-    def walked(self, block: Block) -> list[Node]:
-        """Return the nodes of one of the tree's own blocks as `walk` does; they are gathered once."""
-        nodes = self._walked.get(id(block))
-        if nodes is None:
-            nodes = self._walked[id(block)] = walk(block)
-        return nodes
-
-    def derived(self, make: Callable[[Tree], D]) -> D:
-        """Return what a function makes of the tree; it is called once for each tree."""
-        if make not in self._derived:
-            self._derived[make] = make(self)
-        found: D = self._derived[make]
-        return found
-
-    def of_kind(self, kind: type[K]) -> list[K]:
-        """Return the steps of one kind in the whole program, in reading order within each body; gathered once."""
-        kinds: Mapping[Any, list[Any]] = self._kinds()
-        return kinds.get(kind, [])
-
-    def holds(self, *kinds: type[Node]) -> bool:
-        """Tell whether any step of the program is of one of these kinds."""
-        return not self._kinds().keys().isdisjoint(kinds)
-
-    def _kinds(self) -> dict[type[Node], list[Node]]:
-        if not self._by_kind:
-            for block in (self.body, *(f.body for f in self.functions), *(event.body for event in self.events)):
-                for node in self.walked(block):
-                    kind = node.__class__
-                    if kind in self._by_kind:
-                        self._by_kind[kind].append(node)
-                    else:
-                        self._by_kind[kind] = [node]
-        return self._by_kind
 
 
 def robot_field(node: Node) -> str:

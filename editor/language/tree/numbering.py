@@ -14,7 +14,8 @@ from dataclasses import dataclass, field
 from string import ascii_lowercase
 
 from editor.language.document.outline import DEEPEST_STEP
-from editor.language.tree.nodes import COMPOSITES, Block, Call, Node, Parallel, Tree, Try, blocks_of
+from editor.language.tree.nodes import COMPOSITES, Block, Call, Node, Parallel, Try, blocks_of
+from editor.language.tree.program import Tree
 
 _MORE = COMPOSITES | {Call}
 """The nodes by which other steps get their numbers."""

@@ -15,7 +15,8 @@ from editor.language.expressions.names import (
 )
 from editor.language.expressions.value_types import joined_spec
 from editor.language.site.surroundings import Surroundings
-from editor.language.tree.nodes import COMPOSITES, Block, Node, Operate, Perform, Role, Tree, blocks_of, with_blocks
+from editor.language.tree.nodes import COMPOSITES, Block, Node, Operate, Perform, blocks_of, with_blocks
+from editor.language.tree.program import Role, Tree
 from editor.language.tree.traversal import in_reading_order
 from editor.language.tree.variables import program_variables
 from vipo_device.protocol.description import Description, MethodSpec, PropertySpec

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.tree.nodes import ACTS, Block, Call, Function, Node, Perform, Role, Tree, walk
+from editor.language.tree.nodes import ACTS, Block, Call, Node, Perform, walk
+from editor.language.tree.program import Function, Role, Tree
 
 
 def reading_order(tree: Tree) -> tuple[Function, ...]:

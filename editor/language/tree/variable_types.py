@@ -7,45 +7,56 @@ number. So a value's unit is known wherever it is read, and no step can make of 
 from __future__ import annotations
 
 from collections import ChainMap, deque
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from editor.language.expressions.nodes import OF_PROBLEM, Expression, Variable
 from editor.language.expressions.units import PLAIN, UNSAID, is_measure
-from editor.language.expressions.value_types import TEXT, UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
+from editor.language.expressions.value_types import NUMBER, TEXT, UNKNOWN_TYPE, TypeChecker, ValueType, declared_type
 from editor.language.expressions.values import parts_of
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import blocks_of
+from editor.language.tree.program import Function, Parameter, Tree
 from editor.language.tree.variables import read_by, set_by
 
 Types = Mapping[str, ValueType]
 _Loops = tuple[n.ForEach, ...]
 
 
-def types_of_parameters(parameters: Iterable[n.Parameter]) -> dict[str, ValueType]:
+def types_of_parameters(parameters: Iterable[Parameter]) -> dict[str, ValueType]:
     """Return what parameters hold, by their names."""
     return {p.name: declared_type(p.type, p.unit) for p in parameters}
 
 
-def types_in_program(tree: n.Tree, shared: frozenset[str], surroundings: Surroundings) -> dict[str, ValueType]:
+def types_in_program(tree: Tree, shared: frozenset[str], surroundings: Surroundings) -> dict[str, ValueType]:
     """Return what the program's parameters and variables hold."""
     known = {**dict.fromkeys(OF_PROBLEM, TEXT), **types_of_parameters(tree.parameters)}
     bodies = (tree.body, *(event.body for event in tree.events))
     return _with_types_set_in(bodies, shared, known, tree, surroundings)
 
 
-def types_in_function(tree: n.Tree, function: n.Function, outside: Types, surroundings: Surroundings) -> Types:
+def types_in_function(tree: Tree, function: Function, outside: Types, surroundings: Surroundings) -> Types:
     """Return what can be seen in a function; `outside` is what the program's parameters and variables hold."""
     known = {**outside, **types_of_parameters(function.parameters)}
     own = frozenset(map(set_by, n.walk(function.body))) - known.keys() - {""}
     return _with_types_set_in((function.body,), own, known, tree, surroundings)
 
 
-def type_of_items(items: Sequence[Expression], types: Types, surroundings: Surroundings) -> ValueType:
-    """Return what the variable of a loop over these values holds."""
-    found = _joined(TypeChecker(surroundings, types, []).type_of(item) for item in items)
+def type_of_items(loop: n.ForEach, types: Types, surroundings: Surroundings) -> ValueType:
+    """Return what the variable of a loop over values holds."""
+    found = _item_type(loop, TypeChecker(surroundings, types, []))
     return UNKNOWN_TYPE if found is None else _settled(found)
+
+
+def _item_type(loop: n.ForEach, checker: TypeChecker) -> ValueType | None:
+    if loop.over is not None:
+        return checker.type_of(loop.over).item
+    return _joined(map(checker.type_of, loop.items))
+
+
+def _given_to(loop: n.ForEach) -> tuple[Expression, ...]:
+    return loop.items if loop.over is None else (loop.over,)
 
 
 def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings) -> dict[int, Types]:
@@ -55,7 +66,8 @@ def types_in_loops(block: n.Block, types: Types, surroundings: Surroundings) -> 
     for node, loops in with_loops(block):
         if loops not in inside:
             around, loop = inside[loops[:-1]], loops[-1]
-            inside[loops] = {**around, loop.variable: type_of_items(loop.items, around, surroundings)}
+            items = type_of_items(loop, around, surroundings)
+            inside[loops] = {**around, loop.index: NUMBER, loop.variable: items}
         if loops:
             found[id(node)] = inside[loops]
     return found
@@ -72,8 +84,8 @@ class _Setter:
         """Yield the names of variables on whose types the type that it sets depends."""
         hidden: set[str] = set()
         for loop in self.loops:
-            yield from (name for name in _names_in(loop.items) if name not in hidden)
-            hidden.add(loop.variable)
+            yield from (name for name in _names_in(_given_to(loop)) if name not in hidden)
+            hidden.update(loop.names)
         yield from (name for name in read_by(self.node) if name not in hidden)
 
 
@@ -81,7 +93,7 @@ class _Setter:
 class _Inference:
     """The types that are known so far; each may become more exact, in a few steps, and never less."""
 
-    functions: Mapping[str, n.Function]
+    functions: Mapping[str, Function]
     surroundings: Surroundings
     wanted: Collection[str]
     types: dict[str, ValueType]
@@ -127,13 +139,13 @@ class _Inference:
         types: Types = self.types
         for loop in loops:
             checker = TypeChecker(self.surroundings, types, [])
-            item = _joined(map(checker.type_of, loop.items)) or UNKNOWN_TYPE
-            types = ChainMap({loop.variable: item}, types)  # type: ignore[arg-type]  # only read
+            item = _item_type(loop, checker) or UNKNOWN_TYPE
+            types = ChainMap({loop.index: NUMBER, loop.variable: item}, types)  # type: ignore[arg-type]  # only read
         return types
 
 
 def _with_types_set_in(
-    bodies: Iterable[n.Block], wanted: frozenset[str], known: dict[str, ValueType], tree: n.Tree, site: Surroundings
+    bodies: Iterable[n.Block], wanted: frozenset[str], known: dict[str, ValueType], tree: Tree, site: Surroundings
 ) -> dict[str, ValueType]:
     """Return what is known with the types of the wanted variables."""
     wanted = wanted - known.keys()
@@ -144,7 +156,7 @@ def _with_types_set_in(
     for body in bodies:
         for node, loops in with_loops(body):
             name = set_by(node)
-            if name in wanted and all(loop.variable != name for loop in loops):
+            if name in wanted and all(name not in loop.names for loop in loops):
                 inference.setters.setdefault(name, []).append(_Setter(node, loops))
     inference.run()
     return {name: found if name in known else _settled(found) for name, found in inference.types.items()}
@@ -173,6 +185,9 @@ def _joined(found: Iterable[ValueType]) -> ValueType | None:
         elif {joined.type, other.type} <= {"number", ""}:
             unit = max(joined.unit, other.unit, key=_exactness)
             joined = ValueType(joined.type or other.type, unit)
+        elif joined.type == other.type == "list" and (joined.of == other.of or not (joined.of and other.of)):
+            unit = max(joined.unit, other.unit, key=_exactness)
+            joined = ValueType("list", unit, joined.of or other.of)
     return joined
 
 
@@ -185,4 +200,6 @@ def _exactness(unit: str) -> int:
 
 def _settled(found: ValueType) -> ValueType:
     """Return the type of a variable of which all is known: what was given no unit is a plain number."""
+    if found.type == "list":
+        return ValueType("list", found.unit or PLAIN if found.of == "number" else "", found.of)
     return declared_type(found.type, found.unit) if found.type == "number" else ValueType(found.type)

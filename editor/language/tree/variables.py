@@ -9,7 +9,8 @@ from editor.language.constructs.table import FORMS
 from editor.language.expressions.nodes import OF_PROBLEM, Constant, Expression, PlaceRef, Variable
 from editor.language.expressions.values import parts_of
 from editor.language.tree import nodes as n
-from editor.language.tree.nodes import NODES, Block, ForEach, Function, Tree, blocks_of, walk
+from editor.language.tree.nodes import NODES, Block, ForEach, blocks_of, walk
+from editor.language.tree.program import Function, Tree
 from editor.language.tree.traversal import callees_first
 
 _SET_IN: Final[Mapping[type[n.Node], str]] = {
@@ -28,7 +29,7 @@ def set_by(node: n.Node) -> str:
     return "" if attribute is None else getattr(node, attribute)
 
 
-def sets_of_functions(tree: n.Tree) -> dict[str, frozenset[str]]:
+def sets_of_functions(tree: Tree) -> dict[str, frozenset[str]]:
     """Return the names that each function sets, also by way of the functions that it calls."""
     sets: dict[str, frozenset[str]] = {function.method: frozenset() for function in tree.functions}
     changed, functions = bool(sets), callees_first(tree)
@@ -140,6 +141,6 @@ def _names_set_in(block: Block, loops: frozenset[str]) -> Iterator[str]:
         name = set_by(node)
         if name and name not in loops:
             yield name
-        inside = loops | {node.variable} if isinstance(node, ForEach) else loops
+        inside = loops.union(node.names) if isinstance(node, ForEach) else loops
         for inner in blocks_of(node):
             yield from _names_set_in(inner, inside)

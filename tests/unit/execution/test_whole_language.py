@@ -12,7 +12,10 @@ SCRIPT = """class Task(object):
         self.count = 0
         for _ in range(2):
             self.count = self.count + 1
-        for station in [self.shelf, self.booth]:
+        self.stations = [self.shelf] + [self.booth]
+        for number, station in enumerate(self.stations, 1):
+            if number > 5:
+                continue
             self.robot.move(station.location)
             if distance(self.robot, self.shelf) < 3:
                 self.notify(f"At the shelf, {self.count}", level="info")
@@ -28,6 +31,9 @@ SCRIPT = """class Task(object):
             self.end()
         finally:
             self.robot.move(self.dock.location)
+        if self.booth in self.stations and len(self.stations) == 2:
+            self.first = nth(self.stations, 1)
+            self.robot.move(self.first.location)
         self.notify(f"Total {self.total}", level="warning")
         self.end()
 

@@ -13,6 +13,7 @@ PLAIN: dict[str, dict[str, Any]] = {
     "wait": {"duration": {"quantity": [1, "MIN"]}},
     "notify": {"message": "done", "level": "warning"},
     "set": {"variable": "total", "value": 1},
+    "collect": {"variable": "all", "value": {"op": "+", "args": [{"param": "all"}, {"op": "list", "args": [4]}]}},
     "ask": {"question": "How many?", "answer": {"type": "number"}, "variable": "count"},
     "call": {"function": "f", "result": "total"},
     "end": {},
@@ -28,12 +29,13 @@ HOLDING: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "if": ({"condition": HOT}, ("then", "else")),
     "while": ({"condition": HOT}, ("body",)),
     "repeat": ({"times": 2}, ("body",)),
-    "for_each": ({"variable": "item", "items": [1, 2, 3]}, ("body",)),
+    "for_each": ({"variable": "item", "items": [1, 2, 3], "index": "number"}, ("body",)),
+    "for_each_of": ({"variable": "one", "list": {"param": "all"}}, ("body",)),
     "try": ({"kinds": ["failed"]}, ("body", "catch", "finally")),
     "limit": ({"duration": {"quantity": [10, "MIN"]}}, ("body",)),
     "parallel": ({"branches": ["a", "b"]}, ("a", "b")),
 }
-LOOPS = frozenset({"while", "repeat", "for_each"})
+LOOPS = frozenset({"while", "repeat", "for_each", "for_each_of"})
 DEEPEST = 4
 TOLD = [{"message": {"param": name}, "level": "info"} for name in ("problem.text", "problem.kind")]
 
@@ -64,14 +66,15 @@ class Steps:
         for index in range(self.draw(st.integers(0, 3))):
             kinds = [*PLAIN, *(HOLDING if around.depth < DEEPEST else ())]
             kinds += ["tell"] if around.caught else []
-            kinds += (["break"] * 2 if around.loop else []) + (["return"] * 2 if around.function else [])
+            kinds += (["break", "continue"] if around.loop else []) + (["return"] * 2 if around.function else [])
             kind = self.draw(st.sampled_from(kinds))
             if kind == "tell":
                 self.add("notify", parent, branch, f"{index}V", self.draw(st.sampled_from(TOLD)))
             elif kind in HOLDING:
                 self.holding(kind, parent, branch, f"{index}V", around)
             else:
-                self.add(kind, parent, branch, f"{index}V", PLAIN.get(kind, {"value": 2} if kind == "return" else {}))
+                params = PLAIN.get(kind, {"value": 2} if kind == "return" else {})
+                self.add("set" if kind == "collect" else kind, parent, branch, f"{index}V", params)
 
     def holding(self, kind: str, parent: str, branch: str, order: str, around: Around) -> None:
         params, branches = HOLDING[kind]
@@ -80,7 +83,7 @@ class Steps:
         driven = any(step["kind"] == "pick_and_drop" for step in self.steps.values())
         if driven and "condition" in params and self.draw(st.booleans()):
             params = {"condition": CHARGED}
-        step = self.add(kind, parent, branch, order, params)
+        step = self.add(kind.removesuffix("_of"), parent, branch, order, params)
         for name in branches:
             inside = replace(around, depth=around.depth + 1, loop=around.loop or kind in LOOPS,
                              caught=around.caught or name == "catch")  # fmt: skip
@@ -93,6 +96,7 @@ def sound_documents(draw: st.DrawFn) -> dict[str, Any]:
     """Draw a program with a function and with events."""
     steps = Steps(draw)
     steps.add("wait", "program", "body", "0", PLAIN["wait"])
+    steps.add("set", "program", "body", "00", {"variable": "all", "value": {"op": "list", "args": []}})
     steps.block("program", "body", Around())
     steps.block("f", "body", Around(1, function=True))
     steps.add("return", "f", "body", "zz", {"value": 4})

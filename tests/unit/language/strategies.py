@@ -104,6 +104,9 @@ def _operations(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
             st.lists(inner, min_size=2, max_size=3),
         ),
         st.builds(lambda a, b: {"op": "distance", "args": [a, b]}, inner, inner),
+        st.builds(lambda items: {"op": "list", "args": items}, st.lists(inner, max_size=3)),
+        st.builds(lambda a: {"op": "len", "args": [a]}, inner),
+        st.builds(lambda a, b: {"op": "nth", "args": [a, b]}, inner, inner),
     )
 
 
@@ -144,7 +147,14 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
         }
     ),
     "repeat": st.fixed_dictionaries({"times": values}),
-    "for_each": st.fixed_dictionaries({"variable": variables, "items": st.lists(values, max_size=3)}),
+    "for_each": st.fixed_dictionaries(
+        {
+            "variable": variables,
+            "items": st.lists(values, max_size=3),
+            "index": variables,
+            "list": st.one_of(st.none(), leaves),
+        }
+    ),
     "set": st.fixed_dictionaries({"variable": variables, "value": values}),
     "ask": st.fixed_dictionaries(
         {"question": values, "answer": answers, "variable": variables, "timeout": st.one_of(st.none(), values)}
@@ -154,6 +164,7 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "fail": st.fixed_dictionaries({"message": values}),
     "return": st.fixed_dictionaries({"value": values}),
     "break": st.just({}),
+    "continue": st.just({}),
     "on_event": st.fixed_dictionaries({"condition": values, "starts": st.sampled_from(["branch", "run", None])}),
 }
 BRANCHES = ["body", "then", "else", "catch", "finally", "a", "b", "c"]

@@ -26,9 +26,9 @@ NOTICES = {
     "ask-before-painting": ["Painted matt with 1 coats"],
     "cure-until-cool": ["The oven has 60 degrees", "Cool, after 3 min and more"],
     "deliver-colours": [
-        "red stands at the mixer",
-        "white stands at the mixer",
-        "blue stands at the mixer",
+        "1. red stands at the mixer",
+        "2. white stands at the mixer",
+        "3. blue stands at the mixer",
         "3 cans were delivered",
     ],
     "nearest-mixer": ["The paint is mixed; the nearest dock is dock1"],

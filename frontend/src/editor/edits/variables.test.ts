@@ -15,6 +15,8 @@ const DOCUMENT: ProgramDocument = {
   steps: {
     ask: step("ask", ["program", "body", "A"], { variable: "dry", answer: { type: "choice", options: ["a"] } }),
     loop: step("for_each", ["program", "body", "B"], { variable: "mixer", items: [{ at: { device: "m1" } }] }),
+    counted: step("for_each", ["program", "body", "D"], { variable: "colour", items: ["red"], index: "number" }),
+    inCounted: step("wait", ["counted", "body", "A"]),
     inner: step("operate", ["loop", "body", "A"]),
     call: step("call", ["program", "body", "C"], { function: "mix", result: "total" }),
     local: step("set", ["mix", "body", "A"], { variable: "count", value: { quantity: [3, "MIN"] } }),
@@ -31,6 +33,29 @@ test("inside a loop its variable comes first, then what the program sets and tak
     { name: "dry", type: "text" },
     { name: "total", type: "number" },
     { name: "boxes", type: "number" },
+  ]);
+});
+
+test("a loop that counts its rounds has a number, too", () => {
+  expect(knownNames(DOCUMENT, "inCounted").slice(0, 2)).toEqual([
+    { name: "number", type: "number" },
+    { name: "colour", type: "text" },
+  ]);
+  expect(freshName(DOCUMENT, "number")).toBe("number2");
+});
+
+test("what is set to a list is one, and the item of a loop over it is what stands in it", () => {
+  const longer = { op: "+", args: [{ op: "list", args: [] }, ["red"]] };
+  const steps = {
+    set: step("set", ["program", "body", "A"], { variable: "colours", value: ["red", "blue"] }),
+    more: step("set", ["program", "body", "B"], { variable: "more", value: longer }),
+    loop: step("for_each", ["program", "body", "C"], { variable: "colour", list: { param: "colours" } }),
+    inner: step("wait", ["loop", "body", "A"]),
+  };
+  expect(knownNames({ ...EMPTY_DOCUMENT, steps }, "inner")).toEqual([
+    { name: "colour", type: "text" },
+    { name: "colours", type: "list" },
+    { name: "more", type: "list" },
   ]);
 });
 

@@ -8,7 +8,7 @@ export function knownNames(document: ProgramDocument, id: string): readonly Para
   const scope = around.at(-1) ?? "";
   const nearer = [id, ...around.slice(0, -1)];
   const near = around.flatMap((each, index) => [
-    ...loopName(document.steps[each]),
+    ...loopName(document.steps[each], document),
     ...ofProblem(document.steps[each], document.steps[nearer[index] ?? ""]),
   ]);
   const own = document.functions[scope]?.parameters ?? [];
@@ -35,7 +35,7 @@ export function namesSet(document: ProgramDocument, functionId: string | null): 
 export function freshName(document: ProgramDocument, stem: string): string {
   const taken = new Set(
     Object.values(document.steps)
-      .map((step) => step.params.variable ?? step.params.result)
+      .flatMap((step) => [step.params.variable ?? step.params.result, step.params.index])
       .concat(Object.values(document.parameters).map((parameter) => parameter.name)),
   );
   for (let count = 1; ; count += 1) {
@@ -66,10 +66,12 @@ function setName(step: Step, document: ProgramDocument): Parameter[] {
   }
 }
 
-function loopName(step: Step | undefined): Parameter[] {
+function loopName(step: Step | undefined, document: ProgramDocument): Parameter[] {
   if (step?.kind !== "for_each") return [];
-  const items = Array.isArray(step.params.items) ? (step.params.items as unknown[]) : [];
-  return named(step.params.variable, typeOf(items[0]));
+  return [
+    ...named(step.params.index, { type: "number" }),
+    ...named(step.params.variable, typeOf(itemsOf(listOf(step, document))[0])),
+  ];
 }
 
 /** What a catch knows of the failure; `inner` is the step that stands in the Try. */
@@ -89,9 +91,32 @@ function typeOf(value: unknown): Typed {
   if (typeof value === "boolean") return { type: "boolean" };
   if (typeof value !== "object" || value === null) return { type: "number" };
   if ("quantity" in value && Array.isArray(value.quantity)) return { type: "number", unit: String(value.quantity[1]) };
-  if ("op" in value) return { type: value.op === "text" ? "text" : "number" };
+  if (Array.isArray(value)) return { type: "list" };
+  if ("op" in value) return typeOfOperation(value);
   if (!("at" in value) || typeof value.at !== "object" || value.at === null) return { type: "number" };
   return { type: "device" in value.at ? "device" : "place" };
+}
+
+function typeOfOperation({ op, args }: { readonly op: unknown; readonly args?: unknown }): Typed {
+  if (op === "text" || op === "list") return { type: op };
+  const [first] = Array.isArray(args) ? (args as readonly unknown[]) : [];
+  return op === "+" && first !== undefined && typeOf(first).type === "list" ? { type: "list" } : { type: "number" };
+}
+
+/** What a loop goes through: what is named in it, or what its variable is first set to that has items. */
+function listOf(step: Step, document: ProgramDocument): unknown {
+  const { list, items } = step.params;
+  if (typeof list !== "object" || list === null || !("param" in list)) return items;
+  const setting = Object.values(document.steps).filter((each) => each.kind === "set");
+  const values = setting.filter((each) => each.params.variable === list.param).map((each) => each.params.value);
+  return values.find((value) => itemsOf(value).length > 0);
+}
+
+/** The items that a list is written with. */
+function itemsOf(value: unknown): readonly unknown[] {
+  if (Array.isArray(value)) return value as readonly unknown[];
+  if (typeof value !== "object" || value === null || !("op" in value) || !("args" in value)) return [];
+  return value.op === "list" && Array.isArray(value.args) ? (value.args as readonly unknown[]) : [];
 }
 
 function answerType(answer: Answer | undefined): Typed {

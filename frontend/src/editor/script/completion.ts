@@ -36,6 +36,7 @@ const WORDS = [
   "raise",
   "with",
   "break",
+  "continue",
   "pass",
 ];
 const GIVEN = /self\.(\w+)\s*=\s*ctx\.(\w+)\(\s*(?:["']([^"']*)["'])?/g;

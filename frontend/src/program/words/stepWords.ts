@@ -126,9 +126,12 @@ function forEachText(step: Step, speaker: Speaker): TextPart[] {
   const [first, second, ...rest] = items.map((each) => valueText(each, speaker) ?? "?");
   const names = [first, second].filter((name) => name !== undefined).join(", ");
   const variable = textOf(step.params.variable) || "?";
+  const index = textOf(step.params.index);
+  const listed = valueText((step.params.list ?? null) as Value, speaker);
+  const whole = items.length === 0 ? MISSING : plain(rest.length > 0 ? `${names} +${rest.length}` : names);
   return [
-    plain(speaker.t("chip.for_each", { variable })),
-    items.length === 0 ? MISSING : plain(rest.length > 0 ? `${names} +${rest.length}` : names),
+    plain(speaker.t(index ? "chip.for_each_counted" : "chip.for_each", { variable, index })),
+    (step.params.list ?? null) === null ? whole : listed === null || listed === "?" ? MISSING : plain(listed),
   ];
 }
 

@@ -58,7 +58,7 @@ const LEVELS: Readonly<Record<string, number>> = {
   "/": 6,
 };
 const COMPARISON = 4;
-const CALLED = ["abs", "round", "min", "max", "distance", "nearest", "count", "now"];
+const CALLED = ["abs", "round", "min", "max", "distance", "nearest", "count", "now", "len", "nth"];
 const WORDS = ["and", "or", "in", "not in"];
 
 /** `around` is how strongly what stands around binds; weaker things go into brackets. */
@@ -103,6 +103,7 @@ function sayLocation(at: Place | { readonly role: string }, speaker: Speaker): s
 }
 
 function sayOperation(op: string, args: readonly Value[], speaker: Speaker, around: number): string {
+  if (op === "list") return args.length === 0 ? speaker.t("value.no_items") : sayValue(args, speaker, 0);
   if (op === "text") return args.map((each) => sayValue(each, speaker, 0)).join("");
   if (CALLED.includes(op)) {
     const [first = "?", ...rest] = args.map((each) => sayValue(each, speaker, 0));

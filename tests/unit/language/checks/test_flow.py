@@ -20,24 +20,23 @@ from editor.language.tree.nodes import (
     Block,
     Break,
     Call,
+    Continue,
     End,
     Event,
     ForEach,
-    Function,
     If,
     Node,
     Notify,
     Parallel,
-    Parameter,
     Repeat,
     Return,
     Set,
-    Tree,
     Try,
     Wait,
     WaitUntil,
     While,
 )
+from editor.language.tree.program import Function, Parameter, Tree
 from tests.kit.demo_site import factory
 
 HOT = Operation(">", (Reading(Constant("curingOven01"), "temperature"), Constant(60)))
@@ -84,7 +83,7 @@ def use(*values: Expression) -> tuple[Node, ...]:
         If(HOT, (End(),), (End(),)),
         If(TRUE, (End(),)),
         Repeat(Constant(2), (End(),)),
-        ForEach("x", (ONE,), (End(),)),
+        ForEach("x", (ONE,), body=(End(),)),
         Try((), (End(),), (End(),)),
         Try((), (PAUSE,), (), (End(),)),
         Parallel(((End(),), (PAUSE,))),
@@ -116,6 +115,28 @@ def test_a_loop_that_nothing_leaves_never_ends() -> None:
     assert flow(While(TRUE, (PAUSE,))) == [("s1", "never_ends")]
     assert flow(While(TRUE, (While(HOT, (Break(),)),))) == [("s1", "never_ends")]
     assert flow(While(TRUE, (Try((), (If(HOT, (Break(),)),)),))) == []
+
+
+@pytest.mark.parametrize(
+    ("program", "found"),
+    [
+        ((While(HOT, named((Continue(), PAUSE), "t")),), "never_reached"),
+        ((While(TRUE, (PAUSE, Continue())),), "never_ends"),
+        ((While(TRUE, (If(HOT, (Continue(),)), PAUSE, Break())), PAUSE), ""),
+        ((Repeat(Constant(2), (PAUSE, Continue())), PAUSE), ""),
+        ((ForEach("i", (ONE,), body=(If(HOT, (Continue(),), (End(),)),)), PAUSE), ""),
+        ((ForEach("i", (ONE,), body=(If(HOT, (End(),)), Continue())), PAUSE), ""),
+        ((Repeat(ONE, (Try((), (Continue(),), (), (PAUSE,), catches=False),)), PAUSE), ""),
+    ],
+)
+def test_a_round_that_is_left_goes_on_with_the_next(program: tuple[Node, ...], found: str) -> None:
+    assert [code for _, code in flow(*program)] == ([found] if found else [])
+
+
+def test_what_is_set_before_a_round_is_left_is_known_in_the_next() -> None:
+    left = (Set("x", ONE), If(HOT, (Continue(),)), Set("y", ONE))
+    assert variables(Repeat(Constant(2), left), *use(X)) == ["unused_variable"]
+    assert variables(Repeat(Constant(2), left), *use(X, Y)) == ["may_be_unset"]
 
 
 def test_a_loop_must_look_at_something_that_changes() -> None:
@@ -191,7 +212,7 @@ def test_functions_are_used_when_the_program_or_an_event_leads_to_them() -> None
         ((While(TRUE, (Ask(ONE, variable="x"), If(X, (Break(),)))), *use(X)), []),
         ((Repeat(Constant(2), (Set("x", ONE),)), *use(X)), []),
         ((Repeat(Y, (Set("x", ONE),)), *use(X)), ["may_be_unset"]),
-        ((ForEach("y", (ONE,), (Set("x", Y),)), *use(X)), []),
+        ((ForEach("y", (ONE,), body=(Set("x", Y),)), *use(X)), []),
         ((Try((), (Set("x", ONE),), (PAUSE,)), *use(X)), ["may_be_unset"]),
         ((Try((), (PAUSE,), (), (Set("x", ONE),)), *use(X)), []),
         ((Parallel(((Set("x", ONE),), (PAUSE,))), *use(X)), []),

@@ -15,6 +15,7 @@ DROP = ("drop", {**BOX, "at": {"device": "paintMachine01"}})
 TWICE, THRICE = ("repeat", {"times": 2}), ("repeat", {"times": 3})
 EACH = ("for_each", {"variable": "colour", "items": ["teal", "red", "blue"]})
 HOT = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 60]}
+NEXT_ROUND, TRY_TO = ("continue", {}), ("try", {"catch": False})
 WHILE_HOT, IF_HOT = ("while", {"condition": HOT}), ("if", {"condition": HOT})
 Step = tuple[str, dict[str, Any]]
 
@@ -53,6 +54,11 @@ def told(*steps: Step | list[Any]) -> list[str]:
         ([[WHILE_HOT, [TWICE, PICK], [TWICE, DROP]]], []),
         ([[WHILE_HOT, [THRICE, PICK, [IF_HOT, ("break", {})], DROP]]], ["may_carry_too_much"]),
         ([PICK, [WHILE_HOT, DROP]], ["may_drop_nothing"]),
+        ([[THRICE, PICK, [IF_HOT, NEXT_ROUND], DROP]], ["may_carry_too_much"]),
+        ([[TWICE, PICK, [IF_HOT, NEXT_ROUND], DROP]], []),
+        ([[WHILE_HOT, [IF_HOT, NEXT_ROUND], PICK, DROP]], []),
+        ([[THRICE, PICK, [TRY_TO, NEXT_ROUND]]], ["carrying_too_much"]),
+        ([[TWICE, PICK, NEXT_ROUND, DROP], DROP, DROP], []),
     ],
 )
 def test_loads_are_followed_through_loops(program: list[Any], codes: list[str]) -> None:

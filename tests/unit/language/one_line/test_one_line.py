@@ -52,7 +52,7 @@ def scope(step: str = "s") -> LineScope:
         ("-2.50", -2.5, "-2.5"),
         ("yes", True, "True"),
         ('"box"', "box", '"box"'),
-        ("[1, 2]", [1, 2], "(1, 2)"),
+        ("[1, 2]", [1, 2], "[1, 2]"),
         ("minutes", {"param": "minutes"}, "minutes"),
         ("count + 1", {"op": "+", "args": [{"param": "count"}, 1]}, "count + 1"),
         ("10 min", {"quantity": [10, "MIN"]}, "10 min"),

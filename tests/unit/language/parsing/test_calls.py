@@ -9,7 +9,7 @@ import pytest
 
 from editor.language import parse_script
 from editor.language.allocation import paused_collector
-from editor.language.parsing.expressions import calls_in
+from editor.language.parsing.robots import calls_in
 from tests.kit.demo_site import factory
 from tests.kit.files import ROOT
 

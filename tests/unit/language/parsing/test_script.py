@@ -85,7 +85,6 @@ def test_steps_that_did_not_change_keep_their_ids_and_places() -> None:
         'self.notify("a", level="loud")',
         "self.end(1)",
         "self.set(1, 2)",
-        "continue",
         "with self.robot: pass",
         "self.wait(b'1')",
         "self.wait(10**9)",

@@ -24,8 +24,8 @@ test("names and functions are offered by what they begin with, then by what they
 });
 
 test("nothing written yet offers everything", () => {
-  expect(labels("")).toHaveLength(NAMES.length + 11);
-  expect(labels("count > ")).toHaveLength(NAMES.length + 11);
+  expect(labels("")).toHaveLength(NAMES.length + 13);
+  expect(labels("count > ")).toHaveLength(NAMES.length + 13);
 });
 
 test("behind a device and a dot stand its readings", () => {

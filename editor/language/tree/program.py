@@ -1,0 +1,109 @@
+"""A whole program as a tree: its bodies of steps, its functions, roles and parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import field
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from editor.language.expressions.nodes import Expression
+from editor.language.tree.nodes import Block, Event, Node, walk
+from vipo_device.protocol.description import Scalar
+
+if TYPE_CHECKING:
+    from dataclasses import dataclass
+else:
+    from editor.language.allocation import dataclass
+
+D = TypeVar("D")
+K = TypeVar("K", bound=Node)
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A parameter of a function or of the program, under its name in the script; an empty type is not known."""
+
+    name: str
+    default: Scalar = None
+    type: str = ""
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A function: `method` is its name in the script, `id` and `name` those in the document."""
+
+    method: str
+    parameters: tuple[Parameter, ...] = ()
+    body: Block = ()
+    result_type: str = ""
+    """Empty: it gives nothing back."""
+    result_unit: str = ""
+    id: str = field(default="", compare=False)
+    name: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """A robot of the program, under its name in the script: one device, or any that can do all of `can`.
+
+    `at` is the device where it stands at the beginning, when the program relies on that. Of any robot `where` must
+    hold when it is chosen, a condition on the readings of `tree.choice.ITSELF`.
+    """
+
+    name: str
+    device: str | None = None
+    can: tuple[str, ...] = ()
+    at: str | None = None
+    id: str = field(default="", compare=False)
+    where: Expression | None = None
+    looks_elsewhere: bool = field(default=False, compare=False)
+    """Its condition spoke of something else than the robot itself, and is left out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """A whole program."""
+
+    body: Block = ()
+    functions: tuple[Function, ...] = ()
+    roles: tuple[Role, ...] = ()
+    parameters: tuple[Parameter, ...] = ()
+    events: tuple[Event, ...] = ()
+    _walked: dict[int, list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _derived: dict[object, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _by_kind: dict[type[Node], list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def walked(self, block: Block) -> list[Node]:
+        """Return the nodes of one of the tree's own blocks as `walk` does; they are gathered once."""
+        nodes = self._walked.get(id(block))
+        if nodes is None:
+            nodes = self._walked[id(block)] = walk(block)
+        return nodes
+
+    def derived(self, make: Callable[[Tree], D]) -> D:
+        """Return what a function makes of the tree; it is called once for each tree."""
+        if make not in self._derived:
+            self._derived[make] = make(self)
+        found: D = self._derived[make]
+        return found
+
+    def of_kind(self, kind: type[K]) -> list[K]:
+        """Return the steps of one kind in the whole program, in reading order within each body; gathered once."""
+        kinds: Mapping[Any, list[Any]] = self._kinds()
+        return kinds.get(kind, [])
+
+    def holds(self, *kinds: type[Node]) -> bool:
+        """Tell whether any step of the program is of one of these kinds."""
+        return not self._kinds().keys().isdisjoint(kinds)
+
+    def _kinds(self) -> dict[type[Node], list[Node]]:
+        if not self._by_kind:
+            for block in (self.body, *(f.body for f in self.functions), *(event.body for event in self.events)):
+                for node in self.walked(block):
+                    kind = node.__class__
+                    if kind in self._by_kind:
+                        self._by_kind[kind].append(node)
+                    else:
+                        self._by_kind[kind] = [node]
+        return self._by_kind
