@@ -102,6 +102,7 @@ _FLOOR: Final = {
 }
 _WAYS: Final = {
     "never_reached": "The first step behind a Return, a Break, an End, an endless loop or an endless call.",
+    "too_few_end": "Of a Parallel that ends with some of its branches fewer ever come to their end.",
     "never_ends": "The condition of a While is constantly true, and neither Break, Return nor End stands in it.",
     "may_never_end": "What the condition of a While looks at is neither measured nor set while it repeats.",
     "never_runs": "The condition is constantly false.",
@@ -112,6 +113,7 @@ _WAYS: Final = {
     "leaves_parallel": "A Return or a Break would leave one branch while the others go on.",
     "leaves_finally": "A Return or a Break would leave the branch that is carried out whatever happens.",
     "empty_branch": "An If with two empty branches, or a Repeat or a For-each without a step in it.",
+    "over_at_once": "A Parallel that ends with some of its branches has so many that begin nothing that takes time.",
     "busy_circle": "A While waits for what is measured, and no step in it takes time or changes what it looks at.",
     "starts_unasked": "A parameter has no default, and an event starts the program without anybody who enters a value.",
     "draft": "The step is drawn and not joined.",
@@ -134,6 +136,7 @@ _FUNCTIONS: Final = {
     "signature_changed": "The library has a newer version with other parameters, so the calls have to be looked at.",
 }
 _AT_ONCE: Final = {
+    "needed_out_of_range": "A Parallel says how many of its branches end it, and it has not so many, or that is no whole number.",
     "shared_robot": "Two branches of a Parallel, with the functions that they call, drive one robot.",
     "event_shares_robot": "An event that runs beside the program drives a robot that the program drives, too.",
     "branches_set_it": "Two branches run at once and set one variable; the slower one wins, whichever that is.",

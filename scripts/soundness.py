@@ -141,7 +141,8 @@ class Draft:
             self.known = before
 
     def _parallel(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
-        step = self.add(parent, branch, "parallel", {"branches": ["a", "b"]})
+        race = {"needed": 1} if self.chance.random() < 0.4 else {}
+        step = self.add(parent, branch, "parallel", {"branches": ["a", "b"], **race})
         self._set(step, "a", depth, frozenset())
         self._wait(step, "b", depth, frozenset())
         self.block(step, self.chance.choice("ab"), depth + 1)
@@ -184,6 +185,7 @@ class Judge:
         waits: list[m.Ask | m.SetTimer | m.AskPeople] = []
         for _ in range(MOST_EVENTS):
             waits += [a for a in actions if isinstance(a, m.Ask | m.SetTimer | m.AskPeople)]
+            waits = self._without_called_off(waits, {a.task for a in actions if isinstance(a, m.Cancel)})
             if state.status != "running" or self.wrong:
                 break
             state, actions = machine.step(self.plan, state, self._something(waits))
@@ -191,6 +193,16 @@ class Judge:
             reason = next(a.reason for a in actions if isinstance(a, m.Finished))
             self.wrong = "" if _TOO_DEEP in reason else reason
         return self.wrong
+
+    def _without_called_off(
+        self, waits: list[m.Ask | m.SetTimer | m.AskPeople], called_off: set[int]
+    ) -> list[m.Ask | m.SetTimer | m.AskPeople]:
+        """Take back what is not wanted any more; a robot may all the same have done it."""
+        dropped = [wait for wait in waits if isinstance(wait, m.Ask) and wait.task in called_off]
+        for ask in dropped:
+            if self.chance.random() < 0.5:
+                self._carry_out(ask)
+        return [wait for wait in waits if wait not in dropped]
 
     def _readings(self) -> Mapping[tuple[str, str], float]:
         return {OVEN: self.chance.choice([20.0, 80.0])}

@@ -12,7 +12,10 @@ from execution.machine.turn import Failure, Turn
 
 OVER = Wake(final=True)
 CALLED_OFF = Wake("cancelled", "Another branch failed.", final=True)
+ENOUGH_ENDED = Wake("cancelled", "Enough other branches have ended.", final=True)
 PROGRAM_OVER = "The program was over."
+_IN_GOOD_ORDER = frozenset({OVER, CALLED_OFF, ENOUGH_ENDED})
+"""What threads are told that are called off; anything else that is final is a failure in a `final` handler."""
 
 
 def unwind(turn: Turn, thread: Thread, wake: Wake) -> None:
@@ -74,18 +77,34 @@ def _end(turn: Turn, thread: Thread, wake: Wake) -> None:
     """Take a thread away that nothing holds any more; what failed goes on in its parent."""
     _mark(turn, thread, 0, wake)
     remove(turn, thread)
-    if wake.final:
-        return
     parent = turn.threads.get(thread.parent) if thread.parent is not None else None
+    if wake.final:
+        if parent is not None and turn.ending is None and wake not in _IN_GOOD_ORDER:
+            _spoil(turn, parent, wake)
+        return
     if parent is None:
         end_run(turn, "failed", wake.why)
         return
+    call_off_branches(turn, parent, CALLED_OFF)
+    if parent.wake is None:
+        turn.keep(replace(parent, wake=Wake(wake.kind, wake.why)))
+
+
+def _spoil(turn: Turn, parent: Thread, wake: Wake) -> None:
+    """A branch that was called off failed in a `final` handler on its way out: so does what goes on without it."""
+    if parent.wake is None:
+        call_off_branches(turn, parent, CALLED_OFF)
+        turn.keep(replace(parent, wake=Wake(wake.kind, wake.why)))
+    elif parent.wake == ENOUGH_ENDED:
+        turn.keep(replace(parent, wake=wake))
+
+
+def call_off_branches(turn: Turn, parent: Thread, wake: Wake) -> None:
+    """Tell all branches of a thread, and what they have forked, to end."""
     above = {parent.id, *(thread.id for thread in turn.ancestors(parent))}
     for other in list(_descendants(turn, parent)):
         if not _is_spared(turn, other, above):
-            _tell(turn, other, CALLED_OFF)
-    if parent.wake is None:
-        turn.keep(replace(parent, wake=Wake(wake.kind, wake.why)))
+            _tell(turn, other, wake)
 
 
 def remove(turn: Turn, thread: Thread) -> None:

@@ -10,6 +10,8 @@ what is told stays right.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import combinations
+from math import comb
 from typing import Any, Final
 
 from editor.language.analysis.domain import Frame, States
@@ -31,6 +33,8 @@ DEEPEST_CALL = 12
 MOST_CONTEXTS = 8
 """A function is followed with so much different knowledge."""
 DEEPEST_FINAL = 3
+MOST_RACES = 20
+"""So many sets of branches that may be first are told apart; beyond them each branch is looked at alone."""
 _TRUE = Constant(True)
 
 
@@ -235,14 +239,56 @@ def _parallel(walk: Walk, node: n.Parallel, states: States) -> States | None:
         with walk.silently():
             _branches(walk, node, walk.copy(states), effects, {})
         known, walk.put = walk.put, outside
+    if node.races:
+        return _race(walk, node, states, effects, known)
     ends = _branches(walk, node, states, effects, known)
     done = [end for end in ends if end is not None]
-    if len(done) < len(ends):
-        return None
+    return None if len(done) < len(ends) else _joined(walk, states, done, effects)
+
+
+def _joined(walk: Walk, states: States, ends: Sequence[States], effects: Sequence[Effects]) -> States:
+    """Return what holds where these branches have all come to their ends."""
     return [
-        domain.join(walk, states[place], [(end[place], own) for end, own in zip(done, effects, strict=True)])
+        domain.join(walk, states[place], [(end[place], own) for end, own in zip(ends, effects, strict=True)])
         for place, domain in enumerate(walk.domains)
     ]
+
+
+def _race(
+    walk: Walk, node: n.Parallel, states: States, effects: list[Effects], known: Mapping[str, Known]
+) -> States | None:
+    """Follow a Parallel that ends before all of its branches have: the others did what they do wholly, partly or not.
+
+    Loops that nothing ends are called off, so they are none that go on for ever as long as enough others end.
+    """
+    endless, ended, put, passed = set(walk.endless), walk.ended, walk.put, walk.passed
+    walk.raced, walk.put, walk.passed = walk.raced + 1, {} if put is None else put, walk.copy(states)
+    ends = _branches(walk, node, states, effects, known)
+    over = _after_race(walk, node, states, effects, ends)
+    if passed is not None:
+        rows = zip(walk.domains, passed, walk.passed, strict=True)
+        passed = [domain.passing(outer, inner) for domain, outer, inner in rows]
+    walk.raced, walk.put, walk.passed, walk.endless = walk.raced - 1, put, passed, endless
+    if over is None and walk.ended == ended and not walk.silent:
+        walk.endless.add(id(node))
+    return over
+
+
+def _after_race(
+    walk: Walk, node: n.Parallel, states: States, effects: Sequence[Effects], ends: Sequence[States | None]
+) -> States | None:
+    """Return what holds when enough branches have come to their ends, whichever they are; None where too few do."""
+    done = [index for index, end in enumerate(ends) if end is not None]
+    needed = max(node.needed or 0, 1)
+    if len(done) < needed:
+        return None
+    found: list[States | None] = []
+    for winners in combinations(done, needed if comb(len(done), needed) <= MOST_RACES else 1):
+        over = _joined(walk, states, [ends[index] or [] for index in winners], [effects[index] for index in winners])
+        others = together(own for index, own in enumerate(effects) if index not in winners)
+        rows = zip(walk.domains, over, walk.passed or (), strict=True)
+        found.append([domain.interrupted(walk, one, others, passed) for domain, one, passed in rows])
+    return walk.meet(states, found, together(effects))
 
 
 def _branches(
@@ -285,7 +331,7 @@ def _called(walk: Walk, node: n.Call, function: n.Function, states: States) -> S
     rows = zip(walk.domains, states, strict=True)
     walk.states = states
     keys = tuple(domain.key(walk, known, node, function) for domain, known in rows)
-    key = function.method, keys, frozenset(walk.volatile.items()), walk.silent
+    key = function.method, keys, frozenset(walk.volatile.items()), walk.silent, walk.raced > 0
     if key in walk.running:
         if walk.running[key] != walk.ways_out():
             return walk.disturb(states, unfollowed)

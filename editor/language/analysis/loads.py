@@ -67,6 +67,18 @@ class Loads(PairwiseDomain[Carried]):
             joined.update({key: count for key, count in carried.items() if key[0] in effects.loaded})
         return joined
 
+    def passing(self, passed: Carried, known: Carried) -> Carried:
+        """Return what is carried at the one point or the other."""
+        return self.either(passed, known)
+
+    def interrupted(self, place: Place, known: Carried, effects: Effects, passed: Carried) -> Carried:
+        """Return that these roles carry what they did at any point; what functions did is not known."""
+        if effects.calls:
+            return self.disturb(place, known, effects)
+        between = self.either(known, passed)
+        kept = {key: count for key, count in known.items() if key[0] not in effects.loaded}
+        return {**kept, **{key: count for key, count in between.items() if key[0] in effects.loaded}}
+
     def key(self, place: Place, known: Carried, node: n.Call, function: n.Function) -> object:
         """Return what the function's robots carry."""
         loaded = place.effects.functions[function.method].loaded

@@ -174,8 +174,8 @@ class _Follower:
                 return self._try(node, before)
             case Parallel(branches=branches):
                 followed = [self.block(branch, self._beside(branches, branch, before)) for branch in branches]
-                inner = Parallel(tuple(block for block, _ in followed), node.step)
-                return inner, self._joined(branches, followed, before)
+                inner = Parallel(tuple(block for block, _ in followed), node.needed, node.step)
+                return inner, self._joined(node, followed, before)
         return self._loop(node, before)
 
     def _loop(self, node: While | Repeat | ForEach, before: Standing) -> tuple[Node, Standing | None]:
@@ -211,16 +211,24 @@ class _Follower:
         return whole, {**self._after_some_of(node.final, after), **moved}
 
     def _joined(
-        self, branches: tuple[Block, ...], followed: list[tuple[Block, Standing | None]], before: Standing
+        self, node: Parallel, followed: list[tuple[Block, Standing | None]], before: Standing
     ) -> Standing | None:
-        """After a Parallel each robot stands where the one branch that moved it left it."""
+        """After a Parallel each robot stands where the one branch that moved it left it, if that surely came to its end.
+
+        Where a branch may have been called off, its robots stand anywhere.
+        """
+        branches = node.branches
+        alive = sum(after is not None for _, after in followed)
+        needed = max(node.needed or 0, 0) if node.races else len(branches)
+        if alive < needed:
+            return None
         movers = [self.movers(branch) for branch in branches]
         result = before
         for branch in branches:
             result = self._after_some_of(branch, result)
         for moved, (_, after) in zip(movers, followed, strict=True):
-            if after is None:
-                return None
+            if after is None or alive > needed:
+                continue
             alone = [role for role in moved if sum(role in others for others in movers) == 1]
             result = {**result, **{role: after[role] for role in alone if role in after}}
         return self._without_set_in(branches, result)

@@ -119,6 +119,17 @@ class Variables(Domain[Env]):
             joined[key] = (max(each[0] for each in contents), contents[0][1] if len(envs) == 1 else None)
         return joined
 
+    def interrupted(self, place: Place, known: Env, effects: Effects, passed: Env) -> Env:
+        """Return that what may have been set may be any of what it was set to; what functions set is not known."""
+        if effects.calls or place.put is None:
+            return self.disturb(place, known, effects)
+        left = dict(known)
+        for key in self._keys(place, effects):
+            state, value = _content(known, key)
+            put = place.put.get(key) if isinstance(key, str) else None
+            left[key] = (max(state, MAYBE), put if state == UNSET or put is None else _together(value, put))
+        return left
+
     def key(self, place: Place, known: Env, node: n.Call, function: n.Function) -> object:
         """Return what is known of the arguments, and of the program's variables that the function reads or sets."""
         effects = place.effects.functions[function.method]

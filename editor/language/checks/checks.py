@@ -13,7 +13,7 @@ from editor.language.checks.devices import check_floor, check_load_place, check_
 from editor.language.checks.exits import check_exits
 from editor.language.checks.idle import check_idle
 from editor.language.checks.library import check_library
-from editor.language.checks.parallel import check_branches, check_parallel
+from editor.language.checks.parallel import check_branches, check_needed, check_parallel
 from editor.language.checks.paths import check_paths
 from editor.language.checks.possible import check_held_device
 from editor.language.checks.robot_methods import check_own_method
@@ -191,6 +191,7 @@ def _try(context: Context, node: n.Try) -> None:
 
 
 def _parallel(context: Context, node: n.Parallel) -> None:
+    check_needed(context, node)
     check_branches(context, node)
 
 

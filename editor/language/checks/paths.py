@@ -36,6 +36,7 @@ _MILDER: Mapping[str, str] = {
     "no_robot_yet": "perhaps_no_robot_yet",
 }
 """What is sure on one path is not told again as what may be on another."""
+NO_STEPS: frozenset[int] = frozenset()
 MOST_LOOKS = 16
 """A step is checked with so much different knowledge of the variables that it reads."""
 
@@ -175,6 +176,10 @@ def _tell_unreached(context: Context, walk: Walk) -> None:
 def _tell_endless(context: Context, walk: Walk) -> None:
     """Tell of loops and calls that are never left, and of loops of which nothing says that they are."""
     _tell_endless_calls(context, walk)
+    races = [node for node in _all_nodes(context.tree) if isinstance(node, n.Parallel) and node.races]
+    for race in races:
+        if id(race) in walk.endless:
+            context.report(race, "too_few_end", "needed", {"needed": race.needed or 0})
     if not context.tree.holds(n.While):
         return
     beside = frozenset(walk.volatile)
@@ -183,11 +188,24 @@ def _tell_endless(context: Context, walk: Walk) -> None:
             walk.changes(*node.branches) for node in _all_nodes(context.tree) if isinstance(node, n.Parallel)
         )
         beside = beside | changed.names | changed.shared
+    stays = [node for node in _all_nodes(context.tree) if isinstance(node, n.While) and _may_stay(walk, node, beside)]
+    called_off = _called_off(context, walk, races, {id(node) for node in stays}) if stays else NO_STEPS
     for node in _all_nodes(context.tree):
         if isinstance(node, n.While) and id(node) in walk.endless:
             context.report(node, "never_ends", "condition")
-        elif isinstance(node, n.While) and _may_stay(walk, node, beside):
-            context.report(node, "may_never_end", "condition")
+    for loop in stays:
+        if id(loop) not in walk.endless and id(loop) not in called_off:
+            context.report(loop, "may_never_end", "condition")
+
+
+def _called_off(context: Context, walk: Walk, races: list[n.Parallel], stays: set[int]) -> frozenset[int]:
+    """Return the loops that need no end, since enough branches beside them have one, or of which that is told."""
+    found: set[int] = set()
+    for race in races:
+        loops = [{id(node) for node in context.tree.walked(branch)} & stays for branch in race.branches]
+        if sum(not inner for inner in loops) >= (race.needed or 0) or id(race) in walk.endless:
+            found.update(*loops)
+    return frozenset(found)
 
 
 def _tell_endless_calls(context: Context, walk: Walk) -> None:

@@ -106,8 +106,13 @@ _FOR_EACH = Construct(
 )
 _PARALLEL = Construct(
     "parallel",
-    (Form("Parallel", (Field("branches", "branches", shown=False),)),),
-    Look("parallel", "logic", "fork", "L"),
+    (
+        Form(
+            "Parallel",
+            (Field("branches", "branches", shown=False), Field("needed", "whole", optional=True, shown=False)),
+        ),
+    ),
+    Look("parallel", "logic", "fork", "L", letters=18),
     names_branches=True,
 )
 _TRY = Construct(

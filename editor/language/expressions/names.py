@@ -24,7 +24,7 @@ _OF_THE_TASK = {
 }
 _KEPT_FREE = {"repeat", "zone", "release", "parameters"}
 RESERVED_ATTRIBUTES = frozenset(_OF_THE_TASK | _KEPT_FREE)
-RESERVED_LOCALS = frozenset({"self", "ctx", "problem", "range", "_", *CLOSED_FUNCTIONS})
+RESERVED_LOCALS = frozenset({"self", "ctx", "problem", "range", "needed", "_", *CLOSED_FUNCTIONS})
 RESERVED_MEMBERS = frozenset({*ROBOT_METHODS, "operate", "read", "location"})
 
 _OF_EVENTS = re.compile(r"when_e\d")

@@ -302,7 +302,9 @@ def _text(node: ast.expr | None, call: ast.Call) -> str:
 
 def _parallel(parser: Parser, call: ast.Call) -> n.Node:
     names = [attribute_of_self(argument) for argument in call.args]
-    handed_on = all(isinstance(k.value, ast.Name) and k.value.id == k.arg for k in call.keywords)
+    needed = _needed(call)
+    passed = (k for k in call.keywords if k.arg != "needed")
+    handed_on = all(isinstance(k.value, ast.Name) and k.value.id == k.arg for k in passed)
     if not names or len(names) > len(ascii_lowercase) or None in names or not handed_on:
         raise Refused(
             call, quoted(call), "Write self.parallel(self.branch_a, self.branch_b), a method for each branch."
@@ -314,7 +316,21 @@ def _parallel(parser: Parser, call: ast.Call) -> n.Node:
             raise Refused(call, quoted(call), f"Each branch needs a method of its own; {name} is none.")
         parser.branches.add(name or "")
         branches.append(parser.block(method.body))
-    return n.Parallel(tuple(branches))
+    return n.Parallel(tuple(branches), needed)
+
+
+def _needed(call: ast.Call) -> int | None:
+    """Return how many branches end a Parallel; None where the call does not say it."""
+    given = next((k.value for k in call.keywords if k.arg == "needed"), None)
+    match given:
+        case None | ast.Constant(value=None):
+            return None
+        case ast.Constant(value=int(needed)) if not isinstance(needed, bool) and needed < _MOST_TIMES:
+            return needed
+        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int(needed))) if needed < _MOST_TIMES:
+            return -int(needed)
+    instead = "Write out how many branches end it: self.parallel(self.branch_a, self.branch_b, needed=1)."
+    raise Refused(given, quoted(given), instead)
 
 
 def _refused_loop(loop: ast.For, scope: Scope) -> Refused:

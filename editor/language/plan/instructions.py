@@ -97,10 +97,14 @@ class Jump:
 
 @dataclass(frozen=True, slots=True)
 class Fork:
-    """Start one thread per address; the thread that forks goes on at `join` when all of them have met a Join."""
+    """Start one thread per address; the thread that forks goes on at `join` when all of them have met a Join.
+
+    Where so many are `needed` (0: all), the others are called off as soon as that many have.
+    """
 
     branches: tuple[int, ...]
     join: int
+    needed: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -193,10 +193,16 @@ class Break:
 
 @dataclass(frozen=True, slots=True)
 class Parallel:
-    """All branches at once; what follows begins when all have ended."""
+    """All branches at once; what follows begins when all have ended, or `needed` of them: the others are called off."""
 
     branches: tuple[Block, ...] = ()
+    needed: int | None = None
     step: str = field(default="", compare=False)
+
+    @property
+    def races(self) -> bool:
+        """Tell whether it may end before all of its branches have."""
+        return self.needed is not None and self.needed < len(self.branches)
 
 
 @dataclass(frozen=True, slots=True)

@@ -73,6 +73,8 @@ class Steps:
 
     def holding(self, kind: str, parent: str, branch: str, order: str, around: Around) -> None:
         params, branches = HOLDING[kind]
+        if kind == "parallel":
+            params = {**params, **self.draw(st.sampled_from([{}, {"needed": 1}, {"needed": 2}]))}
         if kind == "try" and self.draw(st.booleans()):
             params, branches = {"catch": False}, ("body", "finally")
         step = self.add(kind, parent, branch, order, params)

@@ -32,7 +32,7 @@ actions = st.one_of(
     st.builds(p.WaitUntil, truths, maybe),
     st.builds(p.Branch, truths, addresses),
     st.builds(p.Jump, addresses),
-    st.builds(p.Fork, st.lists(addresses, max_size=3).map(tuple), addresses),
+    st.builds(p.Fork, st.lists(addresses, max_size=3).map(tuple), addresses, st.integers(0, 3)),
     st.just(p.Join()),
     st.builds(p.TryBegin, addresses, kinds, st.booleans()),
     st.just(p.TryEnd()),
