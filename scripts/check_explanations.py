@@ -136,7 +136,7 @@ _FUNCTIONS: Final = {
     "signature_changed": "The library has a newer version with other parameters, so the calls have to be looked at.",
 }
 _AT_ONCE: Final = {
-    "needed_out_of_range": "A Parallel says how many of its branches end it, and it has not so many, or that is no whole number.",
+    "needed_out_of_range": "A Parallel is to end with more branches than it has, or with none.",
     "shared_robot": "Two branches of a Parallel, with the functions that they call, drive one robot.",
     "event_shares_robot": "An event that runs beside the program drives a robot that the program drives, too.",
     "branches_set_it": "Two branches run at once and set one variable; the slower one wins, whichever that is.",

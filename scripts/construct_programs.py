@@ -139,6 +139,14 @@ def _choices_and_loops() -> dict[str, Picture]:
             },
             HALL,
         ),
+        "parallel_first": Picture(
+            {
+                "a": step("parallel", 4.0, -3.9, branches=["a", "b"], needed=1),
+                "b": wait(2.0, -5.7, "a.a.1V"),
+                "c": step("wait", 6.2, -5.7, "a.b.1V", until=HOT),
+            },
+            HALL,
+        ),
         "try": Picture(
             {
                 "a": step("try", 3.4, -3.6, kinds=["timed_out"], **{"finally": True}),

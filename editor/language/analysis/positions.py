@@ -213,7 +213,7 @@ class _Follower:
     def _joined(
         self, node: Parallel, followed: list[tuple[Block, Standing | None]], before: Standing
     ) -> Standing | None:
-        """After a Parallel each robot stands where the one branch that moved it left it, if that surely came to its end.
+        """After a Parallel each robot stands where the one branch that moved it left it, if that surely ended.
 
         Where a branch may have been called off, its robots stand anywhere.
         """

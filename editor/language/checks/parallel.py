@@ -20,7 +20,7 @@ from editor.language.tree.variables import SETTERS, program_variables, set_by, s
 
 
 def check_needed(context: Context, node: n.Parallel) -> None:
-    """So many branches as are needed must be there, and take time: what is over at once calls the others off at once."""
+    """So many branches as are needed must be there, and take time: one that does not calls the others off at once."""
     count = len(node.branches)
     if node.needed is None:
         return

@@ -109,10 +109,10 @@ _PARALLEL = Construct(
     (
         Form(
             "Parallel",
-            (Field("branches", "branches", shown=False), Field("needed", "whole", optional=True, shown=False)),
+            (Field("branches", "branches", shown=False), Field("needed", "whole", optional=True)),
         ),
     ),
-    Look("parallel", "logic", "fork", "L", letters=18),
+    Look("parallel", "logic", "fork", "L"),
     names_branches=True,
 )
 _TRY = Construct(

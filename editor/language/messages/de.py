@@ -97,8 +97,8 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "never_runs": "Diese Bedingung ist nie wahr; diese Schritte laufen also nie.",
     "always_true": "Diese Bedingung ist immer wahr; der andere Zweig läuft also nie.",
     "empty_branch": "Darin steht kein Schritt; es tut also nichts. Zeichnen Sie Schritte hinein, oder löschen Sie es.",
-    "over_at_once": "Das ist sofort vorbei und bricht die anderen Zweige ab, denn einige brauchen keine Zeit: {branches}. "
-    "Zeichnen Sie Schritte hinein, die Zeit brauchen.",
+    "over_at_once": "Das ist sofort vorbei und bricht die anderen Zweige ab, denn einige brauchen keine Zeit: "
+    "{branches}. Zeichnen Sie Schritte hinein, die Zeit brauchen.",
     "busy_circle": "Das wartet, indem es ständig im Kreis läuft. Warten Sie mit Warten, bis das Gewünschte eintritt.",
     "draft": "Dieser Schritt hängt an nichts und läuft nicht. Verbinden oder löschen Sie ihn.",
     "too_deep": "Dieser Schritt liegt zu tief in anderen und läuft nicht. Machen Sie aus einigen eine Funktion.",

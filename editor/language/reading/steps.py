@@ -9,6 +9,7 @@ from editor.language.constructs.table import STEPS
 from editor.language.document.outline import Params, mapping
 from editor.language.expressions.names import local_name
 from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, is_missing
+from editor.language.expressions.values import is_number
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.reading.fields import FIELD_READERS, LISTS, read_route
@@ -75,9 +76,8 @@ def _needed(reader: Reader, step: str, params: Params, count: int) -> int | None
     given = params.get("needed")
     if given is None:
         return None
-    if isinstance(given, int | float) and not isinstance(given, bool) and abs(given) < MOST_NEEDED:
-        if given == int(given):
-            return int(given)
+    if is_number(given) and abs(given) < MOST_NEEDED and given == int(given):
+        return int(given)
     fix = Fix("all_branches", step, "needed", None)
     reader.problems.append(Problem("needed_out_of_range", step, "needed", {"count": count}, fix))
     return None

@@ -185,7 +185,7 @@ json_values = st.recursive(
     max_leaves=8,
 )
 KEYS = ["steps", "functions", "roles", "parameters", "kind", "place", "params", "s1", "program", "body", "param",
-        "property", "op", "args", "device", "role", "function", "branches", "needed", "until", "condition", "name"]  # fmt: skip
+        "property", "op", "args", "device", "role", "function", "branches", "needed", "until", "name"]  # fmt: skip
 broken_documents = st.recursive(
     st.one_of(json_values, st.sampled_from([*PARAMS, "program", "body", "s1", "f"])),
     lambda inner: st.one_of(st.lists(inner, max_size=4), st.dictionaries(st.sampled_from(KEYS), inner, max_size=5)),

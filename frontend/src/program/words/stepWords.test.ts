@@ -34,6 +34,12 @@ test.each<[string, Step["params"], string]>([
   ["set", {}, "? = ?"],
   ["ask", { question: "Is it dry?" }, "Ask Is it dry?"],
   ["fail", { message: "The box is wet" }, "Fail The box is wet"],
+  ["parallel", { branches: ["a", "b", "c"] }, "Parallel"],
+  ["parallel", { branches: ["a", "b", "c"], needed: 1 }, "Parallel first of 3 ends it"],
+  ["parallel", { branches: ["a", "b", "c"], needed: 2 }, "Parallel 2 of 3 end it"],
+  ["parallel", { branches: ["a", "b", "c"], needed: 3 }, "Parallel"],
+  ["parallel", { needed: 99 }, "Parallel 99 of 2 end it"],
+  ["parallel", { needed: "x" }, "Parallel ? of 2 end it"],
   [
     "notify",
     { message: { op: "text", args: ["Painted ", { param: "count" }, " boxes"] } },

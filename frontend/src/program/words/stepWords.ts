@@ -3,6 +3,7 @@ import { type Place, type Step, type Value, textOf } from "../document/document"
 import { type FieldRecord, isStepKind, kindOf } from "../kinds";
 import { isRobot } from "@/map/devices/device";
 import { methodOf, operatedRole } from "../operation";
+import { endingText } from "./parallelWords";
 import { durationText, placeName, roleName, type Speaker, valueText, withUnit } from "./valueWords";
 
 export { durationText, placeName, roleName, UNIT_CHOICES, unitText, valueText, withUnit } from "./valueWords";
@@ -27,6 +28,7 @@ const WRITERS: Readonly<Partial<Record<string, Writer>>> = {
   operate: operateText,
   call: callText,
   for_each: forEachText,
+  parallel: parallelText,
   comment: commentText,
 };
 
@@ -130,6 +132,12 @@ function forEachText(step: Step, speaker: Speaker): TextPart[] {
     plain(speaker.t("chip.for_each", { variable })),
     items.length === 0 ? MISSING : plain(rest.length > 0 ? `${names} +${rest.length}` : names),
   ];
+}
+
+function parallelText(step: Step, { t }: Speaker): TextPart[] {
+  const ends = endingText(step, t);
+  const word: TextPart = { text: t("chip.parallel"), tone: "word" };
+  return ends === null ? [word] : [word, { text: ends, tone: "soft" }];
 }
 
 function commentText(step: Step, { t }: Speaker): TextPart[] {
