@@ -90,6 +90,9 @@ _CARRYING: Final = {
     "may_carry_too_much": "On one of the ways to this step the robot is full already.",
     "drops_nothing": "On every way to this step the robot carries less.",
     "may_drop_nothing": "On one of the ways to this step the robot carries less.",
+    "releases_carrying": "A Release gives a robot back that carries something, which its next steps would not know.",
+    "may_release_carrying": "On one of the ways to a Release its robot carries something.",
+    "releases_nothing": "No step on one of the ways to a Release has given the role a robot.",
     "ends_carrying": "On every way to this end the robot carries something; the next program would find it full.",
 }
 _FLOOR: Final = {
@@ -137,6 +140,7 @@ _FUNCTIONS: Final = {
 }
 _AT_ONCE: Final = {
     "needed_out_of_range": "A Parallel is to end with more branches than it has, or with none.",
+    "released_beside": "One branch of a Parallel releases a role that another uses, or releases, too.",
     "shared_robot": "Two branches of a Parallel, with the functions that they call, drive one robot.",
     "event_shares_robot": "An event that runs beside the program drives a robot that the program drives, too.",
     "branches_set_it": "Two branches run at once and set one variable; the slower one wins, whichever that is.",

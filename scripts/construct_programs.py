@@ -74,6 +74,14 @@ def _steps_of_robots() -> dict[str, Picture]:
             (0.2, -0.2, 13.2, -13.6),
             (4.6, -1.0),
         ),
+        "release": Picture(
+            {
+                "a": step("move", 5.4, -5.2, role="robot", to={"place": "paintStore"}),
+                "b": step("release", 7.6, -3.6, "program.body.2V", role="robot"),
+            },
+            WEST,
+            (2.0, -4.2),
+        ),
         "operate": Picture(
             {"a": step("operate", 10.2, -12.5, device=OVEN_ID, method="curePaint", args={"time": 10})},
             OVEN,

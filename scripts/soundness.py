@@ -32,7 +32,7 @@ MOST_EVENTS = 600
 NAMES = ("n", "left", "seconds")
 _TOO_DEEP = "calls itself more than"
 """A function that calls itself until a reading changes may well be clean, and comes to the machine's limit."""
-HARMLESS = {"unused_variable", "unused_parameter", "empty_branch", "busy_circle"}
+HARMLESS = {"unused_variable", "unused_parameter", "empty_branch", "busy_circle", "releases_nothing"}
 """What is told of a program that does all the same what it says."""
 MORE = 0.75
 """How often one more step follows, the deeper the seldomer."""
@@ -69,6 +69,7 @@ class Draft:
                 "while",
                 "call",
                 "parallel",
+                "release",
             ]
             kind = self.chance.choice(kinds[: 7 if depth > 3 else None] + [k for k in ("break",) if k in inside])
             getattr(self, f"_{kind}")(parent, branch, depth, inside)
@@ -146,6 +147,9 @@ class Draft:
         self._set(step, "a", depth, frozenset())
         self._wait(step, "b", depth, frozenset())
         self.block(step, self.chance.choice("ab"), depth + 1)
+
+    def _release(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        self.add(parent, branch, "release", {"role": "robot"})
 
     def _break(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         self.add(parent, branch, "break", {})
@@ -227,6 +231,9 @@ class Judge:
             self.carried += int(quantity)
             if not 0 <= self.carried <= CAPACITY:
                 self.wrong = f"{order.kind} leaves {self.carried} at the step {order.step}"
+        elif order.kind == "release":
+            if self.carried:
+                self.wrong = f"release of a robot that carries {self.carried} at the step {order.step}"
         elif order.kind == "call" and order.method == "curePaint":
             time = order.arguments.get("time")
             if not isinstance(time, int | float) or not LEAST_CURING_S <= time <= MOST_CURING_S:

@@ -16,8 +16,8 @@ GLUE_LIMIT = 200
 """Instructions that a thread and its branches may carry out in one go without waiting for anything."""
 YIELD_S = 1.0
 """How long a thread rests that has used up its share; a loop without a wait cannot stop the others."""
-_LEAVES = (p.Move, p.Pick, p.Drop, p.Call, p.Perform, p.Wait, p.WaitUntil, p.Assign, p.AskPerson, p.Notify, p.Fail,
-           p.End)  # fmt: skip
+_LEAVES = (p.Move, p.Pick, p.Drop, p.Call, p.Perform, p.Release, p.Wait, p.WaitUntil, p.Assign, p.AskPerson,
+           p.Notify, p.Fail, p.End)  # fmt: skip
 
 
 class Failure(Exception):

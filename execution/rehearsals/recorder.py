@@ -154,6 +154,9 @@ class Recorder:
             case m.RoleBound(role=role, robot=robot):
                 text = f"{self._layout.name(robot)} takes the role “{role}”."
                 self._say(t_s, "", robot, text, "role_bound", role=role)
+            case m.RoleReleased(role=role, robot=robot):
+                text = f"{self._layout.name(robot)} is released from the role “{role}”."
+                self._say(t_s, "", robot, text, "role_released", role=role)
 
     def _note_command(self, t_s: float, action: m.SendCommand) -> None:
         entry = self._open_steps.get(action.step)

@@ -33,6 +33,7 @@ from editor.language.tree.nodes import (
     Parallel,
     Perform,
     Pick,
+    Release,
     Repeat,
     Return,
     Role,
@@ -104,6 +105,9 @@ class _Follower:
                 nodes.append(node)
             elif isinstance(node, LOADS):
                 standing = self._load(node, standing, nodes)
+            elif isinstance(node, Release):
+                standing = _without(standing, frozenset({node.role}))
+                nodes.append(node)
             elif isinstance(node, Call):
                 standing = _without_values(self._call(node, standing), {node.result})
                 nodes.append(node)
@@ -271,7 +275,7 @@ class _Follower:
         """Return the roles whose robot a block moves, also in the functions it calls; a script says every move."""
         roles: set[str] = set()
         for node in walk(block):
-            if isinstance(node, Move) or (isinstance(node, LOADS) and not self.from_script):
+            if isinstance(node, Move | Release) or (isinstance(node, LOADS) and not self.from_script):
                 roles.add(node.role)
             elif isinstance(node, Call):
                 roles.update(self.moved.get(node.function, ()))

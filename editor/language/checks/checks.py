@@ -125,6 +125,10 @@ def _drop(context: Context, node: n.Drop) -> None:
         check_quantity(context, node)
 
 
+def _release(context: Context, node: n.Release) -> None:
+    """What may be wrong with it shows along the ways to it, and beside other branches."""
+
+
 def _operate(context: Context, node: n.Operate) -> None:
     device = usable_device(context, node, node.device, "device", "missing_machine")
     if device is not None:
@@ -298,6 +302,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Move: _move,
     n.Pick: _pick,
     n.Drop: _drop,
+    n.Release: _release,
     n.Operate: _operate,
     n.Perform: check_own_method,
     n.Wait: _wait,
@@ -326,7 +331,7 @@ def _check_roles(context: Context) -> None:
     first: dict[str, n.Node] = {}
     for block in _bodies(tree):
         for node in tree.walked(block):
-            if isinstance(node, n.ACTS) and node.role not in first:
+            if isinstance(node, n.OF_ROBOTS) and node.role not in first:
                 first[node.role] = node
     for role in tree.roles:
         check_role(context, first[role.name], role, needed[role.name])

@@ -18,6 +18,9 @@ from editor.language.tree.nodes import walk
 from editor.language.tree.traversal import roles_used
 from editor.language.tree.variables import SETTERS, program_variables, set_by, set_in, sets_of_functions
 
+Drivers = dict[tuple[str, str], str]
+"""What tells robots apart → their roles."""
+
 
 def check_needed(context: Context, node: n.Parallel) -> None:
     """So many branches as are needed must be there, and take time: one that does not calls the others off at once."""
@@ -40,7 +43,7 @@ def _is_over_at_once(context: Context, branch: n.Block) -> bool:
 
 def check_branches(context: Context, node: n.Parallel) -> None:
     """Two branches cannot drive the same robot."""
-    drivers = [_drivers(context, branch) for branch in node.branches]
+    drivers = [_drivers(context, branch, n.ACTS) for branch in node.branches]
     for (first, mine), (second, theirs) in combinations(enumerate(drivers), 2):
         for key in sorted(mine.keys() & theirs.keys()):
             names = {"first": _letter(first), "second": _letter(second)}
@@ -53,7 +56,22 @@ def check_branches(context: Context, node: n.Parallel) -> None:
                 _own_robot(context, node, second, theirs[key]),
             )
 
+    _check_releases(context, node, drivers)
     _check_updates(context, node)
+
+
+def _check_releases(context: Context, node: n.Parallel, drivers: list[Drivers]) -> None:
+    """A branch cannot release a robot that another uses, or releases."""
+    if not context.tree.holds(n.Release):
+        return
+    releases = [_drivers(context, branch, (n.Release,)) for branch in node.branches]
+    for first, mine in enumerate(releases):
+        for second, theirs in enumerate(drivers):
+            both = mine.keys() & (theirs.keys() | (releases[second].keys() if second > first else set()))
+            for key in sorted(both - drivers[first].keys()) if second != first else ():
+                names = {"first": _letter(first), "second": _letter(second)}
+                robot = context.driver_name(mine[key])
+                context.report(node, "released_beside", "branches", {**names, "robot": robot})
 
 
 def _check_updates(context: Context, node: n.Parallel) -> None:
@@ -122,9 +140,9 @@ def _letter(index: int) -> str:
     return chr(97 + index)
 
 
-def _drivers(context: Context, block: n.Block) -> dict[tuple[str, str], str]:
-    """Return what tells the robots apart that a block drives, also by its functions, with their roles."""
-    return {context.robot_key(role): role for role in roles_used(block, context.tree)}
+def _drivers(context: Context, block: n.Block, steps: tuple[type[n.Node], ...] = n.OF_ROBOTS) -> Drivers:
+    """Return what tells the robots apart that a block has in such steps, also by its functions, with their roles."""
+    return {context.robot_key(role): role for role in roles_used(block, context.tree, steps)}
 
 
 def check_parallel(context: Context) -> None:

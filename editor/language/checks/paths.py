@@ -34,6 +34,7 @@ _MILDER: Mapping[str, str] = {
     "out_of_range": "may_be_out_of_range",
     "divided_by_zero": "may_divide_by_zero",
     "no_robot_yet": "perhaps_no_robot_yet",
+    "releases_carrying": "may_release_carrying",
 }
 """What is sure on one path is not told again as what may be on another."""
 NO_STEPS: frozenset[int] = frozenset()
@@ -90,7 +91,7 @@ def check_paths(context: Context, bodies: Iterable[Body], checks: Checks) -> Non
     variables = Variables(
         context.surroundings, tree.parameters, lambda name, node: by_name[name].types_at(node), tracked
     )
-    others: list[Domain[Any]] = [*_loads(context, variables), *_crew(context)]
+    others: list[Domain[Any]] = [*_loads(context, variables), *_crew(context, effects)]
     takers, asked = _takers(context)
     if takers is not None or _has_variables(tree):
         reads = {id(node): names for node in _all_nodes(tree) for names in (read_by(node),) if names}
@@ -117,13 +118,14 @@ def check_paths(context: Context, bodies: Iterable[Body], checks: Checks) -> Non
         _check_results(context, walk)
 
 
-def _crew(context: Context) -> Iterator[Crew]:
+def _crew(context: Context, effects: EffectTable) -> Iterator[Crew]:
     if len({context.robot_key(role) for role in context.roles}) > 1:
-        yield Crew(lambda role: (context.robot_key(role), [robot.id for robot in context.robots(role)]))
+        beside = together(effects.of(event.body) for event in context.tree.events).released
+        yield Crew(lambda role: (context.robot_key(role), [robot.id for robot in context.robots(role)]), beside)
 
 
 def _takers(context: Context) -> tuple[Takers | None, dict[int, dict[str, str]]]:
-    """Return the domain of taken robots, where any step asks for the place of one that is not known from the start."""
+    """Return the domain of taken robots, where steps ask for the place of one that is not known yet, or release one."""
     free = {name for name, role in context.roles.items() if role.device is None}
     asked: dict[int, dict[str, str]] = {}
     for node in _all_nodes(context.tree) if free else ():
@@ -131,7 +133,9 @@ def _takers(context: Context) -> tuple[Takers | None, dict[int, dict[str, str]]]
         roles = {role: field for field, value in values for role in roles_in(value) if role in free} if values else {}
         if roles:
             asked[id(node)] = roles
-    return (Takers(frozenset(free)) if asked else None), asked
+    released = {node.role for node in _all_nodes(context.tree) if isinstance(node, n.Release)}
+    told = released | free if asked else released
+    return (Takers(frozenset(told)) if told else None), asked
 
 
 def _loads(context: Context, variables: Variables) -> Iterator[Loads]:

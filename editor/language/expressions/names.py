@@ -12,7 +12,9 @@ from unicodedata import normalize
 
 from editor.language.constructs.script_form import CALLS
 
-ROBOT_METHODS = tuple(call.method for call in CALLS.values() if call.role is not None)
+RELEASE = "release"
+"""The call by which a role gives its robot back: the fleet is asked, not the robot."""
+ROBOT_METHODS = tuple(call.method for call in CALLS.values() if call.role is not None and call.method != RELEASE)
 CLOSED_FUNCTIONS = ("abs", "count", "distance", "max", "min", "nearest", "now", "point", "quantity", "round")
 _OF_THE_TASK = {
     "new_task",
@@ -22,7 +24,7 @@ _OF_THE_TASK = {
     "set",
     *(call.method for call in CALLS.values() if call.role is None),
 }
-_KEPT_FREE = {"repeat", "zone", "release", "parameters"}
+_KEPT_FREE = {"repeat", "zone", RELEASE, "parameters"}
 RESERVED_ATTRIBUTES = frozenset(_OF_THE_TASK | _KEPT_FREE)
 RESERVED_LOCALS = frozenset({"self", "ctx", "problem", "range", "needed", "_", *CLOSED_FUNCTIONS})
 RESERVED_MEMBERS = frozenset({*ROBOT_METHODS, "operate", "read", "location"})

@@ -75,6 +75,20 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "drops_nothing": "{robot} trägt hier {carried} {object} und kann nicht {quantity} abgeben.",
     "may_drop_nothing": "{robot} trägt auf einem der Wege zu diesem Schritt weniger als {quantity} {object}.",
     "ends_carrying": "{robot} trägt noch {quantity} {object}, wenn das Programm hier endet. Geben Sie es ab.",
+    "releases_carrying": (
+        "{robot} trägt hier noch {quantity} {object}. Legen Sie es ab, bevor Sie den Roboter freigeben."
+    ),
+    "may_release_carrying": (
+        "{robot} trägt auf einem der Wege zu diesem Schritt noch {object}. Legen Sie es ab, bevor Sie den Roboter "
+        "freigeben."
+    ),
+    "releases_nothing": (
+        "{role} hat auf einem der Wege zu diesem Schritt noch keinen Roboter. Setzen Sie ihn hinter die Schritte des "
+        "Roboters, oder löschen Sie ihn."
+    ),
+    "released_beside": (
+        "Zweig {first} gibt {robot} frei, und Zweig {second} braucht ihn. Geben Sie ihn erst danach frei."
+    ),
     "place_outside": "Dieser Ort liegt außerhalb der Karte. Ziehen Sie ihn hinein.",
     "place_blocked": "{robot} passt hier nicht hin: Eine Wand oder eine Maschine ist zu nah.",
     "place_unreachable": "{robot} findet keinen Weg zu diesem Ort.",

@@ -76,6 +76,22 @@ TEXTS: Final[Mapping[str, Text]] = {
     "drops_nothing": ("error", "{robot} carries {carried} {object} here and cannot drop {quantity}."),
     "may_drop_nothing": ("warning", "{robot} carries less than {quantity} {object} on one of the ways to this step."),
     "ends_carrying": ("warning", "{robot} still carries {quantity} {object} when the program ends here. Drop it."),
+    "releases_carrying": (
+        "error",
+        "{robot} still carries {quantity} {object} here. Drop it before you release the robot.",
+    ),
+    "may_release_carrying": (
+        "warning",
+        "{robot} still carries {object} on one of the ways to this step. Drop it before you release the robot.",
+    ),
+    "releases_nothing": (
+        "warning",
+        "{role} has no robot yet on one of the ways to this step. Move it behind the steps of the robot, or delete it.",
+    ),
+    "released_beside": (
+        "error",
+        "Branch {first} releases {robot}, which branch {second} uses. Release it behind the Parallel.",
+    ),
     "place_outside": ("error", "This place is outside the map. Move it inside."),
     "place_blocked": ("error", "{robot} does not fit here: a wall or a machine is too near."),
     "place_unreachable": ("error", "{robot} finds no way to this place."),

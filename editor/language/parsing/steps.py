@@ -10,7 +10,7 @@ from string import ascii_lowercase
 
 from editor.language.document.outline import DEEPEST_STEP
 from editor.language.expressions import nodes as e
-from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
+from editor.language.expressions.names import RELEASE, ROBOT_METHODS, member_name, snake_case
 from editor.language.expressions.nodes import Expression, PlaceRef
 from editor.language.messages.syntax_errors import instead_of_call, instead_of_expression, instead_of_statement
 from editor.language.parsing.answers import (
@@ -209,6 +209,9 @@ class Parser:
             self.origins[id(node)] = call
             return node
         if robot is not None and robot in self.scope.robots():
+            if function.attr == RELEASE:
+                self.roles.add(robot)
+                return ROBOT_CALLS[RELEASE](self.scope, call, robot)
             return self._perform(call, function, robot)
         instead = instead_of_call(call)
         if instead is not None:
@@ -287,7 +290,7 @@ def _unknown_of_robot(call: ast.Call, robots: Robots, name: str) -> Refused:
         instead = f'Write self.robot.operate("{full}", {{…}}): robots describe it differently.'
         return Refused(call, quoted(call), instead)
     listed = (name for name in map(partial(short_name, robots), known) if name is not None)
-    return unknown_method(call, name, [*ROBOT_METHODS, *listed])
+    return unknown_method(call, name, [*ROBOT_METHODS, RELEASE, *listed])
 
 
 def _sorted_arguments(pairs: list[tuple[str, Expression]]) -> n.Arguments:

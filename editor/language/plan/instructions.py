@@ -66,6 +66,13 @@ class Perform:
 
 
 @dataclass(frozen=True, slots=True)
+class Release:
+    """The role gives its robot back; one that has none has nothing to give."""
+
+    role: str
+
+
+@dataclass(frozen=True, slots=True)
 class Wait:
     """Wait for a time in seconds."""
 
@@ -209,7 +216,7 @@ class EventEnd:
 
 
 Action = (
-    Move | Pick | Drop | Call | Perform | Wait | WaitUntil | Branch | Jump | Fork | Join
+    Move | Pick | Drop | Release | Call | Perform | Wait | WaitUntil | Branch | Jump | Fork | Join
     | TryBegin | Caught | TryEnd | Rethrow | Invoke | Return | Assign | AskPerson | Notify | Fail | End | EventEnd
 )  # fmt: skip
 

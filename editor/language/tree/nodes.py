@@ -78,6 +78,14 @@ class Perform:
 
 
 @dataclass(frozen=True, slots=True)
+class Release:
+    """The role gives its robot back; used again it gets one anew."""
+
+    role: str
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Wait:
     """Wait for a time in seconds."""
 
@@ -232,8 +240,8 @@ class Call:
 
 
 Node = (
-    Move | Pick | Drop | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Call
-    | Set | Ask | Notify | End | Fail | Return | Break
+    Move | Pick | Drop | Release | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try
+    | Call | Set | Ask | Notify | End | Fail | Return | Break
 )  # fmt: skip
 Block = tuple[Node, ...]
 LOADS: Final = (Pick, Drop)
@@ -241,6 +249,8 @@ DRIVES: Final = (Move, Pick, Drop)
 """What a robot goes for. (A check of a class against such a row is several times as quick as against a union.)"""
 ACTS: Final = (*DRIVES, Perform)
 """What a robot does, there or where it stands."""
+OF_ROBOTS: Final = (*ACTS, Release)
+"""What names a role."""
 
 
 @dataclass(frozen=True, slots=True)

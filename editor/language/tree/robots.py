@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from editor.language.expressions.names import RESERVED_ATTRIBUTES, ROBOT_METHODS, member_name, unique_name
+from editor.language.expressions.names import RELEASE, RESERVED_ATTRIBUTES, ROBOT_METHODS, member_name, unique_name
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree.nodes import COMPOSITES, Block, Node, Operate, Perform, Role, Tree, blocks_of, with_blocks
 from editor.language.tree.traversal import in_reading_order
@@ -58,7 +58,7 @@ def short_name(robots: Robots, name: str) -> str | None:
     if name in ROBOT_METHODS or described_alike(robots, name) is None:
         return None
     names = {member_name(name, [method.name for method in robot.methods]) for robot in robots}
-    return names.pop() if len(names) == 1 else None
+    return names.pop() if len(names) == 1 and names != {RELEASE} else None
 
 
 def methods_called(robots: Robots, short: str) -> tuple[str, ...]:

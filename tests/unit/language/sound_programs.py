@@ -14,6 +14,7 @@ PLAIN: dict[str, dict[str, Any]] = {
     "set": {"variable": "total", "value": 1},
     "ask": {"question": "How many?", "answer": {"type": "number"}, "variable": "count"},
     "call": {"function": "f", "result": "total"},
+    "release": {},
     "end": {},
     "fail": {"message": "The box is wet."},
     "pick_and_drop": {

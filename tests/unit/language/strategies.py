@@ -99,6 +99,7 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "pick": st.fixed_dictionaries({**loads, "at": places}),
     "drop": st.fixed_dictionaries({**loads, "at": places}),
     "pick_and_drop": st.fixed_dictionaries({**loads, "source": places, "target": places}),
+    "release": st.fixed_dictionaries({"role": st.sampled_from([*ROLES, "gone", None, 3])}),
     "operate": st.fixed_dictionaries(
         {
             "device": st.one_of(places, robots),

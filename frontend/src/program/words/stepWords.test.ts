@@ -34,6 +34,8 @@ test.each<[string, Step["params"], string]>([
   ["set", {}, "? = ?"],
   ["ask", { question: "Is it dry?" }, "Ask Is it dry?"],
   ["fail", { message: "The box is wet" }, "Fail The box is wet"],
+  ["release", {}, "Release Carrier"],
+  ["release", { role: "gone" }, "Release gone"],
   ["parallel", { branches: ["a", "b", "c"] }, "Parallel"],
   ["parallel", { branches: ["a", "b", "c"], needed: 1 }, "Parallel first of 3 ends it"],
   ["parallel", { branches: ["a", "b", "c"], needed: 2 }, "Parallel 2 of 3 end it"],

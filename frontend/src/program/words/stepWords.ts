@@ -2,7 +2,7 @@
 import { type Place, type Step, type Value, textOf } from "../document/document";
 import { type FieldRecord, isStepKind, kindOf } from "../kinds";
 import { isRobot } from "@/map/devices/device";
-import { methodOf, operatedRole } from "../operation";
+import { DEFAULT_ROLE, methodOf, operatedRole } from "../operation";
 import { endingText } from "./parallelWords";
 import { durationText, placeName, roleName, type Speaker, valueText, withUnit } from "./valueWords";
 
@@ -29,6 +29,7 @@ const WRITERS: Readonly<Partial<Record<string, Writer>>> = {
   call: callText,
   for_each: forEachText,
   parallel: parallelText,
+  release: releaseText,
   comment: commentText,
 };
 
@@ -138,6 +139,10 @@ function parallelText(step: Step, { t }: Speaker): TextPart[] {
   const ends = endingText(step, t);
   const word: TextPart = { text: t("chip.parallel"), tone: "word" };
   return ends === null ? [word] : [word, { text: ends, tone: "soft" }];
+}
+
+function releaseText(step: Step, speaker: Speaker): TextPart[] {
+  return [plain(speaker.t("chip.release", { role: roleName(textOf(step.params.role, DEFAULT_ROLE), speaker) }))];
 }
 
 function commentText(step: Step, { t }: Speaker): TextPart[] {
