@@ -29,7 +29,6 @@ const WRITERS: Readonly<Partial<Record<string, Writer>>> = {
   call: callText,
   for_each: forEachText,
   parallel: parallelText,
-  release: releaseText,
   comment: commentText,
 };
 
@@ -83,6 +82,7 @@ function segmentParts(
 /** What stands in a field; null where that is still to be entered. */
 function fieldPart(field: FieldRecord, step: Step, speaker: Speaker): TextPart | null {
   const value = (step.params[field.name] ?? null) as Value;
+  if (field.type === "role") return plain(roleName(textOf(value, DEFAULT_ROLE), speaker));
   if (field.type === "place") return partOf(placeName(value as Place | null, speaker));
   if (field.type === "variable") return partOf(textOf(value) || null);
   if (field.type !== "value") return null;
@@ -139,10 +139,6 @@ function parallelText(step: Step, { t }: Speaker): TextPart[] {
   const ends = endingText(step, t);
   const word: TextPart = { text: t("chip.parallel"), tone: "word" };
   return ends === null ? [word] : [word, { text: ends, tone: "soft" }];
-}
-
-function releaseText(step: Step, speaker: Speaker): TextPart[] {
-  return [plain(speaker.t("chip.release", { role: roleName(textOf(step.params.role, DEFAULT_ROLE), speaker) }))];
 }
 
 function commentText(step: Step, { t }: Speaker): TextPart[] {

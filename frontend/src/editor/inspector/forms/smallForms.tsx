@@ -112,7 +112,7 @@ function EndsWith({ count }: { count: number }) {
           />
           {ending === "some" ? (
             <NumberInput
-              aria-label={t("parallel.how_many")}
+              aria-label={t("parallel.number")}
               aria-describedby={bad ? note : undefined}
               error={bad}
               value={typeof needed === "number" ? needed : ""}
