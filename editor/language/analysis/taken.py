@@ -33,8 +33,8 @@ class Takers(PairwiseDomain[Taken]):
         return first[0] & second[0], first[1] | second[1]
 
     def disturb(self, place: Place, known: Taken, effects: Effects) -> Taken:
-        """Return that any role may have got a robot; who has one keeps it, if it is not released."""
-        return known[0] - effects.released, self.roles
+        """Return that these roles may have got a robot; who has one keeps it, if it is not released."""
+        return known[0] - effects.released, known[1] | (effects.used & self.roles)
 
     def join(self, place: Place, before: Taken, ends: Sequence[tuple[Taken, Effects]]) -> Taken:
         """Return the roles of all branches, but for those that one of them has released."""

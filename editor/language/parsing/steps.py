@@ -290,7 +290,7 @@ def _unknown_of_robot(call: ast.Call, robots: Robots, name: str) -> Refused:
         instead = f'Write self.robot.operate("{full}", {{…}}): robots describe it differently.'
         return Refused(call, quoted(call), instead)
     listed = (name for name in map(partial(short_name, robots), known) if name is not None)
-    return unknown_method(call, name, [*ROBOT_METHODS, RELEASE, *listed])
+    return unknown_method(call, name, [*ROBOT_METHODS, *listed])
 
 
 def _sorted_arguments(pairs: list[tuple[str, Expression]]) -> n.Arguments:

@@ -87,6 +87,7 @@ test("behind a robot stand its own methods too, behind any robot those of all, e
     "move",
     "pick",
     "drop",
+    "release",
     "honk",
     "open_gripper",
   ]);
