@@ -6,7 +6,7 @@ import importlib
 import json
 import sys
 
-NAMES = ("language", "rehearsal", "traffic", "rooms", "devices", "steps", "firmware", "start")
+NAMES = ("language", "rehearsal", "traffic", "rooms", "compiled_frames", "devices", "steps", "firmware", "start")
 
 
 def main() -> None:

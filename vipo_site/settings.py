@@ -103,6 +103,10 @@ SESSION_COOKIE_HTTPONLY = True
 SESSION_COOKIE_SAMESITE = "Lax"
 
 
+FROZEN_AFTER_S = 15
+"""PostgreSQL ends a transaction in which nothing has been asked for so long: a frozen process holds up nobody."""
+
+
 def postgres(url: str) -> dict[str, object]:
     """Turn postgresql://user:password@host:port/name into Django's form."""
     parts = urlsplit(url)
@@ -114,6 +118,7 @@ def postgres(url: str) -> dict[str, object]:
         "HOST": parts.hostname or "",
         "PORT": str(parts.port or ""),
         "CONN_MAX_AGE": 0,
+        "OPTIONS": {"options": f"-c idle_in_transaction_session_timeout={FROZEN_AFTER_S}s"},
     }
 
 

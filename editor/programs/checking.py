@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import time
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from editor.errors import NoSuchProgram
@@ -65,38 +65,55 @@ def _floor(site: str) -> FloorFacts | None:
         return None
 
 
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """What a check of a document found, and the fingerprint of what it was checked against."""
+
+    document: Mapping[str, Any]
+    compiled: Compiled
+    revision: int
+    against: str
+
+    @property
+    def form(self) -> dict[str, object]:
+        """The compiled program as docs/shapes/compiled.md shows it."""
+        return compiled_to_json(self.compiled, self.revision)
+
+
 def new_revision() -> int:
-    """Return a number for a look at a document; later looks have higher numbers, in every process."""
-    return time.time_ns() // 1_000_000
+    """Return a number for a look at a document, in microseconds: no two looks share one, in whatever process."""
+    return time.time_ns() // 1_000
 
 
-def compiled_json(compiled: Compiled, revision: int) -> dict[str, Any]:
-    """Return a compiled program as docs/shapes/compiled.md shows it; a higher revision is a later look."""
-    return {**compiled_to_json(compiled), "revision": revision}
+@dataclass(frozen=True, slots=True)
+class Around:
+    """What programs of a site are checked against, and its fingerprint."""
+
+    surroundings: Surroundings
+    fingerprint: str
 
 
-def check_program(
-    *, program_id: str, document: Mapping[str, Any], revision: int, edited: EditedProgram | None = None
-) -> dict[str, Any]:
-    """Check and print a program's document and store what lists show of it. Raises NoSuchProgram.
-
-    `edited` has what was found when the program was looked at last, where it is looked at again and again.
-    """
-    program = Program.objects.select_related("site").filter(pk=program_id).first()
-    if program is None:
+def read_around(program_id: str) -> Around:
+    """Return what is around a program now. Raises NoSuchProgram."""
+    site = Program.objects.filter(pk=program_id).values_list("site__slug", flat=True).first()
+    if site is None:
         raise NoSuchProgram("There is no such program. It may have been deleted.")
-    surroundings = build_surroundings(site=program.site.slug)
-    compiled = (edited or EditedProgram()).look(document, surroundings).compiled(with_plan=False)
-    _store(program_id, document, compiled, fingerprint_of(surroundings))
-    _store_uses(program, document)
-    return compiled_json(compiled, revision)
+    surroundings = build_surroundings(site=site)
+    return Around(surroundings, fingerprint_of(surroundings))
 
 
-def check_and_publish(program_id: str, document: Mapping[str, Any], revision: int, edited: EditedProgram) -> None:
-    """Compile a program's document and publish it to all who watch its site. Raises NoSuchProgram."""
-    body = check_program(program_id=program_id, document=document, revision=revision, edited=edited)
-    site = Program.objects.values_list("site__slug", flat=True).get(pk=program_id)
-    registry.publish(site, {"type": "compiled", "program": program_id, **body})
+def check_document(document: Mapping[str, Any], around: Around, edited: EditedProgram) -> Checked:
+    """Check and print a program's document; `edited` has what was found when it was looked at last."""
+    revision = new_revision()
+    compiled = edited.look(document, around.surroundings).compiled(with_plan=False)
+    return Checked(document, compiled, revision, around.fingerprint)
+
+
+def store_check(program_id: str, checked: Checked) -> None:
+    """Store what lists show of a program."""
+    _store(program_id, checked.document, checked.compiled, checked.against)
+    if program := Program.objects.select_related("site").filter(pk=program_id).first():
+        _store_uses(program, checked.document)
 
 
 def fingerprint_of(surroundings: Surroundings) -> str:

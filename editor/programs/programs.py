@@ -22,9 +22,18 @@ from editor.documents.shared_document import (
 )
 from editor.documents.store import get_document
 from editor.errors import BadRequest, NoSuchProgram
-from editor.language import Compiled, Surroundings, compile_document
+from editor.language import Compiled, Surroundings, compile_document, compiled_to_json
+from editor.language.compiler import EditedProgram
 from editor.models import Program, Snapshot, Version
-from editor.programs.checking import build_surroundings, check_program, compiled_json, fingerprint_of, new_revision
+from editor.programs.checking import (
+    Checked,
+    build_surroundings,
+    check_document,
+    fingerprint_of,
+    new_revision,
+    read_around,
+    store_check,
+)
 from editor.programs.views import ProgramView, VersionView, view_author
 from registry import services as registry
 from registry.services import FIRST, Listed, Part, publish
@@ -67,7 +76,7 @@ def create_program(*, site: str, name: str, document: Mapping[str, Any] | None =
         Snapshot.objects.create(program=program, seq=1, data=data)
         transaction.on_commit(lambda: publish(site, {"type": "programs"}))
     shared = SharedDocument([data]).to_json()
-    check_program(program_id=str(program.pk), document=shared, revision=new_revision())
+    _check(str(program.pk), shared)
     return get_program(program_id=program.pk)
 
 
@@ -88,10 +97,15 @@ def delete_program(*, program_id: UUID | str) -> None:
         transaction.on_commit(lambda: publish(site, {"type": "programs"}))
 
 
-def get_compiled(*, program_id: UUID | str) -> dict[str, Any]:
+def get_compiled(*, program_id: UUID | str) -> dict[str, object]:
     """Return a program compiled as it is now, as JSON. Raises NoSuchProgram."""
-    revision = new_revision()
-    return check_program(program_id=str(program_id), document=get_document(program_id=program_id), revision=revision)
+    return _check(str(program_id), get_document(program_id=program_id)).form
+
+
+def _check(program_id: str, document: Mapping[str, Any]) -> Checked:
+    checked = check_document(document, read_around(program_id), EditedProgram())
+    store_check(program_id, checked)
+    return checked
 
 
 def list_versions(*, program_id: UUID | str, part: Part = FIRST) -> Listed[VersionView]:
@@ -155,9 +169,9 @@ def compile_version(*, version: VersionView, surroundings: Surroundings | None =
     return compile_document(version.document, surroundings or build_surroundings(site=version.site))
 
 
-def compile_version_to_json(*, version: VersionView) -> dict[str, Any]:
+def compile_version_to_json(*, version: VersionView) -> dict[str, object]:
     """Compile a version for its site as that is now, as JSON."""
-    return compiled_json(compile_version(version=version), new_revision())
+    return compiled_to_json(compile_version(version=version), new_revision())
 
 
 def _find(program_id: UUID | str) -> Program:

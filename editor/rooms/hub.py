@@ -135,8 +135,7 @@ class Hub:
                 self._start(self._review, opened.room)
         if self._watches[site].changes_programs(message):
             for opened in rooms:
-                opened.room.touched = True
-                opened.wake()
+                opened.take_in_surroundings()
 
     async def _review(self, room: Room) -> None:
         """Close the room when its program has been deleted."""

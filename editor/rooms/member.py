@@ -86,6 +86,8 @@ class Member:
         self.can_write = can_write
         self.synced = False
         self.clients: set[int] = set()
+        self.shown: int | None = None
+        """The revision of the compiled form that it has, 0 for none; None while it does not look at it."""
         self.outbox: deque[bytes] = deque()
         self.closing: Close | None = None
         self._wake = wake

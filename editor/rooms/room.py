@@ -11,6 +11,7 @@ from editor.documents.store import Change
 from editor.documents.yjs_updates import check_update
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
+from editor.rooms.compiled_form import CompiledForm
 from editor.rooms.member import MIB, Close, Member
 from editor.rooms.stream import Entry, Note
 
@@ -41,6 +42,8 @@ class Room:
         self.to_save: deque[Change] = deque()
         self.to_publish: deque[Note] = deque()
         self.touched = False
+        """Whether the document is to be checked by this process."""
+        self.form = CompiledForm(origin)
         self.saved_seq = 0
         self._bytes = len(document.encode())
         self.wake: Callable[[], None] = _nobody
@@ -79,10 +82,43 @@ class Room:
             self._receive_awareness(member, message, now_s)
             return
         member.spend_frame(now_s)
+        if isinstance(message, yjs_protocol.QueryCompiled):
+            self._show_form(member, message.revision, now_s)
+            return
         try:
             self._receive_sync(member, message)
         except (BadUpdate, yjs_encoding.BadFrame) as error:
             raise Close(Close.MALFORMED, f"The change is not one of a Yjs document: {error}") from error
+
+    def _show_form(self, member: Member, revision: int, now_s: float) -> None:
+        """Show the compiled form from now on: what is asked for again and again is counted as if it had been sent."""
+        member.shown = revision
+        if self.form.now is None:
+            self.touched = True
+            self.wake()
+        elif self.form.now["revision"] != revision:
+            frame = self._whole_form()
+            member.spend_bytes(len(frame), now_s)
+            self._post_form(member, frame)
+
+    def _whole_form(self) -> bytes:
+        return yjs_protocol.encode_compiled(self.form.now)
+
+    def _post_form(self, member: Member, frame: bytes) -> None:
+        if self.form.now is not None:
+            member.shown = self.form.now["revision"]
+            member.post(frame)
+
+    def _spread_form(self) -> None:
+        """Send who looks at the compiled form what is another in it."""
+        change, whole = self.form.change or {}, b""
+        frame = yjs_protocol.encode_compiled(change) if "base" in change else b""
+        for member in self.members:
+            if member.shown is not None and member.shown == change.get("base"):
+                self._post_form(member, frame)
+            elif member.shown is not None:
+                whole = whole or self._whole_form()
+                self._post_form(member, whole)
 
     def _receive_awareness(self, member: Member, message: yjs_protocol.Awareness, now_s: float) -> None:
         if self.board.speaks_for_itself(member, message.entries):
@@ -133,6 +169,7 @@ class Room:
             self.to_save.append(Change(member.person.id, change))
             self.to_publish.append(Note("update", change))
             self._spread(change, besides=member)
+            self.touched = True
         if steps < self.document.step_count() > MOST_STEPS:
             raise Close(Close.TOO_LARGE, TOO_LARGE)
 
@@ -157,11 +194,29 @@ class Room:
         for member in self.members:
             if member is not besides:
                 member.post(frame)
-        self.touched = True
         self.wake()
 
     def hear(self, entry: Entry) -> None:
-        """Take what another process has to say."""
+        """Take what a process has to say; of this one's own, only what holds for all from its entry on."""
+        is_own, note = entry.origin == self.origin, entry.note
+        if note.kind == "update":
+            self.form.hear_update(entry)
+        if note.kind == "compiled":
+            self._hear_form(entry)
+        elif not is_own:
+            self._hear_other(entry)
+
+    def _hear_form(self, entry: Entry) -> None:
+        """Take in a check; check here when one's own edits are not in it, or one's own check did not hold."""
+        holds = self.form.hear(entry)
+        if holds:
+            self._spread_form()
+        is_wanted = entry.origin == self.origin or any(member.shown is not None for member in self.members)
+        if self.origin in self.form.not_shown() or (not holds and is_wanted):
+            self.touched = True
+        self.wake()
+
+    def _hear_other(self, entry: Entry) -> None:
         note = entry.note
         match note.kind:
             case "update":
@@ -208,9 +263,11 @@ class Room:
         before = self.document.encode()
         self.document = SharedDocument([before, update])
         self._spread(update)
+        self.touched = True
 
     def take_over(self, updates: list[bytes]) -> None:
         """Take in what the database or a peer holds, in any order: after a gap. Raises BadUpdate."""
+        self.form.forget()
         self._take_full(SharedDocument(updates).encode())
 
     def announce_saved(self, seq: int, state: bytes) -> None:

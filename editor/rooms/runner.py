@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import math
 import time
 from collections.abc import Awaitable, Callable, Coroutine
 from contextlib import suppress
@@ -25,7 +26,8 @@ from editor.documents.store import (
 from editor.documents.yjs_encoding import BadFrame
 from editor.errors import NoSuchProgram
 from editor.language.compiler import EditedProgram
-from editor.programs.checking import check_and_publish, new_revision
+from editor.programs.checking import Around, Checked, check_document, read_around, store_check
+from editor.rooms.compiled_form import encode_check
 from editor.rooms.member import Close
 from editor.rooms.room import INTERRUPTED, Room, encode_saved_note
 from editor.rooms.stream import BEGINNING, Entry, RoomStream, StreamLost
@@ -34,7 +36,13 @@ log = logging.getLogger(__name__)
 SAVE_EVERY_S = 0.25
 PUBLISH_EVERY_S = 0.01
 AWARENESS_EVERY_S = 0.033
-CHECK_AFTER_S = 0.08
+STORE_EVERY_S = 0.1
+AROUND_KEPT_S = 1.0
+REST_OF_CHECKS = 4.0
+"""So many times as long as a check took the next one waits."""
+REST_S = 0.03
+LEFT_TO_OTHERS_S = 2.0
+"""What another process should have checked by then is checked here."""
 COMPARE_EVERY_S = 30.0
 BEAT_EVERY_S = 10.0
 SILENT_AFTER_S = 75.0
@@ -62,7 +70,13 @@ class OpenRoom:
         self._saving = asyncio.Lock()
         self._publishing = asyncio.Lock()
         self._heard_at: dict[str, float] = {}
-        self._events = {name: asyncio.Event() for name in ("save", "publish", "awareness", "check")}
+        self._surroundings_at = math.inf
+        self._checked: Checked | None = None
+        self._around: Around | None = None
+        self._around_at = -math.inf
+        self._news = 0
+        """How often it was heard that what is around the program has changed."""
+        self._events = {name: asyncio.Event() for name in ("save", "publish", "awareness", "check", "store")}
         self._tasks: list[asyncio.Task[None]] = []
         room.wake = self.wake
 
@@ -77,7 +91,9 @@ class OpenRoom:
             self._when("publish", PUBLISH_EVERY_S, self._publish),
             self._when("save", SAVE_EVERY_S, self.save),
             self._when("awareness", AWARENESS_EVERY_S, self._spread_awareness),
-            self._when("check", CHECK_AFTER_S, self.check),
+            self._check_often(),
+            self._when("store", STORE_EVERY_S, self._store),
+            self._look_after_others(),
             self._every(COMPARE_EVERY_S, self.room.say_state),
             self._every(BEAT_EVERY_S, self._beat),
             self._read(),
@@ -89,6 +105,7 @@ class OpenRoom:
         """Save and publish what is left, and end the tasks."""
         self._ended = True
         await self.save()
+        await self._store()
         self.room.spread_awareness()
         with suppress(StreamLost):
             await self._publish()
@@ -145,7 +162,7 @@ class OpenRoom:
     def _hear(self, entry: Entry) -> None:
         if entry.origin != self.room.origin:
             self._heard_at[entry.origin] = time.monotonic()
-            self.room.hear(entry)
+        self.room.hear(entry)
 
     def _beat(self) -> None:
         self.room.beat()
@@ -191,21 +208,92 @@ class OpenRoom:
         except (DatabaseError, SnapshotDiffers) as error:
             log.warning("Program %s was not compacted: %s", self.room.program, error)
 
+    async def _check_often(self) -> None:
+        """Check at once after an edit; edits that follow each other are checked together, a while apart."""
+        while True:
+            await self._events["check"].wait()
+            self._events["check"].clear()
+            if self.room.touched:
+                began = time.monotonic()
+                await self.check()
+                await asyncio.sleep(max(REST_S, REST_OF_CHECKS * (time.monotonic() - began)))
+
     async def check(self) -> None:
-        """Compile the document on a thread and tell who watches the site."""
-        if not self.room.touched:
-            return
-        self.room.touched = False
-        document = self.room.document.to_json()
+        """Check the document on a thread, and tell all processes what was found."""
+        room = self.room
         try:
-            await in_database(check_and_publish)(self.room.program, document, new_revision(), self._edited)
+            around = await self._read_around()
+            room.touched = False
+            document, after = room.document.to_json(), self._after
+            checked = await asyncio.to_thread(check_document, document, around, self._edited)
+            said = await asyncio.to_thread(room.form.change_to, checked.form)
         except (DatabaseError, NoSuchProgram) as error:
-            log.warning("Program %s was not checked: %s", self.room.program, error)
+            log.warning("Program %s was not checked: %s", room.program, error)
+            room.touched = isinstance(error, DatabaseError)  # then it is tried again a little later
+            return
         except Exception:  # the edge of the room: a fault in the checks must not end those of later edits
-            log.exception(
-                "Program %s was not checked; the next edit is looked at from the beginning.", self.room.program
-            )
+            log.exception("Program %s was not checked; the next edit is looked at from the beginning.", room.program)
             self._edited = EditedProgram()
+            return
+        room.to_publish.append(encode_check(said, after=after, more=room.touched, against=checked.against))
+        try:
+            await self._publish()
+        except StreamLost as error:
+            self._end(error)
+        self._checked = checked
+        self._events["store"].set()
+
+    async def _read_around(self) -> Around:
+        """Return what is around the program: as it was read last, for a second and while nothing is heard of it."""
+        around, began, news = self._around, time.monotonic(), self._news
+        if around is None or began - self._around_at > AROUND_KEPT_S:
+            around = await in_database(read_around)(self.room.program)
+            self._around, self._around_at = around if news == self._news else None, began
+        return around
+
+    async def _store(self) -> None:
+        """Store what lists show, if this process made the last check; others may hold the program's row meanwhile."""
+        (checked, self._checked), now = (self._checked, None), self.room.form.now
+        if checked is not None and (now is None or now["revision"] <= checked.revision):
+            try:
+                await in_database(store_check)(self.room.program, checked)
+            except DatabaseError as error:
+                log.warning("What lists show of program %s was not stored: %s", self.room.program, error)
+                self._checked = self._checked or checked
+                asyncio.get_running_loop().call_later(RETRY_AFTER_S, self._events["store"].set)
+
+    def take_in_surroundings(self) -> None:
+        """Have the program checked against what is around it now: by one of the processes, the others look after it."""
+        self._around, self._news = None, self._news + 1
+        if self.room.origin == min([self.room.origin, *self._heard_at]):
+            self.room.touched = True
+            self.wake()
+        else:
+            self._surroundings_at = time.monotonic()
+
+    async def _look_after_others(self) -> None:
+        """Check what the process that should have done so has not: it may have ended before."""
+        waited_since = math.inf
+        while True:
+            await asyncio.sleep(LEFT_TO_OTHERS_S / 4)
+            now = time.monotonic()
+            waited_since = min(now, waited_since) if self.room.form.not_shown() else math.inf
+            if now - waited_since >= LEFT_TO_OTHERS_S:
+                self.room.touched, waited_since = True, math.inf
+            if now - self._surroundings_at >= LEFT_TO_OTHERS_S:
+                self._surroundings_at = math.inf
+                await self._compare_surroundings()
+            if self.room.touched:
+                self._events["check"].set()
+
+    async def _compare_surroundings(self) -> None:
+        try:
+            around = await self._read_around()
+        except (DatabaseError, NoSuchProgram) as error:
+            log.warning("What is around program %s could not be read: %s", self.room.program, error)
+            return
+        if around.fingerprint != self.room.form.against:
+            self.room.touched = True
 
 
 async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Callable[[OpenRoom], None]) -> OpenRoom:

@@ -14,7 +14,7 @@ from typing import Any, Literal, Protocol
 from redis.asyncio import Redis
 from redis.exceptions import RedisError
 
-Kind = Literal["update", "awareness", "saved", "state", "full"]
+Kind = Literal["update", "awareness", "saved", "state", "full", "compiled"]
 BEGINNING = "0"
 KEPT_ENTRIES = 10_000
 KEPT_SECONDS = 3600
@@ -140,6 +140,11 @@ class RedisStream:
     async def close(self) -> None:
         """Give back connections."""
         await self._redis.aclose()
+
+
+def is_after(entry: str, other: str) -> bool:
+    """Tell whether an entry stands behind another; ids of both implementations."""
+    return _order(entry) > _order(other)
 
 
 def _key(room: str) -> str:

@@ -1,7 +1,8 @@
 """The messages of the y-websocket protocol, decoded with bounds. Pure; a client's bytes are read here first.
 
 A frame holds one message: 0 sync (0 step 1: a state vector, 1 step 2: an update, 2 an update), 1 awareness,
-2 refusal (server only), 3 awareness query, 100 saved (server only: a number and the state vector that is saved).
+2 refusal (server only), 3 awareness query, 100 saved (server only: a number and the state vector that is saved),
+101 compiled (a client asks by the revision that it has, 0 for none; the server answers and goes on with JSON).
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from editor.documents.yjs_encoding import (
     encode_sized,
 )
 
-SYNC, AWARENESS, REFUSAL, QUERY_AWARENESS, SAVED = 0, 1, 2, 3, 100
+SYNC, AWARENESS, REFUSAL, QUERY_AWARENESS, SAVED, COMPILED = 0, 1, 2, 3, 100, 101
 STEP_1, STEP_2, UPDATE = 0, 1, 2
 
 MOST_FRAME_BYTES = 10 * 1024 * 1024
@@ -71,7 +72,14 @@ class QueryAwareness:
     """A peer asks for what everybody shows."""
 
 
-Message = SyncStep1 | SyncStep2 | Update | Awareness | QueryAwareness
+@dataclass(frozen=True, slots=True)
+class QueryCompiled:
+    """A client wants to see the compiled form, now and after each edit; it has this revision of it, 0 for none."""
+
+    revision: int
+
+
+Message = SyncStep1 | SyncStep2 | Update | Awareness | QueryAwareness | QueryCompiled
 
 
 def decode_frame(data: bytes) -> Message:
@@ -86,6 +94,8 @@ def decode_frame(data: bytes) -> Message:
         message = decode_awareness(reader.sized(MOST_FRAME_BYTES))
     elif kind == QUERY_AWARENESS:
         message = QueryAwareness()
+    elif kind == COMPILED:
+        message = QueryCompiled(reader.integer())
     else:
         raise BadFrame(f"There is no message of type {kind}.")
     reader.end()
@@ -161,6 +171,11 @@ def encode_awareness(entries: Sequence[AwarenessEntry]) -> bytes:
 def encode_saved(seq: int, state: bytes) -> bytes:
     """Encode a frame that says: everything up to this number, which is this state vector, is in the database."""
     return encode_integer(SAVED) + encode_integer(seq) + encode_sized(state)
+
+
+def encode_compiled(form: object) -> bytes:
+    """Encode a frame with a compiled form, or what is another in it than in the one before."""
+    return encode_integer(COMPILED) + encode_sized(json.dumps(form, ensure_ascii=False, separators=(",", ":")).encode())
 
 
 def encode_refusal(reason: str) -> bytes:

@@ -54,7 +54,7 @@ def django_db_modify_db_settings(request: pytest.FixtureRequest) -> None:
     url = request.getfixturevalue("_postgres").url
     described = connections.databases["default"]
     test = {**described["TEST"], "NAME": None, "TEMPLATE": "vipo"}
-    connections.databases["default"] = {**described, **postgres(url), "OPTIONS": {}, "TEST": test}
+    connections.databases["default"] = {**described, **postgres(url), "TEST": test}
     del connections["default"]
 
 

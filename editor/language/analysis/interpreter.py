@@ -23,8 +23,8 @@ from editor.language.expressions.ranges import Known
 from editor.language.tree import nodes as n
 
 Loop = n.While | n.Repeat | n.ForEach
-Leaves = tuple[int, int]
-"""How often a function was left so far, and the program."""
+Leaves = tuple[int, int, int]
+"""How often a function was left so far, the program ended, and a failure brought about that nothing has caught."""
 MOST_COUNTED = 100
 """A loop of more rounds is followed as one that nobody has counted."""
 MOST_SILENT = 3
@@ -34,7 +34,7 @@ MOST_CONTEXTS = 8
 """A function is followed with so much different knowledge."""
 DEEPEST_FINAL = 3
 MOST_RACES = 20
-"""So many sets of branches that may be first are told apart; beyond them each branch is looked at alone."""
+"""So many sets of first branches are told apart; beyond them each branch is looked at alone."""
 _TRUE = Constant(True)
 
 
@@ -100,7 +100,7 @@ def _while(walk: Walk, node: n.While, states: States) -> States | None:
 
 
 def _leaves(walk: Walk) -> Leaves:
-    return len(walk.frame.returns), walk.ended
+    return len(walk.frame.returns), walk.ended, len(walk.failures)
 
 
 def _left_by(
@@ -204,8 +204,10 @@ def _try(walk: Walk, node: n.Try, states: States) -> States | None:
     """The catch begins anywhere in the body, the final part anywhere in both; every exit leads through it."""
     frame = walk.frame
     marks = len(frame.breaks[-1]) if frame.breaks else 0, len(frame.returns)
+    failures = len(walk.failures)
     after = walk.block(node.body, walk.copy(states))
     if node.catches:
+        walk.failures[failures:] = [kind for kind in walk.failures[failures:] if node.kinds and kind not in node.kinds]
         with walk.unsure():
             caught = walk.block(node.catch, walk.disturb(states, walk.effects.of(node.body)))
         after = walk.meet(states, (after, caught), walk.changes(node.body, node.catch))
@@ -223,7 +225,7 @@ def _try(walk: Walk, node: n.Try, states: States) -> States | None:
     return end
 
 
-def _exits_through(walk: Walk, node: n.Try, marks: Leaves, ended: States | None) -> None:
+def _exits_through(walk: Walk, node: n.Try, marks: tuple[int, int], ended: States | None) -> None:
     """What is left by a break or a return is known as far as the final part does not change it."""
     frame, effects = walk.frame, walk.effects.of(node.final)
     for exits, mark in ((frame.breaks[-1] if frame.breaks else [], marks[0]), (frame.returns, marks[1])):
@@ -257,10 +259,7 @@ def _joined(walk: Walk, states: States, ends: Sequence[States], effects: Sequenc
 def _race(
     walk: Walk, node: n.Parallel, states: States, effects: list[Effects], known: Mapping[str, Known]
 ) -> States | None:
-    """Follow a Parallel that ends before all of its branches have: the others did what they do wholly, partly or not.
-
-    Loops that nothing ends are called off, so they are none that go on for ever as long as enough others end.
-    """
+    """Follow a Parallel that ends before all of its branches have; a loop that nothing ends is called off in it."""
     endless, ended, put, passed = set(walk.endless), walk.ended, walk.put, walk.passed
     walk.raced, walk.put, walk.passed = walk.raced + 1, {} if put is None else put, walk.copy(states)
     ends = _branches(walk, node, states, effects, known)
@@ -345,8 +344,9 @@ def _called(walk: Walk, node: n.Call, function: n.Function, states: States) -> S
             return walk.disturb(states, unfollowed)
         walk.known_calls[function.method] = known_calls + 1
         walk.contexts[key] = _followed(walk, key, node, function, states)
-    over, ends = walk.contexts[key]
+    over, ends, failures = walk.contexts[key]
     walk.ended += ends
+    walk.failures += failures
     if over is None:
         return None
     ended = zip(walk.domains, states, over, strict=True)
@@ -355,15 +355,16 @@ def _called(walk: Walk, node: n.Call, function: n.Function, states: States) -> S
 
 def _followed(
     walk: Walk, key: object, node: n.Call, function: n.Function, states: States
-) -> tuple[States | None, bool]:  # fmt: skip
-    ended = walk.ended
+) -> tuple[States | None, bool, list[str]]:  # fmt: skip
+    ended, failures = walk.ended, len(walk.failures)
     walk.running[key] = walk.ways_out()
     with walk.again():
         rows = zip(walk.domains, states, strict=True)
         begin = [domain.enter(walk, known, node, function) for domain, known in rows]
         over = follow_function(walk, function, begin)
     del walk.running[key]
-    return over, walk.ended > ended
+    failed, walk.failures[failures:] = {*walk.failures[failures:]}, []
+    return over, walk.ended > ended, sorted(failed)
 
 
 def _break(walk: Walk, node: n.Break, states: States) -> None:
@@ -379,7 +380,7 @@ def _return(walk: Walk, node: n.Return, states: States) -> None:
 
 def _fail(walk: Walk, node: n.Fail, states: States) -> None:
     """A Try around may catch it, which begins with whatever may be known there; nothing else goes on from here."""
-    walk.ended += 1
+    walk.failures.append("failed")
 
 
 FOLLOW: Final[Mapping[type[n.Node], Callable[[Walk, Any, States], States | None]]] = {

@@ -109,6 +109,7 @@ class Memos:
     positions: Memo = field(default_factory=Memo)
     paths: Memo = field(default_factory=Memo)
     printed: Memo = field(default_factory=Memo)
+    uses: Memo = field(default_factory=Memo)
     _around: object = None
     _last: dict[str, Memo] = field(default_factory=dict)
     _blocks: dict[str, Memo] = field(default_factory=dict)

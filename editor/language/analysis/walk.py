@@ -84,8 +84,8 @@ class Walk:
     broken: set[int] = field(default_factory=set)
     """Loops that a step in them may leave."""
     functions: dict[str, n.Function] = field(init=False)
-    contexts: dict[object, tuple[States | None, bool]] = field(default_factory=dict)
-    """Calls that were followed → what holds after them, and whether the program may end in them."""
+    contexts: dict[object, tuple[States | None, bool, list[str]]] = field(default_factory=dict)
+    """Calls that were followed → what holds after them, whether the program may end in them, and how they may fail."""
     running: dict[object, object] = field(default_factory=dict)
     """Calls that are being followed → what could have led elsewhere until they began."""
     known_calls: dict[str, int] = field(default_factory=dict)
@@ -102,6 +102,8 @@ class Walk:
     returned: int = 0
     ended: int = 0
     """How often the program's end was come to."""
+    failures: list[str] = field(default_factory=list)
+    """The kinds of failures that the text itself brings about, and that no Try has caught since."""
     left: int = MOST_STEPS_AGAIN
     _left_in_all: int = 0
     _nested: int = 0
@@ -174,9 +176,9 @@ class Walk:
             memo.put(node, known, given)
         return known
 
-    def _exits(self) -> tuple[int, int, int]:
+    def _exits(self) -> tuple[int, int, int, int]:
         frame = self.frame
-        return len(frame.breaks[-1]) if frame.breaks else 0, len(frame.returns), self.ended
+        return len(frame.breaks[-1]) if frame.breaks else 0, len(frame.returns), self.ended, len(self.failures)
 
     def read(self, node: n.Node, states: States) -> None:
         """Have a look at a step that reads variables."""
@@ -186,7 +188,7 @@ class Walk:
 
     def ways_out(self) -> object:
         """Return what tells, compared with later, whether every path has led from there to here."""
-        return self.undecided, self.returned, self.ended
+        return self.undecided, self.returned, self.ended, len(self.failures)
 
     def transfer(self, node: n.Node, states: States) -> None:
         """Let every domain say what it knows after a step."""

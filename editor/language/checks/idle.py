@@ -7,32 +7,30 @@ from editor.language.expressions.nodes import Constant, Variable
 from editor.language.expressions.value_types import constant_value, is_measured
 from editor.language.expressions.values import parts_of
 from editor.language.tree import nodes as n
+from editor.language.tree.traversal import calls_by_function
 from editor.language.tree.variables import set_by
 
-_TAKE_TIME = (*n.ACTS, n.Operate, n.Wait, n.WaitUntil, n.Ask)
+_TAKE_TIME = frozenset({*n.ACTS, n.Operate, n.Wait, n.WaitUntil, n.Ask})
 _LEAVE = (n.Break, n.Return, n.End)
 
 
 def check_idle(context: Context) -> None:
     """Tell of steps that hold nothing, and of loops that only go round until something else happens."""
     tree = context.tree
-    if not tree.holds(n.If, n.While, n.Repeat, n.ForEach):
-        return
-    for block in (tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)):
-        for node in tree.walked(block):
-            if isinstance(node, n.While):
-                _check_circle(context, node)
-            elif isinstance(node, n.If | n.Repeat | n.ForEach) and not any(n.blocks_of(node)):
+    for kind in (n.If, n.Repeat, n.ForEach):
+        for node in tree.of_kind(kind):
+            if not any(n.blocks_of(node)):
                 context.report(node, "empty_branch", "")
+    slow = slow_functions(tree) if tree.of_kind(n.While) else frozenset()
+    for loop in tree.of_kind(n.While):
+        _check_circle(context, loop, slow)
 
 
-def _check_circle(context: Context, node: n.While) -> None:
+def _check_circle(context: Context, node: n.While, slow: frozenset[str]) -> None:
     """Tell of a loop that waits for what is measured, or set beside it, and takes no time for it."""
-    if any(isinstance(step, _LEAVE) for step in node.body):
+    if any(isinstance(step, _LEAVE) for step in node.body) or takes_time(node.body, slow):
         return
     inside = _within(context, node.body)
-    if takes_time(context, node.body):
-        return
     changed = set(map(set_by, inside))
     read = {part.name for part in parts_of(node.condition) if isinstance(part, Variable)}
     beside = context.tree.events or context.tree.holds(n.Parallel)
@@ -48,9 +46,30 @@ def _leaves_by_itself(node: n.While, inside: list[n.Node]) -> bool:
     return forever and leaves and any(isinstance(step, n.If) and is_measured(step.condition) for step in inside)
 
 
-def takes_time(context: Context, block: n.Block) -> bool:
-    """Tell whether any step of a block waits for something, also in the functions that it calls."""
-    return any(isinstance(step, _TAKE_TIME) for step in _within(context, block))
+def takes_time(block: n.Block, slow: frozenset[str]) -> bool:
+    """Tell whether any step of a block waits for something; `slow` are the functions that do."""
+    for node in block:
+        kind = node.__class__
+        if kind in _TAKE_TIME or (isinstance(node, n.Call) and node.function in slow):
+            return True
+        if kind in n.COMPOSITES and any(takes_time(inner, slow) for inner in n.blocks_of(node)):
+            return True
+    return False
+
+
+def slow_functions(tree: n.Tree) -> frozenset[str]:
+    """Return the functions in which any step waits for something, also in those that they call."""
+    slow = {f.method for f in tree.functions if takes_time(f.body, frozenset())}
+    callers: dict[str, list[str]] = {}
+    for method, called in calls_by_function(tree).items():
+        for callee in called:
+            callers.setdefault(callee, []).append(method)
+    left = [*slow]
+    while left:
+        new = {caller for caller in callers.get(left.pop(), ()) if caller not in slow}
+        slow |= new
+        left.extend(new)
+    return frozenset(slow)
 
 
 def _within(context: Context, block: n.Block) -> list[n.Node]:

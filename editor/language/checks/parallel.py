@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from editor.language.checks.context import Context
-from editor.language.checks.idle import takes_time
+from editor.language.checks.idle import slow_functions, takes_time
 from editor.language.expressions.nodes import Constant, Expression, Operation, Variable
 from editor.language.expressions.value_types import constant_value
 from editor.language.expressions.values import parts_of
@@ -36,9 +36,16 @@ def check_needed(context: Context, node: n.Parallel) -> None:
             context.report(node, "over_at_once", "needed", {"branches": Options(tuple(quick), "and")})
 
 
+def _slow(context: Context) -> frozenset[str]:
+    """Return the functions that take time, worked out once for all Parallels."""
+    if context.slow is None:
+        context.slow = slow_functions(context.tree)
+    return context.slow
+
+
 def _is_over_at_once(context: Context, branch: n.Block) -> bool:
     """Tell whether a branch comes to its end as soon as it begins; one that ends the program does not."""
-    return not takes_time(context, branch) and not any(isinstance(step, n.End | n.Fail) for step in walk(branch))
+    return not takes_time(branch, _slow(context)) and not any(isinstance(step, n.End | n.Fail) for step in walk(branch))
 
 
 def check_branches(context: Context, node: n.Parallel) -> None:
@@ -102,7 +109,7 @@ def _without_the_first(context: Context, node: n.Parallel, names: list[frozenset
 def _set_at_the_end(context: Context, branch: n.Block) -> frozenset[str]:
     """Return the variables that a branch sets nowhere but in steps behind which nothing takes time."""
     start = len(branch)
-    while start and not takes_time(context, branch[start - 1 : start]):
+    while start and not takes_time(branch[start - 1 : start], _slow(context)):
         start -= 1
     if start and isinstance(branch[start - 1], n.Ask):
         start -= 1

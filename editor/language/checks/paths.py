@@ -8,23 +8,24 @@ from typing import Any
 
 from editor.language.analysis.crew import Crew
 from editor.language.analysis.domain import Domain
-from editor.language.analysis.effects import NO_NAMES, EffectTable, together
+from editor.language.analysis.effects import EffectTable, together
 from editor.language.analysis.interpreter import FOLLOW, follow_function, interpret
 from editor.language.analysis.loads import Loads
 from editor.language.analysis.taken import Takers
+from editor.language.analysis.uses import uses_of
 from editor.language.analysis.variables import SET, UNSET, Variables
 from editor.language.analysis.walk import Walk
 from editor.language.checks.bodies import Body, Checks
 from editor.language.checks.context import Context
 from editor.language.expressions.nodes import Constant, Expression, Located, Operation, Reading, Variable
 from editor.language.expressions.ranges import NOTHING_KNOWN
-from editor.language.expressions.values import parts_of, roles_in
+from editor.language.expressions.values import parts_of
 from editor.language.messages.diagnostics import Fix
 from editor.language.site.surroundings import what_programs_see
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import blocks_of
 from editor.language.tree.traversal import callees_first, functions_in_circles
-from editor.language.tree.variables import SETTERS, read_by, set_by, worked_out
+from editor.language.tree.variables import SETTERS
 
 _MEASURED = frozenset({"now", "distance", "nearest"})
 _MILDER: Mapping[str, str] = {
@@ -87,17 +88,16 @@ def check_paths(context: Context, bodies: Iterable[Body], checks: Checks) -> Non
     """Follow all paths through the program, its events and its functions, and tell what is wrong on them."""
     tree, by_name = context.tree, {body.name: body for body in bodies}
     effects = EffectTable(tree)
-    tracked = frozenset(set_by(node) for node in _all_nodes(tree)) - {""} if tree.holds(*SETTERS) else NO_NAMES
+    uses = uses_of(tree, context.memos.uses if context.memos else None)
     variables = Variables(
-        context.surroundings, tree.parameters, lambda name, node: by_name[name].types_at(node), tracked
+        context.surroundings, tree.parameters, lambda name, node: by_name[name].types_at(node), frozenset(uses.sets)
     )
     others: list[Domain[Any]] = [*_loads(context, variables), *_crew(context, effects)]
-    takers, asked = _takers(context)
+    takers, asked = _takers(context, uses.asks)
     if takers is not None or _has_variables(tree):
-        reads = {id(node): names for node in _all_nodes(tree) for names in (read_by(node),) if names}
-        looker = _Looker(context, checks, variables, by_name, reads, takers, asked)
+        looker = _Looker(context, checks, variables, by_name, uses.reads, takers, asked)
         others = others if takers is None else [takers, *others]
-        readers = frozenset(reads.keys() | asked.keys())
+        readers = frozenset(uses.reads.keys() | asked.keys())
         walk = Walk(tree, [variables, *others], effects, FOLLOW, variables, looker.look, readers)
         changed = together(effects.of(event.body) for event in tree.events)
         walk.volatile = dict.fromkeys(changed.names | changed.shared)
@@ -124,16 +124,17 @@ def _crew(context: Context, effects: EffectTable) -> Iterator[Crew]:
         yield Crew(lambda role: (context.robot_key(role), [robot.id for robot in context.robots(role)]), beside)
 
 
-def _takers(context: Context) -> tuple[Takers | None, dict[int, dict[str, str]]]:
+def _takers(
+    context: Context, asks: Mapping[int, Mapping[str, str]]
+) -> tuple[Takers | None, Mapping[int, Mapping[str, str]]]:
     """Return the domain of taken robots, where steps ask for the place of one that is not known yet, or release one."""
     free = {name for name, role in context.roles.items() if role.device is None}
-    asked: dict[int, dict[str, str]] = {}
-    for node in _all_nodes(context.tree) if free else ():
-        values = worked_out(node)
-        roles = {role: field for field, value in values for role in roles_in(value) if role in free} if values else {}
-        if roles:
-            asked[id(node)] = roles
-    released = {node.role for node in _all_nodes(context.tree) if isinstance(node, n.Release)}
+    asked = {
+        node: {role: field for role, field in roles.items() if role in free}
+        for node, roles in asks.items()
+        if not free.isdisjoint(roles)
+    }
+    released = {node.role for node in context.tree.of_kind(n.Release)}
     told = released | free if asked else released
     return (Takers(frozenset(told)) if told else None), asked
 
@@ -180,7 +181,7 @@ def _tell_unreached(context: Context, walk: Walk) -> None:
 def _tell_endless(context: Context, walk: Walk) -> None:
     """Tell of loops and calls that are never left, and of loops of which nothing says that they are."""
     _tell_endless_calls(context, walk)
-    races = [node for node in _all_nodes(context.tree) if isinstance(node, n.Parallel) and node.races]
+    races = [node for node in context.tree.of_kind(n.Parallel) if node.races]
     for race in races:
         if id(race) in walk.endless:
             context.report(race, "too_few_end", "needed", {"needed": race.needed or 0})
@@ -188,18 +189,15 @@ def _tell_endless(context: Context, walk: Walk) -> None:
         return
     beside = frozenset(walk.volatile)
     if context.tree.holds(n.Parallel):
-        changed = together(
-            walk.changes(*node.branches) for node in _all_nodes(context.tree) if isinstance(node, n.Parallel)
-        )
+        changed = together(walk.changes(*node.branches) for node in context.tree.of_kind(n.Parallel))
         beside = beside | changed.names | changed.shared
-    stays = [node for node in _all_nodes(context.tree) if isinstance(node, n.While) and _may_stay(walk, node, beside)]
-    called_off = _called_off(context, walk, races, {id(node) for node in stays}) if stays else NO_STEPS
-    for node in _all_nodes(context.tree):
-        if isinstance(node, n.While) and id(node) in walk.endless:
+    stays = {id(node) for node in context.tree.of_kind(n.While) if _may_stay(walk, node, beside)}
+    called_off = _called_off(context, walk, races, stays) if stays and races else NO_STEPS
+    for node in context.tree.of_kind(n.While):
+        if id(node) in walk.endless:
             context.report(node, "never_ends", "condition")
-    for loop in stays:
-        if id(loop) not in walk.endless and id(loop) not in called_off:
-            context.report(loop, "may_never_end", "condition")
+        elif id(node) in stays and id(node) not in called_off:
+            context.report(node, "may_never_end", "condition")
 
 
 def _called_off(context: Context, walk: Walk, races: list[n.Parallel], stays: set[int]) -> frozenset[int]:
@@ -222,10 +220,10 @@ def _tell_endless_calls(context: Context, walk: Walk) -> None:
             for node in context.tree.walked(function.body):
                 if isinstance(node, n.Call) and node.function in endless:
                     context.report(node, "calls_itself", "function", name)
-    for node in _all_nodes(context.tree) if circular and walk.endless else ():
-        if isinstance(node, n.Call) and id(node) in walk.endless and node.function not in endless:
-            called = context.functions[node.function]
-            context.report(node, "calls_itself", "function", {"function": called.name or called.method})
+    for call in context.tree.of_kind(n.Call) if circular and walk.endless else ():
+        if id(call) in walk.endless and call.function not in endless:
+            called = context.functions[call.function]
+            context.report(call, "calls_itself", "function", {"function": called.name or called.method})
 
 
 def functions_without_end(tree: n.Tree, effects: EffectTable) -> frozenset[str]:
@@ -238,8 +236,10 @@ def functions_without_end(tree: n.Tree, effects: EffectTable) -> frozenset[str]:
         for function in functions:
             walk = Walk(tree, (), effects, FOLLOW, summaries=comes_back)
             over = follow_function(walk, function, [])
-            ends = walk.ended > 0 or any(
-                leaves[node.function] and not comes_back[node.function] for node in _calls(walk, tree, function)
+            ends = (
+                walk.ended > 0
+                or bool(walk.failures)
+                or any(leaves[node.function] and not comes_back[node.function] for node in _calls(walk, tree, function))
             )
             if (over is not None) != comes_back[function.method] or (over is not None or ends) != leaves[
                 function.method
@@ -293,10 +293,10 @@ def _check_results(context: Context, walk: Walk) -> None:
             bare.append(function.body[-1])
         for node in bare:
             context.report(node, "no_value_on_some_way", "", name)
-    for node in _all_nodes(context.tree):
-        called = context.functions.get(node.function) if isinstance(node, n.Call) else None
-        if isinstance(node, n.Call) and called is not None and called.result_type:
-            if not node.result:
-                context.report(node, "unused_result", "result", {"function": called.name or called.method})
+    for call in context.tree.of_kind(n.Call):
+        called = context.functions.get(call.function)
+        if called is not None and called.result_type:
+            if not call.result:
+                context.report(call, "unused_result", "result", {"function": called.name or called.method})
             if not called.body:
-                context.report(node, "no_value_on_some_way", "", {"function": called.name or called.method})
+                context.report(call, "no_value_on_some_way", "", {"function": called.name or called.method})

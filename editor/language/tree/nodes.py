@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, Final, cast, get_args
+from typing import TYPE_CHECKING, Any, Final, TypeVar, cast, get_args
 
 from editor.language.constructs.table import FORMS
 from editor.language.expressions.nodes import AnswerSpec, Expression, PlaceRef, Point
@@ -244,6 +244,7 @@ Node = (
     | Call | Set | Ask | Notify | End | Fail | Return | Break
 )  # fmt: skip
 Block = tuple[Node, ...]
+K = TypeVar("K", bound=Node)
 LOADS: Final = (Pick, Drop)
 DRIVES: Final = (Move, Pick, Drop)
 """What a robot goes for. (A check of a class against such a row is several times as quick as against a union.)"""
@@ -311,7 +312,7 @@ class Tree:
     parameters: tuple[Parameter, ...] = ()
     events: tuple[Event, ...] = ()
     _walked: dict[int, list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
-    _kinds: set[type[Node]] = field(default_factory=set, init=False, repr=False, compare=False)
+    _by_kind: dict[type[Node], list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def walked(self, block: Block) -> list[Node]:
         """Return the nodes of one of the tree's own blocks as `walk` does; they are gathered once."""
@@ -320,12 +321,25 @@ class Tree:
             nodes = self._walked[id(block)] = walk(block)
         return nodes
 
+    def of_kind(self, kind: type[K]) -> list[K]:
+        """Return the steps of one kind in the whole program, in reading order within each body; gathered once."""
+        kinds: Mapping[Any, list[Any]] = self._kinds()
+        return kinds.get(kind, [])
+
     def holds(self, *kinds: type[Node]) -> bool:
         """Tell whether any step of the program is of one of these kinds."""
-        if not self._kinds:
-            blocks = (self.body, *(f.body for f in self.functions), *(event.body for event in self.events))
-            self._kinds.update(type(node) for block in blocks for node in self.walked(block))
-        return not self._kinds.isdisjoint(kinds)
+        return not self._kinds().keys().isdisjoint(kinds)
+
+    def _kinds(self) -> dict[type[Node], list[Node]]:
+        if not self._by_kind:
+            for block in (self.body, *(f.body for f in self.functions), *(event.body for event in self.events)):
+                for node in self.walked(block):
+                    kind = node.__class__
+                    if kind in self._by_kind:
+                        self._by_kind[kind].append(node)
+                    else:
+                        self._by_kind[kind] = [node]
+        return self._by_kind
 
 
 def robot_field(node: Node) -> str:

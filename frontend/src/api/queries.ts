@@ -3,7 +3,6 @@ import { keepPreviousData, QueryClient, skipToken, useQuery } from "@tanstack/re
 import { api, ApiProblem, rememberCsrf } from "./client";
 import type {
   ArmedProgram,
-  Compiled,
   Device,
   LibraryFunction,
   Me,
@@ -34,7 +33,6 @@ export const keys = {
   programs: (slug: string) => ["programs", slug] as const,
   program: (id: string) => ["program", id] as const,
   document: (id: string) => ["document", id] as const,
-  compiled: (id: string) => ["compiled", id] as const,
   runs: (slug: string) => ["runs", slug] as const,
   run: (id: string) => ["run", id] as const,
   questions: (slug: string) => ["questions", slug] as const,
@@ -152,11 +150,6 @@ export const useProgramDocument = (id: Maybe) =>
   useGet<ProgramDocument>(
     keys.document(id ?? ""),
     at(id, (p) => `/programs/${p}/document`),
-  );
-export const useCompiled = (id: Maybe) =>
-  useGet<Compiled>(
-    keys.compiled(id ?? ""),
-    at(id, (p) => `/programs/${p}/compiled`),
   );
 export const useRuns = (slug: Maybe) =>
   useGet<RunSummary[]>(

@@ -3,7 +3,7 @@ import { useEffect, useMemo, useRef, useState, useSyncExternalStore } from "reac
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
-import { useCompiled, useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/queries";
+import { useDevices, useMe, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Site, User } from "@/api/types";
 import { activityWords } from "@/i18n/activity";
 import { useSiteLive } from "@/live/site";
@@ -93,7 +93,7 @@ interface LoadedProps {
 
 function Loaded({ program, site, devices: live, shared, canEdit, user }: LoadedProps) {
   const map = useSiteMap(site.has_map ? site.slug : undefined);
-  const compiled = useCompiled(program.id).data ?? null;
+  const compiled = useSyncExternalStore(shared.compiled.subscribe, shared.compiled.get);
   const document = useSyncExternalStore(shared.subscribe, shared.getDocument);
   const devices = useQuietDevices(live);
   const collapsed = useUi((ui) => ui.collapsed);

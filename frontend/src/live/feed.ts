@@ -5,7 +5,6 @@ import { mapKeys, staleWithSiteMap } from "@/api/robotMaps";
 import type {
   Alert,
   ArmedProgram,
-  Compiled,
   Device,
   Question,
   Rehearsal,
@@ -53,8 +52,6 @@ export class SiteFeed {
         return this.#refreshAll(staleWithSiteMap(this.slug));
       case "robot_map":
         return this.#robotMap(message.device);
-      case "compiled":
-        return this.#compiled(message);
       case "run":
         return this.#run(message.run);
       case "run_event":
@@ -100,9 +97,9 @@ export class SiteFeed {
       keys.armed,
       keys.alerts,
     ].map((key) => key(this.slug) as readonly string[]);
-    const open = ["run", "run-events", "rehearsal", "compiled", "robot-map", "map-difference", "map-versions"].map(
-      (name) => [name],
-    );
+    const open = ["run", "run-events", "rehearsal", "robot-map", "map-difference", "map-versions"].map((name) => [
+      name,
+    ]);
     this.#refreshAll([...stale, ...open]);
   }
 
@@ -148,10 +145,6 @@ export class SiteFeed {
 
   #robotMap(device: string): void {
     this.#refreshAll([mapKeys.robot(this.slug, device), mapKeys.difference(this.slug, device)]);
-  }
-
-  #compiled({ type: _, program, ...compiled }: Extract<LiveMessage, { type: "compiled" }>): void {
-    this.#caches.write<Compiled>(keys.compiled(program), () => compiled);
   }
 
   #run(run: RunSummary): void {

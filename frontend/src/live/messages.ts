@@ -2,7 +2,6 @@
 import type {
   Alert,
   ArmedProgram,
-  Compiled,
   Device,
   Point,
   Question,
@@ -31,7 +30,6 @@ export type LiveMessage =
   | { type: "device_removed"; id: string }
   | { type: "map"; version: number }
   | { type: "robot_map"; device: string; version: number }
-  | ({ type: "compiled"; program: string } & Compiled)
   | { type: "run"; run: RunSummary }
   | { type: "run_event"; run: string; event: RunEvent }
   | { type: "question"; question: Question }

@@ -164,7 +164,7 @@ def plant(tmp_path_factory: pytest.TempPathFactory, django_db_blocker: DjangoDbB
         environment = settings_for(folder / "state", postgres.url, redis.url, mosquitto)
         environment |= {"VIPO_MQTT_TLS": "0", "VIPO_LOG": "WARNING", "VIPO_DEFAULT_SITE": SITE}
         stack.enter_context(django_db_blocker.unblock())
-        stack.enter_context(on_database(OPTIONS={}, **described_in(postgres.url)))
+        stack.enter_context(on_database(**described_in(postgres.url)))
         ear = Ear(mosquitto.port, WORD, "vipo/v1/dev/+/down/#")
         ear.client.subscribe("vipo/v1/srv/status", 1, ear._take)
         stack.enter_context(ear)

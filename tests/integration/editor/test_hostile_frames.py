@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import asyncio
+import json
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
+from typing import Any
 
 import pytest
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
 from editor.documents.shared_document import SharedDocument, empty_document, encode_document
+from editor.documents.yjs_encoding import encode_integer
+from editor.programs.compiled_patch import apply_patch
 from editor.rooms import yjs_protocol
 from tests.kit.web import Web
 
@@ -55,6 +59,8 @@ MALFORMED = {
     "awareness for ever": b"\x01\x04\xff\xff\xff\x7f",
     "step 2 with noise": b"\x00\x01\x04\x01\xff\xff\xff",
     "a message of the server": b"\x64\x00\x01\x00",
+    "a revision that is none": b"\x65\xff\xff\xff\xff\xff\xff\xff\xff\xff",
+    "a compiled form of its own": b"\x65\x02{}",
 }
 
 
@@ -172,14 +178,35 @@ def in_thread(act: Callable[[], None]) -> Awaitable[None]:
     return asyncio.to_thread(act)
 
 
-async def test_a_change_is_compiled_and_told_to_who_watches_the_site(web: Web) -> None:
+async def test_who_asks_is_told_how_a_program_is_compiled_and_nobody_else_is(web: Web) -> None:
     program = web.new_program()
     site = f"ws://127.0.0.1:{web.port}/ws/site/hall"
-    async with connect(site, additional_headers=web.headers("viewer")) as watcher, join(web, program=program) as socket:
-        await socket.send(yjs_protocol.encode_step_2(step("s1")))
-        async with asyncio.timeout(10):
-            while True:
-                text = await watcher.recv()
-                assert isinstance(text, str)
-                if f'"{program}"' in text and '"compiled"' in text and '"s1"' in text:
-                    break
+    async with (
+        connect(site, additional_headers=web.headers("viewer")) as watcher,
+        join(web, "viewer", program) as looks,
+        join(web, "second", program) as draws,
+        join(web, program=program) as author,
+    ):
+        await looks.send(encode_integer(yjs_protocol.COMPILED) + encode_integer(0))
+        first = await read_compiled(looks)
+        await author.send(yjs_protocol.encode_step_2(step("s1")))
+        change = await read_compiled(looks)
+        assert (first["order"], apply_patch(first, change)["order"]) == ([], ["s1"])
+        assert await read_all(draws) == {bytes([yjs_protocol.SYNC])}
+        assert '"compiled"' not in await read_all(watcher)
+
+
+async def read_compiled(socket: ClientConnection) -> dict[str, Any]:
+    frame = await read_until(socket, encode_integer(yjs_protocol.COMPILED))
+    form: dict[str, Any] = json.loads(frame[frame.index(b"{") :])
+    return form
+
+
+async def read_all(socket: ClientConnection) -> set[Any]:
+    """Return the kinds of all that came, of texts their types, until nothing has come for half a second."""
+    kinds: set[Any] = set()
+    with suppress(TimeoutError):
+        while True:
+            frame = await asyncio.wait_for(socket.recv(), 0.5)
+            kinds.add(frame[:1] if isinstance(frame, bytes) else json.dumps(json.loads(frame)["type"]))
+    return kinds - {bytes([yjs_protocol.SAVED]), bytes([yjs_protocol.AWARENESS])}

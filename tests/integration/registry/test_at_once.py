@@ -42,7 +42,7 @@ Press = Callable[[], Any]
 @pytest.fixture
 def url(database_url: str, django_db_blocker: DjangoDbBlocker) -> Iterator[str]:
     """A site of which there are two admins, on a PostgreSQL that other threads reach, too."""
-    with django_db_blocker.unblock(), on_database(OPTIONS={}, **postgres(database_url)):
+    with django_db_blocker.unblock(), on_database(**postgres(database_url)):
         make_hall()
         services.set_member(site="hall", email=add_person("chief").email, role="admin")
         yield database_url

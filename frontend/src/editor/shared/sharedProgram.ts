@@ -4,6 +4,7 @@ import { IndexeddbPersistence } from "y-indexeddb";
 import { WebsocketProvider } from "y-websocket";
 import * as Y from "yjs";
 import type { Edit } from "../edits/edits";
+import { CompiledForm } from "./compiledForm";
 import { writeEdit } from "./writer";
 import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
 import type { ProgramDocument } from "@/program/document/document";
@@ -34,6 +35,7 @@ export class SharedProgram {
   readonly doc = new Y.Doc();
   readonly undo: Y.UndoManager;
   readonly provider: WebsocketProvider;
+  readonly compiled: CompiledForm;
   readonly #copy: IndexeddbPersistence;
   readonly #origin = Symbol("this person");
   readonly #listeners = new Set<Listener>();
@@ -56,6 +58,7 @@ export class SharedProgram {
     this.#copy = new IndexeddbPersistence(`vipo-program-${program}`, this.doc);
     this.#copy.on("synced", () => this.#setSaving({ loaded: this.#saving.loaded || this.doc.store.clients.size > 0 }));
     this.provider = new WebsocketProvider(serverUrl, program, this.doc, { disableBc: readOnly });
+    this.compiled = new CompiledForm(this.provider);
     this.#listenToServer();
   }
 

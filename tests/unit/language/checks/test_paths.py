@@ -103,3 +103,32 @@ def test_an_edit_is_told_as_the_whole_program_is() -> None:
             f"{loop}\nself.x = {n}\nfor _ in range(self.x):\n    SHELF\n    {PICK}\nself.wait((self.x - 2) * S)"
         )
         assert program.compile(document, site()).diagnostics == compile_document(document, site()).diagnostics
+
+
+@pytest.mark.parametrize(
+    ("body", "functions", "codes"),
+    [
+        (
+            "while True:\n    try:\n        FAIL\n    except TaskError as problem:\n        self.wait(1)",
+            "",
+            ["never_ends"],
+        ),
+        (
+            "while True:\n    try:\n        FAIL\n    except Failed as problem:\n        self.wait(1)",
+            "",
+            ["never_ends"],
+        ),
+        ("while True:\n    try:\n        FAIL\n    except Blocked as problem:\n        self.wait(1)", "", []),
+        ("while True:\n    try:\n        self.wait(1)\n    finally:\n        FAIL", "", []),
+        ("while True:\n    try:\n        self.wait(1)\n    except TaskError as problem:\n        FAIL", "", []),
+        (
+            "while True:\n    try:\n        self.try_it()\n    except TaskError as problem:\n        self.wait(1)",
+            "def try_it(self):\n    FAIL",
+            ["never_ends"],
+        ),
+        ("while True:\n    self.try_it()", "def try_it(self):\n    FAIL", []),
+    ],
+)
+def test_a_failure_that_is_caught_within_a_loop_does_not_end_it(body: str, functions: str, codes: list[str]) -> None:
+    fail = 'raise Failed("The oven is cold.")'
+    assert told(body.replace("FAIL", fail), functions.replace("FAIL", fail)) == codes

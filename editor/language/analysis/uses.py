@@ -1,0 +1,66 @@
+"""What the steps of a program look at: variables, and roles whose robots' places are asked for; and what they set."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from editor.language.analysis.memo import Memo
+from editor.language.expressions.values import roles_in
+from editor.language.tree import nodes as n
+from editor.language.tree.variables import read_by, set_by, worked_out
+
+
+@dataclass(slots=True)
+class Uses:
+    """By the identity of the step, the names that it uses, each with the field where it does."""
+
+    reads: dict[int, Mapping[str, str]] = field(default_factory=dict)
+    asks: dict[int, Mapping[str, str]] = field(default_factory=dict)
+    """The roles of whose robots it is asked where they are, or how far."""
+    sets: set[str] = field(default_factory=set)
+    """The variables that any step sets."""
+
+    def add(self, other: Uses) -> None:
+        """Take in what other steps use."""
+        self.reads.update(other.reads)
+        self.asks.update(other.asks)
+        self.sets.update(other.sets)
+
+
+def uses_of(tree: n.Tree, memo: Memo | None) -> Uses:
+    """Return what the program's steps use; of a step that is the same as at the last look, `memo` knows it."""
+    memo = memo or Memo()
+    memo.begin(None)
+    return _of_blocks((tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)), memo)
+
+
+def _of_blocks(blocks: tuple[n.Block, ...], memo: Memo) -> Uses:
+    uses = Uses()
+    for block in blocks:
+        for node in block:
+            found: Uses | None = memo.get(node)
+            if found is None:
+                found = _of_step(node, memo)
+                memo.put(node, found)
+            if found is not _NOTHING:
+                uses.add(found)
+    return uses
+
+
+def _of_step(node: n.Node, memo: Memo) -> Uses:
+    inner = _of_blocks(n.blocks_of(node), memo) if node.__class__ in n.COMPOSITES else _NOTHING
+    name, values = set_by(node), worked_out(node)
+    if not name and not values:
+        return inner
+    uses = Uses() if inner is _NOTHING else inner
+    if reads := read_by(node):
+        uses.reads[id(node)] = reads
+    if asks := {role: each for each, value in values for role in roles_in(value)}:
+        uses.asks[id(node)] = asks
+    if name:
+        uses.sets.add(name)
+    return uses
+
+
+_NOTHING = Uses()
