@@ -133,15 +133,13 @@ class Loads(PairwiseDomain[Carried]):
         return {**known, (node.role, thing): (max(before[0] - int(most), 0), left)}
 
     def _release(self, place: Place, node: n.Release, known: Carried) -> Carried:
-        """Return that the role's next robot carries nothing; one that was loaded may come back so."""
+        """Return that the role's next robot carries nothing, or what this one was released with."""
         mine = {thing: count for (role, thing), count in known.items() if role == node.role}
         for thing, (least, most) in sorted(mine.items()):
-            if most is not None and most > 0:
+            if least > 0 or (most is not None and most > 0):
                 args: dict[str, Argument] = {"robot": self.robot(node.role), "quantity": least, "object": thing}
                 place.report(node, "releases_carrying" if least > 0 else "may_release_carrying", "role", args)
-        if any(most != 0 for _, most in mine.values()):
-            return _forget(known, frozenset({node.role}))
-        return {key: count for key, count in known.items() if key[0] != node.role}
+        return {key: (0, count[1]) if key[0] == node.role else count for key, count in known.items()}
 
     transfers: ClassVar[Mapping[type[n.Node], Transfer]] = {n.Pick: _pick, n.Drop: _drop, n.Release: _release}
 

@@ -1,4 +1,4 @@
-"""A Parallel that ends with the first branch, and roles that give their robots back, rehearsed with simulated robots."""
+"""A Parallel that ends with the first branch, and roles that give their robots back, with simulated robots."""
 
 from editor.language import compile_document, parse_script, tree_to_document
 from execution.rehearsals.rehearsal import Conditions, rehearse

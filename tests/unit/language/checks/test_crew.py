@@ -14,7 +14,7 @@ HOT = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 60]}
 
 
 def codes(program: list[Any], functions: dict[str, list[Any]] | None = None) -> list[str]:
-    """Return what is said of a program in which a text is a drive of that role, or with `-` its release, and a list a step with its branches."""
+    """Return what is said of a program: a text is a drive of that role, or with `-` its release, a list any step."""
     steps: dict[str, Any] = {}
 
     def add(block: list[Any], parent: str, branch: str) -> None:
