@@ -46,6 +46,15 @@ class RoleFilled:
 
 
 @dataclass(frozen=True, slots=True)
+class RoleEmptied:
+    """A role has given its robot back; a `bound` one has the same robot when it has one again."""
+
+    role: str
+    robot: str
+    bound: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class WaitNoted:
     """What a step waits for has changed; no reason: it goes on."""
 
@@ -101,7 +110,7 @@ class QuestionAnswered:
 
 
 ToRun = (
-    TaskEnded | RoleFilled | WaitNoted | CommandGiven | CommandEnded | RobotSetsOut
+    TaskEnded | RoleFilled | RoleEmptied | WaitNoted | CommandGiven | CommandEnded | RobotSetsOut
     | ResumeAsked | QuestionAnswered | r.TimerFired | r.PauseAsked | r.CancelAsked
 )  # fmt: skip
 """What a run is told: by the floor, by devices' answers, by the ticker, by people."""
@@ -140,6 +149,8 @@ def to_run(action: m.Action) -> tuple[str, ToRun] | None:
             return action.run, TaskEnded(action.task, action.kind, action.why, action.result)
         case m.RoleBound():
             return action.run, RoleFilled(action.role, action.robot)
+        case m.RoleReleased():
+            return action.run, RoleEmptied(action.role, action.robot, action.bound)
         case m.WaitChanged():
             return action.run, WaitNoted(action.step, action.robot, action.reason)
         case m.SendCommand():
@@ -159,6 +170,8 @@ def to_machine(message: ToRun) -> r.Event | None:
             return r.TaskFailed(task, kind, why) if kind else r.TaskDone(task, result)
         case RoleFilled(role=role, robot=robot):
             return r.Facts({(ROLE, role): robot})
+        case RoleEmptied(role=role, bound=bound):
+            return None if bound else r.Facts({(ROLE, role): ""})
         case QuestionAnswered(question=question, value=value):
             return r.Answered(question, value)
         case ResumeAsked():
@@ -186,6 +199,7 @@ TO_FLOOR: Mapping[str, type[ToFloor]] = {
 TO_RUN: Mapping[str, type[ToRun]] = {
     "mission_over": TaskEnded,
     "role_bound": RoleFilled,
+    "role_released": RoleEmptied,
     "wait": WaitNoted,
     "command": CommandGiven,
     "answer": CommandEnded,

@@ -17,6 +17,7 @@ SENTENCES: Mapping[str, str] = {
     "cancelled_by": "{by} cancelled it",
     "stopped_by": "{by} stopped all devices of the site",
     "branch_failed": "Another branch failed.",
+    "enough_ended": "Enough other branches have ended.",
     "program_over": "The program was over.",
     "condition_late": "The condition did not come true in time.",
     "limit_over": "The time limit of {seconds} s was over.",

@@ -103,6 +103,9 @@ _CARRYING: Final = {
     "may_carry_too_much": "On one of the ways to this step the robot is full already.",
     "drops_nothing": "On every way to this step the robot carries less.",
     "may_drop_nothing": "On one of the ways to this step the robot carries less.",
+    "releases_carrying": "A Release gives a robot back that carries something, which its next steps would not know.",
+    "may_release_carrying": "On one of the ways to a Release its robot carries something.",
+    "releases_nothing": "No step on one of the ways to a Release has given the role a robot.",
     "ends_carrying": "On every way to this end the robot carries something; the next program would find it full.",
 }
 _FLOOR: Final = {
@@ -117,6 +120,7 @@ _WAYS: Final = {
     "never_reached": "The first step behind a Return, a Break, an End, an endless loop or an endless call.",
     "past_limit": "The waits up to here take at least as long as the Time limit around them allows, or what is waited "
     "for can never come true. So what follows in it is never come to, and it always fails as timed out.",
+    "too_few_end": "Of a Parallel that ends with some of its branches fewer ever come to their end.",
     "never_ends": "The condition of a While is constantly true, and neither Break, Return nor End stands in it.",
     "may_never_end": "What the condition of a While looks at is neither measured nor set while it repeats.",
     "never_runs": "The condition is constantly false.",
@@ -129,6 +133,7 @@ _WAYS: Final = {
     "leaves_parallel": "A Return, a Break or a Next round would leave one branch while the others go on.",
     "leaves_finally": "A Return, a Break or a Next round would leave the branch that is carried out whatever happens.",
     "empty_branch": "An If with two empty branches, or a Repeat, a For-each or a Time limit without a step in it.",
+    "over_at_once": "A Parallel that ends with some of its branches has so many that begin nothing that takes time.",
     "busy_circle": "A While waits for what is measured, and no step in it takes time or changes what it looks at.",
     "starts_unasked": "A parameter has no default, and an event starts the program without anybody who enters a value.",
     "draft": "The step is drawn and not joined.",
@@ -151,6 +156,8 @@ _FUNCTIONS: Final = {
     "signature_changed": "The library has a newer version with other parameters, so the calls have to be looked at.",
 }
 _AT_ONCE: Final = {
+    "needed_out_of_range": "A Parallel is to end with more branches than it has, or with none.",
+    "released_beside": "One branch of a Parallel releases a role that another uses, or releases, too.",
     "shared_robot": "Two branches of a Parallel, with the functions that they call, drive one robot.",
     "event_shares_robot": "An event that runs beside the program drives a robot that the program drives, too.",
     "branches_set_it": "Two branches run at once and set one variable; the slower one wins, whichever that is.",

@@ -74,6 +74,14 @@ def _steps_of_robots() -> dict[str, Picture]:
             (0.2, -0.2, 13.2, -13.6),
             (4.6, -1.0),
         ),
+        "release": Picture(
+            {
+                "a": step("move", 5.4, -5.2, role="robot", to={"place": "paintStore"}),
+                "b": step("release", 7.6, -3.6, "program.body.2V", role="robot"),
+            },
+            WEST,
+            (2.0, -4.2),
+        ),
         "operate": Picture(
             {"a": step("operate", 10.2, -12.5, device=OVEN_ID, method="curePaint", args={"time": 10})},
             OVEN,
@@ -153,6 +161,14 @@ def _choices_and_loops() -> dict[str, Picture]:
             {
                 "a": step("limit", 4.2, -4.3, duration={"quantity": [5, "MIN"]}),
                 "b": step("move", 4.2, -5.4, "a.body.1V", role="robot", to=STORE),
+            },
+            HALL,
+        ),
+        "parallel_first": Picture(
+            {
+                "a": step("parallel", 4.0, -3.9, branches=["a", "b"], needed=1),
+                "b": wait(2.0, -5.7, "a.a.1V"),
+                "c": step("wait", 6.2, -5.7, "a.b.1V", until=HOT),
             },
             HALL,
         ),

@@ -35,7 +35,7 @@ NAMES = ("n", "left", "seconds")
 _MAY_BE = ("calls itself more than", "The time limit of")
 """Why a clean program may fail: a function that calls itself until a reading changes comes to the machine's limit, and
 what takes longer than its time limit has timed out."""
-HARMLESS = {"unused_variable", "unused_parameter", "empty_branch", "busy_circle"}
+HARMLESS = {"unused_variable", "unused_parameter", "empty_branch", "busy_circle", "releases_nothing"}
 """What is told of a program that does all the same what it says."""
 MORE = 0.75
 """How often one more step follows, the deeper the seldomer."""
@@ -79,6 +79,7 @@ class Draft:
                 "call",
                 "parallel",
                 "limit",
+                "release",
             ]
             kind = self.chance.choice(
                 kinds[: 7 if depth > 3 else None] + [k for k in ("break", "next_round") if k in inside]
@@ -192,7 +193,8 @@ class Draft:
             self.known = before
 
     def _parallel(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
-        step = self.add(parent, branch, "parallel", {"branches": ["a", "b"]})
+        race = {"needed": 1} if self.chance.random() < 0.4 else {}
+        step = self.add(parent, branch, "parallel", {"branches": ["a", "b"], **race})
         self._set(step, "a", depth, frozenset())
         self._wait(step, "b", depth, frozenset())
         self.block(step, self.chance.choice("ab"), depth + 1)
@@ -208,6 +210,9 @@ class Draft:
             self.known = before
             self.add(parent, "catch", "notify", {"message": {"param": "problem.text"}, "level": "info"})
             self.add(parent, "catch", "end", {})
+
+    def _release(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
+        self.add(parent, branch, "release", {"role": "robot"})
 
     def _break(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         self.add(parent, branch, "break", {})
@@ -252,8 +257,7 @@ class Judge:
         waits: list[m.Ask | m.SetTimer | m.AskPeople] = []
         for _ in range(MOST_EVENTS):
             waits += [a for a in actions if isinstance(a, m.Ask | m.SetTimer | m.AskPeople)]
-            dropped = {a.task for a in actions if isinstance(a, m.Cancel)}
-            waits = [wait for wait in waits if not (isinstance(wait, m.Ask) and wait.task in dropped)]
+            waits = self._without_called_off(waits, {a.task for a in actions if isinstance(a, m.Cancel)})
             if state.status != "running" or self.wrong:
                 break
             event = self._something(waits)
@@ -265,6 +269,16 @@ class Judge:
             reason = next(a.reason for a in actions if isinstance(a, m.Finished))
             self.wrong = "" if any(said in reason for said in _MAY_BE) else reason
         return self.wrong
+
+    def _without_called_off(
+        self, waits: list[m.Ask | m.SetTimer | m.AskPeople], called_off: set[int]
+    ) -> list[m.Ask | m.SetTimer | m.AskPeople]:
+        """Take back what is not wanted any more; a robot may all the same have done it."""
+        dropped = [wait for wait in waits if isinstance(wait, m.Ask) and wait.task in called_off]
+        for ask in dropped:
+            if self.chance.random() < 0.5:
+                self._carry_out(ask)
+        return [wait for wait in waits if wait not in dropped]
 
     def _readings(self) -> Mapping[tuple[str, str], float]:
         return {OVEN: self.chance.choice([20.0, 80.0]), BATTERY: self.chance.choice([5, 95])}
@@ -291,6 +305,9 @@ class Judge:
             self.carried += int(quantity)
             if not 0 <= self.carried <= CAPACITY:
                 self.wrong = f"{order.kind} leaves {self.carried} at the step {order.step}"
+        elif order.kind == "release":
+            if self.carried:
+                self.wrong = f"release of a robot that carries {self.carried} at the step {order.step}"
         elif order.kind == "call" and order.method == "curePaint":
             time = order.arguments.get("time")
             if not isinstance(time, int | float) or not LEAST_CURING_S <= time <= MOST_CURING_S:

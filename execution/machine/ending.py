@@ -12,7 +12,10 @@ from execution.machine.turn import Failure, Turn
 
 OVER = Wake(final=True)
 CALLED_OFF = Wake("cancelled", "Another branch failed.", final=True)
+ENOUGH_ENDED = Wake("cancelled", "Enough other branches have ended.", final=True)
 PROGRAM_OVER = "The program was over."
+_IN_GOOD_ORDER = frozenset({OVER, CALLED_OFF, ENOUGH_ENDED})
+"""What threads are told that are called off; anything else that is final is a failure in a `final` handler."""
 
 
 def unwind(turn: Turn, thread: Thread, wake: Wake) -> None:
@@ -98,15 +101,31 @@ def _end(turn: Turn, thread: Thread, wake: Wake) -> None:
     """Take a thread away that nothing holds any more; what failed goes on in its parent."""
     _mark(turn, thread, 0, wake)
     remove(turn, thread)
-    if wake.final:
-        return
     parent = turn.threads.get(thread.parent) if thread.parent is not None else None
+    if wake.final:
+        if parent is not None and turn.ending is None and not _is_called_off(wake):
+            _spoil(turn, parent, wake)
+        return
     if parent is None:
         end_run(turn, "failed", wake.why)
         return
     call_off_branches(turn, parent, CALLED_OFF)
     if parent.wake is None:
         turn.keep(replace(parent, wake=Wake(wake.kind, wake.why)))
+
+
+def _is_called_off(wake: Wake) -> bool:
+    """Tell whether a thread ends because it was told to, not because something failed on its way out."""
+    return wake in _IN_GOOD_ORDER or (wake.limit != 0 and wake.kind == "cancelled")
+
+
+def _spoil(turn: Turn, parent: Thread, wake: Wake) -> None:
+    """A branch that was called off failed in a `final` handler on its way out: so does what goes on without it."""
+    if parent.wake is None:
+        call_off_branches(turn, parent, CALLED_OFF)
+        turn.keep(replace(parent, wake=Wake(wake.kind, wake.why)))
+    elif parent.wake == ENOUGH_ENDED:
+        turn.keep(replace(parent, wake=wake))
 
 
 def call_off_branches(turn: Turn, thread: Thread, wake: Wake) -> None:

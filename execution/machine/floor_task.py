@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from vipo_device.protocol.description import Scalar
 
-TaskKind = Literal["move", "pick", "drop", "call", "perform"]
+TaskKind = Literal["move", "pick", "drop", "call", "perform", "release"]
 FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
 
 
@@ -24,7 +24,7 @@ class Target:
 class TaskOrder:
     """What is asked: `role` names the robot's role (empty for a call on a machine that no robot takes part in).
 
-    A robot performs a method of its own where it stands: such a task has no target.
+    A robot performs a method of its own where it stands, and is released there: such a task has no target.
     """
 
     kind: TaskKind

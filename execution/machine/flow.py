@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from editor.language.expressions import nodes as e
 from editor.language.plan import instructions as p
-from execution.machine.ending import OVER, end_run, leave_call, remove, unwind
+from execution.machine.ending import ENOUGH_ENDED, OVER, call_off_branches, end_run, leave_call, remove, unwind
 from execution.machine.evaluation import EvaluationError, NoReading, NoValue
 from execution.machine.messages import StepEntered, StepFailed
 from execution.machine.state import MAIN, Activation, Thread
@@ -33,7 +33,19 @@ def end_thread(turn: Turn, thread: Thread) -> Thread:
         return end(turn, thread)
     thread = turn.leave(thread, (*filter(None, [thread.leaf]), *reversed(thread.open)))
     remove(turn, thread)
+    _end_race(turn, thread)
     return thread
+
+
+def _end_race(turn: Turn, thread: Thread) -> None:
+    """Call the other branches off when as many have ended as are needed."""
+    parent = turn.threads.get(thread.parent) if thread.parent is not None else None
+    fork_ = turn.plan.instructions[parent.at].do if parent is not None else None
+    if parent is None or parent.wake is not None or not isinstance(fork_, p.Fork) or not fork_.needed:
+        return
+    left = turn.children(parent)
+    if left and len(fork_.branches) - len(left) >= fork_.needed:
+        call_off_branches(turn, parent, ENOUGH_ENDED)
 
 
 def end(turn: Turn, thread: Thread) -> Thread:

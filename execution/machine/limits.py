@@ -45,7 +45,7 @@ def _strike(turn: Turn, thread: Thread, index: int) -> None:
         pending = (*thread.pending[:first], replace(thread.pending[first], wake=wake), *thread.pending[first + 1 :])
         turn.keep(replace(thread, pending=pending))
         return
-    call_off_branches(turn, thread, Wake("cancelled", why, final=True))
+    call_off_branches(turn, thread, Wake("cancelled", why, final=True, limit=guard.limit))
     tell_at_once(turn, turn.threads[thread.id], wake)
 
 

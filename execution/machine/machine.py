@@ -43,7 +43,7 @@ __all__ = ["YIELD_S", "from_json", "start", "step", "to_json"]
 TIMED_OUT = Wake("timed_out", "The condition did not come true in time.")
 UNANSWERED = Wake("timed_out", "Nobody answered in time.")
 NO_REASON = "The program failed here and does not say why."
-FloorAction = p.Move | p.Pick | p.Drop | p.Call | p.Perform
+FloorAction = p.Move | p.Pick | p.Drop | p.Call | p.Perform | p.Release
 
 
 def start(
@@ -193,7 +193,7 @@ def _carry_out(turn: Turn, thread: Thread) -> Thread:
     thread = turn.keep(turn.begin(thread))
     action = turn.plan.instructions[thread.at].do
     match action:
-        case p.Move() | p.Pick() | p.Drop() | p.Call() | p.Perform():
+        case p.Move() | p.Pick() | p.Drop() | p.Call() | p.Perform() | p.Release():
             return _ask_floor(turn, thread, action)
         case p.Wait(seconds=seconds):
             return turn.wait(thread, "timer", turn.seconds(thread, seconds))
@@ -260,6 +260,8 @@ def _order(turn: Turn, thread: Thread, action: FloorAction) -> TaskOrder:
             return TaskOrder("call", _target(turn, thread, device), serves or "", method=method, arguments=values)
         case p.Perform(role=role, method=method, arguments=arguments):
             return TaskOrder("perform", Target(), role, method=method, arguments=_worked_out(turn, thread, arguments))
+        case p.Release(role=role):
+            return TaskOrder("release", Target(), role)
         case p.Pick() | p.Drop():
             quantity = turn.number(thread, action.quantity)
             if quantity <= 0:

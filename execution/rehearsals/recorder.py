@@ -117,7 +117,7 @@ class Recorder:
             case r.StepLeft(step=step):
                 self._close_step(t_s, step, "done")
             case r.StepFailed(step=step, kind=kind, why=why):
-                self._close_step(t_s, step, "failed")
+                self._close_step(t_s, step, "skipped" if kind == "cancelled" else "failed")
                 said = any(e["message"] == why and e["t"] == round(t_s, 2) for e in self.errors)
                 if kind != "cancelled" and not said:
                     self.error(t_s, step, kind, why, f"step_{kind}", why=why)
@@ -154,6 +154,9 @@ class Recorder:
             case m.RoleBound(role=role, robot=robot):
                 text = f"{self._layout.name(robot)} takes the role “{role}”."
                 self._say(t_s, "", robot, text, "role_bound", role=role)
+            case m.RoleReleased(role=role, robot=robot):
+                text = f"{self._layout.name(robot)} is released from the role “{role}”."
+                self._say(t_s, "", robot, text, "role_released", role=role)
 
     def _note_command(self, t_s: float, action: m.SendCommand) -> None:
         entry = self._open_steps.get(action.step)

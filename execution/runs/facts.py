@@ -10,7 +10,7 @@ from uuid import UUID
 
 from django.utils import timezone
 
-from execution.floor_protocol import CommandEnded, CommandGiven, RobotSetsOut, RoleFilled, ToRun, WaitNoted
+from execution.floor_protocol import CommandEnded, CommandGiven, RobotSetsOut, RoleEmptied, RoleFilled, ToRun, WaitNoted
 from execution.machine.needs import Facts, Needs, clock_fact, position_facts, role_facts
 from execution.models import Run
 from registry import services as registry
@@ -56,7 +56,7 @@ def names_of(run: Run, messages: Iterable[ToRun]) -> Mapping[str, str]:
 def _named(message: ToRun) -> Iterable[object]:
     """Return all that may be a device's id, arguments of a command among it."""
     match message:
-        case RoleFilled(robot=robot) | RobotSetsOut(robot=robot) | WaitNoted(robot=robot):
+        case RoleFilled(robot=robot) | RoleEmptied(robot=robot) | RobotSetsOut(robot=robot) | WaitNoted(robot=robot):
             return (robot,)
         case CommandGiven(device=device, arguments=arguments):
             return (device, *arguments.values())

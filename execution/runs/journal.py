@@ -14,6 +14,7 @@ from execution.floor_protocol import (
     QuestionAnswered,
     ResumeAsked,
     RobotSetsOut,
+    RoleEmptied,
     RoleFilled,
     TaskEnded,
     ToRun,
@@ -105,6 +106,10 @@ class Journal:
                 self.roles[role] = robot
                 text = f"{self._name(robot)} takes the role “{role}”."
                 self.say("role", text, code="role_bound", robot=robot, role=role)
+            case RoleEmptied(role=role, robot=robot):
+                self.roles.pop(role, None)
+                text = f"{self._name(robot)} is released from the role “{role}”."
+                self.say("role", text, code="role_released", robot=robot, role=role)
             case WaitNoted():
                 self._note_wait(message)
             case CommandGiven():

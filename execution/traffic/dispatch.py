@@ -16,7 +16,7 @@ from execution.machine.places import ROLE
 from execution.traffic.conflicts import make_room_for
 from execution.traffic.floor_state import FloorTask, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
-from execution.traffic.messages import RoleBound
+from execution.traffic.messages import RoleBound, RoleReleased
 from execution.traffic.path_release import cut_path, set_path
 from execution.traffic.turn import Turn
 from execution.traffic.zones import path_for
@@ -32,12 +32,42 @@ UNABLE = 1e6
 UNIT_S: Mapping[str, float] = {"SEC": 1.0, "MIN": 60.0, "HR": 3600.0}
 
 
+def release_roles(turn: Turn) -> None:
+    """Give back the robots of roles that are released, so that others may have them at once.
+
+    What stands before in the same run is done first: a robot is not taken from a task or from what it handles.
+    """
+    for task in turn.in_order():
+        if task.order.kind != "release" or turn.stopped or task.run in turn.paused:
+            continue
+        key = f"{task.run}/{task.order.role}"
+        robot = turn.robots.get(turn.roles.get(key, ""))
+        if robot is None:
+            if not _has_earlier(turn, task):
+                turn.finish(task)
+            continue
+        if _has_earlier(turn, task) or turn.task_of(robot) is not None or turn.is_acting(robot):
+            turn.wait(task, "robot_busy", f"{turn.name(robot.id)} has something else to do first.", robot=robot.id)
+            continue
+        del turn.roles[key]
+        if not any(robot.id == other and kept.rpartition("/")[0] == task.run for kept, other in turn.roles.items()):
+            turn.put(robot, run="", yields_to="", idle_since=turn.now)
+        turn.actions.append(RoleReleased(task.run, task.order.role, robot.id, bool(task.wants)))
+        turn.finish(task)
+
+
+def _has_earlier(turn: Turn, task: FloorTask) -> bool:
+    """Tell whether the role has been asked for something before that is still to be done."""
+    whose = task.run, task.order.role
+    return any((each.run, each.order.role) == whose and each.seq < task.seq for each in turn.tasks.values())
+
+
 def bind_roles(turn: Turn) -> None:
     """Find robots for the roles that wait for one, over all of them at once, by the length of the path there."""
     waiting: dict[str, FloorTask] = {}
     for task in turn.in_order():
         key = f"{task.run}/{task.order.role}"
-        if task.order.role and key not in turn.roles and key not in waiting:
+        if task.order.role and task.order.kind != "release" and key not in turn.roles and key not in waiting:
             if task.wants:
                 _bind_given(turn, key, task)
             else:
@@ -129,6 +159,8 @@ def dispatch(turn: Turn) -> None:
             turn.wait(task, "stopped", "All devices of the site are stopped.")
         elif task.run in turn.paused:
             turn.wait(task, "paused", "The run is paused.")
+        elif task.order.kind == "release":
+            continue  # it waits for what its robot does
         elif not task.order.role:
             _call(turn, task)
         elif robot_id := turn.roles.get(f"{task.run}/{task.order.role}"):

@@ -1,7 +1,7 @@
 """The floor of a site: its state and what happened in, the new state and what is to be done out; pure.
 
 Rules, in docs/execution.md at length: each cell has one robot, a robot drives only over cells that it holds, a machine
-serves one robot and carries out one call at a time, a role keeps its robot until the run ends.
+serves one robot and carries out one call at a time, a role keeps its robot until the run ends or releases it.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import assert_never
 
 from execution.traffic import messages as m
 from execution.traffic.conflicts import resolve, send_home
-from execution.traffic.dispatch import ABSENCE_S, CALL_LIMIT_S, bind_roles, dispatch, limit_of
+from execution.traffic.dispatch import ABSENCE_S, CALL_LIMIT_S, bind_roles, dispatch, limit_of, release_roles
 from execution.traffic.floor_state import FloorState, FloorTask, Robot, Sent, from_json, to_json
 from execution.traffic.layout import Layout
 from execution.traffic.path_release import (
@@ -61,6 +61,7 @@ def step(
     _check_limits(turn)
     keep_stations(turn)
     keep_zones(turn)
+    release_roles(turn)
     bind_roles(turn)
     dispatch(turn)
     _release_all(turn)

@@ -199,11 +199,21 @@ class TaskOver:
 
 @dataclass(frozen=True, slots=True)
 class RoleBound:
-    """A role has found its robot and keeps it until the run ends."""
+    """A role has found its robot and keeps it until the run ends or releases it."""
 
     run: str
     role: str
     robot: str
+
+
+@dataclass(frozen=True, slots=True)
+class RoleReleased:
+    """A role has given its robot back; one that is `bound` to it gets the same again."""
+
+    run: str
+    role: str
+    robot: str
+    bound: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,4 +236,4 @@ class PathPlanned:
     path: tuple[tuple[float, float], ...]
 
 
-Action = SendCommand | TaskOver | RoleBound | WaitChanged | PathPlanned
+Action = SendCommand | TaskOver | RoleBound | RoleReleased | WaitChanged | PathPlanned

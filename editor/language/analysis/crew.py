@@ -1,4 +1,4 @@
-"""The domain of the crew: which roles surely have a robot already; each keeps its own until the program ends."""
+"""The domain of the crew: which roles surely have a robot already; each keeps its own until it is released."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ class Crew(PairwiseDomain[Held]):
     """The domain of the crew; `robots` gives what tells a role's robot apart, and the ids of those that can be it."""
 
     robots: Callable[[str], tuple[tuple[str, str], Sequence[str]]]
+    released: frozenset[str] = frozenset()
+    """The roles that events may release at any time; none of them surely has a robot."""
     _enough: dict[Held, bool] = field(default_factory=dict)
 
     def begin(self) -> Held:
@@ -35,19 +37,24 @@ class Crew(PairwiseDomain[Held]):
         return first & second
 
     def disturb(self, place: Place, known: Held, effects: Effects) -> Held:
-        """Return the same: who has a robot keeps it, whatever happens."""
-        return known
+        """Return who has a robot that is not released: who has one keeps it, whatever else happens."""
+        return known - effects.released
 
     def beside(self, place: Place, known: Held, ends: Sequence[Held], effects: Effects) -> Held:
         """Return the roles of the branches before, too: all of them need their robots at the same time."""
-        return ends[-1] if ends else known
+        return (ends[-1] if ends else known) - effects.released
+
+    def interrupted(self, place: Place, known: Held, effects: Effects, passed: Held) -> Held:
+        """Return the roles that had a robot before, or got one in a branch that surely ended."""
+        return known - (effects.used - passed) - effects.released
 
     def join(self, place: Place, before: Held, ends: Sequence[tuple[Held, Effects]]) -> Held:
-        """Return the roles of all branches."""
-        return before.union(*(held for held, _ in ends))
+        """Return the roles of all branches, but for those that one of them has released."""
+        whole = before.union(*(held for held, _ in ends))
+        return whole.difference(*(effects.released - held for held, effects in ends))
 
     def _take(self, place: Place, node: n.Move | n.Pick | n.Drop | n.Perform, known: Held) -> Held:
-        if node.role in known:
+        if node.role in known or node.role in self.released:
             return known
         together = known | {node.role}
         if together not in self._enough:
@@ -59,7 +66,10 @@ class Crew(PairwiseDomain[Held]):
         place.report(node, "too_few_robots", n.robot_field(node), {"roles": names, "count": count})
         return known
 
-    transfers: ClassVar[Mapping[type[n.Node], Transfer]] = dict.fromkeys(n.ACTS, _take)
+    def _release(self, place: Place, node: n.Release, known: Held) -> Held:
+        return known - {node.role}
+
+    transfers: ClassVar[Mapping[type[n.Node], Transfer]] = {**dict.fromkeys(n.ACTS, _take), n.Release: _release}
 
     def _has_robots_for(self, roles: Held) -> bool:
         """Tell whether each of these roles can have a robot of its own; one without any robot is told elsewhere."""

@@ -94,6 +94,14 @@ class Domain(ABC, Generic[K]):
     def join(self, place: Place, before: K, ends: Sequence[tuple[K, Effects]]) -> K:
         """Return what holds after a Parallel, given the end of each branch with what that branch may change."""
 
+    def passing(self, passed: K, known: K) -> K:
+        """Return what holds anywhere in branches that may be called off, given what holds so far and behind a step."""
+        return passed
+
+    def interrupted(self, place: Place, known: K, effects: Effects, passed: K) -> K:
+        """Return what is still known when branches with these effects were called off anywhere, or have ended."""
+        return self.disturb(place, known, effects)
+
     def copy(self, known: K) -> K:
         """Return what is known for a path that begins here; what is known here stays as it is."""
         return known

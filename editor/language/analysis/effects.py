@@ -25,6 +25,10 @@ class Effects:
     """Roles whose robots go somewhere else by a Move."""
     loaded: Names = NO_NAMES
     """Roles whose robots take or leave something, and go there before in a program that is drawn."""
+    released: Names = NO_NAMES
+    """Roles that give their robots back."""
+    used: Names = NO_NAMES
+    """Roles whose robots do anything."""
     reads: Names = NO_NAMES
     """Variables that are read: not an effect, but what one depends on."""
     calls: bool = False
@@ -35,6 +39,8 @@ class Effects:
             self.shared | other.shared,
             self.moved | other.moved,
             self.loaded | other.loaded,
+            self.released | other.released,
+            self.used | other.used,
             self.reads | other.reads,
             self.calls or other.calls,
         )
@@ -84,7 +90,7 @@ class EffectTable:
             inside, own = self.of(function.body), self.own[function.method]
             names = inside.shared | (inside.names - own)
             reads = inside.reads | (read[function.method] - own)
-            found = Effects(NO_NAMES, names, inside.moved, inside.loaded, reads)
+            found = Effects(NO_NAMES, names, inside.moved, inside.loaded, inside.released, inside.used, reads)
             again = again or found != self.functions[function.method]
             self.functions[function.method] = found
         return again
@@ -103,7 +109,7 @@ class EffectTable:
         kind = node.__class__
         if kind in n.COMPOSITES:
             return together(self.of(inner) for inner in n.blocks_of(node))
-        if isinstance(node, n.DRIVES):
+        if isinstance(node, n.OF_ROBOTS):
             return self._of_robot(node.role, kind)
         if isinstance(node, n.Call):
             result = frozenset({node.result}) if node.result else NO_NAMES
@@ -115,7 +121,12 @@ class EffectTable:
         found = self._kept.get((role, kind))
         if found is None:
             roles = frozenset({role})
-            found = Effects(moved=roles) if kind is n.Move else Effects(loaded=roles)
+            found = Effects(
+                moved=roles if kind in {n.Move, n.Release} else NO_NAMES,
+                loaded=roles if kind in {n.Pick, n.Drop, n.Release} else NO_NAMES,
+                released=roles if kind is n.Release else NO_NAMES,
+                used=roles if kind is not n.Release else NO_NAMES,
+            )
             self._kept[role, kind] = found
         return found
 

@@ -12,14 +12,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
+from editor.language.analysis.branches import follow_branches
+from editor.language.analysis.calls import follow_call, follow_function
 from editor.language.analysis.domain import Frame, States
-from editor.language.analysis.effects import NOTHING, Effects, together
+from editor.language.analysis.effects import NOTHING
 from editor.language.analysis.walk import Walk
 from editor.language.document.outline import PROGRAM
 from editor.language.expressions.nodes import Constant, Expression
-from editor.language.expressions.ranges import Known, Range
+from editor.language.expressions.ranges import Range
 from editor.language.tree import nodes as n
-from editor.language.tree.program import Function
 
 Loop = n.While | n.Repeat | n.ForEach
 Leaves = tuple[int, int, int]
@@ -28,9 +29,6 @@ MOST_COUNTED = 100
 """A loop of more rounds is followed as one that nobody has counted."""
 MOST_SILENT = 3
 """Rounds in which an uncounted loop may settle; after them nothing is known of what it changes."""
-DEEPEST_CALL = 12
-MOST_CONTEXTS = 8
-"""A function is followed with so much different knowledge."""
 DEEPEST_FINAL = 3
 _TRUE = Constant(True)
 
@@ -49,17 +47,6 @@ def interpret(walk: Walk) -> None:
         unseen = bool(function.body) and id(function.body[0]) not in walk.visited
         if unseen or function.method in walk.opened:
             follow_function(walk, function, walk.somewhere())
-
-
-def follow_function(walk: Walk, function: Function, states: States) -> States | None:
-    """Follow a function's body and return what holds where it comes back; None where it never does."""
-    outside, walk.frame = walk.frame, Frame(function.method, function)
-    end = walk.block(function.body, walk.copy(states))
-    if end is not None and not walk.silent:
-        walk.falls_off.add(function.method)
-    over = walk.meet(states, [*walk.frame.returns, end], walk.effects.of(function.body))
-    walk.frame = outside
-    return over
 
 
 def _if(walk: Walk, node: n.If, states: States) -> States | None:
@@ -249,104 +236,6 @@ def _exits_through(walk: Walk, node: n.Try, marks: Sequence[int], ended: States 
         exits[mark:] = [] if ended is None else [walk.disturb(each, effects) for each in exits[mark:]]
 
 
-def _parallel(walk: Walk, node: n.Parallel, states: States) -> States | None:
-    """Follow each branch beside what the others may do: first in silence, to see what they set, then to tell."""
-    effects = [walk.effects.of(branch) for branch in node.branches]
-    known: dict[str, Known] = {}
-    if not walk.silent and walk.values is not None and any(each.names or each.shared for each in effects):
-        outside, walk.put = walk.put, {}
-        with walk.silently():
-            _branches(walk, node, walk.copy(states), effects, {})
-        known, walk.put = walk.put, outside
-    ends = _branches(walk, node, states, effects, known)
-    done = [end for end in ends if end is not None]
-    if len(done) < len(ends):
-        return None
-    return [
-        domain.join(walk, states[place], [(end[place], own) for end, own in zip(done, effects, strict=True)])
-        for place, domain in enumerate(walk.domains)
-    ]
-
-
-def _branches(
-    walk: Walk, node: n.Parallel, states: States, effects: list[Effects], known: Mapping[str, Known]
-) -> list[States | None]:
-    """Follow the branches; of what others set all is known that they may set it to, or nothing."""
-    outside = walk.volatile
-    ends: list[States | None] = []
-    for index, branch in enumerate(node.branches):
-        others = together(effects[:index] + effects[index + 1 :])
-        walk.volatile = {**outside, **{name: known.get(name) for name in others.names | others.shared}}
-        alive = [end for end in ends if end is not None]
-        begin = [
-            domain.beside(walk, known, [end[place] for end in alive], others)
-            for place, (domain, known) in enumerate(zip(walk.domains, walk.copy(states), strict=True))
-        ]
-        walk.frame.breaks.append([])
-        walk.frame.continues.append([])
-        ends.append(walk.block(branch, begin))
-        walk.frame.breaks.pop()
-        walk.frame.continues.pop()
-    walk.volatile = outside
-    return ends
-
-
-# calls and exits
-
-
-def _call(walk: Walk, node: n.Call, states: States) -> States | None:
-    """Follow a function with what is known here; what is known of such a call is not asked again."""
-    function = walk.functions.get(node.function)
-    after = states if function is None else _called(walk, node, function, states)
-    if after is not None:
-        walk.transfer(node, after)
-    return after
-
-
-def _called(walk: Walk, node: n.Call, function: Function, states: States) -> States | None:
-    unfollowed = walk.effects.functions[function.method]
-    if walk.summaries is not None:
-        return walk.disturb(states, unfollowed) if walk.summaries[function.method] else None
-    rows = zip(walk.domains, states, strict=True)
-    walk.states = states
-    keys = tuple(domain.key(walk, known, node, function) for domain, known in rows)
-    key = function.method, keys, frozenset(walk.volatile.items()), walk.silent, walk.limited > 0
-    if key in walk.running:
-        if walk.running[key] != walk.ways_out():
-            return walk.disturb(states, unfollowed)
-        if not walk.silent:
-            walk.endless.add(id(node))
-        return None
-    if key not in walk.contexts:
-        known_calls = walk.known_calls.get(function.method, 0)
-        if known_calls >= MOST_CONTEXTS or len(walk.running) >= DEEPEST_CALL or walk.left < 0:
-            walk.opened.add(function.method)
-            return walk.disturb(states, unfollowed)
-        walk.known_calls[function.method] = known_calls + 1
-        walk.contexts[key] = _followed(walk, key, node, function, states)
-    over, ends, failures = walk.contexts[key]
-    walk.ended += ends
-    walk.failures += failures
-    if over is None:
-        return None
-    ended = zip(walk.domains, states, over, strict=True)
-    return [domain.leave(walk, known, end, function) for domain, known, end in ended]
-
-
-def _followed(
-    walk: Walk, key: object, node: n.Call, function: Function, states: States
-) -> tuple[States | None, bool, list[str]]:  # fmt: skip
-    ended, failures = walk.ended, len(walk.failures)
-    walk.running[key] = walk.ways_out()
-    with walk.again():
-        rows = zip(walk.domains, states, strict=True)
-        begin = [domain.enter(walk, known, node, function) for domain, known in rows]
-        over = follow_function(walk, function, begin)
-    del walk.running[key]
-    failed, walk.failures[failures:] = {*walk.failures[failures:]}, []
-    return over, walk.ended > ended, sorted(failed)
-
-
 def _break(walk: Walk, node: n.Break, states: States) -> None:
     if walk.frame.breaks:
         walk.frame.breaks[-1].append(states)
@@ -375,8 +264,8 @@ FOLLOW: Final[Mapping[type[n.Node], Callable[[Walk, Any, States], States | None]
     n.ForEach: _for_each,
     n.Try: _try,
     n.Limit: _limit,
-    n.Parallel: _parallel,
-    n.Call: _call,
+    n.Parallel: follow_branches,
+    n.Call: follow_call,
     n.Break: _break,
     n.Continue: _continue,
     n.Return: _return,

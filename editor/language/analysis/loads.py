@@ -63,10 +63,23 @@ class Loads(PairwiseDomain[Carried]):
 
     def join(self, place: Place, before: Carried, ends: Sequence[tuple[Carried, Effects]]) -> Carried:
         """Return what each branch left its own robots with."""
-        joined = dict(before)
+        changed = frozenset[str]().union(*(effects.loaded for _, effects in ends))
+        joined = {key: count for key, count in before.items() if key[0] not in changed}
         for carried, effects in ends:
             joined.update({key: count for key, count in carried.items() if key[0] in effects.loaded})
         return joined
+
+    def passing(self, passed: Carried, known: Carried) -> Carried:
+        """Return what is carried at the one point or the other."""
+        return self.either(passed, known)
+
+    def interrupted(self, place: Place, known: Carried, effects: Effects, passed: Carried) -> Carried:
+        """Return that these roles carry what they did at any point; what functions did is not known."""
+        if effects.calls:
+            return self.disturb(place, known, effects)
+        between = self.either(known, passed)
+        kept = {key: count for key, count in known.items() if key[0] not in effects.loaded}
+        return {**kept, **{key: count for key, count in between.items() if key[0] in effects.loaded}}
 
     def key(self, place: Place, known: Carried, node: n.Call, function: Function) -> object:
         """Return what the function's robots carry."""
@@ -120,7 +133,16 @@ class Loads(PairwiseDomain[Carried]):
         left = None if before[1] is None else max(before[1] - fewest, 0)
         return {**known, (node.role, thing): (max(before[0] - int(most), 0), left)}
 
-    transfers: ClassVar[Mapping[type[n.Node], Transfer]] = {n.Pick: _pick, n.Drop: _drop}
+    def _release(self, place: Place, node: n.Release, known: Carried) -> Carried:
+        """Return that the role's next robot carries nothing, or what this one was released with."""
+        mine = {thing: count for (role, thing), count in known.items() if role == node.role}
+        for thing, (least, most) in sorted(mine.items()):
+            if least > 0 or (most is not None and most > 0):
+                args: dict[str, Argument] = {"robot": self.robot(node.role), "quantity": least, "object": thing}
+                place.report(node, "releases_carrying" if least > 0 else "may_release_carrying", "role", args)
+        return {key: (0, count[1]) if key[0] == node.role else count for key, count in known.items()}
+
+    transfers: ClassVar[Mapping[type[n.Node], Transfer]] = {n.Pick: _pick, n.Drop: _drop, n.Release: _release}
 
     def _tell(self, place: Place, node: n.Pick | n.Drop, code: str, args: dict[str, Argument]) -> None:
         place.report(node, code, "quantity", {"robot": self.robot(node.role), **args})

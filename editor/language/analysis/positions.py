@@ -34,6 +34,7 @@ from editor.language.tree.nodes import (
     Parallel,
     Perform,
     Pick,
+    Release,
     Repeat,
     Return,
     Set,
@@ -104,6 +105,9 @@ class _Follower:
                 nodes.append(node)
             elif isinstance(node, LOADS):
                 standing = self._load(node, standing, nodes)
+            elif isinstance(node, Release):
+                standing = _without(standing, frozenset({node.role}))
+                nodes.append(node)
             elif isinstance(node, Call):
                 standing = _without_values(self._call(node, standing), {node.result})
                 nodes.append(node)
@@ -177,8 +181,8 @@ class _Follower:
                 return Limit(node.seconds, inside, node.step), after
             case Parallel(branches=branches):
                 followed = [self.block(branch, self._beside(branches, branch, before)) for branch in branches]
-                inner = Parallel(tuple(block for block, _ in followed), node.step)
-                return inner, self._joined(branches, followed, before)
+                inner = Parallel(tuple(block for block, _ in followed), node.needed, node.step)
+                return inner, self._joined(node, followed, before)
         return self._loop(node, before)
 
     def _loop(self, node: While | Repeat | ForEach, before: Standing) -> tuple[Node, Standing | None]:
@@ -214,16 +218,24 @@ class _Follower:
         return whole, {**self._after_some_of(node.final, after), **moved}
 
     def _joined(
-        self, branches: tuple[Block, ...], followed: list[tuple[Block, Standing | None]], before: Standing
+        self, node: Parallel, followed: list[tuple[Block, Standing | None]], before: Standing
     ) -> Standing | None:
-        """After a Parallel each robot stands where the one branch that moved it left it."""
+        """After a Parallel each robot stands where the one branch that moved it left it, if that surely ended.
+
+        Where a branch may have been called off, its robots stand anywhere.
+        """
+        branches = node.branches
+        alive = sum(after is not None for _, after in followed)
+        needed = max(node.needed or 0, 0) if node.races else len(branches)
+        if alive < needed:
+            return None
         movers = [self.movers(branch) for branch in branches]
         result = before
         for branch in branches:
             result = self._after_some_of(branch, result)
         for moved, (_, after) in zip(movers, followed, strict=True):
-            if after is None:
-                return None
+            if after is None or alive > needed:
+                continue
             alone = [role for role in moved if sum(role in others for others in movers) == 1]
             result = {**result, **{role: after[role] for role in alone if role in after}}
         return self._without_set_in(branches, result)
@@ -266,7 +278,7 @@ class _Follower:
         """Return the roles whose robot a block moves, also in the functions it calls; a script says every move."""
         roles: set[str] = set()
         for node in walk(block):
-            if isinstance(node, Move) or (isinstance(node, LOADS) and not self.from_script):
+            if isinstance(node, Move | Release) or (isinstance(node, LOADS) and not self.from_script):
                 roles.add(node.role)
             elif isinstance(node, Call):
                 roles.update(self.moved.get(node.function, ()))

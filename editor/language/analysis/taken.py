@@ -16,7 +16,7 @@ Taken = tuple[frozenset[str], frozenset[str]]
 
 @dataclass(frozen=True, slots=True)
 class Takers(PairwiseDomain[Taken]):
-    """The domain of robots that are taken; `roles` are those that any robot may have and some step drives."""
+    """The domain of robots that are taken; `roles` are those of which that matters."""
 
     roles: frozenset[str]
 
@@ -33,18 +33,24 @@ class Takers(PairwiseDomain[Taken]):
         return first[0] & second[0], first[1] | second[1]
 
     def disturb(self, place: Place, known: Taken, effects: Effects) -> Taken:
-        """Return that any role may have got a robot; who has one keeps it."""
-        return known[0], self.roles
+        """Return that these roles may have got a robot; who has one keeps it, if it is not released."""
+        return known[0] - effects.released, known[1] | (effects.used & self.roles)
 
     def join(self, place: Place, before: Taken, ends: Sequence[tuple[Taken, Effects]]) -> Taken:
-        """Return the roles of all branches."""
+        """Return the roles of all branches, but for those that one of them has released."""
         sure = before[0].union(*(taken[0] for taken, _ in ends))
+        sure = sure.difference(*(effects.released - taken[0] for taken, effects in ends))
         return sure, before[1].union(*(taken[1] for taken, _ in ends))
 
     def _take(self, place: Place, node: n.Move | n.Pick | n.Drop | n.Perform, known: Taken) -> Taken:
         return (known[0] | {node.role}, known[1] | {node.role}) if node.role in self.roles else known
 
-    transfers: ClassVar[Mapping[type[n.Node], Transfer]] = dict.fromkeys(n.ACTS, _take)
+    def _release(self, place: Place, node: n.Release, known: Taken) -> Taken:
+        if node.role not in known[1]:
+            place.report(node, "releases_nothing", "role", {"role": node.role})
+        return known[0] - {node.role}, known[1] - {node.role}
+
+    transfers: ClassVar[Mapping[type[n.Node], Transfer]] = {**dict.fromkeys(n.ACTS, _take), n.Release: _release}
 
     def tell(self, place: Place, known: Taken, node: n.Node, asked: Mapping[str, str]) -> None:
         """Tell of a step that asks where a robot is which no step before it has taken."""

@@ -119,6 +119,17 @@ class Variables(Domain[Env]):
             joined[key] = (max(each[0] for each in contents), contents[0][1] if len(envs) == 1 else None)
         return joined
 
+    def interrupted(self, place: Place, known: Env, effects: Effects, passed: Env) -> Env:
+        """Return that what may have been set may be any of what it was set to; what functions set is not known."""
+        if effects.calls or place.put is None:
+            return self.disturb(place, known, effects)
+        left = dict(known)
+        for key in self._keys(place, effects):
+            state, value = _content(known, key)
+            put = place.put.get(key) if isinstance(key, str) else None
+            left[key] = (max(state, MAYBE), put if state == UNSET or put is None else either_known(value, put))
+        return left
+
     def key(self, place: Place, known: Env, node: n.Call, function: Function) -> object:
         """Return what is known of the arguments, and of the program's variables that the function reads or sets."""
         effects = place.effects.functions[function.method]
@@ -381,10 +392,3 @@ def _widened(before: Content, after: Content) -> Content:
         each = value.each if value.each == first.each else None
         return state, Items(least, MOST_ITEMS if value.most > most else most, each)
     return state, value
-
-
-def whole_number(known: Known) -> int | None:
-    """Return the number that a value surely is, if it is a whole one."""
-    if isinstance(known, Range) and known.least == known.most and is_number(known.least):
-        return int(known.least) if known.least == int(known.least) else None
-    return None

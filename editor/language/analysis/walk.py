@@ -84,7 +84,7 @@ class Walk:
     falls_off: set[str] = field(default_factory=set)
     """Functions whose end is reached."""
     endless: set[int] = field(default_factory=set)
-    """Loops and calls that are begun and never left, by identity."""
+    """Loops and calls that are begun and never left, and Parallels of which too few branches end, by identity."""
     broken: set[int] = field(default_factory=set)
     """Loops that a step in them may leave."""
     functions: dict[str, Function] = field(init=False)
@@ -101,6 +101,10 @@ class Walk:
     """Time limits around the step, which end whatever never ends by itself."""
     undecided: int = 0
     """Branches around the step of which nobody knows whether they are taken."""
+    passed: States | None = None
+    """What holds anywhere in the branches around the step that may be called off."""
+    raced: int = 0
+    """Parallels around the step that may call it off."""
     returned: int = 0
     ended: int = 0
     """How often the program's end was come to."""
@@ -196,6 +200,8 @@ class Walk:
         for index, domain, transfer in self._transfers.get(node.__class__, ()):
             self.states = states
             states[index] = transfer(domain, self, node, states[index])
+            if self.passed is not None:
+                self.passed[index] = domain.passing(self.passed[index], states[index])
 
     def end(self, node: n.End | None, states: States) -> None:
         """Have a look at what is known where the program ends."""

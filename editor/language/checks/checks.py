@@ -14,7 +14,7 @@ from editor.language.checks.exits import check_exits
 from editor.language.checks.idle import check_idle
 from editor.language.checks.library import check_library
 from editor.language.checks.limits import check_limited
-from editor.language.checks.parallel import check_branches, check_parallel
+from editor.language.checks.parallel import check_branches, check_needed, check_parallel
 from editor.language.checks.paths import check_paths
 from editor.language.checks.possible import check_held_device
 from editor.language.checks.robot_methods import check_own_method
@@ -130,6 +130,10 @@ def _drop(context: Context, node: n.Drop) -> None:
         check_quantity(context, node)
 
 
+def _release(context: Context, node: n.Release) -> None:
+    """What may be wrong with it shows along the ways to it, and beside other branches."""
+
+
 def _operate(context: Context, node: n.Operate) -> None:
     device = usable_device(context, node, node.device, "device", "missing_machine")
     if device is not None:
@@ -206,6 +210,7 @@ def _try(context: Context, node: n.Try) -> None:
 
 
 def _parallel(context: Context, node: n.Parallel) -> None:
+    check_needed(context, node)
     check_branches(context, node)
 
 
@@ -317,6 +322,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Move: _move,
     n.Pick: _pick,
     n.Drop: _drop,
+    n.Release: _release,
     n.Operate: _operate,
     n.Perform: check_own_method,
     n.Wait: _wait,
@@ -347,7 +353,7 @@ def _check_roles(context: Context) -> None:
     first: dict[str, n.Node] = {}
     for block in _bodies(tree):
         for node in tree.walked(block):
-            if isinstance(node, n.ACTS) and node.role not in first:
+            if isinstance(node, n.OF_ROBOTS) and node.role not in first:
                 first[node.role] = node
     for role in tree.roles:
         check_role(context, first[role.name], role, needed[role.name])

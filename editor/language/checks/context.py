@@ -35,6 +35,8 @@ class Context:
     """The name of the body that is being checked."""
     result: ValueType = UNKNOWN_TYPE
     """What the function being checked gives back."""
+    slow: frozenset[str] | None = None
+    """The functions in which any step takes time, where a check has asked for them."""
     zones: frozenset[str] = frozenset()
     """The ids of the zones that the document has."""
     found: list[tuple[Problem, int]] = field(default_factory=list)

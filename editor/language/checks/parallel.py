@@ -7,20 +7,51 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from editor.language.checks.context import Context
+from editor.language.checks.idle import slow_functions, takes_time
 from editor.language.expressions.nodes import Constant, Expression, Operation, Variable
 from editor.language.expressions.value_types import constant_value
 from editor.language.expressions.values import parts_of
 from editor.language.messages.diagnostics import Fix
+from editor.language.messages.phrases import Options
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
 from editor.language.tree.program import Tree
 from editor.language.tree.traversal import roles_used
 from editor.language.tree.variables import SETTERS, program_variables, set_by, set_in, sets_of_functions
 
+Drivers = dict[tuple[str, str], str]
+"""What tells robots apart → their roles."""
+
+
+def check_needed(context: Context, node: n.Parallel) -> None:
+    """So many branches as are needed must be there, and take time: one that does not calls the others off at once."""
+    count = len(node.branches)
+    if node.needed is None:
+        return
+    if not 1 <= node.needed <= count:
+        fix = Fix("all_branches", node.step, "needed", None)
+        context.report(node, "needed_out_of_range", "needed", {"count": count}, fix)
+    elif node.races:
+        quick = [_letter(index) for index, branch in enumerate(node.branches) if _is_over_at_once(context, branch)]
+        if len(quick) >= node.needed:
+            context.report(node, "over_at_once", "needed", {"branches": Options(tuple(quick), "and")})
+
+
+def _slow(context: Context) -> frozenset[str]:
+    """Return the functions that take time, worked out once for all Parallels."""
+    if context.slow is None:
+        context.slow = slow_functions(context.tree)
+    return context.slow
+
+
+def _is_over_at_once(context: Context, branch: n.Block) -> bool:
+    """Tell whether a branch comes to its end as soon as it begins; one that ends the program does not."""
+    return not takes_time(branch, _slow(context)) and not any(isinstance(step, n.End | n.Fail) for step in walk(branch))
+
 
 def check_branches(context: Context, node: n.Parallel) -> None:
     """Two branches cannot drive the same robot."""
-    drivers = [_drivers(context, branch) for branch in node.branches]
+    drivers = [_drivers(context, branch, n.ACTS) for branch in node.branches]
     for (first, mine), (second, theirs) in combinations(enumerate(drivers), 2):
         for key in sorted(mine.keys() & theirs.keys()):
             names = {"first": _letter(first), "second": _letter(second)}
@@ -33,7 +64,22 @@ def check_branches(context: Context, node: n.Parallel) -> None:
                 _own_robot(context, node, second, theirs[key]),
             )
 
+    _check_releases(context, node, drivers)
     _check_updates(context, node)
+
+
+def _check_releases(context: Context, node: n.Parallel, drivers: list[Drivers]) -> None:
+    """A branch cannot release a robot that another uses, or releases."""
+    if not context.tree.holds(n.Release):
+        return
+    releases = [_drivers(context, branch, (n.Release,)) for branch in node.branches]
+    for first, mine in enumerate(releases):
+        for second, theirs in enumerate(drivers):
+            both = mine.keys() & (theirs.keys() | (releases[second].keys() if second > first else set()))
+            for key in sorted(both - drivers[first].keys()) if second != first else ():
+                names = {"first": _letter(first), "second": _letter(second)}
+                robot = context.driver_name(mine[key])
+                context.report(node, "released_beside", "branches", {**names, "robot": robot})
 
 
 def _check_updates(context: Context, node: n.Parallel) -> None:
@@ -43,6 +89,8 @@ def _check_updates(context: Context, node: n.Parallel) -> None:
     sets = sets_of_functions(context.tree)
     shared = program_variables(context.tree)
     names = [_names_set_in(branch, sets, shared) for branch in node.branches]
+    if node.needed == 1 and node.races:
+        names = _without_the_first(context, node, names)
     for (first, mine), (second, theirs) in combinations(enumerate(names), 2):
         both = [*walk(node.branches[first]), *walk(node.branches[second])]
         for name in sorted(mine & theirs):
@@ -50,6 +98,24 @@ def _check_updates(context: Context, node: n.Parallel) -> None:
                 continue
             args = {"first": _letter(first), "second": _letter(second), "variable": name}
             context.report(node, "branches_set_it", "branches", args)
+
+
+def _without_the_first(context: Context, node: n.Parallel, names: list[frozenset[str]]) -> list[frozenset[str]]:
+    """Leave out what branches set only at their very end: the first that comes so far calls the others off."""
+    late = [_set_at_the_end(context, branch) for branch in node.branches]
+    early = frozenset().union(*(mine - last for mine, last in zip(names, late, strict=True)))
+    return [mine & early for mine in names]
+
+
+def _set_at_the_end(context: Context, branch: n.Block) -> frozenset[str]:
+    """Return the variables that a branch sets nowhere but in steps behind which nothing takes time."""
+    start = len(branch)
+    while start and not takes_time(branch[start - 1 : start], _slow(context)):
+        start -= 1
+    if start and isinstance(branch[start - 1], n.Ask):
+        start -= 1
+    before = {set_by(node) for node in walk(branch[:start])}
+    return frozenset(map(set_by, branch[start:])) - before - {""}
 
 
 def _adds(node: n.Node, name: str) -> bool:
@@ -82,9 +148,9 @@ def _letter(index: int) -> str:
     return chr(97 + index)
 
 
-def _drivers(context: Context, block: n.Block) -> dict[tuple[str, str], str]:
-    """Return what tells the robots apart that a block drives, also by its functions, with their roles."""
-    return {context.robot_key(role): role for role in roles_used(block, context.tree)}
+def _drivers(context: Context, block: n.Block, steps: tuple[type[n.Node], ...] = n.OF_ROBOTS) -> Drivers:
+    """Return what tells the robots apart that a block has in such steps, also by its functions, with their roles."""
+    return {context.robot_key(role): role for role in roles_used(block, context.tree, steps)}
 
 
 def check_parallel(context: Context) -> None:
@@ -113,7 +179,12 @@ class _Wait:
 
 
 def _check_waiting(context: Context, node: n.Parallel) -> None:
-    """Tell of two branches of which each sets what the other waits for only after its own waiting."""
+    """Tell of two branches of which each sets what the other waits for only after its own waiting.
+
+    Where enough other branches are there to end, these two are called off.
+    """
+    if node.races and len(node.branches) - 2 >= (node.needed or 0):
+        return
     waits = [wait for index, branch in enumerate(node.branches) for wait in _waits(index, branch)]
     for first, second in combinations(waits, 2):
         if first.branch == second.branch:

@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from editor.language.analysis.calls import follow_function
 from editor.language.analysis.crew import Crew
 from editor.language.analysis.domain import Domain
 from editor.language.analysis.effects import EffectTable, together
-from editor.language.analysis.interpreter import FOLLOW, follow_function, interpret
+from editor.language.analysis.interpreter import FOLLOW, interpret
 from editor.language.analysis.loads import Loads
 from editor.language.analysis.taken import Takers
 from editor.language.analysis.uses import uses_of
@@ -37,8 +38,10 @@ _MILDER: Mapping[str, str] = {
     "divided_by_zero": "may_divide_by_zero",
     "no_such_item": "may_be_no_such_item",
     "no_robot_yet": "perhaps_no_robot_yet",
+    "releases_carrying": "may_release_carrying",
 }
 """What is sure on one path is not told again as what may be on another."""
+NO_STEPS: frozenset[int] = frozenset()
 MOST_LOOKS = 16
 """A step is checked with so much different knowledge of the variables that it reads."""
 
@@ -92,7 +95,7 @@ def check_paths(context: Context, bodies: Iterable[Body], checks: Checks) -> Non
     variables = Variables(
         context.surroundings, tree.parameters, lambda name, node: by_name[name].types_at(node), frozenset(uses.sets)
     )
-    others: list[Domain[Any]] = [*_loads(context, variables), *_crew(context)]
+    others: list[Domain[Any]] = [*_loads(context, variables), *_crew(context, effects)]
     takers, asked = _takers(context, uses.asks)
     if takers is not None or _has_variables(tree):
         looker = _Looker(context, checks, variables, by_name, uses.reads, takers, asked)
@@ -118,22 +121,25 @@ def check_paths(context: Context, bodies: Iterable[Body], checks: Checks) -> Non
         _check_results(context, walk)
 
 
-def _crew(context: Context) -> Iterator[Crew]:
+def _crew(context: Context, effects: EffectTable) -> Iterator[Crew]:
     if len({context.robot_key(role) for role in context.roles}) > 1:
-        yield Crew(lambda role: (context.robot_key(role), [robot.id for robot in context.robots(role)]))
+        beside = together(effects.of(event.body) for event in context.tree.events).released
+        yield Crew(lambda role: (context.robot_key(role), [robot.id for robot in context.robots(role)]), beside)
 
 
 def _takers(
     context: Context, asks: Mapping[int, Mapping[str, str]]
 ) -> tuple[Takers | None, Mapping[int, Mapping[str, str]]]:
-    """Return the domain of taken robots, where any step asks for the place of one that is not known from the start."""
+    """Return the domain of taken robots, where steps ask for the place of one that is not known yet, or release one."""
     free = {name for name, role in context.roles.items() if role.device is None}
     asked = {
         node: {role: field for role, field in roles.items() if role in free}
         for node, roles in asks.items()
         if not free.isdisjoint(roles)
     }
-    return (Takers(frozenset(free)) if asked else None), asked
+    released = {node.role for node in context.tree.of_kind(n.Release)}
+    told = released | free if asked else released
+    return (Takers(frozenset(told)) if told else None), asked
 
 
 def _loads(context: Context, variables: Variables) -> Iterator[Loads]:
@@ -178,17 +184,33 @@ def _tell_unreached(context: Context, walk: Walk) -> None:
 def _tell_endless(context: Context, walk: Walk) -> None:
     """Tell of loops and calls that are never left, and of loops of which nothing says that they are."""
     _tell_endless_calls(context, walk)
+    races = [node for node in context.tree.of_kind(n.Parallel) if node.races]
+    for race in races:
+        if id(race) in walk.endless:
+            context.report(race, "too_few_end", "needed", {"needed": race.needed or 0})
     if not context.tree.holds(n.While):
         return
     beside = frozenset(walk.volatile)
     if context.tree.holds(n.Parallel):
         changed = together(walk.changes(*node.branches) for node in context.tree.of_kind(n.Parallel))
         beside = beside | changed.names | changed.shared
+    stays = {id(node) for node in context.tree.of_kind(n.While) if _may_stay(walk, node, beside)}
+    called_off = _called_off(context, walk, races, stays) if stays and races else NO_STEPS
     for node in context.tree.of_kind(n.While):
         if id(node) in walk.endless:
             context.report(node, "never_ends", "condition")
-        elif _may_stay(walk, node, beside):
+        elif id(node) in stays and id(node) not in called_off:
             context.report(node, "may_never_end", "condition")
+
+
+def _called_off(context: Context, walk: Walk, races: list[n.Parallel], stays: set[int]) -> frozenset[int]:
+    """Return the loops that need no end, since enough branches beside them have one, or of which that is told."""
+    found: set[int] = set()
+    for race in races:
+        loops = [{id(node) for node in context.tree.walked(branch)} & stays for branch in race.branches]
+        if sum(not inner for inner in loops) >= (race.needed or 0) or id(race) in walk.endless:
+            found.update(*loops)
+    return frozenset(found)
 
 
 def _tell_endless_calls(context: Context, walk: Walk) -> None:

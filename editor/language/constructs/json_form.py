@@ -23,6 +23,7 @@ _TYPES = {
     "method": "name",
     "function": "function id",
     "branches": '["a", "b"]',
+    "whole": "whole number",
     "text": "text",
     "flag": "false where it does not",
 }

@@ -25,12 +25,13 @@ FieldType = Literal[
     "method",
     "function",
     "branches",
+    "whole",
     "text",
     "flag",
 ]
 """What can stand in a field. `own_robot`: the role whose robot does a method of its own; `variable`: the name of one
 that the step sets; `loop_variable`: its body alone sees it; `choice`: one of fixed words, `choices`: several of them;
-`route`: points; `text`: plain text without values."""
+`route`: points; `whole`: a whole number that is written out; `text`: plain text without values."""
 Wanted = Literal["", "time", "number", "text", "boolean", "object", "list"]
 
 

@@ -37,6 +37,11 @@ def _load(kind: str, node: str, place: str, look: Look) -> Construct:
 
 _PICK = _load("pick", "Pick", "gives", Look("pick", "motion", "pill", "K", letters=3))
 _DROP = _load("drop", "Drop", "takes", Look("drop", "motion", "pill", "J", letters=3))
+_RELEASE = Construct(
+    "release",
+    (Form("Release", (ROLE,), "role.release()", "Write self.robot.release()."),),
+    Look("release", "motion", "pill", rare=True, letters=16),
+)
 _PICK_AND_DROP = Construct(
     "pick_and_drop",
     (
@@ -116,7 +121,12 @@ _FOR_EACH = Construct(
 )
 _PARALLEL = Construct(
     "parallel",
-    (Form("Parallel", (Field("branches", "branches", shown=False),)),),
+    (
+        Form(
+            "Parallel",
+            (Field("branches", "branches", shown=False), Field("needed", "whole", optional=True)),
+        ),
+    ),
     Look("parallel", "logic", "fork", "L"),
     names_branches=True,
 )
@@ -218,7 +228,8 @@ _COMMENT = Construct("comment", (Form("", (Field("text", "text"),)),), Look("com
 CONSTRUCTS: Final[Mapping[str, Construct]] = {
     construct.kind: construct
     for construct in (
-        _MOVE, _PICK, _DROP, _PICK_AND_DROP, _OPERATE, _WAIT, _IF, _WHILE, _REPEAT, _FOR_EACH, _PARALLEL, _TRY,
+        _MOVE, _PICK, _DROP, _PICK_AND_DROP, _RELEASE, _OPERATE, _WAIT, _IF, _WHILE,
+        _REPEAT, _FOR_EACH, _PARALLEL, _TRY,
         _LIMIT, _ON_EVENT, _BREAK, _CONTINUE, _RETURN, _END, _FAIL, _CALL, _SET, _NOTIFY, _ASK, _COMMENT,
     )
 }  # fmt: skip

@@ -211,6 +211,8 @@ def _cells(area: Area) -> Iterator[tuple[int, int]]:
 HEIGHT_M, LETTER_M, ENDS_M = 0.7, 0.15, 1.7
 """A chip's height, a letter's width, and the room for number, icon and padding."""
 LONGEST_SENTENCE, LONGEST = 30, 44
+SAYS_HOW_MANY = 18
+"""Letters that a chip has for how many branches end a Parallel."""
 FRAMES = frozenset(construct.kind for construct in STEPS if construct.look.shape == "header")
 """Kinds whose body stands in a frame below their head."""
 
@@ -245,6 +247,8 @@ def _letters_of(field: Field, kind: str, value: object) -> int:
     if field.type == "arguments":
         named = 1 if kind == "call" else 0
         return sum(3 + named * (1 + len(name)) + letters(given) for name, given in mapping(value).items())
+    if field.type == "whole":
+        return 0 if value is None else SAYS_HOW_MANY
     return min(letters(value), LONGEST_SENTENCE) if field.wanted == "text" else letters(value)
 
 

@@ -71,7 +71,8 @@ def _perform(encoder: StepEncoder, node: n.Perform) -> EncodedStep:
 
 def _parallel(encoder: StepEncoder, node: n.Parallel) -> EncodedStep:
     letters = [chr(97 + index) for index in range(len(node.branches))]
-    return "parallel", {"branches": letters}, tuple(zip(letters, node.branches, strict=True))
+    params = {"branches": letters, **_present(needed=node.needed)}
+    return "parallel", params, tuple(zip(letters, node.branches, strict=True))
 
 
 def _try(encoder: StepEncoder, node: n.Try) -> EncodedStep:

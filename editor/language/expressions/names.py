@@ -13,7 +13,9 @@ from unicodedata import normalize
 
 from editor.language.constructs.script_form import CALLS
 
-ROBOT_METHODS = tuple(call.method for call in CALLS.values() if call.role is not None)
+RELEASE = "release"
+"""The call by which a role gives its robot back: the fleet is asked, not the robot."""
+ROBOT_METHODS = tuple(call.method for call in CALLS.values() if call.role is not None and call.method != RELEASE)
 CLOSED_FUNCTIONS = (
     "abs",
     "count",
@@ -36,9 +38,9 @@ _OF_THE_TASK = {
     "set",
     *(call.method for call in CALLS.values() if call.role is None),
 }
-_KEPT_FREE = {"repeat", "zone", "release", "parameters"}
+_KEPT_FREE = {"repeat", "zone", RELEASE, "parameters"}
 RESERVED_ATTRIBUTES = frozenset(_OF_THE_TASK | _KEPT_FREE)
-RESERVED_LOCALS = frozenset({"self", "ctx", "problem", "range", "_", *CLOSED_FUNCTIONS})
+RESERVED_LOCALS = frozenset({"self", "ctx", "problem", "range", "needed", "_", *CLOSED_FUNCTIONS})
 RESERVED_MEMBERS = frozenset({*ROBOT_METHODS, "operate", "read", "location"})
 
 _OF_EVENTS = re.compile(r"when_e\d")

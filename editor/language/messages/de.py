@@ -101,6 +101,20 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "drops_nothing": "{robot} trägt hier {carried} {object} und kann nicht {quantity} abgeben.",
     "may_drop_nothing": "{robot} trägt auf einem der Wege zu diesem Schritt weniger als {quantity} {object}.",
     "ends_carrying": "{robot} trägt noch {quantity} {object}, wenn das Programm hier endet. Geben Sie es ab.",
+    "releases_carrying": (
+        "{robot} trägt hier noch {quantity} {object}. Legen Sie es ab, bevor Sie den Roboter freigeben."
+    ),
+    "may_release_carrying": (
+        "{robot} trägt auf einem der Wege zu diesem Schritt noch {object}. Legen Sie es ab, bevor Sie den Roboter "
+        "freigeben."
+    ),
+    "releases_nothing": (
+        "{role} hat auf einem der Wege zu diesem Schritt noch keinen Roboter. Setzen Sie ihn hinter die Schritte des "
+        "Roboters, oder löschen Sie ihn."
+    ),
+    "released_beside": (
+        "Zweig {first} gibt {robot} frei, und Zweig {second} braucht ihn. Geben Sie ihn erst danach frei."
+    ),
     "place_outside": "Dieser Ort liegt außerhalb der Karte. Ziehen Sie ihn hinein.",
     "place_blocked": "{robot} passt hier nicht hin: Eine Wand oder eine Maschine ist zu nah.",
     "place_unreachable": "{robot} findet keinen Weg zu diesem Ort.",
@@ -115,6 +129,9 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "leaves_finally": "Dieser Schritt würde ein Finally verlassen, das immer ganz ausgeführt wird.",
     "gives_nothing": "{function} gibt nichts zurück. Nehmen Sie nichts davon, oder geben Sie ihr ein Ergebnis.",
     "returns_unasked": "{function} hat kein Ergebnis. Geben Sie der Funktion eines, oder entfernen Sie diesen Wert.",
+    "needed_out_of_range": "Geben Sie ein, wie viele Zweige es beenden: eine ganze Zahl von 1 bis {count}.",
+    "too_few_end": "Hier müssen {needed} der Zweige enden, und so viele enden nie; also geht das ewig weiter. Lassen "
+    "Sie mehr Zweige enden.",
     "shared_robot": "Die Zweige {first} und {second} fahren beide {robot}. Geben Sie einem einen anderen Roboter.",
     # it works, but perhaps not as it is meant
     "offline_device": "{device} ist offline. Das Programm kann laufen, wenn es wieder da ist.",
@@ -123,6 +140,8 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "never_runs": "Diese Bedingung ist nie wahr; diese Schritte laufen also nie.",
     "always_true": "Diese Bedingung ist immer wahr; der andere Zweig läuft also nie.",
     "empty_branch": "Darin steht kein Schritt; es tut also nichts. Zeichnen Sie Schritte hinein, oder löschen Sie es.",
+    "over_at_once": "Das ist sofort vorbei und bricht die anderen Zweige ab, denn einige brauchen keine Zeit: "
+    "{branches}. Zeichnen Sie Schritte hinein, die Zeit brauchen.",
     "busy_circle": "Das wartet, indem es ständig im Kreis läuft. Warten Sie mit Warten, bis das Gewünschte eintritt.",
     "draft": "Dieser Schritt hängt an nichts und läuft nicht. Verbinden oder löschen Sie ihn.",
     "too_deep": "Dieser Schritt liegt zu tief in anderen und läuft nicht. Machen Sie aus einigen eine Funktion.",
@@ -212,6 +231,7 @@ FIX_TEXTS_DE: Final[Mapping[str, str]] = {
     "remove": "{value} entfernen",
     "join_at_end": "Am Ende des Programms anhängen",
     "delete_step": "Schritt löschen",
+    "all_branches": "Auf alle Zweige warten",
     "own_robot": "Zweig {value} bekommt einen eigenen Roboter",
     "use_version": "Version {value} nehmen",
     "make_end": "Stattdessen das Programm beenden",

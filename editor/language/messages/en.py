@@ -104,6 +104,22 @@ TEXTS: Final[Mapping[str, Text]] = {
     "drops_nothing": ("error", "{robot} carries {carried} {object} here and cannot drop {quantity}."),
     "may_drop_nothing": ("warning", "{robot} carries less than {quantity} {object} on one of the ways to this step."),
     "ends_carrying": ("warning", "{robot} still carries {quantity} {object} when the program ends here. Drop it."),
+    "releases_carrying": (
+        "error",
+        "{robot} still carries {quantity} {object} here. Drop it before you release the robot.",
+    ),
+    "may_release_carrying": (
+        "warning",
+        "{robot} still carries {object} on one of the ways to this step. Drop it before you release the robot.",
+    ),
+    "releases_nothing": (
+        "warning",
+        "{role} has no robot yet on one of the ways to this step. Move it behind the steps of the robot, or delete it.",
+    ),
+    "released_beside": (
+        "error",
+        "Branch {first} releases {robot}, which branch {second} uses. Release it behind the Parallel.",
+    ),
     "place_outside": ("error", "This place is outside the map. Move it inside."),
     "place_blocked": ("error", "{robot} does not fit here: a wall or a machine is too near."),
     "place_unreachable": ("error", "{robot} finds no way to this place."),
@@ -120,6 +136,12 @@ TEXTS: Final[Mapping[str, Text]] = {
     "leaves_finally": ("error", "This step would leave a Finally, which is always carried out whole."),
     "gives_nothing": ("error", "{function} gives nothing back. Take no value from it, or give it a result."),
     "returns_unasked": ("error", "{function} has no result. Give it one, or remove this value."),
+    "needed_out_of_range": ("error", "Enter how many branches end it: a whole number from 1 to {count}."),
+    "too_few_end": (
+        "error",
+        "This needs {needed} of its branches to end, and not so many ever do, so it goes on for ever. Let more of them "
+        "end.",
+    ),
     "shared_robot": ("error", "Branches {first} and {second} both drive {robot}. Give one of them another robot."),
     # it works, but perhaps not as it is meant
     "offline_device": ("warning", "{device} is offline. The program can run when it is back."),
@@ -128,6 +150,11 @@ TEXTS: Final[Mapping[str, Text]] = {
     "never_runs": ("warning", "This condition is never true, so these steps never run."),
     "always_true": ("warning", "This condition is always true, so the other branch never runs."),
     "empty_branch": ("warning", "This holds no steps, so it does nothing. Draw steps into it, or delete it."),
+    "over_at_once": (
+        "warning",
+        "This is over at once and calls the other branches off, for some take no time: {branches}. Draw steps into "
+        "them that do.",
+    ),
     "busy_circle": ("warning", "This waits by going round and round. Use a Wait until for what it waits for."),
     "draft": ("warning", "This step is joined to nothing and will not run. Join it or delete it."),
     "too_deep": ("warning", "This step lies too deep inside others and will not run. Make a function of some of them."),
@@ -226,6 +253,7 @@ FIX_TEXTS: Final[Mapping[str, str]] = {
     "remove": "Remove {value}",
     "join_at_end": "Join it at the end of the program",
     "delete_step": "Delete the step",
+    "all_branches": "Wait for all branches",
     "own_robot": "Give branch {value} a robot of its own",
     "use_version": "Use version {value}",
     "make_end": "End the program instead",

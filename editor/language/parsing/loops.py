@@ -10,7 +10,7 @@ from editor.language.parsing.answers import unknown_device, what_it_is
 from editor.language.parsing.scope import Refused, Scope, attribute_of_self, quoted, written
 from editor.language.parsing.variables import check_local
 
-_MOST_TIMES = 10**6
+MOST_TIMES = 10**6
 _FOR = "Write for _ in range(3): or for oven in [self.oven_a, self.oven_b]:."
 _NUMBERED = "Rounds are counted from 1. Write for number, oven in enumerate([self.oven_a, self.oven_b], 1):."
 
@@ -88,12 +88,12 @@ def _refused_loop(loop: ast.For, scope: Scope) -> Refused:
             instead = f"Count it yourself: self.{name} = 0 before the loop, self.{name} = self.{name} + 1 at its end."
             return Refused(loop.target, quoted(loop.target), instead if used else "Write for _ in range(3):.")
         case _, ast.Call(func=ast.Name(id="range"), args=[ast.Constant(value=int(a)), ast.Constant(value=int(b))]) if (
-            abs(a) < _MOST_TIMES > abs(b)
+            abs(a) < MOST_TIMES > abs(b)
         ):
             return Refused(loop.iter, quoted(loop.iter), f"Say how often: for _ in range({max(b - a, 0)}):.")
         case _, ast.Call(func=ast.Name(id="range")):
             return Refused(loop.iter, quoted(loop.iter), "Say how often, with one number: for _ in range(3):.")
-        case _, ast.Constant(value=int(times)) if times < _MOST_TIMES:
+        case _, ast.Constant(value=int(times)) if times < MOST_TIMES:
             return Refused(loop.iter, quoted(loop.iter), f"Say how often: for _ in range({times}):.")
         case ast.Name(id=name), ast.Tuple() as items:
             listed = ", ".join(map(written, items.elts))

@@ -10,7 +10,7 @@ from string import ascii_lowercase
 
 from editor.language.document.outline import DEEPEST_STEP
 from editor.language.expressions import nodes as e
-from editor.language.expressions.names import ROBOT_METHODS, member_name, snake_case
+from editor.language.expressions.names import RELEASE, ROBOT_METHODS, member_name, snake_case
 from editor.language.expressions.nodes import Expression, PlaceRef
 from editor.language.messages.syntax_errors import (
     LIMIT,
@@ -30,7 +30,7 @@ from editor.language.parsing.bindings import parse_arguments
 from editor.language.parsing.calls import ASSIGNED_CALLS, OWN_CALLS, ROBOT_CALLS
 from editor.language.parsing.excepts import kinds_of_all, kinds_together
 from editor.language.parsing.expressions import parse_expression, parse_thing
-from editor.language.parsing.loops import parse_loop
+from editor.language.parsing.loops import MOST_TIMES, parse_loop
 from editor.language.parsing.scope import Refused, Scope, attribute_of_self, of_problem, quoted, written
 from editor.language.parsing.variables import parse_target
 from editor.language.tree import nodes as n
@@ -213,6 +213,9 @@ class Parser:
             self.origins[id(node)] = call
             return node
         if robot is not None and robot in self.scope.robots():
+            if function.attr == RELEASE:
+                self.roles.add(robot)
+                return ROBOT_CALLS[RELEASE](self.scope, call, robot)
             return self._perform(call, function, robot)
         instead = instead_of_call(call)
         if instead is not None:
@@ -306,7 +309,9 @@ def _text(node: ast.expr | None, call: ast.Call) -> str:
 
 def _parallel(parser: Parser, call: ast.Call) -> n.Node:
     names = [attribute_of_self(argument) for argument in call.args]
-    handed_on = all(isinstance(k.value, ast.Name) and k.value.id == k.arg for k in call.keywords)
+    needed = _needed(call)
+    passed = (k for k in call.keywords if k.arg != "needed")
+    handed_on = all(isinstance(k.value, ast.Name) and k.value.id == k.arg for k in passed)
     if not names or len(names) > len(ascii_lowercase) or None in names or not handed_on:
         raise Refused(
             call, quoted(call), "Write self.parallel(self.branch_a, self.branch_b), a method for each branch."
@@ -318,7 +323,21 @@ def _parallel(parser: Parser, call: ast.Call) -> n.Node:
             raise Refused(call, quoted(call), f"Each branch needs a method of its own; {name} is none.")
         parser.branches.add(name or "")
         branches.append(parser.block(method.body))
-    return n.Parallel(tuple(branches))
+    return n.Parallel(tuple(branches), needed)
+
+
+def _needed(call: ast.Call) -> int | None:
+    """Return how many branches end a Parallel; None where the call does not say it."""
+    given = next((k.value for k in call.keywords if k.arg == "needed"), None)
+    match given:
+        case None | ast.Constant(value=None):
+            return None
+        case ast.Constant(value=int(needed)) if not isinstance(needed, bool) and needed < MOST_TIMES:
+            return needed
+        case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int(needed))) if needed < MOST_TIMES:
+            return -int(needed)
+    instead = "Write out how many branches end it: self.parallel(self.branch_a, self.branch_b, needed=1)."
+    raise Refused(given, quoted(given), instead)
 
 
 def _speaks_of_limit(statement: ast.With | ast.AsyncWith) -> bool:

@@ -65,6 +65,10 @@ def _perform(builder: Builder, node: n.Perform, leaves: Leaves) -> None:
     builder.add(p.Perform(node.role, node.method, arguments), node, leaves=leaves)
 
 
+def _release(builder: Builder, node: n.Release, leaves: Leaves) -> None:
+    builder.add(p.Release(node.role), node, leaves=leaves)
+
+
 def _wait(builder: Builder, node: n.Wait, leaves: Leaves) -> None:
     builder.add(p.Wait(builder.value(node.seconds, "SEC")), node, leaves=leaves)
 
@@ -133,6 +137,7 @@ COMPILERS: Mapping[type[n.Node], Compiler] = {
     n.Drop: _drop,
     n.Operate: _operate,
     n.Perform: _perform,
+    n.Release: _release,
     n.Wait: _wait,
     n.WaitUntil: _wait_until,
     n.If: flow.compile_if,
@@ -214,7 +219,7 @@ def _with_role_ids(tree: Tree, instructions: list[p.Instruction], events: tuple[
 def _rename(instruction: p.Instruction, renamed: Mapping[str, str]) -> p.Instruction:
     do: Any = instruction.do
     match do:
-        case p.Move(role=role) | p.Pick(role=role) | p.Drop(role=role) | p.Perform(role=role):
+        case p.Move(role=role) | p.Pick(role=role) | p.Drop(role=role) | p.Perform(role=role) | p.Release(role=role):
             do = replace(do, role=renamed.get(role, role))
         case p.Call(serves=str(role)):
             do = replace(do, serves=renamed.get(role, role))

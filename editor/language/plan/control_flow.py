@@ -147,7 +147,7 @@ def compile_parallel(builder: Builder, node: n.Parallel, leaves: Leaves) -> None
         with builder.inside():
             builder.block(branch)
         builder.add(p.Join())
-    builder.patch(fork, p.Fork(tuple(entries), builder.here()))
+    builder.patch(fork, p.Fork(tuple(entries), builder.here(), node.needed or 0 if node.races else 0))
 
 
 def compile_try(builder: Builder, node: n.Try, leaves: Leaves) -> None:

@@ -66,6 +66,13 @@ class Perform:
 
 
 @dataclass(frozen=True, slots=True)
+class Release:
+    """The role gives its robot back; one that has none has nothing to give."""
+
+    role: str
+
+
+@dataclass(frozen=True, slots=True)
 class Wait:
     """Wait for a time in seconds."""
 
@@ -97,10 +104,14 @@ class Jump:
 
 @dataclass(frozen=True, slots=True)
 class Fork:
-    """Start one thread per address; the thread that forks goes on at `join` when all of them have met a Join."""
+    """Start one thread per address; the thread that forks goes on at `join` when all of them have met a Join.
+
+    Where so many are `needed` (0: all), the others are called off as soon as that many have.
+    """
 
     branches: tuple[int, ...]
     join: int
+    needed: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +226,7 @@ class EventEnd:
 
 
 Action = (
-    Move | Pick | Drop | Call | Perform | Wait | WaitUntil | Branch | Jump | Fork | Join
+    Move | Pick | Drop | Release | Call | Perform | Wait | WaitUntil | Branch | Jump | Fork | Join
     | TryBegin | Caught | TryEnd | LimitBegin | Rethrow | Invoke | Return | Assign | AskPerson | Notify | Fail | End
     | EventEnd
 )  # fmt: skip

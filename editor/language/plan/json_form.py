@@ -15,7 +15,7 @@ class UnreadablePlan(ValueError):
     """The JSON is no plan of this format; the message says where it is wrong."""
 
 
-_LEFT_OUT_WHEN_UNSET = frozenset({"early", "final", "shared"})
+_LEFT_OUT_WHEN_UNSET = frozenset({"early", "final", "shared", "needed"})
 """Marks that format 1 did not have; they are written only where they are set."""
 
 
@@ -205,11 +205,12 @@ ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "Drop": lambda b: _load(p.Drop, b),
     "Call": lambda b: p.Call(_place_from_json(b["device"]), b["method"], _named(b["arguments"]), b["serves"]),
     "Perform": lambda b: p.Perform(b["role"], b["method"], _named(b["arguments"])),
+    "Release": lambda b: p.Release(b["role"]),
     "Wait": lambda b: p.Wait(expression_from_json(b["seconds"])),
     "WaitUntil": lambda b: p.WaitUntil(expression_from_json(b["condition"]), _maybe(b["timeout_s"])),
     "Branch": lambda b: p.Branch(expression_from_json(b["condition"]), int(b["otherwise"])),
     "Jump": lambda b: p.Jump(int(b["to"])),
-    "Fork": lambda b: p.Fork(tuple(map(int, b["branches"])), int(b["join"])),
+    "Fork": lambda b: p.Fork(tuple(map(int, b["branches"])), int(b["join"]), int(b.get("needed", 0))),
     "Join": lambda b: p.Join(),
     "TryBegin": lambda b: p.TryBegin(int(b["handler"]), tuple(b["kinds"]), b.get("final", False)),
     "Caught": lambda b: p.Caught(b["text"], b["kind"]),

@@ -107,7 +107,8 @@ def _parallel(printer: Printer, node: Parallel, depth: int) -> None:
     printer.branches.extend(names)
     references = [f"self.{name}" for name, _, _ in names]
     handed_on = [f"{name}={name}" for name in printer.locals]
-    printer.line(depth, f"self.parallel({', '.join([*references, *handed_on])})", node.step)
+    needed = [] if node.needed is None else [f"needed={node.needed}"]
+    printer.line(depth, f"self.parallel({', '.join([*references, *needed, *handed_on])})", node.step)
 
 
 def _try(printer: Printer, node: Try, depth: int) -> None:

@@ -9,6 +9,7 @@ from editor.language.constructs.table import STEPS
 from editor.language.document.outline import Params, mapping
 from editor.language.expressions.names import local_name
 from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, Variable, is_missing
+from editor.language.expressions.values import is_number
 from editor.language.messages.diagnostics import Fix, Problem, TextArguments
 from editor.language.messages.phrases import Options
 from editor.language.reading.fields import FIELD_READERS, LISTS, read_route
@@ -27,6 +28,9 @@ from editor.language.tree.nodes import (
     Pick,
     Try,
 )
+
+MOST_NEEDED = 10**6
+"""A number of branches as large as this is none."""
 
 
 def _pick_and_drop(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
@@ -63,7 +67,20 @@ def _arguments(reader: Reader, step: str, params: Params) -> tuple[tuple[str, Ex
 
 
 def _parallel(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    return (Parallel(tuple(reader.block(step, name) for name in reader.outline.branches(step)), step),)
+    branches = tuple(reader.block(step, name) for name in reader.outline.branches(step))
+    return (Parallel(branches, _needed(reader, step, params, len(branches)), step),)
+
+
+def _needed(reader: Reader, step: str, params: Params, count: int) -> int | None:
+    """Return how many branches end a Parallel; browsers write whole numbers with a point, too."""
+    given = params.get("needed")
+    if given is None:
+        return None
+    if is_number(given) and abs(given) < MOST_NEEDED and given == int(given):
+        return int(given)
+    fix = Fix("all_branches", step, "needed", None)
+    reader.problems.append(Problem("needed_out_of_range", step, "needed", {"count": count}, fix))
+    return None
 
 
 _OF_PROBLEM = dict(zip(OF_PROBLEM, OF_PROBLEM, strict=True))

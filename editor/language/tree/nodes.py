@@ -77,6 +77,14 @@ class Perform:
 
 
 @dataclass(frozen=True, slots=True)
+class Release:
+    """The role gives its robot back; used again it gets one anew."""
+
+    role: str
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Wait:
     """Wait for a time in seconds."""
 
@@ -207,10 +215,16 @@ class Continue:
 
 @dataclass(frozen=True, slots=True)
 class Parallel:
-    """All branches at once; what follows begins when all have ended."""
+    """All branches at once; what follows begins when all have ended, or `needed` of them: the others are called off."""
 
     branches: tuple[Block, ...] = ()
+    needed: int | None = None
     step: str = field(default="", compare=False)
+
+    @property
+    def races(self) -> bool:
+        """Tell whether it may end before all of its branches have."""
+        return self.needed is not None and self.needed < len(self.branches)
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,8 +263,8 @@ class Call:
 
 
 Node = (
-    Move | Pick | Drop | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try | Limit
-    | Call | Set | Ask | Notify | End | Fail | Return | Break | Continue
+    Move | Pick | Drop | Release | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try
+    | Limit | Call | Set | Ask | Notify | End | Fail | Return | Break | Continue
 )  # fmt: skip
 Block = tuple[Node, ...]
 LOADS: Final = (Pick, Drop)
@@ -258,6 +272,8 @@ DRIVES: Final = (Move, Pick, Drop)
 """What a robot goes for. (A check of a class against such a row is several times as quick as against a union.)"""
 ACTS: Final = (*DRIVES, Perform)
 """What a robot does, there or where it stands."""
+OF_ROBOTS: Final = (*ACTS, Release)
+"""What names a role."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Final
 
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.tree.nodes import ACTS, Block, Call, Node, Perform, walk
+from editor.language.tree.nodes import OF_ROBOTS, Block, Call, Node, Perform, Release, walk
 from editor.language.tree.program import Function, Role, Tree
 
 
@@ -40,7 +41,7 @@ def needed_of_roles(tree: Tree, functions: tuple[Function, ...]) -> dict[str, tu
     own: dict[str, set[str]] = {}
     for block in blocks:
         for node in tree.walked(block):
-            if isinstance(node, ACTS):
+            if isinstance(node, OF_ROBOTS):
                 if node.role not in needed:
                     needed[node.role] = set()
                 needed[node.role].add(node.__class__)
@@ -49,9 +50,13 @@ def needed_of_roles(tree: Tree, functions: tuple[Function, ...]) -> dict[str, tu
     return {role: _methods_of(uses, own.get(role, set()) - {""}) for role, uses in needed.items()}
 
 
+_OF_NO_METHOD: Final = frozenset({Perform, Release})
+"""Steps that need no method of the robot that is called like them."""
+
+
 def _methods_of(uses: set[type[Node]], own: set[str]) -> tuple[str, ...]:
     """Return the methods that such steps need, those of a robot's own behind the others."""
-    methods = {use.__name__.lower() for use in uses if use is not Perform}
+    methods = {use.__name__.lower() for use in uses if use not in _OF_NO_METHOD}
     wanted = methods - {"move"} or methods
     return (*(method for method in ROBOT_METHODS if method in wanted), *sorted(own))
 
@@ -142,7 +147,7 @@ def _popped(open_: dict[str, None], method: str) -> list[str]:
     return component
 
 
-def roles_used(block: Block, tree: Tree, steps: tuple[type[Node], ...] = ACTS) -> frozenset[str]:
+def roles_used(block: Block, tree: Tree, steps: tuple[type[Node], ...] = OF_ROBOTS) -> frozenset[str]:
     """Return the roles that a block uses in such steps, also in the functions that it calls."""
     by_method = {function.method: function for function in tree.functions}
     roles: set[str] = set()
@@ -150,8 +155,8 @@ def roles_used(block: Block, tree: Tree, steps: tuple[type[Node], ...] = ACTS) -
     left = [block]
     while left:
         for node in tree.walked(left.pop()):
-            if isinstance(node, ACTS):
-                roles.update([node.role] if isinstance(node, steps) else [])
+            if isinstance(node, steps):
+                roles.update([node.role] if isinstance(node, OF_ROBOTS) else [])
             elif isinstance(node, Call) and node.function in by_method and node.function not in seen:
                 seen.add(node.function)
                 left.append(by_method[node.function].body)

@@ -44,6 +44,7 @@ describe("statusesAt", () => {
     expect(statusesAt(spans, 5)).toEqual({ a: "done", b: "running" });
     expect(statusesAt(spans, 7)).toEqual({ a: "running", b: "failed" });
     expect(statusesAt(spans, 10)).toEqual({ a: "done", b: "failed" });
+    expect(statusesAt([span("c", 0, 4, "skipped")], 5)).toEqual({ c: "skipped" });
   });
 });
 

@@ -50,8 +50,8 @@ export function neighbour(moments: readonly number[], t_s: number, direction: 1 
 export function statusesAt(
   spans: readonly StepSpan[],
   t_s: number,
-): Record<string, "waiting" | "running" | "done" | "failed"> {
-  const statuses: Record<string, "waiting" | "running" | "done" | "failed"> = {};
+): Record<string, "waiting" | "running" | "done" | "failed" | "skipped"> {
+  const statuses: Record<string, "waiting" | "running" | "done" | "failed" | "skipped"> = {};
   for (const span of spans) {
     if (span.started_s > t_s) {
       statuses[span.step] ??= "waiting";
@@ -59,7 +59,12 @@ export function statusesAt(
     }
     const over = span.ended_s !== null && span.ended_s <= t_s;
     if (!over) statuses[span.step] = "running";
-    else if (statuses[span.step] !== "running") statuses[span.step] = span.status === "failed" ? "failed" : "done";
+    else if (statuses[span.step] !== "running") statuses[span.step] = endedAs(span);
   }
   return statuses;
+}
+
+/** How a step that is over has ended; one that was called off with its branch was not done. */
+function endedAs({ status }: StepSpan): "done" | "failed" | "skipped" {
+  return status === "failed" || status === "skipped" ? status : "done";
 }

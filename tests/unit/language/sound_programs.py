@@ -16,6 +16,7 @@ PLAIN: dict[str, dict[str, Any]] = {
     "collect": {"variable": "all", "value": {"op": "+", "args": [{"param": "all"}, {"op": "list", "args": [4]}]}},
     "ask": {"question": "How many?", "answer": {"type": "number"}, "variable": "count"},
     "call": {"function": "f", "result": "total"},
+    "release": {},
     "end": {},
     "fail": {"message": "The box is wet."},
     "pick_and_drop": {
@@ -78,6 +79,8 @@ class Steps:
 
     def holding(self, kind: str, parent: str, branch: str, order: str, around: Around) -> None:
         params, branches = HOLDING[kind]
+        if kind == "parallel":
+            params = {**params, **self.draw(st.sampled_from([{}, {"needed": 1}, {"needed": 2}]))}
         if kind == "try" and self.draw(st.booleans()):
             params, branches = {"catch": False}, ("body", "finally")
         driven = any(step["kind"] == "pick_and_drop" for step in self.steps.values())

@@ -119,6 +119,7 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "pick": st.fixed_dictionaries({**loads, "at": places}),
     "drop": st.fixed_dictionaries({**loads, "at": places}),
     "pick_and_drop": st.fixed_dictionaries({**loads, "source": places, "target": places}),
+    "release": st.fixed_dictionaries({"role": st.sampled_from([*ROLES, "gone", None, 3])}),
     "operate": st.fixed_dictionaries(
         {
             "device": st.one_of(places, robots),
@@ -134,7 +135,11 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     ),
     "if": st.fixed_dictionaries({"condition": values}),
     "while": st.fixed_dictionaries({"condition": values}),
-    "parallel": st.sampled_from([{"branches": ["a", "b"]}, {"branches": ["a", "b", "c"]}, {}]),
+    "parallel": st.builds(
+        lambda branches, needed: {**branches, **needed},
+        st.sampled_from([{"branches": ["a", "b"]}, {"branches": ["a", "b", "c"]}, {}]),
+        st.sampled_from([{}, *({"needed": n} for n in (1, 2, 2.0, 3, 0, 99, -1, 1.5, "x", True, None, [1], 1e300))]),
+    ),
     "try": st.sampled_from(
         [{"kinds": []}, {"kinds": ["failed", "offline"]}, {"kinds": ["timed_out"]}, {}, {"catch": False}]
     ),
@@ -210,7 +215,7 @@ json_values = st.recursive(
     max_leaves=8,
 )
 KEYS = ["steps", "functions", "roles", "parameters", "kind", "place", "params", "s1", "program", "body", "param",
-        "property", "op", "args", "device", "role", "function", "branches", "until", "condition", "name"]  # fmt: skip
+        "property", "op", "args", "device", "role", "function", "branches", "needed", "until", "name"]  # fmt: skip
 broken_documents = st.recursive(
     st.one_of(json_values, st.sampled_from([*PARAMS, "program", "body", "s1", "f"])),
     lambda inner: st.one_of(st.lists(inner, max_size=4), st.dictionaries(st.sampled_from(KEYS), inner, max_size=5)),

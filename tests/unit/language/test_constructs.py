@@ -31,7 +31,9 @@ def test_every_node_has_a_record_and_every_record_a_node():
 
 
 def test_what_a_robot_does_and_what_holds_others_is_as_the_records_say():
-    assert {node.__name__ for node in DRIVES} == {name for name, (one, _) in FORMS.items() if one.drives}
+    assert {node.__name__ for node in (*DRIVES, NODES["Release"])} == {
+        name for name, (one, _) in FORMS.items() if one.drives
+    }
     holding = {name for name, (one, _) in FORMS.items() if one.branches or one.names_branches}
     assert {node.__name__ for node in COMPOSITES} == holding - {"Event"}
     assert [node.__name__ for node in SETTERS] == ["Call", "Set", "Ask"]

@@ -2,7 +2,8 @@
 import { type Place, type Step, type Value, textOf } from "../document/document";
 import { type FieldRecord, isStepKind, kindOf } from "../kinds";
 import { isRobot } from "@/map/devices/device";
-import { methodOf, operatedRole } from "../operation";
+import { DEFAULT_ROLE, methodOf, operatedRole } from "../operation";
+import { endingText } from "./parallelWords";
 import { durationText, placeName, roleName, type Speaker, valueText, withUnit } from "./valueWords";
 
 export { durationText, placeName, roleName, UNIT_CHOICES, unitText, valueText, withUnit } from "./valueWords";
@@ -27,6 +28,7 @@ const WRITERS: Readonly<Partial<Record<string, Writer>>> = {
   operate: operateText,
   call: callText,
   for_each: forEachText,
+  parallel: parallelText,
   comment: commentText,
 };
 
@@ -80,6 +82,7 @@ function segmentParts(
 /** What stands in a field; null where that is still to be entered. */
 function fieldPart(field: FieldRecord, step: Step, speaker: Speaker): TextPart | null {
   const value = (step.params[field.name] ?? null) as Value;
+  if (field.type === "role") return plain(roleName(textOf(value, DEFAULT_ROLE), speaker));
   if (field.type === "place") return partOf(placeName(value as Place | null, speaker));
   if (field.type === "variable") return partOf(textOf(value) || null);
   if (field.type !== "value") return null;
@@ -133,6 +136,12 @@ function forEachText(step: Step, speaker: Speaker): TextPart[] {
     plain(speaker.t(index ? "chip.for_each_counted" : "chip.for_each", { variable, index })),
     (step.params.list ?? null) === null ? whole : listed === null || listed === "?" ? MISSING : plain(listed),
   ];
+}
+
+function parallelText(step: Step, { t }: Speaker): TextPart[] {
+  const ends = endingText(step, t);
+  const word: TextPart = { text: t("chip.parallel"), tone: "word" };
+  return ends === null ? [word] : [word, { text: ends, tone: "soft" }];
 }
 
 function commentText(step: Step, { t }: Speaker): TextPart[] {

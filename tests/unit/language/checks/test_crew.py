@@ -14,12 +14,15 @@ HOT = {"op": ">", "args": [{"property": ["curingOven01", "temperature"]}, 60]}
 
 
 def codes(program: list[Any], functions: dict[str, list[Any]] | None = None) -> list[str]:
-    """Return what is said of a program in which a text is a drive of that role, and a list a step with its branches."""
+    """Return what is said of a program: a text is a drive of that role, or with `-` its release, a list any step."""
     steps: dict[str, Any] = {}
 
     def add(block: list[Any], parent: str, branch: str) -> None:
         for number, each in enumerate(block):
             name, place = f"s{len(steps)}", [parent, branch, f"{number}V"]
+            if isinstance(each, str) and each.startswith("-"):
+                steps[name] = {"kind": "release", "place": place, "params": {"role": each[1:]}}
+                continue
             if isinstance(each, str):
                 goal = GOALS[len(steps) % 4]
                 steps[name] = {"kind": "move", "place": place, "params": {"role": each, "to": {"device": goal}}}
@@ -53,6 +56,14 @@ def codes(program: list[Any], functions: dict[str, list[Any]] | None = None) -> 
         ([["repeat", {"times": 2}, {"body": ["a", "b"]}], "c", "d"], ["too_few_robots"]),
         ([["while", {"condition": HOT}, {"body": ["a", "b"]}], "c", "d"], []),
         ([["try", {}, {"body": ["a", "b"], "catch": ["c"]}], "d"], []),
+        (["a", "b", "c", "-a", "d"], []),
+        (["a", "b", "c", "-a", "d", "a"], ["too_few_robots"]),
+        (["a", "b", "c", ["if", {"condition": HOT}, {"then": ["-a"]}], "d"], []),
+        (["a", "b", "c", ["repeat", {"times": 2}, {"body": ["-a", "d", "-d", "a"]}]], []),
+        (["a", "b", "c", ["parallel", {}, {"a": ["-a"], "b": ["d"]}]], []),
+        (["a", "b", "c", ["parallel", {}, {"a": ["-a", "a"], "b": ["-b"]}], "d"], []),
+        (["a", "b", ["parallel", {}, {"a": ["c"], "b": ["-a"]}], "d", "a"], ["too_few_robots"]),
+        (["a", "b", ["parallel", {"needed": 1}, {"a": ["c"], "b": [["wait", {"duration": 5}, {}]]}], "d"], []),
     ],
 )
 def test_roles_of_one_path_need_robots_of_their_own(program: list[Any], told: list[str]) -> None:

@@ -27,7 +27,7 @@ export function ConstructForm() {
       ))}
       {isDriving(step.kind) ? (
         <>
-          <hr className={classes.line} />
+          {fields.length > 0 ? <hr className={classes.line} /> : null}
           <RoleField />
           <RouteField />
         </>

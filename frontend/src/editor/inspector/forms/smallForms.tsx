@@ -1,11 +1,13 @@
 /** Forms of the constructs whose fields depend on each other: Wait, Parallel. */
-import { Button, SegmentedControl } from "@mantine/core";
+import { Button, NumberInput, SegmentedControl } from "@mantine/core";
 import { Minus, Plus } from "lucide-react";
 import { branchesOf } from "@/program/document/tree";
+import { type Ending, endingOf } from "@/program/words/parallelWords";
 import { useOpenProgram } from "../../state/context";
 import { ConditionForm } from "./ConditionForm";
 import { StepField } from "./ConstructForm";
 import classes from "../../panel.module.css";
+import { FieldFrame } from "../fields/FieldFrame";
 import { useStepEditor } from "../fields/stepEditor";
 
 export function WaitForm() {
@@ -59,27 +61,71 @@ export function ParallelForm() {
   const last = branches.at(-1) ?? "b";
   const next = LETTERS[branches.length];
   return (
-    <div className={classes.field}>
-      <span className={classes.legend}>{t("parallel.branches", { names: branches.join(", ") })}</span>
-      <div className={classes.row}>
-        <Button
-          variant="default"
-          leftSection={<Plus size={15} aria-hidden="true" />}
-          disabled={disabled || !next}
-          onClick={() => set("branches", [...branches, next])}
-        >
-          {t("parallel.add")}
-        </Button>
-        <Button
-          variant="default"
-          leftSection={<Minus size={15} aria-hidden="true" />}
-          disabled={disabled || branches.length <= 2 || scene.tree.children(id, last).length > 0}
-          onClick={() => set("branches", branches.slice(0, -1))}
-        >
-          {t("parallel.remove", { name: last })}
-        </Button>
+    <>
+      <div className={classes.field}>
+        <span className={classes.legend}>{t("parallel.branches", { names: branches.join(", ") })}</span>
+        <div className={classes.row}>
+          <Button
+            variant="default"
+            leftSection={<Plus size={15} aria-hidden="true" />}
+            disabled={disabled || !next}
+            onClick={() => set("branches", [...branches, next])}
+          >
+            {t("parallel.add")}
+          </Button>
+          <Button
+            variant="default"
+            leftSection={<Minus size={15} aria-hidden="true" />}
+            disabled={disabled || branches.length <= 2 || scene.tree.children(id, last).length > 0}
+            onClick={() => set("branches", branches.slice(0, -1))}
+          >
+            {t("parallel.remove", { name: last })}
+          </Button>
+        </div>
       </div>
-      <p className={classes.now}>{t("parallel.note")}</p>
-    </div>
+      <EndsWith count={branches.length} />
+      <p className={classes.now}>{t(`parallel.note_${endingOf(step)}`)}</p>
+    </>
+  );
+}
+
+/** With how many of its branches a Parallel ends: all, the first, or so many. */
+function EndsWith({ count }: { count: number }) {
+  const { t } = useOpenProgram();
+  const { step, set, disabled } = useStepEditor();
+  const ending = endingOf(step);
+  const { needed } = step.params;
+  const choices: readonly Ending[] = count > 2 || ending === "some" ? ["all", "first", "some"] : ["all", "first"];
+  const chosen: Readonly<Record<Ending, number | null>> = { all: null, first: 1, some: Math.min(2, count) };
+  return (
+    <FieldFrame label={t("parallel.ends")} field="needed">
+      {({ control, note, bad }) => (
+        <>
+          <SegmentedControl
+            id={control}
+            fullWidth
+            aria-label={t("parallel.ends")}
+            value={ending}
+            onChange={(next) => set("needed", chosen[next])}
+            disabled={disabled}
+            data={choices.map((choice) => ({ value: choice, label: t(`parallel.ends_${choice}`) }))}
+          />
+          {ending === "some" ? (
+            <NumberInput
+              aria-label={t("parallel.number")}
+              aria-describedby={bad ? note : undefined}
+              error={bad}
+              value={typeof needed === "number" ? needed : ""}
+              onChange={(next) => set("needed", typeof next === "number" ? next : null)}
+              min={1}
+              max={count}
+              allowDecimal={false}
+              suffix={t("parallel.of", { count })}
+              disabled={disabled}
+            />
+          ) : null}
+        </>
+      )}
+    </FieldFrame>
   );
 }
