@@ -18,6 +18,7 @@ from execution.traffic.floor_state import FloorTask, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
 from execution.traffic.messages import RoleBound, RoleReleased
 from execution.traffic.path_release import cut_path, set_path
+from execution.traffic.precedence import Waiting, in_groups, note_behind
 from execution.traffic.turn import Turn
 from execution.traffic.zones import path_for
 from vipo_device.protocol.description import Description
@@ -63,17 +64,24 @@ def _has_earlier(turn: Turn, task: FloorTask) -> bool:
 
 
 def bind_roles(turn: Turn) -> None:
-    """Find robots for the roles that wait for one, over all of them at once, by the length of the path there."""
-    waiting: dict[str, FloorTask] = {}
+    """Find robots for the roles that wait for one: for those that go first, over all of them at once, by the length
+    of the path there; then for the next.
+    """
+    waiting: list[Waiting] = []
+    seen: set[str] = set()
     for task in turn.in_order():
         key = f"{task.run}/{task.order.role}"
-        if task.order.role and task.order.kind != "release" and key not in turn.roles and key not in waiting:
-            if task.wants:
+        if task.order.role and task.order.kind != "release" and key not in turn.roles and key not in seen:
+            waiting.append((key, task))
+            if not task.wants:
+                seen.add(key)
+    for group in in_groups(turn, waiting):
+        for key, task in group:
+            if task.wants and key not in turn.roles:
                 _bind_given(turn, key, task)
-            else:
-                waiting[key] = task
-    if waiting:
-        _bind_any(turn, waiting)
+        if anybody := {key: task for key, task in group if not task.wants}:
+            _bind_any(turn, anybody)
+    note_behind(turn, waiting)
 
 
 def _bind_given(turn: Turn, key: str, task: FloorTask) -> None:

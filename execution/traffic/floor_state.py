@@ -62,6 +62,12 @@ class FloorTask:
     """What must hold of any robot when it is chosen, as plans keep it in JSON; empty: nothing."""
     said: str = ""
     """The same in words."""
+    priority: int = 0
+    """Of its run: -1 low, 0 normal, 1 high."""
+    due: float = 0.0
+    """When its run should be over, in seconds since 1970; 0: no deadline."""
+    behind_since: float | None = None
+    """Since when it has found no robot and others went first; None: not yet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +120,7 @@ STORED_AS: Mapping[type, Mapping[str, str]] = {
 """What kept states call the parts that have got another name since; the tasks themselves they call `jobs`."""
 
 
-WRITTEN_WHERE_SET = frozenset({"where", "said"})
+WRITTEN_WHERE_SET = frozenset({"where", "said", "priority", "due", "behind_since"})
 """Parts that are written only where they say something, so that the version before reads all other states."""
 
 

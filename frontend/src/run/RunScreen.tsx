@@ -19,6 +19,7 @@ import { useLiveStore } from "@/live/store";
 import { RunAlerts } from "./RunAlerts";
 import { RunActions, RunPill } from "./RunBar";
 import styles from "./RunScreen.module.css";
+import { RunTerms } from "./RunTerms";
 import { ScriptLines } from "./ScriptLines";
 import { currentStep, stepLines } from "./stepList";
 import { Journal, RunSteps } from "./RunSteps";
@@ -198,6 +199,7 @@ function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: strin
         <span className={styles.chips}>
           {run.version !== null && <Chip mono>v{run.version}</Chip>}
           {site?.simulated && <Chip>{t("run.simulated")}</Chip>}
+          <RunTerms run={run} now={view.now} />
         </span>
       }
       actions={
@@ -209,7 +211,7 @@ function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: strin
         />
       }
     >
-      <RunPill run={run} elapsed_s={elapsedSeconds(run, view.now)} />
+      <RunPill run={run} elapsed_s={elapsedSeconds(run, view.now)} now={view.now} />
     </TopBar>
   );
 }
