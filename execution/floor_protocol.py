@@ -123,7 +123,10 @@ ToRun = (
 
 @dataclass(frozen=True, slots=True)
 class AskingRun:
-    """What the floor is told of a run with each task: its id, what people call it, its program's roles and zones, its priority and deadline."""
+    """What the floor is told of a run with each task.
+
+    Its id, what people call it, its program's roles and zones, its priority and deadline (`TaskAsked`).
+    """
 
     id: str
     name: str

@@ -4,30 +4,29 @@ from django.db import migrations, models
 
 
 class Migration(migrations.Migration):
-
     dependencies = [
-        ('execution', '0005_commands_gone_wrong'),
+        ("execution", "0005_commands_gone_wrong"),
     ]
 
     operations = [
         migrations.AddField(
-            model_name='run',
-            name='deadline',
+            model_name="run",
+            name="deadline",
             field=models.DateTimeField(null=True),
         ),
         migrations.AddField(
-            model_name='run',
-            name='late',
+            model_name="run",
+            name="late",
             field=models.BooleanField(default=False),
         ),
         migrations.AddField(
-            model_name='run',
-            name='not_before',
+            model_name="run",
+            name="not_before",
             field=models.DateTimeField(null=True),
         ),
         migrations.AddField(
-            model_name='run',
-            name='priority',
-            field=models.SmallIntegerField(choices=[(-1, 'Low'), (0, 'Normal'), (1, 'High')], default=0),
+            model_name="run",
+            name="priority",
+            field=models.SmallIntegerField(choices=[(-1, "Low"), (0, "Normal"), (1, "High")], default=0),
         ),
     ]

@@ -5,22 +5,27 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
+from editor import services as editor
 from execution.models import Run
-from tests.integration.execution.test_api import program  # noqa: F401
-from tests.kit.people import sign_in_member
+from tests.kit.programs import SITE, TASK
+from tests.kit.sign_in import sign_in_member
 
 pytestmark = pytest.mark.django_db(transaction=True)
-SITE = "painting-factory"
 
 
 def later(**span):
     return (datetime.now(UTC) + timedelta(**span)).isoformat()
 
 
-def start(client, program, key=None, **body):  # noqa: F811
+def start(client, program, key=None, **body):
     headers = {"Idempotency-Key": key} if key else {}
     path = f"/api/programs/{program}/runs"
     return client.post(path, json.dumps(body), content_type="application/json", headers=headers)
+
+
+@pytest.fixture
+def program(factory):
+    return editor.create_program(site=SITE, name="Task", document=TASK).id
 
 
 @pytest.fixture
@@ -28,7 +33,7 @@ def operator():
     return sign_in_member("operator", SITE)
 
 
-def test_terms_are_kept_and_shown_to_who_may_look(factory, program, operator):  # noqa: F811
+def test_terms_are_kept_and_shown_to_who_may_look(factory, program, operator):
     begin, due = later(hours=1), later(hours=2)
     answer = start(operator, program, priority="high", not_before=begin, deadline=due)
     assert answer.status_code == 202, answer.content
@@ -42,12 +47,12 @@ def test_terms_are_kept_and_shown_to_who_may_look(factory, program, operator):  
     assert told.items() <= listed.items()
 
 
-def test_a_run_without_terms_is_as_ever(factory, program, operator):  # noqa: F811
+def test_a_run_without_terms_is_as_ever(factory, program, operator):
     run = start(operator, program).json()
     assert (run["priority"], run["not_before"], run["deadline"]) == ("normal", None, None)
 
 
-def test_a_viewer_plans_nothing_and_cancels_nothing(factory, program, operator):  # noqa: F811
+def test_a_viewer_plans_nothing_and_cancels_nothing(factory, program, operator):
     viewer = sign_in_member("viewer", SITE)
     assert start(viewer, program, not_before=later(hours=1)).status_code == 403
     run = start(operator, program, not_before=later(hours=1)).json()["id"]
@@ -57,7 +62,7 @@ def test_a_viewer_plans_nothing_and_cancels_nothing(factory, program, operator):
     assert [row.status for row in Run.objects.all()] == ["cancelled"]
 
 
-def test_the_same_start_sent_again_plans_one_run_also_when_its_time_is_past(factory, program, operator):  # noqa: F811
+def test_the_same_start_sent_again_plans_one_run_also_when_its_time_is_past(factory, program, operator):
     begin = later(hours=1)
     first = start(operator, program, "k1", not_before=begin)
     Run.objects.update(not_before=datetime.now(UTC) - timedelta(hours=2))
@@ -75,7 +80,7 @@ def test_the_same_start_sent_again_plans_one_run_also_when_its_time_is_past(fact
         ({"not_before": later(hours=2), "deadline": later(hours=1)}, "deadline_first"),
     ],
 )
-def test_absurd_times_are_refused_by_name(factory, program, operator, body, why):  # noqa: F811
+def test_absurd_times_are_refused_by_name(factory, program, operator, body, why):
     answer = start(operator, program, **body)
     assert (answer.status_code, answer.json()["code"], answer.json()["args"]) == (422, "bad_terms", {"why": why})
     assert Run.objects.count() == 0
@@ -96,6 +101,6 @@ def test_absurd_times_are_refused_by_name(factory, program, operator, body, why)
         {"earliest": later(hours=1)},
     ],
 )
-def test_what_is_no_term_is_refused(factory, program, operator, body):  # noqa: F811
+def test_what_is_no_term_is_refused(factory, program, operator, body):
     assert start(operator, program, **body).status_code == 422
     assert Run.objects.count() == 0

@@ -100,7 +100,12 @@ def test_a_cancel_that_arrives_with_the_start_comes_before_it(factory):
     services.cancel_run(run_id=run, by="Ada")
     advance_run(run)
     row = Run.objects.get(id=run)
-    assert (row.status, row.reason, row.started_at, codes(run)) == ("cancelled", "Otto cancelled it", None, ["cancelled"])
+    assert (row.status, row.reason, row.started_at, codes(run)) == (
+        "cancelled",
+        "Otto cancelled it",
+        None,
+        ["cancelled"],
+    )
 
 
 def test_a_cancel_behind_the_start_ends_a_run_as_ever(factory):
@@ -109,7 +114,11 @@ def test_a_cancel_behind_the_start_ends_a_run_as_ever(factory):
     advance_run(run)
     services.cancel_run(run_id=run, by="Otto")
     advance_run(run)
-    assert (Run.objects.get(id=run).status, codes(run)[0], codes(run)[-1]) == ("cancelled", "started_planned", "cancelled")
+    assert (Run.objects.get(id=run).status, codes(run)[0], codes(run)[-1]) == (
+        "cancelled",
+        "started_planned",
+        "cancelled",
+    )
 
 
 def test_stop_all_holds_a_waiting_run_until_somebody_resumes_it(factory):

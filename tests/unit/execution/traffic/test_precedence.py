@@ -27,7 +27,9 @@ def ask(run, priority=NORMAL, due=0.0, device=None, goal="paintMachine01", task=
     order = TaskOrder("move", Target(goal), "robot")
     role = RoleBinding("robot", device, ("move",))
     asking = AskingRun(run, f"run {run}", {"robot": role}, (), priority, due)
-    return protocol.floor_message_from_json(json.loads(json.dumps(protocol.to_json(to_floor(asking, r.Ask(task, order))))))
+    return protocol.floor_message_from_json(
+        json.loads(json.dumps(protocol.to_json(to_floor(asking, r.Ask(task, order)))))
+    )
 
 
 def busy_floor():
