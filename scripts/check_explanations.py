@@ -114,6 +114,9 @@ _FLOOR: Final = {
     "place_unreachable": "No robot of the role finds a way from where it stands.",
     "station_unreachable": "No side of the machine has room for a robot of the role, or no way leads there.",
     "place_in_keep_out": "The goal, or the place beside the machine, lies in a zone that robots keep out of.",
+    "route_blocked": "A robot drives over the points of a route one after the other. At this one no robot of the role "
+    "fits, or no path leads there.",
+    "route_in_keep_out": "A point of the route lies in a zone that robots keep out of.",
     "zone_too_small": "The zone's area is smaller than that of the smallest robot.",
 }
 _WAYS: Final = {

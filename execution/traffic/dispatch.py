@@ -19,8 +19,8 @@ from execution.traffic.layout import NoSuchSpot, Spot
 from execution.traffic.messages import RoleBound, RoleReleased
 from execution.traffic.path_release import cut_path, set_path
 from execution.traffic.precedence import Waiting, in_groups, note_behind
+from execution.traffic.route_points import leads_along, path_along, points_ahead, set_points
 from execution.traffic.turn import Turn
-from execution.traffic.zones import path_for
 from vipo_device.protocol.description import Description
 
 ABSENCE_S = 30.0
@@ -192,7 +192,7 @@ def _dispatch_with(turn: Turn, task: FloorTask, robot: Robot) -> None:
     except NoSuchSpot as error:
         turn.finish(task, "blocked", str(error))
         return
-    if robot.path == (spot.id,) and not turn.is_driving(robot):
+    if robot.path == (spot.id,) and not turn.is_driving(robot) and not points_ahead(task):
         _act(turn, task, robot, spot)
     else:
         _take_machine(turn, task, robot, spot.id)
@@ -225,17 +225,23 @@ def _ask_to_leave(turn: Turn, holder: Robot, robot: Robot) -> None:
 
 def _go(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:
     """See to it that the robot is on its path there."""
-    if robot.evading or robot.yields_to or turn.is_acting(robot) or robot.path[-1] == spot.id:
+    if robot.evading or robot.yields_to or turn.is_acting(robot):
+        return
+    if robot.path[-1] == spot.id and leads_along(robot, task):
         return
     if turn.is_driving(robot):
         cut_path(turn, robot)
         return
     standing = {c for r in turn.robots.values() if r.id != robot.id and not turn.is_driving(r) for c in r.held}
-    path = path_for(turn, robot, spot.id, extra=dict.fromkeys(standing, 6.0))
+    try:
+        path = path_along(turn, robot, points_ahead(task), spot.id, extra=dict.fromkeys(standing, 6.0))
+    except NoSuchSpot as error:
+        turn.finish(task, "blocked", str(error))
+        return
     if path is None:
         turn.finish(task, "blocked", f"There is no way for {turn.name(robot.id)} to {turn.name(task.order.target.id)}.")
         return
-    set_path(turn, robot, path)
+    set_points(turn, set_path(turn, robot, path[0]), task, path[1])
 
 
 def _act(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:

@@ -345,7 +345,7 @@ def _follow(
     events = tuple(replace(event, body=follower.block(event.body, {})[0]) for event in tree.events)
     roles = tuple(_with_place(role, follower.relied_on.get(role.name)) for role in tree.roles)
     done = tuple(finished[function.method] for function in tree.functions)
-    return Tree(body, done, roles, tree.parameters, events), tuple(follower.unplaced)
+    return replace(tree, body=body, functions=done, roles=roles, events=events), tuple(follower.unplaced)
 
 
 def _with_place(role: Role, at: str | None) -> Role:

@@ -49,7 +49,6 @@ from editor.language.tree.traversal import needed_of_roles
 from editor.language.tree.variable_types import (
     type_of_items,
 )
-from editor.language.tree.zones import read_zones
 from vipo_device.protocol.description import Description, ParameterSpec
 
 
@@ -66,7 +65,7 @@ def check(
     found at the last look.
     """
     context = Context(tree, surroundings, memos=memos, params=reading.outline.params)
-    context.zones = frozenset(zone.id for zone in read_zones(document))
+    context.zones = frozenset(zone.id for zone in tree.zones)
     found = context.found
     found.extend((problem, 0) for problem in reading.problems)
     already = {(problem.step, problem.field) for problem in reading.problems}

@@ -19,6 +19,8 @@ from editor.language.drawing.merge import (
     merge_parameters,
     merge_roles,
     merge_values,
+    merge_zones,
+    with_named_zones,
     without_unknown_names,
 )
 from editor.language.drawing.steps import Drawable, EncodedStep, StepEncoder, grouped
@@ -183,9 +185,10 @@ def tree_to_document(
     """Return the document of a tree; what the previous document has, too, stays there as it is.
 
     Steps that did not change, moved or changed a value keep their ids, positions and everything that no script
-    says; drafts, comments and zones stay. New steps stand near their devices.
+    says; drafts and comments stay. New steps stand near their devices.
     """
     old = mapping(migrate(previous or {})) if previous else {}
+    tree = with_named_zones(tree, old)
     if not old:
         return _draw(tree, surroundings, {}, Tree())
     before = _read(old, surroundings)
@@ -235,7 +238,7 @@ def _draw(tree: Tree, surroundings: Surroundings, old: Mapping[str, object], tre
         "functions": functions.document,
         "roles": roles,
         "parameters": parameters,
-        "zones": dict(mapping(old.get("zones"))),
+        "zones": merge_zones(aligned.zones, mapping(old.get("zones"))),
     }
 
 

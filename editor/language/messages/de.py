@@ -218,6 +218,14 @@ TEXTS_DE: Final[Mapping[str, str]] = {
         "Dieser Ort liegt in {zone}, wo kein Roboter hineinfährt. Wählen Sie einen anderen, "
         "oder ändern Sie die Zone."
     ),
+    "route_blocked": (
+        "{robot} kann nicht über Punkt {number} dieses Wegs fahren: Er liegt zu nah an einer Wand oder Maschine oder "
+        "außerhalb der Karte, oder kein Weg führt dorthin. Verschieben Sie den Punkt."
+    ),
+    "route_in_keep_out": (
+        "Punkt {number} dieses Wegs liegt in {zone}, wo kein Roboter hineinfährt. Verschieben Sie den Punkt, oder "
+        "ändern Sie die Zone."
+    ),
     "zone_too_small": "{zone} ist kleiner als {robot} und bewirkt deshalb nichts. Vergrößern Sie die Zone.",
     # a script that was written by hand
     "not_python": "Zeile {line}, Spalte {column}: Das kann nicht gelesen werden. {detail}",

@@ -238,6 +238,15 @@ TEXTS: Final[Mapping[str, Text]] = {
         "This place lies in {zone}, which robots keep out of. Choose another, or change the "
         "zone.",
     ),
+    "route_blocked": (
+        "error",
+        "{robot} cannot drive over point {number} of this way: it is too near to a wall or a machine, off the map, or "
+        "no way leads there. Move the point.",
+    ),
+    "route_in_keep_out": (
+        "error",
+        "Point {number} of this way lies in {zone}, which robots keep out of. Move the point, or change the zone.",
+    ),
     "zone_too_small": ("warning", "{zone} is smaller than {robot}, so it has no effect. Make it larger."),
     # a script that was written by hand
     "not_python": ("error", "Line {line}, column {column}: this cannot be read. {detail}"),

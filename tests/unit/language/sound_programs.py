@@ -36,6 +36,7 @@ HOLDING: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "limit": ({"duration": {"quantity": [10, "MIN"]}}, ("body",)),
     "parallel": ({"branches": ["a", "b"]}, ("a", "b")),
 }
+ROUTES: list[list[list[float]]] = [[], [[5.25, -8.25], [5.25, -6.25], [9.25, -8.25]]]
 LOOPS = frozenset({"while", "repeat", "for_each", "for_each_of"})
 DEEPEST = 4
 TOLD = [{"message": {"param": name}, "level": "info"} for name in ("problem.text", "problem.kind")]
@@ -75,6 +76,8 @@ class Steps:
                 self.holding(kind, parent, branch, f"{index}V", around)
             else:
                 params = PLAIN.get(kind, {"value": 2} if kind == "return" else {})
+                if kind == "pick_and_drop":
+                    params = {**params, "route": self.draw(st.sampled_from(ROUTES))}
                 self.add("set" if kind == "collect" else kind, parent, branch, f"{index}V", params)
 
     def holding(self, kind: str, parent: str, branch: str, order: str, around: Around) -> None:

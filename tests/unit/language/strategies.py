@@ -172,6 +172,18 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "continue": st.just({}),
     "on_event": st.fixed_dictionaries({"condition": values, "starts": st.sampled_from(["branch", "run", None])}),
 }
+corners = st.lists(st.one_of(st.tuples(numbers, numbers).map(list), st.just("x")), max_size=6)
+zones = st.dictionaries(
+    st.sampled_from(["z1", "z2", "wet floor", 'Größe "9"', "robot"]),
+    st.fixed_dictionaries(
+        {"rule": st.sampled_from(["slow", "keep_out", "one_at_a_time", "dance", None]), "points": corners},
+        optional={
+            "name": st.sampled_from(["robot", "Wet floor", "", "z1", "minutes", 4]),
+            "speed_m_s": st.sampled_from([0.3, 1, 0, -2, None, "fast"]),
+        },
+    ),
+    max_size=3,
+)
 BRANCHES = ["body", "then", "else", "catch", "finally", "a", "b", "c"]
 
 
@@ -205,7 +217,7 @@ def documents(draw: st.DrawFn, largest: int = 12) -> dict[str, Any]:
             "paint_carrier": {"name": "drop off", "can": []},
         },
         "parameters": {"p": {"name": default, "type": "number", "default": 2}},
-        "zones": {"z1": {"name": "robot", "rule": "slow", "points": [[0, 0], [3, 0], [3, -3]]}},
+        "zones": draw(zones),
     }
 
 
