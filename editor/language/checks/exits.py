@@ -48,9 +48,9 @@ def _block(context: Context, block: n.Block, around: _Around) -> None:
             case n.Parallel(branches=branches):
                 for branch in branches:
                     _block(context, branch, around.behind("leaves_parallel"))
-            case n.Try(body=body, catch=catch, final=final):
-                _block(context, body, around)
-                _block(context, catch, around)
+            case n.Try(body=body, catches=catches, final=final):
+                for inner in (body, *catches):
+                    _block(context, inner, around)
                 _block(context, final, around.behind("leaves_finally"))
             case n.Limit(body=body):
                 _block(context, body, around)

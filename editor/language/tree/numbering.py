@@ -19,13 +19,15 @@ from editor.language.tree.program import Tree
 
 _MORE = COMPOSITES | {Call}
 """The nodes by which other steps get their numbers."""
+_OF_CATCHES = "cdeghijk"
+"""The letters of a Try's catches; its final part is f, as it always was."""
 _PARTS = re.compile(r"[0-9]+|[a-z]")
 
 
 def letters_of(node: Node) -> Iterator[tuple[str, Block]]:
     """Yield the branches of a node with their letters."""
     if isinstance(node, Try):
-        yield from (("a", node.body), ("c", node.catch), ("f", node.final))
+        yield from (("a", node.body), *zip(_OF_CATCHES, node.catches, strict=False), ("f", node.final))
     else:
         yield from zip(ascii_lowercase, blocks_of(node), strict=False)
 

@@ -1,10 +1,12 @@
 /** Dotted links: what comes next, and the branches with their words. */
 import { pathLength, type PixelPoint, pointAlong } from "@/map/plane/paths";
 import type { Box } from "@/map/plane/projection";
-import type { ProgramDocument } from "../document/document";
+import { isCatch } from "../document/catches";
+import type { ProgramDocument, Step } from "../document/document";
 import { branchesOf, type BranchRef, PROGRAM, type ProgramTree } from "../document/tree";
 import { isFramed } from "../kinds";
 import type { Surroundings } from "../surroundings";
+import { takenBy } from "../words/catchWords";
 import type { Translate } from "../words/stepWords";
 import type { Chip } from "./chips";
 import type { Frame } from "./frames";
@@ -101,13 +103,14 @@ function branchLink(input: LinkInput, into: BranchRef, first: string | null): Li
   if (!from || (bodyInside && (!first || frames.get(into.parent)?.holds.has(first)))) return null;
   if (!first && !offersBranch(document, into)) return null;
   const target = first ? boxOf(input, first) : null;
-  const tone = into.branch === "catch" ? "catch" : "branch";
+  const step = document.steps[into.parent];
+  const tone = isCatch(into.branch) ? "catch" : "branch";
   const exit = exitOf(input, into, from);
   const points = target ? branchWay(into, exit, target) : stub(exit, into.branch);
   return {
     id: `${into.parent}/${into.branch}`,
     points,
-    word: branchWord(into.branch, kind, t) || null,
+    word: (step && (takenBy(into.branch, step, t) ?? branchWord(into.branch, step, t))) || null,
     tone,
     into,
     after: null,
@@ -120,7 +123,7 @@ function branchLink(input: LinkInput, into: BranchRef, first: string | null): Li
 function offersBranch(document: ProgramDocument, { parent, branch }: BranchRef): boolean {
   const step = document.steps[parent];
   if (step?.kind !== "try") return true;
-  return branch === "finally" ? step.params.finally === true : step.params.catch !== false;
+  return branch !== "finally" || step.params.finally === true;
 }
 
 function branchWay({ branch }: BranchRef, exit: Box, target: Box): PixelPoint[] {
@@ -142,9 +145,12 @@ function isDrawn({ document, tree }: LinkInput, into: BranchRef): boolean {
 }
 
 /** What the arrow into a branch says; an event's arrow needs no word. */
-export function branchWord(branch: string, kind: string, t: Translate): string {
-  if (kind === "on_event") return "";
-  return kind === "parallel" ? branch : t(`branch.${branch}`);
+export function branchWord(branch: string, step: Step, t: Translate): string {
+  if (step.kind === "on_event") return "";
+  if (step.kind === "parallel") return branch;
+  if (step.kind !== "try" || !isCatch(branch)) return t(`branch.${branch}`);
+  const taken = takenBy(branch, step, t);
+  return taken === null ? t("branch.catch") : t("branch.catch_of", { taken });
 }
 
 /** An empty branch: a short way out at its usual side. */
@@ -156,7 +162,7 @@ function stub(box: Box, branch: string): PixelPoint[] {
       { x: across, y: box.top },
       { x: across, y: box.top - 44 },
     ];
-  if (["then", "catch", "finally", "body"].includes(branch))
+  if (["then", "finally", "body"].includes(branch) || isCatch(branch))
     return [
       { x: across, y: box.bottom },
       { x: across, y: box.bottom + 42 },
