@@ -123,7 +123,9 @@ def test_a_time_limit_around_ends_a_catch_and_no_catch_of_the_try_in_it_takes_th
 
 
 def test_one_catch_has_the_plan_that_it_has_always_had():
-    plan = plan_of_script('try:\n    self.wait(60)\nexcept Failed as problem:\n    self.notify(problem.text, level="info")')
+    plan = plan_of_script(
+        'try:\n    self.wait(60)\nexcept Failed as problem:\n    self.notify(problem.text, level="info")'
+    )
     kinds = [type(each.do).__name__ for each in plan.instructions]
     assert kinds == ["TryBegin", "Wait", "TryEnd", "Jump", "Caught", "Notify", "Jump", "End"]
 

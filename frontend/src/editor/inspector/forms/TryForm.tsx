@@ -1,8 +1,7 @@
 /** What a Try catches: its catches in the order in which they are tried, and whether it does something at last. */
 import { Button, Checkbox, Switch } from "@mantine/core";
-import { Plus, X } from "lucide-react";
+import { Minus, Plus } from "lucide-react";
 import { useId, useRef } from "react";
-import { IconButton } from "@/design/IconButton";
 import { addedCatch, catchesOf, kindsOf, removedCatch } from "@/program/document/catches";
 import { fieldsOf } from "@/program/kinds";
 import { useOpenProgram } from "../../state/context";
@@ -119,13 +118,15 @@ function OneCatch({ branch, number, onRemove }: { branch: string; number: number
               </div>
             </Checkbox.Group>
             <div className={classes.row}>
-              <IconButton
-                label={number === 0 ? t("try.remove") : t("try.remove_nth", { number })}
+              <Button
+                variant="default"
+                size="xs"
+                leftSection={<Minus size={15} aria-hidden="true" />}
                 disabled={disabled || filled}
                 onClick={onRemove}
               >
-                <X size={15} aria-hidden="true" />
-              </IconButton>
+                {number === 0 ? t("try.remove") : t("try.remove_nth", { number })}
+              </Button>
               {filled ? <span className={classes.now}>{t("try.empty_first")}</span> : null}
             </div>
           </>
