@@ -16,8 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from editor.language.document.catches import catches_of
 from editor.language import Surroundings, compile_document, surroundings_from_json
+from editor.language.document.catches import catches_of
 from editor.language.expressions.nodes import AnswerSpec
 from editor.language.plan.instructions import Plan
 from execution.machine import machine

@@ -20,7 +20,7 @@ EVENTS = "events"
 BRANCHES: Mapping[str, tuple[str, ...]] = {
     construct.kind: tuple(name for name, _ in construct.branches) for construct in STEPS
 }
-"""The kinds of steps and their branches; those of a Parallel are its own to name, and a Try has the catches that it says."""
+"""The kinds of steps and their branches; a Parallel names its own, a Try has the catches that it says."""
 DEEPEST_STEP = 30
 MOST_BRANCHES = 26
 

@@ -1,4 +1,4 @@
-"""Several catches of one Try: document, tree, script and drawing say the same, and edits keep what they do not touch."""
+"""Several catches of one Try: document, tree, script and drawing say the same, and an edit keeps all others."""
 
 import pytest
 

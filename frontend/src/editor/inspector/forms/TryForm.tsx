@@ -117,18 +117,16 @@ function OneCatch({ branch, number, onRemove }: { branch: string; number: number
                 ))}
               </div>
             </Checkbox.Group>
-            <div className={classes.row}>
-              <Button
-                variant="default"
-                size="xs"
-                leftSection={<Minus size={15} aria-hidden="true" />}
-                disabled={disabled || filled}
-                onClick={onRemove}
-              >
-                {number === 0 ? t("try.remove") : t("try.remove_nth", { number })}
-              </Button>
-              {filled ? <span className={classes.now}>{t("try.empty_first")}</span> : null}
-            </div>
+            <Button
+              variant="default"
+              size="xs"
+              leftSection={<Minus size={15} aria-hidden="true" />}
+              disabled={disabled || filled}
+              onClick={onRemove}
+            >
+              {number === 0 ? t("try.remove") : t("try.remove_nth", { number })}
+            </Button>
+            {filled ? <p className={classes.now}>{t("try.empty_first")}</p> : null}
           </>
         )}
       </FieldFrame>
