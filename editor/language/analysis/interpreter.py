@@ -205,19 +205,22 @@ def _round(
 
 
 def _try(walk: Walk, node: n.Try, states: States) -> States | None:
-    """The catch begins anywhere in the body, the final part anywhere in both; every exit leads through it."""
+    """A catch begins anywhere in the body, the final part anywhere in all of them; every exit leads through it."""
     marks = tuple(map(len, walk.frame.exits()))
     failures = len(walk.failures)
     after = walk.block(node.body, walk.copy(states))
-    if node.catches:
-        walk.failures[failures:] = [kind for kind in walk.failures[failures:] if node.kinds and kind not in node.kinds]
+    if node.handlers:
+        walk.failures[failures:] = [
+            kind for kind in walk.failures[failures:] if not any(each.takes(kind) for each in node.handlers)
+        ]
+        begun = walk.disturb(states, walk.effects.of(node.body))
         with walk.unsure():
-            caught = walk.block(node.catch, walk.disturb(states, walk.effects.of(node.body)))
-        after = walk.meet(states, (after, caught), walk.changes(node.body, node.catch))
+            caught = [walk.block(block, walk.copy(begun)) for block in node.catches]
+        after = walk.meet(states, (after, *caught), walk.changes(node.body, *node.catches))
     if not node.final:
         return after
     with walk.unsure():
-        ended = walk.block(node.final, walk.disturb(states, walk.changes(node.body, node.catch)))
+        ended = walk.block(node.final, walk.disturb(states, walk.changes(node.body, *node.catches)))
     _exits_through(walk, node, marks, ended)
     if ended is None or after is None:
         return None

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from string import ascii_lowercase
 
 from editor.language.analysis.positions import add_moves
+from editor.language.document.catches import catches_of, with_known_branches
 from editor.language.document.format_migrations import FORMAT, migrate
 from editor.language.document.fractional_index import keep_orders
 from editor.language.document.outline import PROGRAM, branches_of, make_outline, mapping
@@ -106,8 +107,12 @@ class _Builder:
         else:
             self.layout.follow(read_point(raw.get("pos")), room_of(kind, says))
             body = {**raw, "place": place}
-            said = self._named(self.before.said[step][1], names)
-            params = merge_values(mapping(raw.get("params")), said, says)
+            said, held = self._named(self.before.said[step][1], names), mapping(raw.get("params"))
+            if kind == "try":
+                said, says = with_known_branches(said, held), with_known_branches(says, held)
+                caught = zip(catches_of(says), branches[1:-1], strict=True)
+                branches = (branches[0], *((name, inner) for name, (_, inner) in caught), branches[-1])
+            params = merge_values(held, said, says)
         if kind == "parallel":
             letters = _letters(mapping(raw or {}).get("params"), len(branches))
             branches = tuple((letter, inner) for letter, (_, inner) in zip(letters, branches, strict=True))

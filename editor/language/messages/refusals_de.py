@@ -60,8 +60,9 @@ REFUSALS_DE: Final[Mapping[str, str]] = {
     "Write at least one value between the brackets.": "Schreiben Sie mindestens einen Wert in die Klammern.",
     "Write self.parallel({x}), a method for each branch.": "Schreiben Sie self.parallel({x}), eine Methode für jeden "
     "Zweig.",
-    "An except that nothing comes to": "Ein except, zu dem nichts kommt",
-    "Leave it out: those before it catch all of that.": "Lassen Sie es weg: Die davor fangen all das.",
+    "A further except": "Ein weiteres except",
+    "A try takes up to 8. Let one of them catch several kinds: except (Offline, TimedOut):": "Ein try hat bis zu 8. "
+    "Lassen Sie eines mehrere Arten fangen: except (Offline, TimedOut):",
     "Write def {x} in class Task.": "Schreiben Sie def {x} in class Task.",
     "Write {x}, or {y}.": "Schreiben Sie {x} oder {y}.",
     "Write {x}: or {y}:.": "Schreiben Sie {x}: oder {y}:.",

@@ -140,8 +140,16 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
         st.sampled_from([{"branches": ["a", "b"]}, {"branches": ["a", "b", "c"]}, {}]),
         st.sampled_from([{}, *({"needed": n} for n in (1, 2, 2.0, 3, 0, 99, -1, 1.5, "x", True, None, [1], 1e300))]),
     ),
-    "try": st.sampled_from(
-        [{"kinds": []}, {"kinds": ["failed", "offline"]}, {"kinds": ["timed_out"]}, {}, {"catch": False}]
+    "try": st.builds(
+        lambda first, more: {**first, **more},
+        st.sampled_from(
+            [{"kinds": []}, {"kinds": ["failed", "offline"]}, {"kinds": ["timed_out"]}, {}, {"catch": False}]
+        ),
+        st.dictionaries(
+            st.sampled_from(["kinds2", "kinds3", "kinds8", "kinds9"]),
+            st.sampled_from([[], ["failed"], ["offline", "blocked"], ["x", 3], None, "failed", {"a": 1}]),
+            max_size=3,
+        ),
     ),
     "limit": st.fixed_dictionaries({"duration": values}),
     "call": st.fixed_dictionaries(
@@ -184,7 +192,7 @@ zones = st.dictionaries(
     ),
     max_size=3,
 )
-BRANCHES = ["body", "then", "else", "catch", "finally", "a", "b", "c"]
+BRANCHES = ["body", "then", "else", "catch", "catch2", "catch3", "catch8", "finally", "a", "b", "c"]
 
 
 @st.composite
