@@ -186,7 +186,7 @@ def hospital() -> Example:
     walls += [[x, a, x, b, 0.15] for x in (8.6, 17.4) for a, b in ((0, 6.4), (9.0, SOUTH_M))]
     walls += [[a, y, b, y, 0.15] for a, b in ((0, 3.4), (5.2, 12.1), (13.9, 20.8), (22.6, EAST_M)) for y in (6.4, 9.0)]
     temperature = PropertySpec("temperature", "number", "DEG_C", 15.0, 120.0, "Temperature")
-    devices = (
+    devices: tuple[Machine | Robot, ...] = (
         Machine(
             "pharmacy",
             "Pharmacy",
@@ -253,7 +253,7 @@ def hospital() -> Example:
             "trayB",
             "Tray Ward B",
             "rollers",
-            (10.2, 14.6),
+            (10.2, 14.2),
             (1.8, 1.2),
             "Takes medicine.",
             takes="medicine",
@@ -277,9 +277,9 @@ def hospital() -> Example:
     labels = {
         "pharmacyRoom": (0.5, 6.0),
         "laboratory": (9.0, 6.0),
-        "wardA": (17.8, 6.0),
+        "wardA": (17.8, 0.7),
         "wardB": (9.0, 9.6),
-        "reception": (17.8, 9.6),
+        "reception": (17.8, 9.45),
         "corridor": (0.5, 8.5),
     }
     return Example("hospital", {"outline": OUTLINE, "walls": walls, "columns": []}, devices, places, labels=labels)
@@ -306,7 +306,7 @@ def warehouse() -> Example:
             f"bin{c}",
             f"Part Bin {c}",
             "cans",
-            (x, 14.6),
+            (x, 14.2),
             (1.4, 0.9),
             "Hands out parts.",
             gives="part",
@@ -314,7 +314,7 @@ def warehouse() -> Example:
         )
         for c, x in (("A", 10.4), ("B", 13.4), ("C", 16.4))
     ]
-    devices = (
+    devices: tuple[Machine | Robot, ...] = (
         Machine(
             "goodsIn",
             "Goods In",
@@ -343,7 +343,7 @@ def warehouse() -> Example:
             "kitting",
             "Kitting Station",
             "rollers",
-            (21.0, 14.4),
+            (21.0, 14.2),
             (2.2, 1.3),
             "Takes parts.",
             takes="part",
@@ -378,7 +378,7 @@ def warehouse() -> Example:
         ),
     )
     places = {
-        "receiving": ("Receiving", "room", 4.6, 3.8),
+        "receiving": ("Receiving", "room", 1.2, 4.4),
         "aisle": ("Aisle", "room", 12.0, 4.6),
         "labels": ("Labels", "room", 21.7, 4.4),
         "shipping": ("Shipping", "room", 20.4, 10.8),
