@@ -51,7 +51,7 @@ _DEVICES: Final = {
     "robot_as_goal": "A robot stands beside machines and at places; where another robot is, nobody can say.",
     "may_not_fit": "A variable may hold several devices or places here, and one of them cannot be meant.",
     "cannot_do": "The robot of this role lacks a method that its steps need.",
-    "too_few_robots": "A role keeps its robot until the program ends, so roles of one path need robots of their own.",
+    "too_few_robots": "A role keeps its robot until the program ends or releases it: each role of a path needs one.",
     "no_robot_can": "No approved robot has all the methods that the role needs.",
     "not_given": "The machine does not list this object among those that it gives.",
     "not_taken": "The machine does not list this object among those that it takes.",

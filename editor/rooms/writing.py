@@ -94,8 +94,7 @@ def write_script(*, program_id: UUID | str, text: str, tag: str, author: int) ->
     drawn = draw_script(program_id=program_id, text=text, base=read.document)
     if drawn.document is None:
         first = drawn.diagnostics[0]
-        where = f"Line {first['line']}, column {first['column']}"
-        raise BadScript(f"{where}: {first['message']}", {"diagnostics": list(drawn.diagnostics)})
+        raise BadScript(str(first["message"]), {"diagnostics": list(drawn.diagnostics)})
     return _write(program_id, read, drawn.document, author)
 
 

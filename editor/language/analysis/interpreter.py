@@ -136,10 +136,17 @@ def _counted(walk: Walk, node: n.Repeat | n.ForEach, items: Sequence[Any], state
 def _uncounted(
     walk: Walk, node: Loop, before: States, now: States, exits: list[States], *, goes_round: bool
 ) -> States | None:
-    """Follow the body in silence until another round teaches nothing new, then once more to tell."""
+    """Follow the body in silence until another round teaches nothing new, then once more to tell.
+
+    What is known in the first round alone is told of that: of a loop in another's first round only of all rounds.
+    """
     items = node.items if isinstance(node, n.ForEach) else ()
     with walk.unsure():
-        entry = _settled(walk, node, now)
+        entry = _settled(walk, node, walk.copy(now))
+        if entry != now and not walk.silent and not walk.first:
+            walk.first = True
+            _round(walk, node, walk.assume(walk.copy(now), node, holds=True), [], items)
+            walk.first = False
         walk.read(node, entry)
         after = _round(walk, node, walk.assume(walk.copy(entry), node, holds=True), exits, items)
     ends: list[States | None] = [*exits]

@@ -164,10 +164,12 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "unused_variable": "{variable} wird hier gesetzt und nie verwendet.",
     "unused_parameter": "Nach {parameter} wird gefragt, und es wird nie verwendet.",
     "unset_variable": "{variable} hat hier noch keinen Wert. Setzen Sie die Variable vorher.",
-    "no_robot_yet": "Welcher Roboter {role} ist, steht hier noch nicht fest. Lassen Sie ihn vorher etwas tun.",
+    "no_robot_yet": (
+        "Die Rolle {role} hat hier noch keinen Roboter. Lassen Sie ihn vorher etwas tun, oder wählen Sie einen aus."
+    ),
     "perhaps_no_robot_yet": (
-        "Welcher Roboter {role} ist, steht auf einem der Wege zu diesem Schritt noch nicht fest. Lassen Sie ihn vorher "
-        "etwas tun."
+        "Die Rolle {role} hat auf einem der Wege zu diesem Schritt noch keinen Roboter. Lassen Sie ihn vorher etwas "
+        "tun."
     ),
     "may_be_unset": (
         "{variable} hat auf einem der Wege zu diesem Schritt noch keinen Wert. Setzen Sie die "

@@ -180,10 +180,10 @@ TEXTS: Final[Mapping[str, Text]] = {
     "unused_parameter": ("warning", "{parameter} is asked for and never used."),
     "unset_variable": ("error", "{variable} has no value yet here. Set it before."),
     "may_be_unset": ("warning", "{variable} has no value yet on one of the ways to this step. Set it before."),
-    "no_robot_yet": ("error", "Which robot {role} is, is not known yet here. Let it do a step before, or choose one."),
+    "no_robot_yet": ("error", "The role {role} has no robot yet here. Let it do a step before, or choose a robot."),
     "perhaps_no_robot_yet": (
         "warning",
-        "Which robot {role} is, is not known yet on one of the ways to this step. Let it do a step before.",
+        "The role {role} has no robot yet on one of the ways to this step. Let it do a step before.",
     ),
     "starts_unasked": (
         "warning",

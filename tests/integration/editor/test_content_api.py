@@ -67,6 +67,7 @@ def test_a_script_is_read_changed_and_written_and_steps_keep_their_ids(web: Web)
         bad = client.put(f"/programs/{program}/script", content=script.text + "        import os\n", headers=tag)
         assert (bad.status_code, bad.json()["code"]) == (422, "bad_script")
         assert bad.json()["args"]["diagnostics"][0]["line"] == script.text.count("\n") + 1
+        assert bad.json()["detail"].count("Line ") == 1
         assert client.get(f"/programs/{program}/script").text == script.text
         longer = script.text.replace("5", "7")
         assert client.put(f"/programs/{program}/script", content=longer, headers=tag).status_code == 204

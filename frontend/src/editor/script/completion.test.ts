@@ -85,7 +85,14 @@ test("behind any robot stands what robots report, each reading once", () => {
   const robots = [robot("r1", "battery"), robot("r2", "battery", "wheelSlip")];
   const labels = (using: readonly NamedDevice[]) =>
     optionsAt(`${given}\n        self.robot.`, given, using)?.options.map(({ label, kind }) => `${kind} ${label}`);
-  expect(labels(robots)).toEqual(["verb move", "verb pick", "verb drop", "property battery", "property wheel_slip"]);
+  expect(labels(robots)).toEqual([
+    "verb move",
+    "verb pick",
+    "verb drop",
+    "verb release",
+    "property battery",
+    "property wheel_slip",
+  ]);
 });
 
 test("behind a robot stand its own methods too, behind any robot those of all, each once", () => {
