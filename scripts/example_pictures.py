@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from PIL import Image
-from playwright.sync_api import Browser, expect, sync_playwright
+from playwright.sync_api import Browser, ViewportSize, expect, sync_playwright
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
@@ -29,7 +29,7 @@ from tests.kit.demo import Demo, running_demo  # noqa: E402
 
 IMAGES = ROOT / "docs" / "language" / "images" / "examples"
 SITES = (hospital(), warehouse())
-WINDOW = {"width": 1500, "height": 1000}
+WINDOW: ViewportSize = {"width": 1500, "height": 1000}
 WIDTH = 1200
 COLOURS = 128
 DAY = timedelta(days=1)

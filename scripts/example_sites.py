@@ -378,7 +378,7 @@ def warehouse() -> Example:
         ),
     )
     places = {
-        "receiving": ("Receiving", "room", 1.2, 4.4),
+        "receiving": ("Receiving", "room", 2.4, 4.4),
         "aisle": ("Aisle", "room", 12.0, 4.6),
         "labels": ("Labels", "room", 21.7, 4.4),
         "shipping": ("Shipping", "room", 20.4, 10.8),

@@ -1,4 +1,4 @@
-"""The programs of examples/ and examples/field/: sound, printed and read back, rehearsed; and between them the whole language."""
+"""The programs of `examples`: sound, printed and read back, rehearsed; and between them the whole language."""
 
 from __future__ import annotations
 
