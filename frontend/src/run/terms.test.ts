@@ -1,25 +1,10 @@
 import { expect, test } from "vitest";
 import type { RunSummary } from "@/api/types";
-import { isLate, isPlanned, termsToSend, USUAL } from "./terms";
+import { isLate, isPlanned } from "./terms";
 
 const AT = Date.parse("2026-11-23T12:00:00Z");
 const run = (more: Partial<RunSummary>) =>
   ({ status: "pending", not_before: null, deadline: null, ended_at: null, ...more }) as RunSummary;
-
-test("nothing is sent where all is as usual", () => {
-  expect(termsToSend(USUAL)).toEqual({});
-});
-
-test("times of the browser's zone are sent as moments, and nonsense is not", () => {
-  const local = "2026-11-23T14:30";
-  const sent = termsToSend({ priority: "high", notBefore: local, deadline: "2026-11-23T16:00" });
-  expect(sent).toEqual({
-    priority: "high",
-    not_before: new Date(2026, 10, 23, 14, 30).toISOString(),
-    deadline: new Date(2026, 10, 23, 16, 0).toISOString(),
-  });
-  expect(termsToSend({ ...USUAL, deadline: "tomorrow" })).toBeNull();
-});
 
 test("a run is planned until its time, and not when it is called off or held", () => {
   const not_before = "2026-11-23T12:00:01Z";

@@ -12,7 +12,7 @@ import { useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
 import { completed, type Given, RunParameters } from "./RunParameters";
 import { RunTermsForm } from "./RunTermsForm";
-import { termsToSend, USUAL } from "@/run/terms";
+import { termsToSend, USUAL } from "./runTerms";
 import { roleOfStep } from "@/program/operation";
 
 export function RunDialog() {

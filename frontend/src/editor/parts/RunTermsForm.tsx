@@ -1,6 +1,6 @@
 /** How much a run matters, when it may begin and by when it should be over. */
 import { SegmentedControl, TextInput } from "@mantine/core";
-import { PRIORITIES, type TermsForm } from "@/run/terms";
+import { PRIORITIES, type TermsForm } from "./runTerms";
 import { useOpenProgram } from "../state/context";
 import classes from "./dialogs.module.css";
 

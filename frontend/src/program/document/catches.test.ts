@@ -1,17 +1,6 @@
 /** The catches of a Try: which there are, and what adds and removes one. */
 import { expect, test } from "vitest";
-import { knownNames } from "@/editor/edits/variables";
-import { takeApart } from "@/editor/edits/branches";
-import { takenBy } from "../words/catchWords";
 import { addedCatch, catchesOf, isCatch, kindsOf, removedCatch } from "./catches";
-import { EMPTY_DOCUMENT, type Step } from "./document";
-
-const step = (kind: string, place: Step["place"], params: Step["params"] = {}): Step => ({
-  kind,
-  place,
-  pos: [0, 0],
-  params,
-});
 
 test("a catch is there by its own parameter; old documents have the first", () => {
   expect(catchesOf({})).toEqual(["catch"]);
@@ -46,26 +35,4 @@ test("what removes a catch takes it away and leaves the others", () => {
     ["catch", "catch3"],
     ["catch", "catch2"],
   ]);
-});
-
-test("several catches are called by what they take", () => {
-  const t = (key: string) => key.replace("caught.", "");
-  const several = step("try", null, { kinds: [], kinds2: ["offline"], kinds3: ["failed", "blocked"], kinds4: [] });
-  const words = ["catch", "catch2", "catch3", "catch4", "finally"].map((branch) => takenBy(branch, several, t));
-  expect(words).toEqual(["any", "offline", "failed +1", "rest", null]);
-  expect(takenBy("catch", step("try", null, { kinds: ["failed"] }), t)).toBeNull();
-});
-
-test("a step in a further catch knows the problem, and is a draft when the Try is taken apart", () => {
-  const steps = {
-    head: step("try", ["program", "body", "A"], { kinds: ["failed"], kinds2: [] }),
-    tell: step("notify", ["head", "catch2", "A"]),
-    work: step("wait", ["head", "body", "A"]),
-  };
-  const document = { ...EMPTY_DOCUMENT, steps };
-  const problem = (id: string) => knownNames(document, id).some(({ name }) => name === "problem.kind");
-  expect([problem("tell"), problem("work")]).toEqual([true, false]);
-  expect(takeApart(document, "head")).toMatchObject({
-    edits: expect.arrayContaining([{ do: "set_place", id: "tell", place: null }]) as unknown,
-  });
 });
