@@ -7,6 +7,7 @@ import { type Point, toMetres } from "@/map/plane/projection";
 import { ancestors, type ProgramTree } from "../document/tree";
 import { operatedRole } from "../operation";
 import { type Spot, spotOf, type Surroundings } from "../surroundings";
+import { Standing } from "./standing";
 
 export interface StepPath {
   readonly step: string;
@@ -31,10 +32,11 @@ export type RouteLookup = (key: string) => readonly (readonly [number, number])[
 /** One path for each Pick-and-Drop and each Move whose ends are known, in reading order. */
 export function pathsOf(document: ProgramDocument, tree: ProgramTree, surroundings: Surroundings): StepPath[] {
   const stepPaths: StepPath[] = [];
-  const standing = new Map<string, Spot>();
+  const standing = new Standing(document);
   for (const id of tree.reading) {
     const step = document.steps[id];
     if (!step) continue;
+    standing.begin(id);
     const scope = functionOf(document, id);
     if (operatedRole(step.params.device) !== null) continue;
     const role = `${scope ?? ""}/${textOf(step.params.role, "robot")}`;
