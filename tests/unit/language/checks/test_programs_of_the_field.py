@@ -1,0 +1,64 @@
+"""Right programs of the field, in `tests/cases/right/<site>/`: nothing is told of them, and they print as they are.
+
+Each file is a script whose first line says what the work is. `KNOWN_FALSE` lists what is told all the same.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from editor.language import Compiled, Surroundings, Tree, compile_document, parse_script, tree_to_document
+from tests.kit.demo_site import factory
+from tests.kit.other_sites import hospital, warehouse
+
+RIGHT = Path(__file__).resolve().parents[3] / "cases" / "right"
+SITES = {"factory": factory, "hospital": hospital, "warehouse": warehouse}
+FILES = sorted(RIGHT.glob("*/*.txt"))
+LEAST = 200
+CORNER = {"name": "Busy corner", "rule": "one_at_a_time", "points": [[2.4, -13.6], [4.8, -13.6], [4.8, -12], [2.4, -12]]}
+KNOWN_FALSE: dict[str, tuple[list[str], str]] = {}
+"""Programs that are right and of which something is told: the codes, and why they are told."""
+
+
+def name_of(file: Path) -> str:
+    return f"{file.parent.name}/{file.stem}"
+
+
+def parsed(text: str, site: Surroundings) -> Tree:
+    found = parse_script(text, site)
+    assert found.tree is not None, [each.message for each in found.diagnostics]
+    return found.tree
+
+
+def compiled(tree: Tree, site: Surroundings, text: str) -> Compiled:
+    """Compile what is drawn for a script, on a map with the zones of which it speaks."""
+    document: dict[str, Any] = tree_to_document(tree, site)
+    document["zones"] = dict.fromkeys(re.findall(r'ctx\.zone\("(\w+)"\)', text), CORNER)
+    return compile_document(document, site)
+
+
+@pytest.mark.parametrize("file", FILES, ids=name_of)
+def test_nothing_is_told_of_a_program_of_the_field(file: Path) -> None:
+    text, site = file.read_text(), SITES[file.parent.name]()
+    tree = parsed(text, site)
+    found = compiled(tree, site, text)
+    codes = [each.code for each in found.diagnostics]
+    assert codes == KNOWN_FALSE.get(name_of(file), ([], ""))[0], [(e.step, e.message) for e in found.diagnostics]
+    assert (found.tree, parsed(found.script, site)) == (tree, tree)
+    assert (found.plan is None) == any(each.severity == "error" for each in found.diagnostics)
+
+
+def test_there_are_many_different_ones_and_each_says_what_it_is_for() -> None:
+    texts = [file.read_text() for file in FILES]
+    assert all(re.match(r"# [A-Z].*\.\n", text) for text in texts)
+    assert len({text.partition("\n")[0] for text in texts}) == len(texts)
+    assert len({text.partition("\n")[2] for text in texts}) == len(texts) >= LEAST
+
+
+def test_what_is_told_falsely_is_told_of_a_program_that_is_there() -> None:
+    assert set(KNOWN_FALSE) <= {name_of(file) for file in FILES}
+    assert all(codes and why.endswith(".") for codes, why in KNOWN_FALSE.values())
