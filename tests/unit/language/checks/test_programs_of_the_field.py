@@ -5,6 +5,7 @@ Each file is a script whose first line says what the work is. `KNOWN_FALSE` list
 
 from __future__ import annotations
 
+import random
 import re
 from pathlib import Path
 from typing import Any
@@ -14,11 +15,13 @@ import pytest
 from editor.language import Compiled, Surroundings, Tree, compile_document, parse_script, tree_to_document
 from tests.kit.demo_site import factory
 from tests.kit.other_sites import hospital, warehouse
+from tests.unit.language.field_trial import Trial
 
 RIGHT = Path(__file__).resolve().parents[3] / "cases" / "right"
 SITES = {"factory": factory, "hospital": hospital, "warehouse": warehouse}
 FILES = sorted(RIGHT.glob("*/*.txt"))
 LEAST = 200
+RUNS = 12
 CORNER = {"name": "Busy corner", "rule": "one_at_a_time", "points": [[2.4, -13.6], [4.8, -13.6], [4.8, -12], [2.4, -12]]}
 SAME_NUMBER = "What is dropped is known to lie in the range of what was picked, not that it is the same number."
 SAME_CONDITION = "A condition that is asked twice is not known to have the same answer."
@@ -72,3 +75,21 @@ def test_there_are_many_different_ones_and_each_says_what_it_is_for() -> None:
 def test_what_is_told_falsely_is_told_of_a_program_that_is_there() -> None:
     assert set(KNOWN_FALSE) <= {name_of(file) for file in FILES}
     assert all(codes and why.endswith(".") for codes, why in KNOWN_FALSE.values())
+
+
+@pytest.mark.parametrize("file", FILES, ids=name_of)
+def test_a_program_of_the_field_does_what_can_be_done_and_comes_to_its_end(file: Path) -> None:
+    text, site = file.read_text(), SITES[file.parent.name]()
+    plan = compiled(parsed(text, site), site, text).plan
+    assert plan is not None
+    trials = [Trial(plan, site, random.Random(seed), failing=0.2 * (seed % 2)) for seed in range(RUNS)]  # noqa: S311 - a sample
+    ends = [trial.run() for trial in trials]
+    assert [trial.wrong for trial in trials if trial.wrong] == []
+    assert "finished" in {status for status, _ in ends}
+    reasons = {reason for (status, reason), trial in zip(ends, trials, strict=True) if status == "failed" and not trial.failed}
+    assert all(_is_meant(reason, text) for reason in reasons), reasons
+
+
+def _is_meant(reason: str, text: str) -> bool:
+    """Tell whether a run may fail for this reason: the program says so, or it has given something a time."""
+    return "raise Failed" in text or ("timeout=" in text or "self.limit" in text) and bool(reason)
