@@ -68,9 +68,7 @@ def _described(name: str, kind: Any, offers: tuple[PropertySpec | MethodSpec, ..
     methods = tuple(each for each in offers if isinstance(each, MethodSpec))
     moving = {"radius_m": 0.3, "speed_m_s": 0.8} if kind == "robot" else {}
     pose = Pose(0.0, 0.0)
-    return Description(
-        name, name, kind, "device", pose, SIZE, properties=properties, methods=methods, **moving, **more
-    )
+    return Description(name, name, kind, "device", pose, SIZE, properties=properties, methods=methods, **moving, **more)
 
 
 def _site(devices: tuple[DeviceFacts, ...], rooms: str, docks: str) -> Surroundings:
@@ -181,7 +179,14 @@ def hospital() -> Surroundings:
             robot("cart01", 6, *CART),
             robot("cart02", 6, *CART),
             robot("courier01", 1, *CART, method("unlock")),
-            robot("scrubber01", 0, BATTERY, CHARGE, measured("tank", "L", 0, 20), method("scrub", number("time", "MIN", 1, 60))),
+            robot(
+                "scrubber01",
+                0,
+                BATTERY,
+                CHARGE,
+                measured("tank", "L", 0, 20),
+                method("scrub", number("time", "MIN", 1, 60)),
+            ),
         ),
         "hall, corridorA, corridorB, isolation, entrance, theatreDoor",
         "charger1, charger2, charger3",
@@ -253,7 +258,13 @@ def warehouse() -> Surroundings:
             robot("forklift01", 1, *TRUCK, FORK),
             robot("forklift02", 1, *TRUCK, FORK),
             *(robot(f"picker0{each}", 4, *TRUCK) for each in (1, 2, 3)),
-            robot("scanner01", 0, BATTERY, CHARGE, method("scan", choice("aisle", "A", "B", "C"), number("time", "SEC", 5, 300))),
+            robot(
+                "scanner01",
+                0,
+                BATTERY,
+                CHARGE,
+                method("scan", choice("aisle", "A", "B", "C"), number("time", "SEC", 5, 300)),
+            ),
         ),
         "aisleA, aisleB, aisleC, yard, office",
         "charger1, charger2, charger3, charger4",

@@ -111,6 +111,9 @@ class Trial:
                     found[key, each.name] = self._reading(each)
             if share == 1:
                 found |= {(key, X): facts.description.pose.x, (key, Y): facts.description.pose.y}
+            elif facts.description.kind == "robot" and key not in self.robots.values():  # others drive it
+                place = self.chance.choice(list(self.site.places.values()))
+                found |= {(key, X): place.x, (key, Y): place.y}
         found |= {(key, X): place.x for key, place in self.site.places.items()}
         return found | {(key, Y): place.y for key, place in self.site.places.items()}
 
@@ -158,8 +161,8 @@ class Trial:
                 and facts.description.kind == "robot"
                 and all(facts.description.method(each) for each in wanted.can)
             ]
-            self.robots[role] = free[0].id
-            self.news[ROLE, role] = free[0].id
+            self.robots[role] = self.chance.choice(free).id
+            self.news[ROLE, role] = self.robots[role]
         return self.site.devices[self.robots[role]].description
 
     def _call(self, doer: Description | None, name: str, arguments: object) -> None:

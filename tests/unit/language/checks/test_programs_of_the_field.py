@@ -22,7 +22,11 @@ SITES = {"factory": factory, "hospital": hospital, "warehouse": warehouse}
 FILES = sorted(RIGHT.glob("*/*.txt"))
 LEAST = 200
 RUNS = 12
-CORNER = {"name": "Busy corner", "rule": "one_at_a_time", "points": [[2.4, -13.6], [4.8, -13.6], [4.8, -12], [2.4, -12]]}
+CORNER = {
+    "name": "Busy corner",
+    "rule": "one_at_a_time",
+    "points": [[2.4, -13.6], [4.8, -13.6], [4.8, -12], [2.4, -12]],
+}
 SAME_NUMBER = "What is dropped is known to lie in the range of what was picked, not that it is the same number."
 SAME_CONDITION = "A condition that is asked twice is not known to have the same answer."
 KNOWN_FALSE: dict[str, tuple[list[str], str]] = {
@@ -61,7 +65,9 @@ def test_nothing_is_told_of_a_program_of_the_field(file: Path) -> None:
     found = compiled(tree, site, text)
     codes = [each.code for each in found.diagnostics]
     assert codes == KNOWN_FALSE.get(name_of(file), ([], ""))[0], [(e.step, e.message) for e in found.diagnostics]
-    assert parsed(found.script, site) == found.tree
+    again = parsed(found.script, site)
+    assert again == found.tree
+    assert compiled(again, site, text).script == found.script
     assert (found.plan is None) == any(each.severity == "error" for each in found.diagnostics)
 
 
@@ -82,14 +88,16 @@ def test_a_program_of_the_field_does_what_can_be_done_and_comes_to_its_end(file:
     text, site = file.read_text(), SITES[file.parent.name]()
     plan = compiled(parsed(text, site), site, text).plan
     assert plan is not None
-    trials = [Trial(plan, site, random.Random(seed), failing=0.2 * (seed % 2)) for seed in range(RUNS)]  # noqa: S311 - a sample
+    trials = [Trial(plan, site, random.Random(seed), failing=0.2 * (seed % 2)) for seed in range(RUNS)]
     ends = [trial.run() for trial in trials]
     assert [trial.wrong for trial in trials if trial.wrong] == []
     assert "finished" in {status for status, _ in ends}
-    reasons = {reason for (status, reason), trial in zip(ends, trials, strict=True) if status == "failed" and not trial.failed}
+    reasons = {
+        reason for (status, reason), trial in zip(ends, trials, strict=True) if status == "failed" and not trial.failed
+    }
     assert all(_is_meant(reason, text) for reason in reasons), reasons
 
 
 def _is_meant(reason: str, text: str) -> bool:
     """Tell whether a run may fail for this reason: the program says so, or it has given something a time."""
-    return "raise Failed" in text or ("timeout=" in text or "self.limit" in text) and bool(reason)
+    return "raise Failed" in text or (("timeout=" in text or "self.limit" in text) and bool(reason))
