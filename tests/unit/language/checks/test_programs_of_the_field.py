@@ -14,8 +14,8 @@ import pytest
 
 from editor.language import Compiled, Surroundings, Tree, compile_document, parse_script, tree_to_document
 from tests.kit.demo_site import factory
-from tests.kit.other_sites import hospital, warehouse
-from tests.unit.language.field_trial import Trial
+from tests.unit.language.checks.field_sites import hospital, warehouse
+from tests.unit.language.checks.field_trial import Trial
 
 RIGHT = Path(__file__).resolve().parents[3] / "cases" / "right"
 SITES = {"factory": factory, "hospital": hospital, "warehouse": warehouse}

@@ -66,7 +66,7 @@ def _listed(text: str) -> tuple[str, ...]:
 def _described(name: str, kind: Any, offers: tuple[PropertySpec | MethodSpec, ...], **more: Any) -> Description:
     properties = tuple(each for each in offers if isinstance(each, PropertySpec))
     methods = tuple(each for each in offers if isinstance(each, MethodSpec))
-    moving = {"radius_m": 0.3, "speed_m_s": 0.8} if kind == "robot" else {}
+    moving: dict[str, Any] = {"radius_m": 0.3, "speed_m_s": 0.8} if kind == "robot" else {}
     pose = Pose(0.0, 0.0)
     return Description(name, name, kind, "device", pose, SIZE, properties=properties, methods=methods, **moving, **more)
 

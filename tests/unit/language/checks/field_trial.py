@@ -51,7 +51,8 @@ class Trial:
             event = self._event(waits)
             if self.news:
                 state, actions = machine.step(self.plan, state, m.Facts(dict(self.news)))
-                waits, _ = self._open(waits, actions), self.news.clear()
+                waits = self._open(waits, actions)
+                self.news.clear()
             state, actions = machine.step(self.plan, state, event)
         reason = next((each.reason for each in actions if isinstance(each, m.Finished)), "")
         if state.status == "finished":
