@@ -102,7 +102,8 @@ def start_run(request: HttpRequest, program: UUID, body: StartRun | None = None)
     _require_here(request, site_of_program(program_id=program), "operator", "program")
     body = body or StartRun()
     prepared = prepare(program_id=program, user=request.user, parameters=body.parameters)
-    return run_to_json(services.start_run(prepared=prepared, by=_who(request)))
+    terms = services.Terms(body.priority, body.not_before, body.deadline)
+    return run_to_json(services.start_run(prepared=prepared, by=_who(request), terms=terms))
 
 
 @router.get("/sites/{slug:site}/runs", response=list[RunSummaryShape])

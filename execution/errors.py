@@ -3,6 +3,7 @@
 ExecutionError
  ├── NotFound: no such run, rehearsal or program here
  ├── NotReady: the program has errors and cannot be carried out
+ ├── BadTerms: a run cannot begin or be over at such a time
  ├── NotPossibleNow: the run is over, the site is stopped
  ├── AlreadyAnswered: somebody else was quicker
  ├── AnswerNotFitting: the answer is not what was asked for
@@ -34,6 +35,13 @@ class NotReady(ExecutionError):
     """The program cannot be carried out as it is."""
 
     code = "not_ready"
+    status = 422
+
+
+class BadTerms(ExecutionError):
+    """A time that a run is to begin or to be over at makes no sense."""
+
+    code = "bad_terms"
     status = 422
 
 

@@ -109,21 +109,31 @@ class QuestionAnswered:
     step: str
 
 
+@dataclass(frozen=True, slots=True)
+class DeadlinePassed:
+    """The run should be over by now, and is not."""
+
+
 ToRun = (
     TaskEnded | RoleFilled | RoleEmptied | WaitNoted | CommandGiven | CommandEnded | RobotSetsOut
-    | ResumeAsked | QuestionAnswered | r.TimerFired | r.PauseAsked | r.CancelAsked
+    | ResumeAsked | QuestionAnswered | DeadlinePassed | r.TimerFired | r.PauseAsked | r.CancelAsked
 )  # fmt: skip
 """What a run is told: by the floor, by devices' answers, by the ticker, by people."""
 
 
 @dataclass(frozen=True, slots=True)
 class AskingRun:
-    """What the floor is told of a run with each task: its id, what people call it, its program's roles and zones."""
+    """What the floor is told of a run with each task.
+
+    Its id, what people call it, its program's roles and zones, its priority and deadline (`TaskAsked`).
+    """
 
     id: str
     name: str
     roles: Mapping[str, RoleBinding]
     zones: tuple[m.FloorZone, ...]
+    priority: int = 0
+    due: float = 0.0
 
 
 def to_floor(run: AskingRun, action: r.Ask | r.Cancel | r.Finished) -> ToFloor:
@@ -133,7 +143,9 @@ def to_floor(run: AskingRun, action: r.Ask | r.Cancel | r.Finished) -> ToFloor:
             role = run.roles.get(order.role, RoleBinding(order.role))
             where = expression_to_json(role.where) or {}
             wants = role.device or ""
-            return m.TaskAsked(run.id, task, order, wants, role.can, run.name, run.zones, where, role.said)
+            return m.TaskAsked(
+                run.id, task, order, wants, role.can, run.name, run.zones, where, role.said, run.priority, run.due
+            )
         case r.Cancel(task=task):
             return m.TaskCancelled(run.id, task)
         case r.Finished():
@@ -178,7 +190,7 @@ def to_machine(message: ToRun) -> r.Event | None:
             return r.Resumed()
         case r.TimerFired() | r.PauseAsked() | r.CancelAsked():
             return message
-        case WaitNoted() | CommandGiven() | CommandEnded() | RobotSetsOut():
+        case WaitNoted() | CommandGiven() | CommandEnded() | RobotSetsOut() | DeadlinePassed():
             return None
         case _:
             assert_never(message)
@@ -209,6 +221,7 @@ TO_RUN: Mapping[str, type[ToRun]] = {
     "resume": ResumeAsked,
     "cancel": r.CancelAsked,
     "answered": QuestionAnswered,
+    "deadline": DeadlinePassed,
 }
 """What kept messages are called in JSON; databases have rows with these names, so they stay."""
 STORED_AS = {"task": "mission"}

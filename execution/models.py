@@ -8,7 +8,11 @@ from django.db import models
 
 
 class Run(models.Model):
-    """A program being carried out. It holds all it needs: the document, the plan and the machine's state."""
+    """A program being carried out. It holds all it needs: the document, the plan and the machine's state.
+
+    `not_before` is when it may begin, `deadline` when it should be over; `late` says that people were told that it is
+    not.
+    """
 
     class Status(models.TextChoices):
         """The life of a run."""
@@ -19,6 +23,13 @@ class Run(models.Model):
         FINISHED = "finished"
         FAILED = "failed"
         CANCELLED = "cancelled"
+
+    class Priority(models.IntegerChoices):
+        """Whose tasks find robots first."""
+
+        LOW = -1
+        NORMAL = 0
+        HIGH = 1
 
     OPEN = (Status.PENDING, Status.RUNNING, Status.PAUSED)
 
@@ -43,6 +54,10 @@ class Run(models.Model):
     entry = models.PositiveIntegerField(default=0)
     notices = models.JSONField(default=dict)
     started_by = models.CharField(max_length=120, blank=True)
+    priority = models.SmallIntegerField(choices=Priority.choices, default=Priority.NORMAL)
+    not_before = models.DateTimeField(null=True)
+    deadline = models.DateTimeField(null=True)
+    late = models.BooleanField(default=False)
     created_at = models.DateTimeField()
     started_at = models.DateTimeField(null=True)
     ended_at = models.DateTimeField(null=True)

@@ -10,6 +10,7 @@ from execution.errors import (
     AlreadyAnswered,
     AnswerNotFitting,
     BadArguments,
+    BadTerms,
     ExecutionError,
     NotFound,
     NotPossibleNow,
@@ -32,6 +33,7 @@ from execution.runs.runs import (
     site_of_run,
     start_run,
 )
+from execution.runs.terms import Terms
 from execution.runs.triggers import arm_program, disarm_program, list_armed, start_armed
 from execution.ticker.ticker import run_ticker
 from execution.views import (
@@ -51,6 +53,7 @@ __all__ = [
     "AnswerNotFitting",
     "ArmedView",
     "BadArguments",
+    "BadTerms",
     "CallView",
     "ExecutionError",
     "NotFound",
@@ -65,6 +68,7 @@ __all__ = [
     "RunFilter",
     "RunView",
     "StopView",
+    "Terms",
     "WholeRunView",
     "action_to_json",
     "answer_question",

@@ -14,6 +14,7 @@ from registry.shapes import Asked, Flag, Line, Unchecked
 RunStatus = Literal["pending", "running", "paused", "finished", "failed", "cancelled"]
 StepStatus = Literal["waiting", "running", "done", "failed", "skipped"]
 Scalar = bool | int | float | str
+Priority = Literal["low", "normal", "high"]
 Driver = Literal["physics", "kinematic"]
 Seed = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
 MapVersion = Annotated[int, Strict(), Field(ge=0, lt=2**31)]
@@ -31,9 +32,16 @@ class RunsAsked(Asked):
 
 
 class StartRun(Asked):
-    """Parameters of a run; what is left out has its default."""
+    """Parameters of a run, and in which order and when it is done; what is left out has its default."""
 
     parameters: dict[str, Any] = {}
+    priority: Priority = "normal"
+    not_before: Annotated[
+        AwareDatetime | None, Field(description="It waits until then and begins by itself; at most a year ahead.")
+    ] = None
+    deadline: Annotated[
+        AwareDatetime | None, Field(description="It should be over by then; people are told when it is not.")
+    ] = None
 
 
 class StartRehearsal(Asked):
@@ -118,6 +126,9 @@ class RunSummaryShape(Schema):
     started_by: str
     steps: dict[str, RunStepShape]
     roles: dict[str, str]
+    priority: Priority
+    not_before: str | None
+    deadline: str | None
 
 
 class RunShape(RunSummaryShape):

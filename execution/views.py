@@ -14,6 +14,8 @@ from vipo_device.protocol.description import Scalar
 
 WITH_CAUSE = frozenset({"failed", "cancelled", "paused"})
 WELL = frozenset({"step_entered", "step_done"})
+PRIORITIES: Mapping[str, int] = {"low": -1, "normal": 0, "high": 1}
+PRIORITY_NAMES: Mapping[int, str] = {number: name for name, number in PRIORITIES.items()}
 LATE = "The device took longer than it may. Look what it is doing."
 
 
@@ -35,6 +37,9 @@ class RunView:
     started_by: str
     steps: Mapping[str, Mapping[str, Any]]
     roles: Mapping[str, str]
+    priority: str = "normal"
+    not_before: datetime | None = None
+    deadline: datetime | None = None
 
     @property
     def cause(self) -> dict[str, Any] | None:
@@ -170,6 +175,9 @@ def view_run(row: Run) -> RunView:
         started_by=row.started_by,
         steps=row.steps,
         roles=row.roles,
+        priority=PRIORITY_NAMES[row.priority],
+        not_before=row.not_before,
+        deadline=row.deadline,
     )
 
 
@@ -257,6 +265,9 @@ def run_to_json(run: RunView) -> dict[str, Any]:
         "started_by": run.started_by,
         "steps": run.steps,
         "roles": run.roles,
+        "priority": run.priority,
+        "not_before": _iso(run.not_before),
+        "deadline": _iso(run.deadline),
     }
 
 

@@ -114,6 +114,9 @@ _FLOOR: Final = {
     "place_unreachable": "No robot of the role finds a way from where it stands.",
     "station_unreachable": "No side of the machine has room for a robot of the role, or no way leads there.",
     "place_in_keep_out": "The goal, or the place beside the machine, lies in a zone that robots keep out of.",
+    "route_blocked": "A robot drives over the points of a route one after the other. At this one no robot of the role "
+    "fits, or no path leads there.",
+    "route_in_keep_out": "A point of the route lies in a zone that robots keep out of.",
     "zone_too_small": "The zone's area is smaller than that of the smallest robot.",
 }
 _WAYS: Final = {
@@ -132,6 +135,8 @@ _WAYS: Final = {
     "continue_outside_loop": "A Next round stands in no loop of its own function or branch.",
     "leaves_parallel": "A Return, a Break or a Next round would leave one branch while the others go on.",
     "leaves_finally": "A Return, a Break or a Next round would leave the branch that is carried out whatever happens.",
+    "catch_never_reached": "The catches before it take every kind of problem that this one takes.",
+    "caught_before": "Two catches of a Try name one kind of problem; the first of them takes it.",
     "empty_branch": "An If with two empty branches, or a Repeat, a For-each or a Time limit without a step in it.",
     "over_at_once": "A Parallel that ends with some of its branches has so many that begin nothing that takes time.",
     "busy_circle": "A While waits for what is measured, and no step in it takes time or changes what it looks at.",

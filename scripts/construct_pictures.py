@@ -44,15 +44,15 @@ def make_programs(state: Path, wanted: dict[str, Picture]) -> dict[str, str]:
     return {kind: str(program.id) for kind, program in made.items()}
 
 
-def clip_of(page: Page, frame: Frame) -> FloatRect:
-    """Return where a part of the map stands on the screen."""
+def clip_of(page: Page, frame: Frame, widest: int = WIDEST_PIXELS) -> FloatRect:
+    """Return where a part of the map stands on the screen, cut at so many pixels."""
     numbers = [float(n) for n in re.findall(r"-?[\d.]+", page.evaluate(TRANSFORM))]
     x, y, zoom = numbers[0], numbers[1], numbers[-1]
     origin = page.locator(".react-flow").bounding_box()
     assert origin is not None
     scale = PIXELS_PER_METRE * zoom
     left, top, right, bottom = frame
-    width = min((right - left) * scale, WIDEST_PIXELS)
+    width = min((right - left) * scale, widest)
     at = {"x": origin["x"] + x + left * scale, "y": origin["y"] + y - top * scale}
     return {"x": at["x"], "y": at["y"], "width": width, "height": (top - bottom) * scale}
 

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from editor.language import Surroundings, compile_document, surroundings_from_json
+from editor.language.document.catches import catches_of
 from editor.language.expressions.nodes import AnswerSpec
 from editor.language.plan.instructions import Plan
 from execution.machine import machine
@@ -39,6 +40,14 @@ HARMLESS = {"unused_variable", "unused_parameter", "empty_branch", "busy_circle"
 """What is told of a program that does all the same what it says."""
 MORE = 0.75
 """How often one more step follows, the deeper the seldomer."""
+
+
+_TRIES: tuple[Json, ...] = (
+    {"kinds": ["timed_out"]},
+    {"kinds": ["offline"], "kinds2": ["timed_out"]},
+    {"kinds": ["timed_out"], "kinds2": [], "kinds3": ["failed"]},
+    {"catch": False, "kinds2": ["failed", "timed_out"]},
+)
 
 
 @dataclass
@@ -202,14 +211,15 @@ class Draft:
     def _limit(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         before, caught = set(self.known), self.chance.random() < 0.5
         if caught:
-            parent, branch = self.add(parent, branch, "try", {"kinds": ["timed_out"]}), "body"
+            parent, branch = self.add(parent, branch, "try", self.chance.choice(_TRIES)), "body"
         time = {"op": "*", "args": [self.number(), {"quantity": [1, "MIN"]}]}
         step = self.add(parent, branch, "limit", {"duration": self.chance.choice([600, time])})
         self.block(step, "body", depth + 1, inside)
         if caught:  # what is known behind a failure is little, and little is told of it
             self.known = before
-            self.add(parent, "catch", "notify", {"message": {"param": "problem.text"}, "level": "info"})
-            self.add(parent, "catch", "end", {})
+            for catch in catches_of(self.steps[parent]["params"]):
+                self.add(parent, catch, "notify", {"message": {"param": "problem.text"}, "level": "info"})
+                self.add(parent, catch, "end", {})
 
     def _release(self, parent: str, branch: str, depth: int, inside: frozenset[str]) -> None:
         self.add(parent, branch, "release", {"role": "robot"})

@@ -21,7 +21,7 @@ from editor.language.tree.nodes import Move as MoveNode
 from editor.language.tree.numbering import number_steps, numbers_in_script
 from editor.language.tree.program import Tree
 from editor.language.tree.robots import with_crew, with_roles_of_robots
-from editor.language.tree.zones import read_zones, zone_names
+from editor.language.tree.zones import zone_names
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ class Look:
         faulty = any(diagnostic.severity == "error" for diagnostic in diagnostics)
         plan = None
         if with_plan and not faulty:
-            plan = compile_tree(tree, self.surroundings, script.line_of, read_zones(self.document))
+            plan = compile_tree(tree, self.surroundings, script.line_of)
         outline = self.reading.outline
         drafts = outline.with_inner((*outline.drafts, *outline.unknown))
         order = (*numbers, *drafts)

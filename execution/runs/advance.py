@@ -15,13 +15,14 @@ from editor.language import plan_from_json
 from editor.language.plan.instructions import Plan
 from execution import mailbox
 from execution.errors import StepConflict
-from execution.floor_protocol import AskingRun, ToFloor, ToRun, to_floor, to_machine
+from execution.floor_protocol import AskingRun, DeadlinePassed, ToFloor, ToRun, to_floor, to_machine
 from execution.machine import machine
 from execution.machine import messages as r
 from execution.machine.needs import Needs, needs_of
 from execution.machine.state import RunState
 from execution.models import Run, Timer
 from execution.runs import notices, questions
+from execution.runs.before_start import is_before_start, may_begin, take_in
 from execution.runs.facts import facts_of, names_of
 from execution.runs.journal import Journal, describe
 from execution.runs.reading_grace import asking_key, split_early, wake_later
@@ -43,12 +44,19 @@ def advance_run(run_id: UUID | str) -> bool:
         now = datetime.now(UTC)
         deliveries, early = split_early(run, needs, mailbox.waiting_for_run(run.id), now)
         messages = [delivery.message for delivery in deliveries]
-        facts = facts_of(needs, run, messages, now)
         journal = Journal(run, now, names_of(run, messages))
-        if early:
-            wake_later(run, now)
-        state = _fold(_Step(run, plan, journal), facts, messages)
-        _write(run, state, journal, watches=bool(early) or _watches(plan, state))
+        if is_before_start(run):
+            take_in(run, journal, messages)
+            messages = []
+        if may_begin(run, now):
+            facts = facts_of(needs, run, messages, now)
+            if early:
+                wake_later(run, now)
+            state = _fold(_Step(run, plan, journal), facts, messages)
+            run.state, run.status, run.reason = machine.to_json(state), state.status, state.reason
+            run.watches = bool(early) or _watches(plan, state)
+        if deliveries or run.state is not None:
+            _write(run, journal)
         mailbox.mark_taken(deliveries)
         mailbox.crash_point("run_before_commit")
     mailbox.crash_point("run_after_commit")
@@ -61,7 +69,8 @@ class _Step:
     def __init__(self, run: Run, plan: Plan, journal: Journal) -> None:
         self.run, self.plan, self.journal = run, plan, journal
         zones = floor_zones(str(run.program), plan.zones)
-        self.asking = AskingRun(str(run.id), f"run {run.number}", plan.roles, zones)
+        due = run.deadline.timestamp() if run.deadline else 0.0
+        self.asking = AskingRun(str(run.id), f"run {run.number}", plan.roles, zones, run.priority, due)
 
     def tell_floor(self, key: str, message: ToFloor) -> None:
         """Put a message of the run into its floor's inbox; the key is the run's own."""
@@ -93,6 +102,8 @@ def _fold(step: _Step, facts: Mapping[tuple[str, str], Scalar], messages: list[T
             state = _tell(step, state, r.Facts(news))
     for message in messages:
         step.journal.note(message)
+        if isinstance(message, DeadlinePassed):
+            notices.tell_late(run, step.journal)
         event = to_machine(message)
         if event is not None:
             state = _tell(step, state, event)
@@ -104,6 +115,9 @@ def _say_started(step: _Step) -> None:
     if run.entry:
         text = f"Run {run.number} started by itself; {by} has armed the program."
         step.journal.say("run", text, code="started_itself", by=by, number=run.number)
+    elif run.not_before:
+        text = f"Run {run.number} began at its time; {by} has planned it."
+        step.journal.say("run", text, code="started_planned", by=by, number=run.number)
     else:
         step.journal.say("run", f"{by} started run {run.number}.", code="started", by=by, number=run.number)
 
@@ -164,14 +178,15 @@ def _watches(plan: Plan, state: RunState) -> bool:
     return waits or any(event.starts == "branch" for event in plan.events)
 
 
-def _write(run: Run, state: RunState, journal: Journal, *, watches: bool) -> None:
+def _write(run: Run, journal: Journal) -> None:
     """Write the new state, if nobody else has advanced the run meanwhile."""
     written = Run.objects.filter(id=run.id, epoch=run.epoch).update(
-        state=machine.to_json(state),
-        status=state.status,
-        reason=state.reason[:500],
+        state=run.state,
+        status=run.status,
+        reason=run.reason[:500],
         epoch=run.epoch + 1,
-        watches=watches,
+        watches=run.watches,
+        late=run.late,
         notices=run.notices,
         steps=journal.steps,
         roles=journal.roles,
@@ -181,5 +196,4 @@ def _write(run: Run, state: RunState, journal: Journal, *, watches: bool) -> Non
     )
     if not written:
         raise StepConflict(f"Run {run.number} was advanced by another process.")
-    run.status, run.reason = state.status, state.reason
     journal.write()

@@ -11,6 +11,7 @@ from django.db import transaction
 from execution.floor_protocol import (
     CommandEnded,
     CommandGiven,
+    DeadlinePassed,
     QuestionAnswered,
     ResumeAsked,
     RobotSetsOut,
@@ -121,7 +122,7 @@ class Journal:
             case QuestionAnswered(value=value, by=by, step=step):
                 text = f"{by} answered: {in_short(value)}."
                 self.say("question", text, step=step, code="answered", by=by, value=value)
-            case TaskEnded() | TimerFired() | PauseAsked() | ResumeAsked() | CancelAsked():
+            case TaskEnded() | TimerFired() | PauseAsked() | ResumeAsked() | CancelAsked() | DeadlinePassed():
                 pass  # what comes of it is written when it comes
             case _:
                 assert_never(message)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime, timedelta
+from typing import Any
 
 from django.db import transaction
 
@@ -26,6 +27,19 @@ def tell(run: Run, journal: Journal, action: r.Tell) -> None:
     message = {"type": "notice", "run": str(run.id), "text": action.text, "level": action.level}
     slug = run.site.slug
     transaction.on_commit(lambda: registry.publish(slug, message))
+
+
+def tell_late(run: Run, journal: Journal) -> None:
+    """Tell people, once, that a run is not over by its deadline."""
+    if run.late:
+        return
+    run.late = True
+    text = f"Run {run.number} ({run.program_name}) should be over by now."
+    more: dict[str, Any] = {"number": run.number, "program": run.program_name}
+    journal.say("notice", text, code="deadline_passed", level="warning", **more)
+    message = {"type": "notice", "run": str(run.id), "text": text, "level": "warning", "code": "deadline_passed"}
+    slug = run.site.slug
+    transaction.on_commit(lambda: registry.publish(slug, {**message, "args": more}))
 
 
 def _count(run: Run, journal: Journal) -> dict[str, int]:

@@ -17,21 +17,23 @@ from execution.floor_protocol import ResumeAsked, ToRun
 from execution.machine.messages import CancelAsked, PauseAsked
 from execution.models import Run, RunEvent
 from execution.runs.programs import Prepared
-from execution.views import RunEventView, RunView, WholeRunView, run_to_json, view_event, view_run
+from execution.runs.terms import USUAL, Terms, fit_terms
+from execution.views import PRIORITIES, RunEventView, RunView, WholeRunView, run_to_json, view_event, view_run
 from registry import services as registry
 
 EVENTS_AT_ONCE = 1000
 
 
-def start_run(*, prepared: Prepared, by: str, entry: int = 0) -> RunView:
+def start_run(*, prepared: Prepared, by: str, entry: int = 0, terms: Terms = USUAL) -> RunView:
     """Start a run of a program that was checked; a worker takes it from here. `entry` is where it begins.
 
     Raises:
+        BadTerms: it may begin or should be over at a time that makes no sense.
         NotPossibleNow: the site is stopped.
     """
     if is_stopped(site=prepared.site):
         raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.", {"why": "stopped"})
-    return _announce(prepared, _create_numbered(prepared, by, entry))
+    return _announce(prepared, _create_numbered(prepared, by, entry, fit_terms(terms, datetime.now(UTC))))
 
 
 def _announce(prepared: Prepared, row: Run) -> RunView:
@@ -41,18 +43,18 @@ def _announce(prepared: Prepared, row: Run) -> RunView:
     return view
 
 
-def _create_numbered(prepared: Prepared, by: str, entry: int) -> Run:
+def _create_numbered(prepared: Prepared, by: str, entry: int, terms: Terms) -> Run:
     """Write the row; when another run took the number at the same time, try the next."""
     for _ in range(5):
         try:
             with transaction.atomic():
-                return _create(prepared, by, entry)
+                return _create(prepared, by, entry, terms)
         except IntegrityError:
             continue
     raise NotPossibleNow("Many runs are being started at once. Try again in a moment.")
 
 
-def _create(prepared: Prepared, by: str, entry: int) -> Run:
+def _create(prepared: Prepared, by: str, entry: int, terms: Terms) -> Run:
     site = registry.get_site_id(site=prepared.site)
     last = Run.objects.filter(site_id=site).aggregate(last=Max("number"))["last"] or 0
     return Run.objects.create(
@@ -67,6 +69,9 @@ def _create(prepared: Prepared, by: str, entry: int) -> Run:
         plan=prepared.plan,
         entry=entry,
         started_by=by,
+        priority=PRIORITIES[terms.priority],
+        not_before=terms.not_before,
+        deadline=terms.deadline,
         created_at=datetime.now(UTC),
     )
 

@@ -93,11 +93,17 @@ def _look_at(row: ArmedProgram, now: datetime) -> bool:
         mine = ArmedProgram.objects.filter(program=row.program, epoch=row.epoch, at=row.at)
         if not mine.update(truths=truths, epoch=row.epoch + 1) or due is None:
             return False
-        if is_stopped(site=row.site.slug) or Run.objects.filter(program=row.program, status__in=Run.OPEN).exists():
+        if is_stopped(site=row.site.slug) or _is_under_way(row.program, now):
             return False
         prepared = Prepared(**{**row.prepared, "program": row.program})
         start_run(prepared=prepared, by=row.by, entry=due.entry)
     return True
+
+
+def _is_under_way(program: UUID, now: datetime) -> bool:
+    """Tell whether a run of the program has begun, or is about to; one that waits for its time has not."""
+    runs = Run.objects.filter(program=program, status__in=Run.OPEN)
+    return runs.exclude(state=None, not_before__gt=now).exists()
 
 
 def _starters(plan: Plan) -> list[tuple[int, EventEntry]]:

@@ -10,6 +10,7 @@ from datetime import UTC, datetime, timedelta
 
 from django.conf import settings
 from django.db import DatabaseError, connection, transaction
+from django.db.models import Q
 
 from execution import mailbox
 from execution.commands.manual_calls import expire_calls
@@ -18,6 +19,7 @@ from execution.lease import HeldLease
 from execution.machine.messages import TimerFired
 from execution.models import Run, Timer
 from execution.rehearsals.rehearsals import sweep_rehearsals
+from execution.runs.terms import call_late
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
 from registry import services as registry
@@ -89,8 +91,10 @@ def sweep(now: datetime) -> None:
     """Find what was left lying because a message was lost or a worker died."""
     mailbox.hint_left(now - LOST_AFTER)
     pending = Run.objects.filter(status=Run.Status.PENDING, created_at__lt=now - LOST_AFTER)
+    pending = pending.filter(Q(not_before=None) | Q(not_before__lte=now))
     for run in pending.values_list("id", flat=True):
         mailbox.send_hint(mailbox.ADVANCE_RUN, str(run))
+    call_late(now)
     drop_stale_controls(now)
     end_commands_of_those_out(now)
     expire_calls(now=now)

@@ -8,6 +8,7 @@ from execution.traffic.floor_state import Robot
 from execution.traffic.layout import Node
 from execution.traffic.messages import FloorZone
 from execution.traffic.path_release import cut_path, may_enter, set_path
+from execution.traffic.route_points import path_along, points_ahead, set_points
 from execution.traffic.turn import Turn
 from execution.traffic.zones import cells_of, in_the_way, kept_out, path_for
 
@@ -131,11 +132,13 @@ def _go_round(turn: Turn, robot: Robot) -> None:
     standing = {c for r in turn.robots.values() if r.id != robot.id and not turn.is_driving(r) for c in r.held}
     goal = robot.path[-1]
     moving = {c for r in turn.robots.values() if r.id != robot.id for c in r.held} - standing
-    path = path_for(turn, robot, goal, closed=standing, extra=dict.fromkeys(moving, 4.0))
-    if path is not None and path != robot.path[robot.passed :] and not standing & turn.layout.needed(goal):
+    task = turn.task_of(robot) if robot.route_at else None
+    along = path_along(turn, robot, points_ahead(task), goal, closed=standing, extra=dict.fromkeys(moving, 4.0))
+    if along is not None and along[0] != robot.path[robot.passed :] and not standing & turn.layout.needed(goal):
         since = robot.blocked_since
-        robot = set_path(turn, robot, path)
-        turn.put(robot, blocked_since=since)
+        robot = turn.put(set_path(turn, robot, along[0]), blocked_since=since)
+        if task is not None:
+            set_points(turn, robot, task, along[1])
 
 
 def make_room_for(turn: Turn, robot: Robot, other: Robot) -> bool:

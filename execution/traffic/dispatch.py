@@ -18,8 +18,9 @@ from execution.traffic.floor_state import FloorTask, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
 from execution.traffic.messages import RoleBound, RoleReleased
 from execution.traffic.path_release import cut_path, set_path
+from execution.traffic.precedence import Waiting, in_groups, note_behind
+from execution.traffic.route_points import leads_along, path_along, points_ahead, set_points
 from execution.traffic.turn import Turn
-from execution.traffic.zones import path_for
 from vipo_device.protocol.description import Description
 
 ABSENCE_S = 30.0
@@ -63,17 +64,24 @@ def _has_earlier(turn: Turn, task: FloorTask) -> bool:
 
 
 def bind_roles(turn: Turn) -> None:
-    """Find robots for the roles that wait for one, over all of them at once, by the length of the path there."""
-    waiting: dict[str, FloorTask] = {}
+    """Find robots for the roles that wait for one: for those that go first, over all of them at once, by the length
+    of the path there; then for the next.
+    """
+    waiting: list[Waiting] = []
+    seen: set[str] = set()
     for task in turn.in_order():
         key = f"{task.run}/{task.order.role}"
-        if task.order.role and task.order.kind != "release" and key not in turn.roles and key not in waiting:
-            if task.wants:
+        if task.order.role and task.order.kind != "release" and key not in turn.roles and key not in seen:
+            waiting.append((key, task))
+            if not task.wants:
+                seen.add(key)
+    for group in in_groups(turn, waiting):
+        for key, task in group:
+            if task.wants and key not in turn.roles:
                 _bind_given(turn, key, task)
-            else:
-                waiting[key] = task
-    if waiting:
-        _bind_any(turn, waiting)
+        if anybody := {key: task for key, task in group if not task.wants}:
+            _bind_any(turn, anybody)
+    note_behind(turn, waiting)
 
 
 def _bind_given(turn: Turn, key: str, task: FloorTask) -> None:
@@ -184,7 +192,7 @@ def _dispatch_with(turn: Turn, task: FloorTask, robot: Robot) -> None:
     except NoSuchSpot as error:
         turn.finish(task, "blocked", str(error))
         return
-    if robot.path == (spot.id,) and not turn.is_driving(robot):
+    if robot.path == (spot.id,) and not turn.is_driving(robot) and not points_ahead(task):
         _act(turn, task, robot, spot)
     else:
         _take_machine(turn, task, robot, spot.id)
@@ -217,17 +225,23 @@ def _ask_to_leave(turn: Turn, holder: Robot, robot: Robot) -> None:
 
 def _go(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:
     """See to it that the robot is on its path there."""
-    if robot.evading or robot.yields_to or turn.is_acting(robot) or robot.path[-1] == spot.id:
+    if robot.evading or robot.yields_to or turn.is_acting(robot):
+        return
+    if robot.path[-1] == spot.id and leads_along(robot, task):
         return
     if turn.is_driving(robot):
         cut_path(turn, robot)
         return
     standing = {c for r in turn.robots.values() if r.id != robot.id and not turn.is_driving(r) for c in r.held}
-    path = path_for(turn, robot, spot.id, extra=dict.fromkeys(standing, 6.0))
+    try:
+        path = path_along(turn, robot, points_ahead(task), spot.id, extra=dict.fromkeys(standing, 6.0))
+    except NoSuchSpot as error:
+        turn.finish(task, "blocked", str(error))
+        return
     if path is None:
         turn.finish(task, "blocked", f"There is no way for {turn.name(robot.id)} to {turn.name(task.order.target.id)}.")
         return
-    set_path(turn, robot, path)
+    set_points(turn, set_path(turn, robot, path[0]), task, path[1])
 
 
 def _act(turn: Turn, task: FloorTask, robot: Robot, spot: Spot) -> None:

@@ -92,7 +92,14 @@ def _without_gap(state: FloorState, now: float) -> FloorState:
         for robot in state.robots.values()
     }
     sent = {key: replace(item, at=item.at + gap) for key, item in state.sent.items()}
-    tasks = tuple(t if t.absent_since is None else replace(t, absent_since=t.absent_since + gap) for t in state.tasks)
+    tasks = tuple(
+        replace(
+            task,
+            absent_since=None if task.absent_since is None else task.absent_since + gap,
+            behind_since=None if task.behind_since is None else task.behind_since + gap,
+        )
+        for task in state.tasks
+    )
     offline = {device: since + gap for device, since in state.offline.items()}
     return replace(state, robots=robots, sent=sent, tasks=tasks, offline=offline)
 
@@ -174,7 +181,9 @@ def _take_task(turn: Turn, event: m.TaskAsked) -> None:
         return
     turn.next_seq += 1
     task = FloorTask(event.run, event.task, turn.next_seq, event.order, event.wants, event.can, event.run_name)
-    turn.tasks[event.run, event.task] = replace(task, where=event.where, said=event.said)
+    turn.tasks[event.run, event.task] = replace(
+        task, where=event.where, said=event.said, priority=event.priority, due=event.due
+    )
     turn.names[event.run] = event.run_name
     if event.zones:
         turn.zones[event.run] = event.zones

@@ -39,6 +39,10 @@ class Robot:
     progress_at: float = 0.0
     refusals: int = 0
     """How many pieces of path in turn it has refused."""
+    route_of: str = ""
+    """The task (`run/number`) along whose route the path leads; empty: none."""
+    route_at: tuple[int, ...] = ()
+    """Where on the path the points of the route are that are still ahead."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +66,14 @@ class FloorTask:
     """What must hold of any robot when it is chosen, as plans keep it in JSON; empty: nothing."""
     said: str = ""
     """The same in words."""
+    priority: int = 0
+    """Of its run: -1 low, 0 normal, 1 high."""
+    due: float = 0.0
+    """When its run should be over, in seconds since 1970; 0: no deadline."""
+    behind_since: float | None = None
+    """Since when it has found no robot and others went first; None: not yet."""
+    points_passed: int = 0
+    """How many points of its route the robot has driven over, in their order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +126,9 @@ STORED_AS: Mapping[type, Mapping[str, str]] = {
 """What kept states call the parts that have got another name since; the tasks themselves they call `jobs`."""
 
 
-WRITTEN_WHERE_SET = frozenset({"where", "said"})
+WRITTEN_WHERE_SET = frozenset(
+    {"where", "said", "priority", "due", "behind_since", "points_passed", "route_of", "route_at"}
+)
 """Parts that are written only where they say something, so that the version before reads all other states."""
 
 
@@ -170,7 +184,8 @@ def _known(data: Mapping[str, Any], kind: type) -> dict[str, Any]:
 
 def _robot(data: Mapping[str, Any]) -> Robot:
     known = _known(data, Robot)
-    return Robot(**{**known, "path": tuple(known["path"]), "held": tuple(known["held"])})
+    route_at = tuple(known.get("route_at", ()))
+    return Robot(**{**known, "path": tuple(known["path"]), "held": tuple(known["held"]), "route_at": route_at})
 
 
 def _task(data: Mapping[str, Any]) -> FloorTask:

@@ -49,7 +49,7 @@ class TaskAsked:
     """A run asks for a task. `wants` names the device of the role, or `can` what its robot must be able to do.
 
     `where` is the condition that must hold of any robot when it is chosen, as plans keep it in JSON (empty: none), and
-    `said` the same in words.
+    `said` the same in words. `priority` of the run is -1, 0 or 1, `due` its deadline in seconds since 1970 (0: none).
     """
 
     run: str
@@ -61,6 +61,8 @@ class TaskAsked:
     zones: tuple[FloorZone, ...] = ()
     where: Mapping[str, object] = field(default_factory=dict)
     said: str = ""
+    priority: int = 0
+    due: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from execution.traffic.floor_state import Robot, Sent
 from execution.traffic.lattice import Point
 from execution.traffic.layout import Node
 from execution.traffic.messages import PathPlanned
+from execution.traffic.route_points import pass_points
 from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
 from execution.traffic.zones import in_the_way, speed_limit, take_zones
@@ -68,7 +69,7 @@ def take_pose(turn: Turn, robot: Robot, x: float, y: float, theta: float) -> Non
     if turn.is_driving(robot):
         passed = _passed(turn, robot)
         if passed > robot.passed:
-            robot = turn.put(robot, passed=passed, progress_at=turn.now)
+            robot = pass_points(turn, turn.put(robot, passed=passed, progress_at=turn.now))
         release_behind(turn, robot)
         return
     at = turn.layout.point(turn.node(robot))
@@ -106,7 +107,7 @@ def release_behind(turn: Turn, robot: Robot) -> None:
 def end_piece(turn: Turn, robot: Robot, sent: Sent) -> None:
     """A piece of path is done: the robot has reached its end."""
     passed = max(robot.passed, min(sent.upto, robot.released))
-    robot = turn.put(robot, passed=passed, progress_at=turn.now, refusals=0)
+    robot = pass_points(turn, turn.put(robot, passed=passed, progress_at=turn.now, refusals=0))
     release_behind(turn, robot)
     robot = turn.robots[robot.id]
     if not turn.is_driving(robot) and robot.passed == robot.released:
@@ -120,7 +121,8 @@ def end_piece(turn: Turn, robot: Robot, sent: Sent) -> None:
 def set_path(turn: Turn, robot: Robot, path: tuple[Node, ...], evading: str = "") -> Robot:
     """Give a robot a new path from where it stands or will stop; only for one that has no piece under way."""
     turn.actions.append(PathPlanned(robot.id, robot.run if not evading else "", drawn(turn.layout, path)))
-    return turn.put(robot, path=path, passed=0, released=0, evading=evading, blocked_since=None, progress_at=turn.now)
+    robot = turn.put(robot, path=path, passed=0, released=0, evading=evading, blocked_since=None, progress_at=turn.now)
+    return turn.put(robot, route_of="", route_at=())
 
 
 def cut_path(turn: Turn, robot: Robot) -> Robot:

@@ -63,9 +63,14 @@ def path_for(
     goal: Node,
     closed: Collection[int] = (),
     extra: Mapping[int, float] | None = None,
+    start: Node | None = None,
 ) -> tuple[Node, ...] | None:
-    """Return a robot's path that keeps out of the zones of its run; one that stands in such a zone may leave it."""
-    layout, start = turn.layout, turn.node(robot)
+    """Return a robot's path that keeps out of the zones of its run; one that stands in such a zone may leave it.
+
+    It leads from where the robot is, or from `start`.
+    """
+    layout = turn.layout
+    start = turn.node(robot) if start is None else start
     shut = kept_out(turn, robot)
     if layout.cell(start) not in shut:
         return plan_path(layout, start, goal, {*closed, *shut} if shut else closed, extra)

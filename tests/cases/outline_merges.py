@@ -130,6 +130,30 @@ def _kinds() -> dict[str, dict[str, Any]]:
             {BODY: "t", ("t", "body"): "a", ("t", "finally"): "c"},
             "b",
         ),
+        "several_catches": case(
+            "a Try has a catch for each list of kinds; where there is none, or no number of a catch, steps are drafts",
+            {
+                "t": step("try", *BODY, "A", kinds=["failed"], kinds2=[], kinds3=None, kinds8=["x"], kinds9=[]),
+                "a": wait("t", "catch", "V"),
+                "b": wait("t", "catch2", "V"),
+                "c": wait("t", "catch3", "V"),
+                "d": wait("t", "catch8", "V"),
+                "e": wait("t", "catch9", "V"),
+                "f": wait("t", "catch1", "V"),
+            },
+            {BODY: "t", ("t", "catch"): "a", ("t", "catch2"): "b", ("t", "catch8"): "d"},
+            "cef",
+        ),
+        "first_catch_removed": case(
+            "one person removes the first catch while another adds a second: the second stays, with its steps",
+            {
+                "t": step("try", *BODY, "A", catch=False, kinds=["failed"], kinds2=["offline"]),
+                "a": wait("t", "catch", "V"),
+                "b": wait("t", "catch2", "V"),
+            },
+            {BODY: "t", ("t", "catch2"): "b"},
+            "a",
+        ),
         "leaves_of_format_2": case(
             "set, ask, notify, end, return and break are steps without branches",
             {name: step(kind, *BODY, name) for name, kind in zip("abcdef", LEAVES, strict=True)}

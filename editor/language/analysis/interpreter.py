@@ -136,10 +136,17 @@ def _counted(walk: Walk, node: n.Repeat | n.ForEach, items: Sequence[Any], state
 def _uncounted(
     walk: Walk, node: Loop, before: States, now: States, exits: list[States], *, goes_round: bool
 ) -> States | None:
-    """Follow the body in silence until another round teaches nothing new, then once more to tell."""
+    """Follow the body in silence until another round teaches nothing new, then once more to tell.
+
+    What is known in the first round alone is told of that: of a loop in another's first round only of all rounds.
+    """
     items = node.items if isinstance(node, n.ForEach) else ()
     with walk.unsure():
-        entry = _settled(walk, node, now)
+        entry = _settled(walk, node, walk.copy(now))
+        if entry != now and not walk.silent and not walk.first:
+            walk.first = True
+            _round(walk, node, walk.assume(walk.copy(now), node, holds=True), [], items)
+            walk.first = False
         walk.read(node, entry)
         after = _round(walk, node, walk.assume(walk.copy(entry), node, holds=True), exits, items)
     ends: list[States | None] = [*exits]
@@ -198,19 +205,22 @@ def _round(
 
 
 def _try(walk: Walk, node: n.Try, states: States) -> States | None:
-    """The catch begins anywhere in the body, the final part anywhere in both; every exit leads through it."""
+    """A catch begins anywhere in the body, the final part anywhere in all of them; every exit leads through it."""
     marks = tuple(map(len, walk.frame.exits()))
     failures = len(walk.failures)
     after = walk.block(node.body, walk.copy(states))
-    if node.catches:
-        walk.failures[failures:] = [kind for kind in walk.failures[failures:] if node.kinds and kind not in node.kinds]
+    if node.handlers:
+        walk.failures[failures:] = [
+            kind for kind in walk.failures[failures:] if not any(each.takes(kind) for each in node.handlers)
+        ]
+        begun = walk.disturb(states, walk.effects.of(node.body))
         with walk.unsure():
-            caught = walk.block(node.catch, walk.disturb(states, walk.effects.of(node.body)))
-        after = walk.meet(states, (after, caught), walk.changes(node.body, node.catch))
+            caught = [walk.block(block, walk.copy(begun)) for block in node.catches]
+        after = walk.meet(states, (after, *caught), walk.changes(node.body, *node.catches))
     if not node.final:
         return after
     with walk.unsure():
-        ended = walk.block(node.final, walk.disturb(states, walk.changes(node.body, node.catch)))
+        ended = walk.block(node.final, walk.disturb(states, walk.changes(node.body, *node.catches)))
     _exits_through(walk, node, marks, ended)
     if ended is None or after is None:
         return None

@@ -43,6 +43,7 @@ from editor.language.tree.nodes import (
     WaitUntil,
     While,
     walk,
+    with_blocks,
 )
 from editor.language.tree.program import Function, Role, Tree
 from editor.language.tree.traversal import callees_first, functions_in_circles
@@ -197,20 +198,23 @@ class _Follower:
         return _with_body(node, inner), None if over is None else _without_values(over, own)
 
     def _try(self, node: Try, before: Standing) -> tuple[Node, Standing | None]:
-        """The catch begins anywhere in the body, the final part anywhere in both; it changes every exit."""
+        """A catch begins anywhere in the body, the final part anywhere in all of them; it changes every exit."""
         exits = [*self.breaks[-1:], self.returns]
         marks = [len(at_exit) for at_exit in exits]
         body, after = self.block(node.body, before)
         unsure = self._after_some_of(node.body, before)
-        handler, after_catch = self.block(node.catch, unsure)
-        if node.catches:
-            after = _agreed(after, after_catch)
+        caught: list[Block] = []
+        some = unsure
+        for block in node.catches:
+            handler, after_catch = self.block(block, unsure)
+            caught.append(handler)
+            after, some = _agreed(after, after_catch), self._after_some_of(block, some)
         if not node.final:
-            return Try(node.kinds, body, handler, (), node.catches, node.step), after
+            return with_blocks(node, (body, *caught, ())), after
         for at_exit, mark in zip(exits, marks, strict=True):
             at_exit[mark:] = [self._after_some_of(node.final, standing) for standing in at_exit[mark:]]
-        final, after_final = self.block(node.final, self._after_some_of(node.catch, unsure))
-        whole = Try(node.kinds, body, handler, final, node.catches, node.step)
+        final, after_final = self.block(node.final, some)
+        whole = with_blocks(node, (body, *caught, final))
         if after is None or after_final is None:
             return whole, None
         movers = self.movers(node.final)
@@ -345,7 +349,7 @@ def _follow(
     events = tuple(replace(event, body=follower.block(event.body, {})[0]) for event in tree.events)
     roles = tuple(_with_place(role, follower.relied_on.get(role.name)) for role in tree.roles)
     done = tuple(finished[function.method] for function in tree.functions)
-    return Tree(body, done, roles, tree.parameters, events), tuple(follower.unplaced)
+    return replace(tree, body=body, functions=done, roles=roles, events=events), tuple(follower.unplaced)
 
 
 def _with_place(role: Role, at: str | None) -> Role:

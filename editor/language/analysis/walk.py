@@ -96,6 +96,8 @@ class Walk:
     opened: set[str] = field(default_factory=set)
     """Functions that were not followed somewhere with what is known there."""
     silent: bool = False
+    first: bool = False
+    """Whether only the first round of an uncounted loop is followed here."""
     finals: int = 0
     limited: int = 0
     """Time limits around the step, which end whatever never ends by itself."""
@@ -156,7 +158,7 @@ class Walk:
 
     def _remembered(self, memo: Memo, node: n.Node, states: States) -> States | None:
         """Follow a step that holds others; what depends on nothing but what is known before it is remembered."""
-        known: _Found | None = memo.get(node, (self.limited > 0, states))
+        known: _Found | None = memo.get(node, (self.limited > 0, self.first, states))
         if known is None or known.steps > self.left:
             known = self._found_in(memo, node, states)
         else:
@@ -179,7 +181,7 @@ class Walk:
         known = _Found(kept, left - self.left, *inside)
         self.visited, self.falls_off, self.endless, self.broken, self.found = outside
         if exits == self._exits() and not self.effects.of_node(node).calls and not self.finals:
-            memo.put(node, known, (self.limited > 0, given))
+            memo.put(node, known, (self.limited > 0, self.first, given))
         return known
 
     def _exits(self) -> tuple[tuple[int, ...], int, int]:

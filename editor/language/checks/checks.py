@@ -33,6 +33,7 @@ from editor.language.checks.values import (
     has_missing,
     range_in,
 )
+from editor.language.document.catches import KINDS_OF
 from editor.language.document.outline import PROGRAM, Outline
 from editor.language.expressions import nodes as e
 from editor.language.expressions.nodes import Expression
@@ -49,7 +50,6 @@ from editor.language.tree.traversal import needed_of_roles
 from editor.language.tree.variable_types import (
     type_of_items,
 )
-from editor.language.tree.zones import read_zones
 from vipo_device.protocol.description import Description, ParameterSpec
 
 
@@ -66,7 +66,7 @@ def check(
     found at the last look.
     """
     context = Context(tree, surroundings, memos=memos, params=reading.outline.params)
-    context.zones = frozenset(zone.id for zone in read_zones(document))
+    context.zones = frozenset(zone.id for zone in tree.zones)
     found = context.found
     found.extend((problem, 0) for problem in reading.problems)
     already = {(problem.step, problem.field) for problem in reading.problems}
@@ -206,7 +206,15 @@ def _while(context: Context, node: n.While) -> None:
 
 
 def _try(context: Context, node: n.Try) -> None:
-    """A Try asks for nothing: no kinds mean any, and an empty catch is allowed."""
+    """A Try asks for nothing: no kinds mean any, and an empty catch is allowed; but each should be come to."""
+    taken: set[str] = set()
+    for usual, handler in zip(KINDS_OF, node.handlers, strict=False):
+        kinds, field = {*(handler.kinds or n.ERROR_CLASSES)}, KINDS_OF[handler.branch or usual]
+        if kinds <= taken:
+            context.report(node, "catch_never_reached", field)
+        elif handler.kinds and kinds & taken:
+            context.report(node, "caught_before", field)
+        taken |= kinds
 
 
 def _parallel(context: Context, node: n.Parallel) -> None:

@@ -181,8 +181,10 @@ def check_floor(context: Context, document: object) -> None:
         for node in tree.walked(block):
             if isinstance(node, n.LOADS):
                 _check_goal(context, node, node.at, node.place_field, closed)
-            elif isinstance(node, n.Move) and not node.added:
-                _check_goal(context, node, node.to, "to", closed)
+            elif isinstance(node, n.Move):
+                if not node.added:
+                    _check_goal(context, node, node.to, "to", closed)
+                _check_route(context, node, closed)
     _check_sizes(context, zones)
 
 
@@ -202,6 +204,27 @@ def _check_goal(
         if all(goal is None or is_in(goal, zone.points) for goal in goals):
             context.report(node, "place_in_keep_out", field, {"zone": zone.name})
             return
+
+
+def _check_route(context: Context, node: n.Move, closed: list[Zone]) -> None:
+    """Check that any robot of the role can drive over the points of a way; the first that none can is told."""
+    for number, point in enumerate(node.route, start=1):
+        zone = next((zone for zone in closed if is_in(point, zone.points)), None)
+        if zone is not None:
+            context.report(node, "route_in_keep_out", "route", {"number": number, "zone": zone.name})
+            return
+        if not _is_passed(context, node.role, point):
+            context.report(node, "route_blocked", "route", {"number": number, "robot": context.robot_name(node.role)})
+            return
+
+
+def _is_passed(context: Context, role: str, point: e.Point) -> bool:
+    """Tell whether some robot of a role fits at a point and finds a path to it; true where nobody knows."""
+    floor, robots = context.surroundings.floor, context.robots(role)
+    if floor is None or not robots:
+        return floor is None or floor.is_inside(*point)
+    fitting = (robot for robot in robots if floor.is_free(*point, robot.radius_m))
+    return any(floor.is_reachable((robot.pose.x, robot.pose.y), point, robot.radius_m) for robot in fitting)
 
 
 def _goals(context: Context, role: str, place: PlaceRef) -> tuple[e.Point | None, ...]:

@@ -46,17 +46,20 @@ def _block(context: Context, block: n.Block, around: _Around) -> None:
             case n.While(body=body) | n.Repeat(body=body) | n.ForEach(body=body):
                 _block(context, body, replace(around, loop=""))
             case n.Parallel(branches=branches):
-                for branch in branches:
-                    _block(context, branch, around.behind("leaves_parallel"))
-            case n.Try(body=body, catch=catch, final=final):
-                _block(context, body, around)
-                _block(context, catch, around)
+                _each(context, branches, around.behind("leaves_parallel"))
+            case n.Try(body=body, catches=catches, final=final):
+                _each(context, (body, *catches), around)
                 _block(context, final, around.behind("leaves_finally"))
             case n.Limit(body=body):
                 _block(context, body, around)
             case n.If(then=then, otherwise=otherwise):
                 _block(context, then, around)
                 _block(context, otherwise, around)
+
+
+def _each(context: Context, blocks: tuple[n.Block, ...], around: _Around) -> None:
+    for block in blocks:
+        _block(context, block, around)
 
 
 def _of_loop(context: Context, node: n.Break | n.Continue, around: _Around) -> None:

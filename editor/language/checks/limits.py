@@ -51,10 +51,10 @@ class _Clock:
                 return self._counted(body, constant_value(times), now, over)
             case n.ForEach(items=items, body=body):
                 return self._counted(body, len(items), now, over)
-            case n.Try(body=body, catch=catch, final=final):
-                done, caught = self.block(body, now, over), self.block(catch, now, over)
+            case n.Try(body=body, catches=catches, final=final):
+                done = [self.block(inner, now, over) for inner in (body, *catches)]
                 self.block(final, now, inf)
-                return min(done, caught) if node.catches else done
+                return min(done)
         ends = [self.block(inner, now, over) for inner in n.blocks_of(node)]
         # of what happens at once the first may be enough; a While need not go round
         return now if isinstance(node, n.While) else min(ends, default=now)

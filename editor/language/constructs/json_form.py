@@ -64,6 +64,7 @@ def _field(field: Field) -> dict[str, object]:
         wanted=field.wanted,
         optional=field.optional,
         choices=list(field.choices),
+        numbered=field.numbered,
         explained=field.explained,
         suggested=field.suggested,
         accepts=field.accepts,
@@ -91,4 +92,5 @@ def _parameter(field: Field) -> str:
     words = "/".join(f"`{choice}`" for choice in field.choices)
     kind = {"choice": words, "choices": f"[] (any) or of {words}"}.get(field.type) or _TYPES[field.type]
     unit = " (a bare number is in seconds)" if field.wanted == "time" else ""
-    return f"{'optional ' if field.optional else ''}`{field.name}`: {kind}{unit}"
+    more = f", and so optional `{field.name}2` … `{field.name}{field.numbered}`" if field.numbered else ""
+    return f"{'optional ' if field.optional else ''}`{field.name}`: {kind}{unit}{more}"

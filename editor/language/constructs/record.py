@@ -49,6 +49,8 @@ class Field:
     """Whether it may be left out; then the node has None, and the script says nothing."""
     choices: tuple[str, ...] = ()
     """The fixed words; the first is meant where none is given."""
+    numbered: int = 0
+    """How many of it a step may have, the others under its name with a number from 2; 0: just the one."""
     explained: bool = False
     """Whether each choice has a sentence of its own in the form."""
     suggested: str = ""

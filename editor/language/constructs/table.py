@@ -136,13 +136,13 @@ _TRY = Construct(
         Form(
             "Try",
             (
-                Field("kinds", "choices", choices=ERROR_KINDS, shown=False),
-                Field("catch", "flag", at="catches", optional=True, shown=False),
+                Field("kinds", "choices", at="handlers", choices=ERROR_KINDS, numbered=8, shown=False),
+                Field("catch", "flag", at="handlers", optional=True, shown=False),
             ),
         ),
     ),
     Look("try", "logic", "header", "T"),
-    (("body", "body"), ("catch", "catch"), ("finally", "final")),
+    (("body", "body"), ("catch", "handlers"), ("finally", "final")),
 )
 _LIMIT = Construct(
     "limit",

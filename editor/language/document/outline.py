@@ -13,13 +13,14 @@ from string import ascii_lowercase
 from typing import Final
 
 from editor.language.constructs.table import COMMENT, STEPS
+from editor.language.document.catches import catches_of
 
 PROGRAM = "program"
 EVENTS = "events"
 BRANCHES: Mapping[str, tuple[str, ...]] = {
     construct.kind: tuple(name for name, _ in construct.branches) for construct in STEPS
 }
-"""The kinds of steps and their branches; those of a Parallel are its own to name."""
+"""The kinds of steps and their branches; a Parallel names its own, a Try has the catches that it says."""
 DEEPEST_STEP = 30
 MOST_BRANCHES = 26
 
@@ -67,8 +68,8 @@ def branches_of(kind: str, params: Params) -> tuple[str, ...]:
     """Return the branches of a step of that kind with those parameters."""
     if kind == "parallel":
         return _parallel_branches(params.get("branches"))
-    if kind == "try" and params.get("catch") is False:
-        return ("body", "finally")
+    if kind == "try":
+        return ("body", *catches_of(params), "finally")
     return BRANCHES[kind]
 
 

@@ -18,10 +18,9 @@ from editor.language.tree.program import Function, Role, Tree
 
 _LARGEST_TABLE = 250_000
 _CLASSES: tuple[Any, ...] = (*get_args(n.Node), n.Event)
-_BLOCK_FIELDS = {kind: tuple(f.name for f in fields(kind) if "Block" in str(f.type)) for kind in _CLASSES}
 _OWN_FIELDS = {
-    kind: tuple(f.name for f in fields(kind) if f.compare and f.name not in _BLOCK_FIELDS[kind]) for kind in _CLASSES
-}
+    kind: tuple(f.name for f in fields(kind) if f.compare and "Block" not in str(f.type)) for kind in _CLASSES
+} | {n.Try: ("kinds",)}
 _Blocks = tuple[tuple[Drawable, ...], ...]
 
 
@@ -215,8 +214,13 @@ def _own(node: Drawable, renamed: Renamed | None) -> str:
 
 
 def _blocks_in(node: Drawable) -> _Blocks:
-    found = [(name, getattr(node, name)) for name in _BLOCK_FIELDS[type(node)]]
-    return tuple(inner for name, value in found for inner in (value if name == "branches" else (value,)))
+    """Return the blocks that a node holds; those of which it has any number come last."""
+    match node:
+        case n.Event():
+            return (node.body,)
+        case n.Try():
+            return (node.body, node.final, *node.catches)
+    return n.blocks_of(node)
 
 
 def _all_units(units: Sequence[_Unit]) -> Iterator[_Unit]:
@@ -240,18 +244,20 @@ def _with_ids(units: Sequence[_Unit], known: frozenset[str]) -> tuple[Any, ...]:
         ids = _ids_of(unit)
         for node in unit.nodes:
             own = "" if node.step in known else node.step
-            nodes.append(replace(node, step=ids.get(_slot(node, unit), own), **_inner(node, unit, known)))
+            nodes.append(replace(_inner(node, unit, known), step=ids.get(_slot(node, unit), own)))
     return tuple(nodes)
 
 
-def _inner(node: Drawable, unit: _Unit, known: frozenset[str]) -> dict[str, Any]:
-    blocks = [_with_ids(units, known) for units in unit.blocks]
-    changes: dict[str, Any] = {}
-    for name in _BLOCK_FIELDS[type(node)]:
-        count = len(getattr(node, name)) if name == "branches" else 1
-        changes[name] = tuple(blocks[:count]) if name == "branches" else blocks[0]
-        blocks = blocks[count:]
-    return changes
+def _inner(node: Any, unit: _Unit, known: frozenset[str]) -> Any:
+    """Return a node with ids in all that it holds."""
+    blocks = tuple(_with_ids(units, known) for units in unit.blocks)
+    match node:
+        case n.Event():
+            return replace(node, body=blocks[0])
+        case n.Try():
+            body, final, *caught = blocks
+            return n.with_blocks(node, (body, *caught, final))
+    return n.with_blocks(node, blocks) if blocks else node
 
 
 def _ids_of(unit: _Unit) -> dict[str, str]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from string import ascii_lowercase
 
 from editor.language.analysis.positions import add_moves
+from editor.language.document.catches import catches_of, with_known_branches
 from editor.language.document.format_migrations import FORMAT, migrate
 from editor.language.document.fractional_index import keep_orders
 from editor.language.document.outline import PROGRAM, branches_of, make_outline, mapping
@@ -19,6 +20,8 @@ from editor.language.drawing.merge import (
     merge_parameters,
     merge_roles,
     merge_values,
+    merge_zones,
+    with_named_zones,
     without_unknown_names,
 )
 from editor.language.drawing.steps import Drawable, EncodedStep, StepEncoder, grouped
@@ -104,8 +107,12 @@ class _Builder:
         else:
             self.layout.follow(read_point(raw.get("pos")), room_of(kind, says))
             body = {**raw, "place": place}
-            said = self._named(self.before.said[step][1], names)
-            params = merge_values(mapping(raw.get("params")), said, says)
+            said, held = self._named(self.before.said[step][1], names), mapping(raw.get("params"))
+            if kind == "try":
+                said, says = with_known_branches(said, held), with_known_branches(says, held)
+                caught = zip(catches_of(says), branches[1:-1], strict=True)
+                branches = (branches[0], *((name, inner) for name, (_, inner) in caught), branches[-1])
+            params = merge_values(held, said, says)
         if kind == "parallel":
             letters = _letters(mapping(raw or {}).get("params"), len(branches))
             branches = tuple((letter, inner) for letter, (_, inner) in zip(letters, branches, strict=True))
@@ -183,9 +190,10 @@ def tree_to_document(
     """Return the document of a tree; what the previous document has, too, stays there as it is.
 
     Steps that did not change, moved or changed a value keep their ids, positions and everything that no script
-    says; drafts, comments and zones stay. New steps stand near their devices.
+    says; drafts and comments stay. New steps stand near their devices.
     """
     old = mapping(migrate(previous or {})) if previous else {}
+    tree = with_named_zones(tree, old)
     if not old:
         return _draw(tree, surroundings, {}, Tree())
     before = _read(old, surroundings)
@@ -235,7 +243,7 @@ def _draw(tree: Tree, surroundings: Surroundings, old: Mapping[str, object], tre
         "functions": functions.document,
         "roles": roles,
         "parameters": parameters,
-        "zones": dict(mapping(old.get("zones"))),
+        "zones": merge_zones(aligned.zones, mapping(old.get("zones"))),
     }
 
 

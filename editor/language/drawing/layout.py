@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from editor.language.constructs.record import Construct, Field
 from editor.language.constructs.table import CONSTRUCTS, STEPS
+from editor.language.document.catches import KINDS_OF
 from editor.language.document.outline import mapping
 from editor.language.expressions.nodes import Point
 from editor.language.expressions.values import read_point
@@ -27,7 +28,7 @@ _STEP_X_M, _STEP_Y_M = 0.9, 0.5
 _REACH = 14
 _MOST_MISSES = 3
 """After so many steps without a free place the floor counts as full."""
-_BRANCH_SIDES = {"then": 0.0, "else": -1.0, "a": -1.0, "b": 1.0, "catch": 1.0, "finally": 1.5}
+_BRANCH_SIDES = {"then": 0.0, "else": -1.0, "a": -1.0, "b": 1.0, "finally": 1.5} | dict.fromkeys(KINDS_OF, 1.0)
 _OFFSETS = sorted(
     ((x * _STEP_X_M, y * _STEP_Y_M) for x in range(-_REACH, _REACH + 1) for y in range(-_REACH, _REACH + 1)),
     key=lambda offset: (round(abs(offset[0]) + abs(offset[1]), 2), offset[1], offset[0]),

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from editor.language.document.outline import PROGRAM, mapping
 from editor.language.document.references import with_role_ids
 from editor.language.expressions.names import attribute_name
+from editor.language.expressions.nodes import Zone
 from editor.language.expressions.values import write_value
 from editor.language.tree.program import Function, Parameter, Role, Tree
+from editor.language.tree.zones import read_zones
 
 Plain = Mapping[str, object]
 Names = Mapping[str, str]
@@ -174,3 +176,27 @@ def _parameter(parameter: Parameter, former: Parameter | None, raw: Plain) -> di
 
 def _facts(parameter: Parameter) -> tuple[str, str, str]:
     return repr(parameter.default), parameter.type, parameter.unit
+
+
+def merge_zones(zones: Sequence[Zone], old: Plain) -> dict[str, object]:
+    """Return the zones of a document; those that no script can draw, and what no script says of others, stay."""
+    before = {zone.id: zone for zone in read_zones({"zones": old})}
+    now = {zone.id: zone for zone in zones}
+    kept = {str(key): body for key, body in old.items() if str(key) not in before or str(key) in now}
+    changed = {key: _drawn_zone(zone, mapping(old.get(key))) for key, zone in now.items() if before.get(key) != zone}
+    return {**kept, **changed}
+
+
+def _drawn_zone(zone: Zone, raw: Plain) -> dict[str, object]:
+    body = {**raw, "name": zone.name, "rule": zone.rule, "points": [list(point) for point in zone.points]}
+    body.pop("speed_m_s", None)
+    return body if zone.speed_m_s is None else {**body, "speed_m_s": zone.speed_m_s}
+
+
+def with_named_zones(tree: Tree, old: Plain) -> Tree:
+    """Return a tree in which the zones that its script only names are those of a document."""
+    if not tree.named_zones:
+        return tree
+    known = {zone.id: zone for zone in read_zones(old) if zone.id in tree.named_zones}
+    known.update({zone.id: zone for zone in tree.zones})
+    return replace(tree, zones=tuple(known[key] for key in sorted(known)), named_zones=frozenset())

@@ -9,6 +9,7 @@ from typing import Any, Final
 
 from editor.language.constructs.record import Construct, FieldType, Form
 from editor.language.constructs.table import FORMS
+from editor.language.document.catches import branches_for, params_of_catches
 from editor.language.document.outline import mapping
 from editor.language.document.references import with_role_ids
 from editor.language.expressions.declarations import answer_to_json
@@ -76,10 +77,10 @@ def _parallel(encoder: StepEncoder, node: n.Parallel) -> EncodedStep:
 
 
 def _try(encoder: StepEncoder, node: n.Try) -> EncodedStep:
-    branches = (("body", node.body), ("catch", node.catch), ("finally", node.final))
-    if not node.catches:
-        return "try", {"catch": False}, (branches[0], branches[2])
-    return "try", {"kinds": list(node.kinds)}, branches
+    names = branches_for((), len(node.handlers))
+    caught = params_of_catches(dict(zip(names, node.kinds, strict=True)))
+    branches = zip(names, node.catches, strict=True)
+    return "try", caught, (("body", node.body), *branches, ("finally", node.final))
 
 
 def _call(encoder: StepEncoder, node: n.Call) -> EncodedStep:

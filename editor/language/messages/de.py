@@ -139,6 +139,10 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "may_never_end": "Nichts Gemessenes entscheidet hier; diese Schritte wiederholen sich vielleicht ohne Ende.",
     "never_runs": "Diese Bedingung ist nie wahr; diese Schritte laufen also nie.",
     "always_true": "Diese Bedingung ist immer wahr; der andere Zweig läuft also nie.",
+    "catch_never_reached": "Die Zweige „sonst“ davor fangen alle seine Probleme ab; dieser läuft also nie. Wählen Sie "
+    "andere für ihn, oder entfernen Sie ihn.",
+    "caught_before": "Ein Zweig „sonst“ davor fängt einige seiner Probleme schon ab. Wählen Sie jedes nur in einem "
+    "der Zweige.",
     "empty_branch": "Darin steht kein Schritt; es tut also nichts. Zeichnen Sie Schritte hinein, oder löschen Sie es.",
     "over_at_once": "Das ist sofort vorbei und bricht die anderen Zweige ab, denn einige brauchen keine Zeit: "
     "{branches}. Zeichnen Sie Schritte hinein, die Zeit brauchen.",
@@ -217,6 +221,14 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "place_in_keep_out": (
         "Dieser Ort liegt in {zone}, wo kein Roboter hineinfährt. Wählen Sie einen anderen, "
         "oder ändern Sie die Zone."
+    ),
+    "route_blocked": (
+        "{robot} kann nicht über Punkt {number} dieses Wegs fahren: Er liegt zu nah an einer Wand oder Maschine oder "
+        "außerhalb der Karte, oder kein Weg führt dorthin. Verschieben Sie den Punkt."
+    ),
+    "route_in_keep_out": (
+        "Punkt {number} dieses Wegs liegt in {zone}, wo kein Roboter hineinfährt. Verschieben Sie den Punkt, oder "
+        "ändern Sie die Zone."
     ),
     "zone_too_small": "{zone} ist kleiner als {robot} und bewirkt deshalb nichts. Vergrößern Sie die Zone.",
     # a script that was written by hand

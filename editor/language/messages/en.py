@@ -149,6 +149,14 @@ TEXTS: Final[Mapping[str, Text]] = {
     "may_never_end": ("warning", "Nothing measured decides here, so these steps may repeat without end."),
     "never_runs": ("warning", "This condition is never true, so these steps never run."),
     "always_true": ("warning", "This condition is always true, so the other branch never runs."),
+    "catch_never_reached": (
+        "warning",
+        "The catches before this one take all of its problems, so it never runs. Choose others for it, or remove it.",
+    ),
+    "caught_before": (
+        "warning",
+        "A catch before this one takes some of its problems. Choose each of them in one catch only.",
+    ),
     "empty_branch": ("warning", "This holds no steps, so it does nothing. Draw steps into it, or delete it."),
     "over_at_once": (
         "warning",
@@ -237,6 +245,15 @@ TEXTS: Final[Mapping[str, Text]] = {
         "error",
         "This place lies in {zone}, which robots keep out of. Choose another, or change the "
         "zone.",
+    ),
+    "route_blocked": (
+        "error",
+        "{robot} cannot drive over point {number} of this way: it is too near to a wall or a machine, off the map, or "
+        "no way leads there. Move the point.",
+    ),
+    "route_in_keep_out": (
+        "error",
+        "Point {number} of this way lies in {zone}, which robots keep out of. Move the point, or change the zone.",
     ),
     "zone_too_small": ("warning", "{zone} is smaller than {robot}, so it has no effect. Make it larger."),
     # a script that was written by hand

@@ -29,7 +29,18 @@ REFUSALS_DE: Final[Mapping[str, str]] = {
     "The variable “{x}”": "Die Variable „{x}“",
     "A change of “{x}”": "Eine Änderung von „{x}“",
     "The name {x}": "Der Name {x}",
+    "A zone without a rule": "Eine Zone ohne Regel",
     # what to write instead
+    "A zone takes rule, speed and name. {x}": "Eine Zone hat rule, speed und name. {x}",
+    "Write the corners as a list of points: {x}.": "Schreiben Sie die Ecken als Liste von Punkten: {x}.",
+    "A zone has at least {x} corners.": "Eine Zone hat mindestens {x} Ecken.",
+    "A zone has at most {x} corners.": "Eine Zone hat höchstens {x} Ecken.",
+    "These corners enclose no area. Move one of them off the line of the others.": "Diese Ecken umschließen keine "
+    "Fläche. Rücken Sie eine davon von der Linie der anderen weg.",
+    "Add what robots do there: {x}. {y}": "Ergänzen Sie, was Roboter dort tun: {x}. {y}",
+    "Write the speed in m/s, above 0: {x}.": "Schreiben Sie die Geschwindigkeit in m/s, über 0: {x}.",
+    "Write what people call the zone: {x}.": "Schreiben Sie, wie die Zone heißt: {x}.",
+    "Write another text here for this zone.": "Schreiben Sie hier für diese Zone einen anderen Text.",
     "Use the robots' move, pick and drop, machines' methods, wait, ask, notify, if, while, for, try, parallel, "
     "variables and functions.": "Verwenden Sie move, pick und drop von Robotern, Methoden von Maschinen, wait, ask, "
     "notify, if, while, for, try, parallel, Variablen und Funktionen.",
@@ -49,8 +60,9 @@ REFUSALS_DE: Final[Mapping[str, str]] = {
     "Write at least one value between the brackets.": "Schreiben Sie mindestens einen Wert in die Klammern.",
     "Write self.parallel({x}), a method for each branch.": "Schreiben Sie self.parallel({x}), eine Methode für jeden "
     "Zweig.",
-    "An except that nothing comes to": "Ein except, zu dem nichts kommt",
-    "Leave it out: those before it catch all of that.": "Lassen Sie es weg: Die davor fangen all das.",
+    "A further except": "Ein weiteres except",
+    "A try takes up to 8. Let one of them catch several kinds: except (Offline, TimedOut):": "Ein try hat bis zu 8. "
+    "Lassen Sie eines mehrere Arten fangen: except (Offline, TimedOut):",
     "Write def {x} in class Task.": "Schreiben Sie def {x} in class Task.",
     "Write {x}, or {y}.": "Schreiben Sie {x} oder {y}.",
     "Write {x}: or {y}:.": "Schreiben Sie {x}: oder {y}:.",

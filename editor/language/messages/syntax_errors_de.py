@@ -264,6 +264,7 @@ MISTAKES_DE: Final[Mapping[str, str]] = {
     "An else behind try": "Ein else hinter try",
     "A second “{x}”": "Ein zweites „{x}“",
     "A second method {x}": "Eine zweite Methode {x}",
+    "A second zone {x}": "Eine zweite Zone {x}",
     "A second {x}": "Ein zweites {x}",
     "A method __init__": "Eine Methode __init__",
     "A run that begins nothing": "Ein run, das nichts beginnt",

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from editor.language.constructs.table import fields_by_kind
+from editor.language.document.catches import catches_of
 from editor.language.document.outline import Params, mapping
 from editor.language.expressions.declarations import normal_type
 from editor.language.expressions.names import unique_name
@@ -139,7 +140,7 @@ def _visible(document: Mapping[str, object], step: str) -> Iterator[tuple[str, P
         if kind == "for_each":
             yield _text(params.get("index")), {"type": "number"}
             yield _text(params.get("variable")), {}
-        elif kind == "try" and isinstance(place, list | tuple) and len(place) > 1 and place[1] == "catch":
+        elif kind == "try" and isinstance(place, list | tuple) and len(place) > 1 and place[1] in catches_of(params):
             yield from ((part, {}) for part in OF_PROBLEM)
     function = mapping(mapping(document.get("functions")).get(root))
     listed = function.get("parameters")

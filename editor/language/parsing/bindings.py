@@ -13,6 +13,7 @@ from editor.language.expressions.nodes import Expression
 from editor.language.parsing.answers import closest
 from editor.language.parsing.expressions import parse_expression, parse_scalar
 from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted, written
+from editor.language.parsing.zones import parse_zone
 from editor.language.tree import nodes as n
 from editor.language.tree.choice import foreign_part
 from editor.language.tree.program import Parameter
@@ -76,7 +77,7 @@ def _given(statement: ast.stmt, scope: Scope) -> Entry | None:
             _check_new(name, target, scope)
             where = next((each for each in call.keywords if each.arg == "where"), None)
             plain = [each for each in call.keywords if each is not where]
-            scope.bindings[name] = _binding(ast.copy_location(ast.Call(call.func, call.args, plain), call), name)
+            scope.bindings[name] = _binding(ast.copy_location(ast.Call(call.func, call.args, plain), call), name, scope)
             if where is not None:
                 _read_choice(call, where.value, name, scope)
             return None
@@ -144,11 +145,13 @@ def _instead_in_run(statement: ast.stmt) -> str:
     return 'In run, write self.oven = ctx.get("curingOven01") and self.new_task().'
 
 
-def _binding(call: ast.Call, name: str) -> Binding:
+def _binding(call: ast.Call, name: str, scope: Scope) -> Binding:
     function = call.func
     if isinstance(function, ast.Attribute) and isinstance(function.value, ast.Name) and function.value.id == "ctx":
         if function.attr == "parameter":
             return _parameter_binding(call, name)
+        if function.attr == "zone":
+            return parse_zone(call, scope)
         texts = [parse_scalar(argument) for argument in call.args]
         named = {keyword.arg: parse_scalar(keyword.value) for keyword in call.keywords}
         match function.attr, texts, named:
@@ -162,8 +165,6 @@ def _binding(call: ast.Call, name: str) -> Binding:
                 return Binding("place", place)
             case "any", _, {**rest} if not rest and all(isinstance(text, str) and text for text in texts):
                 return Binding("any", can=tuple(dict.fromkeys(str(text) for text in texts)))
-            case "zone", [str() as zone], {**rest} if zone and not rest:
-                return Binding("zone", zone)
     raise Refused(
         call, quoted(call), 'Use ctx.get("robot01"), ctx.any("pick", "drop"), ctx.place("dock1") or ctx.parameter(…).'
     )

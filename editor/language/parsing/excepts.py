@@ -1,13 +1,16 @@
-"""What the excepts of a try catch: kinds of failures, each in one of them."""
+"""The excepts of a try: what each of them catches."""
 
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
 
+from editor.language.document.catches import MOST_CATCHES
 from editor.language.parsing.answers import closest
 from editor.language.parsing.scope import Refused
-from editor.language.tree.nodes import ERROR_CLASSES
+from editor.language.tree.nodes import ERROR_CLASSES, Block, Catch
 
+_TOO_MANY = f"A try takes up to {MOST_CATCHES}. Let one of them catch several kinds: except (Offline, TimedOut):"
 _KINDS = {name: kind for kind, name in ERROR_CLASSES.items()}
 
 
@@ -25,20 +28,8 @@ def _kinds(handler: ast.ExceptHandler) -> tuple[str, ...]:
     return tuple(kind for kind in ERROR_CLASSES if kind in caught)
 
 
-def kinds_of_all(handlers: list[ast.ExceptHandler]) -> list[tuple[str, ...]]:
-    """Return what each except catches; one that comes too late for anything is refused."""
-    kinds, caught = list(map(_kinds, handlers)), set[str]()
-    for handler, each in zip(handlers, kinds, strict=True):
-        wanted = {*(each or ERROR_CLASSES)}
-        if wanted <= caught:
-            raise Refused(
-                handler, "An except that nothing comes to", "Leave it out: those before it catch all of that."
-            )
-        caught |= wanted
-    return kinds
-
-
-def kinds_together(kinds: list[tuple[str, ...]]) -> tuple[str, ...]:
-    """Return the kinds of which one is meant by any of these; none where one of them means all."""
-    named = {kind for each in kinds for kind in each}
-    return tuple(kind for kind in ERROR_CLASSES if kind in named) if all(kinds) else ()
+def parse_excepts(handlers: list[ast.ExceptHandler], block: Callable[[ast.ExceptHandler], Block]) -> tuple[Catch, ...]:
+    """Return the catches that the excepts of a try are; `block` gives the steps of one."""
+    if len(handlers) > MOST_CATCHES:
+        raise Refused(handlers[MOST_CATCHES], "A further except", _TOO_MANY)
+    return tuple(Catch(_kinds(handler), block(handler)) for handler in handlers)

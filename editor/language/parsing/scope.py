@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from editor.language.expressions.nodes import OF_PROBLEM, PROBLEM, Expression
+from editor.language.expressions.nodes import OF_PROBLEM, PROBLEM, Expression, Zone
 from editor.language.site.surroundings import Surroundings
 from editor.language.tree.robots import Robots, robots_for
 from vipo_device.protocol.description import Description, Scalar
@@ -64,6 +64,8 @@ class Scope:
     """The methods of the task: its functions, branches and events, new_task and run."""
     chosen: tuple[str, str] = ("", "")
     """In the condition of a choice: what it calls the robot, and the attribute that the robot is given to."""
+    drawn_zones: dict[str, Zone] = field(default_factory=dict)
+    """The zones of which the script says all, by id."""
     _robots: dict[str, Robots] = field(default_factory=dict)
 
     def description(self, device_id: str | None) -> Description | None:

@@ -22,6 +22,7 @@ from editor.language.parsing.robots import calls_in, robots_driven
 from editor.language.parsing.scope import Refused, Scope, attribute_of_self, quoted, written
 from editor.language.parsing.steps import Parser
 from editor.language.parsing.variables import check_local, names_assigned
+from editor.language.parsing.zones import zones_given
 from editor.language.site.surroundings import Surroundings, standing_places
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Function, Parameter, Role, Tree
@@ -100,7 +101,8 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
         scope.locals = own | frozenset(parameter.name for parameter in function.parameters)
         parser.functions[name] = replace(function, body=parser.block(methods[name].body))
     roles, parameters = _roles_and_parameters(parser)
-    tree = in_reading_order(Tree(body, tuple(parser.functions.values()), roles, parameters, events))
+    tree = Tree(body, tuple(parser.functions.values()), roles, parameters, events, *zones_given(scope))
+    tree = in_reading_order(tree)
     placed, unplaced = place_loads(tree, standing_places(surroundings))
     for node in unplaced:
         where = parser.origins[id(node)]

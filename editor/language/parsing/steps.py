@@ -28,7 +28,7 @@ from editor.language.parsing.answers import (
 )
 from editor.language.parsing.bindings import parse_arguments
 from editor.language.parsing.calls import ASSIGNED_CALLS, OWN_CALLS, ROBOT_CALLS
-from editor.language.parsing.excepts import kinds_of_all, kinds_together
+from editor.language.parsing.excepts import parse_excepts
 from editor.language.parsing.expressions import parse_expression, parse_thing
 from editor.language.parsing.loops import MOST_TIMES, parse_loop
 from editor.language.parsing.scope import Refused, Scope, attribute_of_self, of_problem, quoted, written
@@ -139,21 +139,7 @@ class Parser:
         if statement.orelse:
             raise Refused(statement.orelse[0], "An else behind try", "Write these lines at the end of what try holds.")
         body, final = self.block(statement.body), self.block(statement.finalbody)
-        if not statement.handlers:
-            return n.Try((), body, (), final, catches=False)
-        kinds = kinds_of_all(statement.handlers)
-        return n.Try(kinds_together(kinds), body, self._catches(statement.handlers, kinds), final)
-
-    def _catches(self, handlers: list[ast.ExceptHandler], kinds: list[tuple[str, ...]]) -> n.Block:
-        """Return the catch: of several excepts the first that fits, which a choice by the failure's kind says."""
-        if len(handlers) == 1:
-            return self._catch(handlers[0])
-        self.depth += 1
-        then, otherwise = self._catch(handlers[0]), self._catches(handlers[1:], kinds[1:])
-        self.depth -= 1
-        kind = e.Variable(e.OF_PROBLEM[1])
-        one = e.Operation("==", (kind, e.Constant(kinds[0][0])))
-        return (n.If(one if len(kinds[0]) == 1 else e.Operation("in", (kind, e.Constant(kinds[0]))), then, otherwise),)
+        return n.Try(body, parse_excepts(statement.handlers, self._catch), final)
 
     def _catch(self, handler: ast.ExceptHandler) -> n.Block:
         """Return the steps of an except, which see the failure under the name that it has there."""

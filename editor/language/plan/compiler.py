@@ -159,9 +159,7 @@ COMPILERS: Mapping[type[n.Node], Compiler] = {
 }
 
 
-def compile_tree(
-    tree: Tree, surroundings: Surroundings, line_of: Mapping[int, int], zones: tuple[e.Zone, ...] = ()
-) -> p.Plan:
+def compile_tree(tree: Tree, surroundings: Surroundings, line_of: Mapping[int, int]) -> p.Plan:
     """Return the plan of a tree that the checks found no error in; `line_of` gives the script line of each node."""
     shared = program_variables(tree)
     types = types_in_program(tree, shared, surroundings)
@@ -178,7 +176,7 @@ def compile_tree(
     roles = {role.id or role.name: binding_of(role, surroundings) for role in tree.roles}
     parameters = {parameter.name: parameter.default for parameter in tree.parameters}
     instructions, events = _with_role_ids(tree, builder.instructions, events)
-    return p.Plan(instructions, roles, parameters, tuple(sorted(builder.readings)), events=events, zones=zones)
+    return p.Plan(instructions, roles, parameters, tuple(sorted(builder.readings)), events=events, zones=tree.zones)
 
 
 def _function(builder: Builder, function: Function) -> int:

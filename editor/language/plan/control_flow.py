@@ -162,7 +162,7 @@ def compile_try(builder: Builder, node: n.Try, leaves: Leaves) -> None:
             builder.add(p.Assign(outer.flag, _ZERO), node, enters=enters)
         outside = builder.add(p.Jump(0), node, enters=enters)
     with builder.inside(Composite(node.step), *([outer] if node.final else [])):
-        if node.catches:
+        if node.handlers:
             _guarded(builder, node)
         else:
             if not node.final:
@@ -185,25 +185,44 @@ def compile_limit(builder: Builder, node: n.Limit, leaves: Leaves) -> None:
 
 def _flag(builder: Builder, node: n.Try) -> str:
     """Return the variable for exits through the final part, empty where there are none."""
-    inside = (part for block in (node.body, node.catch) for part in walk(block))
+    inside = (part for block in (node.body, *node.catches) for part in walk(block))
     return builder.hide("way") if any(part.__class__ in _LEAVE for part in inside) else ""
 
 
 def _guarded(builder: Builder, node: n.Try) -> None:
-    begin = builder.add(p.Jump(0), node, enters=(node.step,))
-    with builder.inside(Guard()):
+    """Compile a body with its catches: a guard for each, the innermost for the first, as the innermost that fits takes.
+
+    Before its steps a catch leaves the guards of those behind it, which are not for what fails in it.
+    """
+    last = len(node.handlers) - 1
+    begins = [
+        builder.add(p.Jump(0), node, enters=() if number else (node.step,)) for number in range(len(node.handlers))
+    ]
+    with builder.inside(*(Guard() for _ in node.handlers)):
         builder.block(node.body)
-    builder.add(p.TryEnd())
-    over = builder.add(p.Jump(0))
-    builder.patch(begin, p.TryBegin(builder.here(), node.kinds))
+    for _ in node.handlers:
+        builder.add(p.TryEnd())
+    over = [builder.add(p.Jump(0))]
+    for number, (begin, handler) in enumerate(zip(reversed(begins), node.handlers, strict=True)):
+        builder.patch(begin, p.TryBegin(builder.here(), handler.kinds))
+        _catch(builder, handler, behind=last - number)
+        if number < last:
+            over.append(builder.add(p.Jump(0)))
+    for address in over:
+        builder.patch(address, p.Jump(builder.here()))
+
+
+def _catch(builder: Builder, handler: n.Catch, behind: int) -> None:
+    """Compile the steps of a catch, with so many others behind it."""
     outside = builder.renamed
-    if reads_problem(node):
+    if reads_problem(handler):
         hidden = [builder.hide(name) for name in OF_PROBLEM]
         builder.add(p.Caught(*hidden))
         builder.renamed = {**outside, **dict(zip(OF_PROBLEM, hidden, strict=True))}
-    builder.block(node.catch)
+    for _ in range(behind):
+        builder.add(p.TryEnd())
+    builder.block(handler.block)
     builder.renamed = outside
-    builder.patch(over, p.Jump(builder.here()))
 
 
 def _final(builder: Builder, node: n.Try, guard: Guard) -> None:

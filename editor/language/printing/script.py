@@ -8,14 +8,16 @@ from dataclasses import dataclass
 from editor.language.analysis.memo import Memo
 from editor.language.expressions.declarations import write_type
 from editor.language.expressions.names import RESERVED_ATTRIBUTES
+from editor.language.expressions.nodes import Zone
 from editor.language.expressions.printing import quote, scalar_text
 from editor.language.printing.steps import PRINTERS
-from editor.language.printing.writer import CHOSEN, Printer
+from editor.language.printing.writer import CHOSEN, Printer, point_text
 from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree.nodes import DRIVES, Block, Event
 from editor.language.tree.program import Function, Parameter, Role, Tree
 from editor.language.tree.robots import is_robot
 from editor.language.tree.variables import local_variables, program_variables
+from editor.language.tree.zones import rule_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,13 +108,30 @@ def _print_run(printer: Printer) -> None:
     for key, attribute in printer.attributes.items():
         get = f"ctx.get({quote(key)})" if isinstance(key, str) else f"ctx.place({quote(key.place or '')})"
         printer.line(2, f"{attribute} = {get}")
-    for zone, attribute in printer.zones.items():
-        printer.line(2, f"{attribute} = ctx.zone({quote(zone)})")
+    _print_zones(printer)
     for event, condition in watched:
         printer.places.append((id(event), len(printer.texts) + 1))
         when = "ctx.start_when" if event.starts == "run" else "ctx.when"
         printer.line(2, f"{when}({condition}, self.{_event_method(printer, event)})", event.step)
     printer.line(2, "self.new_task()")
+
+
+def _print_zones(printer: Printer) -> None:
+    """Print the zones as they are drawn: first those that steps ask about, then the others by id."""
+    drawn = {zone.id: zone for zone in printer.tree.zones}
+    for zone_id in drawn:
+        printer.zone(zone_id)
+    for zone_id, attribute in printer.zones.items():
+        zone = drawn.get(zone_id)
+        printer.line(2, f"{attribute} = ctx.zone({quote(zone_id) if zone is None else _drawn(zone)})")
+
+
+def _drawn(zone: Zone) -> str:
+    """Return `"z1", [(0, 0), (3, 0), (3, 2)], rule="slow", speed=0.3, name="Ramp"`; the name where it is not the id."""
+    points = ", ".join(map(point_text, zone.points))
+    speed = "" if zone.speed_m_s is None else f", speed={scalar_text(zone.speed_m_s)}"
+    name = "" if zone.name == zone.id else f", name={quote(zone.name)}"
+    return f"{quote(zone.id)}, [{points}], rule={quote(rule_text(zone.rule))}{speed}{name}"
 
 
 def _given_to_parameter(parameter: Parameter) -> str:

@@ -114,16 +114,16 @@ def _parallel(printer: Printer, node: Parallel, depth: int) -> None:
 def _try(printer: Printer, node: Try, depth: int) -> None:
     printer.line(depth, "try:", node.step)
     printer.block(node.body, depth + 1)
-    if node.catches:
-        classes = [ERROR_CLASSES[kind] for kind in node.kinds] or ["TaskError"]
+    for handler in node.handlers:
+        classes = [ERROR_CLASSES[kind] for kind in handler.kinds] or ["TaskError"]
         caught = classes[0] if len(classes) == 1 else f"({', '.join(classes)})"
         printer.line(depth, f"except {caught} as problem:", node.step)
         outside = printer.locals
-        if reads_problem(node) and PROBLEM not in outside:
+        if reads_problem(handler) and PROBLEM not in outside:
             printer.locals = (*outside, PROBLEM)
-        printer.block(node.catch, depth + 1)
+        printer.block(handler.block, depth + 1)
         printer.locals = outside
-    if node.final or not node.catches:
+    if node.final or not node.handlers:
         printer.line(depth, "finally:", node.step)
         printer.block(node.final, depth + 1)
 

@@ -24,6 +24,7 @@ from editor.language.reading.steps import READERS
 from editor.language.tree.nodes import Event
 from editor.language.tree.program import Function, Tree
 from editor.language.tree.traversal import in_reading_order
+from editor.language.tree.zones import read_zones
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +63,7 @@ def read_document(document: object, memo: ReadMemo | None = None) -> ReadDocumen
         memo.begin(outline, (roles, [(f.id, f.name, f) for f in functions.values()], reader.argument_names))
     body, events = reader.block(PROGRAM, "body"), _read_events(reader)
     finished = [_with_body(reader, function, names, variables.get(key, ())) for key, function in functions.items()]
-    tree = in_reading_order(Tree(body, tuple(finished), tuple(roles.values()), parameters, events))
+    tree = in_reading_order(Tree(body, tuple(finished), tuple(roles.values()), parameters, events, read_zones(whole)))
     if format_of(document) > FORMAT:
         reader.problems.append(Problem("newer_format", "", "format", {"format": format_of(document)}))
     return ReadDocument(tree, outline, tuple(reader.problems))

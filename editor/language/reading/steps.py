@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from editor.language.constructs.record import Construct, Form
 from editor.language.constructs.table import STEPS
+from editor.language.document.catches import KINDS_OF, catches_of
 from editor.language.document.outline import Params, mapping
 from editor.language.expressions.names import local_name
 from editor.language.expressions.nodes import MISSING, OF_PROBLEM, Expression, Variable, is_missing
@@ -19,6 +20,7 @@ from editor.language.tree.nodes import (
     ERROR_CLASSES,
     NODES,
     Call,
+    Catch,
     Drop,
     ForEach,
     Node,
@@ -88,14 +90,17 @@ _OF_PROBLEM = dict(zip(OF_PROBLEM, OF_PROBLEM, strict=True))
 
 
 def _try(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:
-    named = params.get("kinds")
-    wanted = named if isinstance(named, LISTS) else ()
-    kinds = tuple(kind for kind in ERROR_CLASSES if kind in wanted)
     body, final, outside = reader.block(step, "body"), reader.block(step, "finally"), reader.names
     reader.names = {**outside, **_OF_PROBLEM}
-    catch, reader.names = reader.block(step, "catch"), outside
-    catches = params.get("catch") is not False
-    return (Try(kinds if catches else (), body, catch, final, catches, step),)
+    handlers = tuple(_catch(reader, step, params, branch) for branch in catches_of(params))
+    reader.names = outside
+    return (Try(body, handlers, final, step),)
+
+
+def _catch(reader: Reader, step: str, params: Params, branch: str) -> Catch:
+    named = params.get(KINDS_OF[branch])
+    wanted = named if isinstance(named, LISTS) else ()
+    return Catch(tuple(kind for kind in ERROR_CLASSES if kind in wanted), reader.block(step, branch), branch)
 
 
 def _call(reader: Reader, step: str, params: Params) -> tuple[Node, ...]:

@@ -228,18 +228,39 @@ class Parallel:
 
 
 @dataclass(frozen=True, slots=True)
-class Try:
-    """The body, `catch` when it fails with one of `kinds` (none: any), and `final` whatever happens.
-
-    Where `catches` is False there is no catch at all and failures go on outwards.
-    """
+class Catch:
+    """What a Try does about a failure of one of these kinds (none: any); `branch` is its name in the document."""
 
     kinds: tuple[str, ...] = ()
+    block: Block = ()
+    branch: str = field(default="", compare=False)
+
+    def takes(self, kind: str) -> bool:
+        """Tell whether a failure of this kind is one of its."""
+        return not self.kinds or kind in self.kinds
+
+
+@dataclass(frozen=True, slots=True)
+class Try:
+    """The body, the first of `handlers` that takes its failure, and `final` whatever happens.
+
+    Without handlers, and where none takes it, a failure goes on outwards.
+    """
+
     body: Block = ()
-    catch: Block = ()
+    handlers: tuple[Catch, ...] = ()
     final: Block = ()
-    catches: bool = True
     step: str = field(default="", compare=False)
+
+    @property
+    def kinds(self) -> tuple[tuple[str, ...], ...]:
+        """Return what each of its catches takes."""
+        return tuple(handler.kinds for handler in self.handlers)
+
+    @property
+    def catches(self) -> tuple[Block, ...]:
+        """Return the steps of each of its catches."""
+        return tuple(handler.block for handler in self.handlers)
 
 
 @dataclass(frozen=True, slots=True)
@@ -312,13 +333,17 @@ def _getter(attributes: tuple[str, ...]) -> Callable[[Node], tuple[Block, ...]]:
     return lambda node: (only(node),)
 
 
+def _of_try(node: Any) -> tuple[Block, ...]:
+    return (node.body, *node.catches, node.final)
+
+
 _BLOCKS: Final[Mapping[type[Node], Callable[[Node], tuple[Block, ...]]]] = {
     NODES[name]: attrgetter("branches")
     if construct.names_branches
     else _getter(tuple(attribute for _, attribute in construct.branches))
     for name, (construct, _) in FORMS.items()
     if (construct.branches or construct.names_branches) and NODES[name] is not Event
-}
+} | {Try: _of_try}
 COMPOSITES = frozenset(_BLOCKS)
 """The nodes that hold others."""
 
@@ -333,6 +358,10 @@ def with_blocks(node: Node, blocks: tuple[Block, ...]) -> Node:
     """Return a node that holds others with these branches, in the order of `blocks_of`."""
     if isinstance(node, Parallel):
         return replace(node, branches=blocks)
+    if isinstance(node, Try):
+        body, *caught, final = blocks
+        handlers = tuple(replace(each, block=block) for each, block in zip(node.handlers, caught, strict=True))
+        return replace(node, body=body, handlers=handlers, final=final)
     construct, _ = FORMS[node.__class__.__name__]
     names = (attribute for _, attribute in construct.branches)
     whole: Any = node

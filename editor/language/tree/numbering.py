@@ -9,7 +9,7 @@ deep in others. Events are e1, e2 …, their steps e1.1, e1.2 ….
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from dataclasses import dataclass, field
 from string import ascii_lowercase
 
@@ -19,13 +19,16 @@ from editor.language.tree.program import Tree
 
 _MORE = COMPOSITES | {Call}
 """The nodes by which other steps get their numbers."""
+_OF_CATCHES = "cdeghijk"
+"""The letters of a Try's catches; its final part is f, as it always was."""
+_BEFORE_FINAL = _OF_CATCHES.index("g")
 _PARTS = re.compile(r"[0-9]+|[a-z]")
 
 
 def letters_of(node: Node) -> Iterator[tuple[str, Block]]:
     """Yield the branches of a node with their letters."""
     if isinstance(node, Try):
-        yield from (("a", node.body), ("c", node.catch), ("f", node.final))
+        yield from (("a", node.body), *zip(_OF_CATCHES, node.catches, strict=False), ("f", node.final))
     else:
         yield from zip(ascii_lowercase, blocks_of(node), strict=False)
 
@@ -38,6 +41,8 @@ class Numbering:
     depths: dict[str, int] = field(default_factory=dict)
     first_calls: dict[str, tuple[str, int]] = field(default_factory=dict)
     """Function → the number and the depth of its first call."""
+    late: set[str] = field(default_factory=set)
+    """The numbers of final parts that are read behind catches with later letters."""
 
     def block(self, block: Block, prefix: str, depth: int) -> None:
         """Number the steps of a block; a step of several nodes counts once."""
@@ -58,6 +63,8 @@ class Numbering:
             self.first_calls.setdefault(node.function, (number, depth))
         if node.__class__ not in COMPOSITES:
             return
+        if isinstance(node, Try) and len(node.handlers) > _BEFORE_FINAL:
+            self.late.add(f"{number}f")
         for letter, block in letters_of(node):
             if block and block[0].step == block[-1].step:
                 self.node(block[0], f"{number}{letter}", depth + 1)
@@ -81,7 +88,7 @@ def number_steps(tree: Tree) -> Numbering:
             number = f"f{uncalled}"
         numbering.block(function.body, f"{number}.", depth + 1)
     if tree.functions:
-        ordered = sorted(numbering.numbers.items(), key=lambda pair: _reading_key(pair[1]))
+        ordered = sorted(numbering.numbers.items(), key=lambda pair: _reading_key(pair[1], numbering.late))
         numbering.numbers = dict(ordered)
     return numbering
 
@@ -93,8 +100,12 @@ def numbers_in_script(tree: Tree) -> dict[str, str]:
     return dict.fromkeys([node.step for node in tree.walked(tree.body)], "")
 
 
-def _reading_key(number: str) -> list[tuple[int, str]]:
+def _reading_key(number: str, late: Set[str]) -> list[tuple[int, str]]:
     """Sort 2 before 10, 1b before 1b.1, events behind the program, the functions that nobody calls last."""
-    parts = _PARTS.findall(number)
-    key = [(int(part), "") if part.isdigit() else (0, part) for part in parts]
-    return [({"e": 1, "f": 2}.get(parts[0], 0), ""), *key]
+    parts = list(_PARTS.finditer(number))
+    key = [(int(part[0]), "") if part[0].isdigit() else (0, _letter(number[: part.end()], late)) for part in parts]
+    return [({"e": 1, "f": 2}.get(parts[0][0], 0), ""), *key]
+
+
+def _letter(number: str, late: Set[str]) -> str:
+    return "z" if number in late else number[-1]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from editor.language.expressions.nodes import Expression
+from editor.language.expressions.nodes import Expression, Zone
 from editor.language.tree.nodes import Block, Event, Node, walk
 from vipo_device.protocol.description import Scalar
 
@@ -70,6 +70,10 @@ class Tree:
     roles: tuple[Role, ...] = ()
     parameters: tuple[Parameter, ...] = ()
     events: tuple[Event, ...] = ()
+    zones: tuple[Zone, ...] = ()
+    """By id."""
+    named_zones: frozenset[str] = field(default=frozenset(), compare=False)
+    """The ids of zones of which a script says no more: they stay as they are drawn."""
     _walked: dict[int, list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
     _derived: dict[object, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
     _by_kind: dict[type[Node], list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)

@@ -163,8 +163,8 @@ def with_roles_of_robots(tree: Tree, surroundings: Surroundings) -> Tree:
     functions = tuple(replace(f, body=_with_roles(f.body, names)) for f in tree.functions)
     events = tuple(replace(event, body=_with_roles(event.body, names)) for event in tree.events)
     added = tuple(roles[robot] for robot in robots if roles[robot] not in tree.roles)
-    changed = Tree(_with_roles(tree.body, names), functions, (*tree.roles, *added), tree.parameters, events)
-    return in_reading_order(changed)
+    body, roles_now = _with_roles(tree.body, names), (*tree.roles, *added)
+    return in_reading_order(replace(tree, body=body, functions=functions, roles=roles_now, events=events))
 
 
 def _with_roles(block: Block, names: Mapping[str, str]) -> Block:

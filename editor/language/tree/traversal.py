@@ -169,7 +169,7 @@ def in_reading_order(tree: Tree) -> Tree:
     needed = needed_of_roles(tree, functions)
     by_name = {role.name: role for role in tree.roles}
     roles = (_fill(by_name[name], methods) for name, methods in needed.items())
-    return Tree(tree.body, functions, tuple(roles), tree.parameters, tree.events)
+    return replace(tree, functions=functions, roles=tuple(roles))
 
 
 def _fill(role: Role, needed: tuple[str, ...]) -> Role:

@@ -62,9 +62,9 @@ def read_by(node: n.Node) -> dict[str, str]:
     return found
 
 
-def reads_problem(node: n.Try) -> bool:
+def reads_problem(catch: n.Catch) -> bool:
     """Tell whether a catch looks at the failure that it has caught, or at one of which a catch in it knows."""
-    return any(name in read_by(inner) for inner in walk(node.catch) for name in OF_PROBLEM)
+    return any(name in read_by(inner) for inner in walk(catch.block) for name in OF_PROBLEM)
 
 
 _HOLD_VALUES: Final = ("place", "value", "values", "arguments")

@@ -11,6 +11,8 @@ from editor.language.expressions.values import is_number, read_point
 
 Rule = Literal["keep_out", "one_at_a_time", "slow"]
 RULES: Mapping[str, Rule] = {"keep_out": "keep_out", "one_at_a_time": "one_at_a_time", "slow": "slow"}
+"""What a zone asks of robots, by its name in documents."""
+FEWEST_CORNERS = 3
 SMALLEST_AREA_M2 = 1e-4
 MOST_CORNERS = 200
 
@@ -33,7 +35,8 @@ def _zone(name: str, item: Mapping[str, object]) -> Zone | None:
     rule, given, speed = RULES.get(str(item.get("rule"))), item.get("points"), item.get("speed_m_s")
     listed = [read_point(point) for point in given] if isinstance(given, list | tuple) else []
     points = tuple(point for point in listed if point is not None)
-    if not name or rule is None or not 3 <= len(points) <= MOST_CORNERS or area_m2(points) < SMALLEST_AREA_M2:
+    is_polygon = FEWEST_CORNERS <= len(points) <= MOST_CORNERS and area_m2(points) >= SMALLEST_AREA_M2
+    if not name or rule is None or not is_polygon:
         return None
     called = item.get("name")
     return Zone(
@@ -43,6 +46,11 @@ def _zone(name: str, item: Mapping[str, object]) -> Zone | None:
         points,
         float(speed) if is_number(speed) and speed > 0 else None,
     )
+
+
+def rule_text(rule: str) -> str:
+    """Return how a script writes a rule: `one at a time`."""
+    return rule.replace("_", " ")
 
 
 def area_m2(points: tuple[Point, ...]) -> float:

@@ -2877,10 +2877,14 @@ export interface components {
             cause: components["schemas"]["Cause"] | null;
             compiled: components["schemas"]["CompiledShape"];
             created_at: string;
+            deadline: string | null;
             document: components["schemas"]["DocumentShape"];
             ended_at: string | null;
             id: string;
+            not_before: string | null;
             number: number;
+            /** @enum {string} */
+            priority: "low" | "normal" | "high";
             program: components["schemas"]["RunProgram"];
             reason: string;
             roles: {
@@ -2911,9 +2915,13 @@ export interface components {
         RunSummaryShape: {
             cause: components["schemas"]["Cause"] | null;
             created_at: string;
+            deadline: string | null;
             ended_at: string | null;
             id: string;
+            not_before: string | null;
             number: number;
+            /** @enum {string} */
+            priority: "low" | "normal" | "high";
             program: components["schemas"]["RunProgram"];
             reason: string;
             roles: {
@@ -3033,12 +3041,21 @@ export interface components {
             /** @default 0 */
             seed: number;
         };
-        /** @description Parameters of a run; what is left out has its default. */
+        /** @description Parameters of a run, and in which order and when it is done; what is left out has its default. */
         StartRun: {
+            /** @description It should be over by then; people are told when it is not. */
+            deadline?: string | null;
+            /** @description It waits until then and begins by itself; at most a year ahead. */
+            not_before?: string | null;
             /** @default {} */
             parameters: {
                 [key: string]: unknown;
             };
+            /**
+             * @default normal
+             * @enum {string}
+             */
+            priority: "low" | "normal" | "high";
         };
         /** @enum {string} */
         StepKind: "move" | "pick" | "drop" | "pick_and_drop" | "release" | "operate" | "wait" | "if" | "while" | "repeat" | "for_each" | "parallel" | "try" | "limit" | "on_event" | "break" | "continue" | "return" | "end" | "fail" | "call" | "set" | "notify" | "ask" | "comment";

@@ -161,10 +161,10 @@ export class SiteFeed {
     if (alert.state === "over") this.#caches.refresh(keys.overAlerts(this.slug));
   }
 
-  #notice({ run, text, level }: Extract<LiveMessage, { type: "notice" }>): void {
+  #notice({ run, text, level, code = "", args = {} }: Extract<LiveMessage, { type: "notice" }>): void {
     useLiveStore.setState(({ notices }) => {
       const id = (notices.at(-1)?.id ?? 0) + 1;
-      return { notices: [...notices.slice(1 - NOTICES_KEPT), { id, run, text, level }] };
+      return { notices: [...notices.slice(1 - NOTICES_KEPT), { id, run, text, level, code, args }] };
     });
   }
 

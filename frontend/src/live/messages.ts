@@ -33,7 +33,14 @@ export type LiveMessage =
   | { type: "run"; run: RunSummary }
   | { type: "run_event"; run: string; event: RunEvent }
   | { type: "question"; question: Question }
-  | { type: "notice"; run: string; text: string; level: "info" | "warning" }
+  | {
+      type: "notice";
+      run: string;
+      text: string;
+      level: "info" | "warning";
+      code?: string;
+      args?: Readonly<Record<string, unknown>>;
+    }
   | { type: "alert"; alert: Alert }
   | { type: "alerts" }
   | { type: "armed"; programs: ArmedProgram[] }

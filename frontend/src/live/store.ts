@@ -11,6 +11,9 @@ export interface Notice {
   run: string;
   text: string;
   level: "info" | "warning";
+  /** What of VIPO's own it says; empty: the program's words. */
+  code: string;
+  args: Readonly<Record<string, unknown>>;
 }
 
 export interface LiveState {

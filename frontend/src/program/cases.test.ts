@@ -18,7 +18,7 @@ const FILES = {
   ...import.meta.glob<Case>("../../../tests/cases/constructs/*.json", { eager: true, import: "default" }),
   ...import.meta.glob<Case>("../../../tests/cases/checks/*.json", { eager: true, import: "default" }),
   ...import.meta.glob<Case>("../../../tests/fixtures/programs/*.json", { eager: true, import: "default" }),
-  ...import.meta.glob<Case>("../../../examples/!(painting-factory).json", { eager: true, import: "default" }),
+  ...import.meta.glob<Case>("../../../examples/**/*.json", { eager: true, import: "default" }),
 };
 const cases = Object.entries(FILES)
   // some cases of the checks are scripts

@@ -14,6 +14,8 @@ export interface FieldRecord {
   readonly optional?: boolean;
   /** Fixed words; the first is meant where none is given. */
   readonly choices?: readonly string[];
+  /** How many of it a step may have, the others under its name with a number from 2. */
+  readonly numbered?: number;
   /** Each choice has a sentence of its own. */
   readonly explained?: boolean;
   /** What a new variable is called in a new step. */

@@ -6,14 +6,17 @@ import { Link } from "react-router-dom";
 import { api, ApiProblem } from "@/api/client";
 import type { Run } from "@/api/types";
 import { clock } from "@/design/clock";
+import { isPlanned } from "./terms";
 import styles from "./RunScreen.module.css";
 
 /** How the run stands, with its clock. */
-export function RunPill({ run, elapsed_s }: { run: Run; elapsed_s: number }) {
+export function RunPill({ run, elapsed_s, now }: { run: Run; elapsed_s: number; now: number }) {
   const { t } = useTranslation();
+  const planned = isPlanned(run, now);
   return (
     <span className={styles.pill} data-status={run.status} role="status">
-      <i aria-hidden="true" /> {t(`run.status.${run.status}`)} <b>{clock(elapsed_s)}</b>
+      <i aria-hidden="true" /> {t(planned ? "run.terms.planned" : `run.status.${run.status}`)}{" "}
+      {planned ? null : <b>{clock(elapsed_s)}</b>}
     </span>
   );
 }

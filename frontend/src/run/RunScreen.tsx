@@ -12,6 +12,7 @@ import { LoadProblem } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { Chip } from "@/design/Chip";
 import { ProgramMap } from "@/program/ProgramMap";
+import { formatMoment } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
 import { liveRobots } from "@/live/robots";
 import { useSiteLive } from "@/live/site";
@@ -19,6 +20,8 @@ import { useLiveStore } from "@/live/store";
 import { RunAlerts } from "./RunAlerts";
 import { RunActions, RunPill } from "./RunBar";
 import styles from "./RunScreen.module.css";
+import { RunTerms } from "./RunTerms";
+import { isPlanned } from "./terms";
 import { ScriptLines } from "./ScriptLines";
 import { currentStep, stepLines } from "./stepList";
 import { Journal, RunSteps } from "./RunSteps";
@@ -53,7 +56,7 @@ function elapsedSeconds(run: Run, now: number): number {
   return Math.max(0, (end - Date.parse(run.started_at)) / 1000);
 }
 
-function Notes({ run, problem }: { run: Run; problem: string | null }) {
+function Notes({ run, now, problem }: { run: Run; now: number; problem: string | null }) {
   const { t } = useTranslation();
   const reason = reasonWords(run.cause, run.reason);
   return (
@@ -68,6 +71,11 @@ function Notes({ run, problem }: { run: Run; problem: string | null }) {
           <b>{t(`run.status.${run.status}`)}</b> {reason}
         </p>
       )}
+      {run.not_before && isPlanned(run, now) ? (
+        <p className={styles.note} data-tone="warn">
+          {t("run.terms.waits", { at: formatMoment(run.not_before) })}
+        </p>
+      ) : null}
       {OVER.includes(run.status) ? null : <RunAlerts run={run} />}
     </div>
   );
@@ -170,7 +178,7 @@ function Loaded(props: LoadedProps) {
             selected={selected}
             onSelect={setSelected}
           />
-          <Notes run={run} problem={problem} />
+          <Notes run={run} now={view.now} problem={problem} />
           <RunQuestions run={run} allowed={view.allowed} />
         </section>
         <Side view={view} />
@@ -198,6 +206,7 @@ function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: strin
         <span className={styles.chips}>
           {run.version !== null && <Chip mono>v{run.version}</Chip>}
           {site?.simulated && <Chip>{t("run.simulated")}</Chip>}
+          <RunTerms run={run} now={view.now} />
         </span>
       }
       actions={
@@ -209,7 +218,7 @@ function RunTop({ view, onProblem }: { view: RunView; onProblem: (problem: strin
         />
       }
     >
-      <RunPill run={run} elapsed_s={elapsedSeconds(run, view.now)} />
+      <RunPill run={run} elapsed_s={elapsedSeconds(run, view.now)} now={view.now} />
     </TopBar>
   );
 }

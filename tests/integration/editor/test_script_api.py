@@ -50,6 +50,17 @@ def test_a_base_document_keeps_its_steps(web: Web, program: str) -> None:
     assert found["document"] == base
 
 
+def test_a_script_adds_and_removes_zones(web: Web, program: str) -> None:
+    zone = 'self.wet = ctx.zone("wet", [(1, 2), (4, 2), (4, 5)], rule="keep out")'
+    with_zone = WAITS.replace("        self.new_task()", f"        {zone}\n        self.new_task()")
+    found = drawn(web, program, text=with_zone)
+    points = [[1, 2], [4, 2], [4, 5]]
+    assert found["document"]["zones"] == {"wet": {"name": "wet", "rule": "keep_out", "points": points}}
+    assert found["script"] == with_zone
+    without = drawn(web, program, text=WAITS, base=found["document"], shown=with_zone)
+    assert without["document"]["zones"] == {}
+
+
 def test_a_base_that_prints_otherwise_than_was_shown_is_stale(web: Web, program: str) -> None:
     base = drawn(web, program, text=WAITS)["document"]
     shown = WAITS.replace("self.wait(5)", "self.wait(6)")

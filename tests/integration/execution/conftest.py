@@ -57,7 +57,8 @@ class Shop:
         """What workers do with hints: everything that waits is taken in."""
         for _ in range(100):
             targets = set(InboxEvent.objects.filter(taken_at=None).values_list("target", flat=True))
-            pending = Run.objects.filter(status="pending").values_list("id", flat=True)
+            pending = Run.objects.filter(status="pending").exclude(not_before__gt=datetime.now(UTC))
+            pending = pending.values_list("id", flat=True)
             targets |= {mailbox.run_target(run) for run in pending}
             if not targets:
                 return

@@ -87,7 +87,8 @@ class Observer:
 
     def said(self, name: str) -> list[Any]:
         """Return what it has told under a name so far."""
-        lines = [json.loads(line) for line in self.out.read_text().splitlines() if line.startswith("{")]
+        written = self.out.read_text().rpartition("\n")[0]  # the last line may still be under way
+        lines = [json.loads(line) for line in written.splitlines() if line.startswith("{")]
         return [line[name] for line in lines if name in line]
 
     def wait(self, name: str) -> Any:

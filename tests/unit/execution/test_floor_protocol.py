@@ -23,6 +23,10 @@ ORDER = TaskOrder("move", Target(point=(1.5, 2.0)), "robot", route=((0.0, 1.0), 
 AISLE = m.FloorZone("p/z", "Aisle", "slow", ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0)))
 TO_FLOOR = [
     (ASKED, m.TaskAsked(RUN, 1, ORDER, "", ("move", "pick"), "run 1", (AISLE,))),
+    (
+        {**ASKED, "priority": -1, "due": 1795361342.5},
+        m.TaskAsked(RUN, 1, ORDER, "", ("move", "pick"), "run 1", (AISLE,), priority=-1, due=1795361342.5),
+    ),
     ({"type": "mission_cancelled", "run": RUN, "mission": 1}, m.TaskCancelled(RUN, 1)),
     ({"type": "run_paused", "run": RUN}, m.RunPaused(RUN)),
     ({"type": "run_resumed", "run": RUN}, m.RunResumed(RUN)),
@@ -58,6 +62,7 @@ TO_RUN = [
      protocol.CommandEnded("mixer", "mix", "s1", "FAILED", "Lid open")),
     ({"type": "way", "robot": "robot01", "path": [[15.78, -11.75], [15.78, -8]]},
      protocol.RobotSetsOut("robot01", ((15.78, -11.75), (15.78, -8)))),
+    ({"type": "deadline"}, protocol.DeadlinePassed()),
     ({"type": "timer", "timer": 4}, r.TimerFired(4)),
     ({"type": "pause", "reason": "Ada paused it"}, r.PauseAsked("Ada paused it")),
     ({"type": "resume", "by": "Ada"}, protocol.ResumeAsked("Ada")),

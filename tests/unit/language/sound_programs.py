@@ -36,6 +36,13 @@ HOLDING: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
     "limit": ({"duration": {"quantity": [10, "MIN"]}}, ("body",)),
     "parallel": ({"branches": ["a", "b"]}, ("a", "b")),
 }
+ROUTES: list[list[list[float]]] = [[], [[5.25, -8.25], [5.25, -6.25], [9.25, -8.25]]]
+TRIES: list[tuple[dict[str, Any], tuple[str, ...]]] = [
+    HOLDING["try"],
+    ({"catch": False}, ("body", "finally")),
+    ({"kinds": ["failed"], "kinds2": []}, ("body", "catch", "catch2", "finally")),
+    ({"catch": False, "kinds2": ["failed", "offline"], "kinds8": ["blocked"]}, ("body", "catch2", "catch8", "finally")),
+]
 LOOPS = frozenset({"while", "repeat", "for_each", "for_each_of"})
 DEEPEST = 4
 TOLD = [{"message": {"param": name}, "level": "info"} for name in ("problem.text", "problem.kind")]
@@ -75,21 +82,23 @@ class Steps:
                 self.holding(kind, parent, branch, f"{index}V", around)
             else:
                 params = PLAIN.get(kind, {"value": 2} if kind == "return" else {})
+                if kind == "pick_and_drop":
+                    params = {**params, "route": self.draw(st.sampled_from(ROUTES))}
                 self.add("set" if kind == "collect" else kind, parent, branch, f"{index}V", params)
 
     def holding(self, kind: str, parent: str, branch: str, order: str, around: Around) -> None:
         params, branches = HOLDING[kind]
         if kind == "parallel":
             params = {**params, **self.draw(st.sampled_from([{}, {"needed": 1}, {"needed": 2}]))}
-        if kind == "try" and self.draw(st.booleans()):
-            params, branches = {"catch": False}, ("body", "finally")
+        if kind == "try":
+            params, branches = self.draw(st.sampled_from(TRIES))
         driven = any(step["kind"] == "pick_and_drop" for step in self.steps.values())
         if driven and "condition" in params and self.draw(st.booleans()):
             params = {"condition": CHARGED}
         step = self.add(kind.removesuffix("_of"), parent, branch, order, params)
         for name in branches:
             inside = replace(around, depth=around.depth + 1, loop=around.loop or kind in LOOPS,
-                             caught=around.caught or name == "catch")  # fmt: skip
+                             caught=around.caught or name.startswith("catch"))  # fmt: skip
             closed = kind == "parallel" or name == "finally"
             self.block(step, name, Around(inside.depth, caught=inside.caught) if closed else inside)
 

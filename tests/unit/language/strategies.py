@@ -140,8 +140,16 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
         st.sampled_from([{"branches": ["a", "b"]}, {"branches": ["a", "b", "c"]}, {}]),
         st.sampled_from([{}, *({"needed": n} for n in (1, 2, 2.0, 3, 0, 99, -1, 1.5, "x", True, None, [1], 1e300))]),
     ),
-    "try": st.sampled_from(
-        [{"kinds": []}, {"kinds": ["failed", "offline"]}, {"kinds": ["timed_out"]}, {}, {"catch": False}]
+    "try": st.builds(
+        lambda first, more: {**first, **more},
+        st.sampled_from(
+            [{"kinds": []}, {"kinds": ["failed", "offline"]}, {"kinds": ["timed_out"]}, {}, {"catch": False}]
+        ),
+        st.dictionaries(
+            st.sampled_from(["kinds2", "kinds3", "kinds8", "kinds9"]),
+            st.sampled_from([[], ["failed"], ["offline", "blocked"], ["x", 3], None, "failed", {"a": 1}]),
+            max_size=3,
+        ),
     ),
     "limit": st.fixed_dictionaries({"duration": values}),
     "call": st.fixed_dictionaries(
@@ -172,7 +180,19 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "continue": st.just({}),
     "on_event": st.fixed_dictionaries({"condition": values, "starts": st.sampled_from(["branch", "run", None])}),
 }
-BRANCHES = ["body", "then", "else", "catch", "finally", "a", "b", "c"]
+corners = st.lists(st.one_of(st.tuples(numbers, numbers).map(list), st.just("x")), max_size=6)
+zones = st.dictionaries(
+    st.sampled_from(["z1", "z2", "wet floor", 'Größe "9"', "robot"]),
+    st.fixed_dictionaries(
+        {"rule": st.sampled_from(["slow", "keep_out", "one_at_a_time", "dance", None]), "points": corners},
+        optional={
+            "name": st.sampled_from(["robot", "Wet floor", "", "z1", "minutes", 4]),
+            "speed_m_s": st.sampled_from([0.3, 1, 0, -2, None, "fast"]),
+        },
+    ),
+    max_size=3,
+)
+BRANCHES = ["body", "then", "else", "catch", "catch2", "catch3", "catch8", "finally", "a", "b", "c"]
 
 
 @st.composite
@@ -205,7 +225,7 @@ def documents(draw: st.DrawFn, largest: int = 12) -> dict[str, Any]:
             "paint_carrier": {"name": "drop off", "can": []},
         },
         "parameters": {"p": {"name": default, "type": "number", "default": 2}},
-        "zones": {"z1": {"name": "robot", "rule": "slow", "points": [[0, 0], [3, 0], [3, -3]]}},
+        "zones": draw(zones),
     }
 
 

@@ -103,3 +103,11 @@ test("a frame around a step is undone by taking it apart", () => {
   if ("refused" in apart) throw new Error(apart.refused);
   expect(branch(applyEdits(wrapped, apart.edits), "guard", "body")).toEqual(["p", "q"]);
 });
+
+test("a step in a further catch is a draft when the Try is taken apart", () => {
+  const head = { ...step("try", "program", "body", "A"), params: { kinds: ["failed"], kinds2: [] } };
+  const steps = { head, tell: step("notify", "head", "catch2", "A"), work: step("wait", "head", "body", "A") };
+  expect(takeApart({ ...EMPTY_DOCUMENT, steps }, "head")).toMatchObject({
+    edits: expect.arrayContaining([{ do: "set_place", id: "tell", place: null }]) as unknown,
+  });
+});

@@ -1,6 +1,7 @@
 /** Steps in and out of the frames around them, as pure decisions about the document. */
 import type { Decision, Edit, StepPlace } from "./edits";
 import { branchOf, moveSteps, neighbours, roomAt, type Goal } from "./joints";
+import { isCatch } from "@/program/document/catches";
 import { branchesOf, readTree, EVENTS, type BranchRef } from "@/program/document/tree";
 import type { Position, ProgramDocument, Step, StepKind } from "@/program/document/document";
 import { toCentimetre } from "./clipping";
@@ -86,7 +87,7 @@ export function takeApart(document: ProgramDocument, id: string): Decision {
   if (branches.length === 0) return { refused: "nothing" };
   const tree = readTree(document);
   const outside = branchOf(document, id);
-  const stays = (branch: string) => outside !== null && !isEvents(outside) && !["else", "catch"].includes(branch);
+  const stays = (branch: string) => outside !== null && !isEvents(outside) && branch !== "else" && !isCatch(branch);
   const inside = (keep: boolean) =>
     branches.filter((branch) => stays(branch) === keep).flatMap((branch) => tree.children(id, branch));
   const goal: Goal | null = outside && { branch: outside, after: before(document, id, outside) };

@@ -84,3 +84,14 @@ test("a fresh name is one that nothing has", () => {
 test("a name is written as the script can have it", () => {
   expect([asName(" red boxes "), asName("2nd"), asName("größe!")]).toEqual(["red_boxes", "_2nd", "größe"]);
 });
+
+test("a step in a further catch knows the problem", () => {
+  const steps = {
+    head: step("try", ["program", "body", "A"], { kinds: ["failed"], kinds2: [] }),
+    tell: step("notify", ["head", "catch2", "A"]),
+    work: step("wait", ["head", "body", "A"]),
+  };
+  const document = { ...EMPTY_DOCUMENT, steps };
+  const problem = (id: string) => knownNames(document, id).some(({ name }) => name === "problem.kind");
+  expect([problem("tell"), problem("work")]).toEqual([true, false]);
+});

@@ -1,4 +1,5 @@
 /** The names that a step can read: loop variables, parameters and what is set anywhere; none is declared. */
+import { isCatch } from "@/program/document/catches";
 import { ancestors } from "@/program/document/tree";
 import type { Answer, Parameter, ProgramDocument, Step } from "@/program/document/document";
 
@@ -76,7 +77,7 @@ function loopName(step: Step | undefined, document: ProgramDocument): Parameter[
 
 /** What a catch knows of the failure; `inner` is the step that stands in the Try. */
 function ofProblem(step: Step | undefined, inner: Step | undefined): Parameter[] {
-  if (step?.kind !== "try" || inner?.place?.[1] !== "catch") return [];
+  if (step?.kind !== "try" || !isCatch(inner?.place?.[1])) return [];
   return ["problem.text", "problem.kind"].map((name) => ({ name, type: "text" }));
 }
 

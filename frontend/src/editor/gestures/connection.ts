@@ -24,7 +24,7 @@ export function joinByDot(open: OpenProgram, from: string, to: string, at: { x: 
   }
   const into = branches.map((branch): MenuItem => ({
     id: branch,
-    label: branchWord(branch, step.kind, t),
+    label: branchWord(branch, step, t),
     run: () => settle(open, moveStep(document, to, { parent: from, branch }, null)),
   }));
   const behind = {

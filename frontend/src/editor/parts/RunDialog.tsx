@@ -11,6 +11,8 @@ import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
 import classes from "./dialogs.module.css";
 import { completed, type Given, RunParameters } from "./RunParameters";
+import { RunTermsForm } from "./RunTermsForm";
+import { termsToSend, USUAL } from "./runTerms";
 import { roleOfStep } from "@/program/operation";
 
 export function RunDialog() {
@@ -28,13 +30,16 @@ function Content({ onClose }: { onClose: () => void }) {
   const { t, program, site, document } = useOpenProgram();
   const [given, setGiven] = useState<Given>({});
   const parameters = completed(Object.values(document.parameters), given);
-  const run = useStartRun(parameters, onClose);
+  const [form, setForm] = useState(USUAL);
+  const terms = termsToSend(form);
+  const run = useStartRun(parameters, terms, onClose);
   const { errors } = useProblemCounts();
   return (
     <div className={classes.content}>
       <p>{t(site.simulated ? "run_dialog.simulated" : "run_dialog.real", { program: program.name })}</p>
       <Facts />
       <RunParameters given={given} onGive={setGiven} />
+      <RunTermsForm terms={form} onChange={setForm} />
       <Arm />
       {run.error ? (
         <p className={classes.problem} role="alert">
@@ -48,21 +53,21 @@ function Content({ onClose }: { onClose: () => void }) {
         <Button
           data-autofocus
           loading={run.isPending}
-          disabled={errors > 0 || parameters === null}
+          disabled={errors > 0 || parameters === null || terms === null}
           onClick={() => run.mutate()}
         >
-          {t("run")}
+          {t(form.notBefore ? "run_dialog.plan" : "run")}
         </Button>
       </div>
     </div>
   );
 }
 
-function useStartRun(parameters: Given | null, onStarted: () => void) {
+function useStartRun(parameters: Given | null, terms: Record<string, string> | null, onStarted: () => void) {
   const { program } = useOpenProgram();
   const navigate = useNavigate();
   return useMutation({
-    mutationFn: () => api.post<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {} }),
+    mutationFn: () => api.post<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {}, ...terms }),
     onSuccess: (started) => {
       onStarted();
       void navigate(`/runs/${started.id}`);

@@ -98,8 +98,8 @@ function BranchName({ step }: { step: string }) {
   const { document, t } = useOpenProgram();
   const place = document.steps[step]?.place;
   if (!place) return null;
-  const kind = document.steps[place[0]]?.kind;
-  const word = kind && place[1] !== "body" ? branchWord(place[1], kind, t) : document.functions[place[0]]?.name;
+  const parent = document.steps[place[0]];
+  const word = parent && place[1] !== "body" ? branchWord(place[1], parent, t) : document.functions[place[0]]?.name;
   return word ? <span className={classes.branch}>{word}</span> : null;
 }
 

@@ -39,6 +39,23 @@ test("nothing differs from itself", () => {
   expect(differenceOf(BASE, structuredClone(BASE))).toEqual([]);
 });
 
+test("a zone that a script adds, changes or takes out is one edit", () => {
+  const corners: [number, number][] = [
+    [1, 2],
+    [4, 2],
+    [4, 5],
+  ];
+  const wet = { name: "Wet floor", rule: "keep_out", points: corners } as const;
+  const before = { ...BASE, zones: { z1: wet, z2: wet } };
+  const next = { ...BASE, zones: { z1: { ...wet, rule: "slow" as const }, hall: wet } };
+  expect(differenceOf(before, next)).toEqual([
+    { do: "set_zone", id: "z1", value: { ...wet, rule: "slow" } },
+    { do: "set_zone", id: "hall", value: wet },
+    { do: "set_zone", id: "z2", value: null },
+  ]);
+  expect(readDocument(shared(next)).zones).toEqual(next.zones);
+});
+
 test("one number is one edit", () => {
   const next = { ...BASE, steps: { ...BASE.steps, a: wait("1", 61) } };
   expect(differenceOf(BASE, next)).toEqual([{ do: "set_param", id: "a", name: "duration", value: 61 }]);

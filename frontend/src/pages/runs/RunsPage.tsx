@@ -15,6 +15,8 @@ import { Panel } from "@/design/Panel";
 import { StatusBadge } from "@/design/StatusBadge";
 import { formatAgo, formatSpan } from "@/i18n/format";
 import { reasonWords } from "@/i18n/reasons";
+import { RunTerms } from "@/run/RunTerms";
+import { isPlanned } from "@/run/terms";
 import styles from "../pages.module.css";
 import { nameOf } from "../people";
 import { isOpen, joinRuns, secondsOfRun, statusOfRun, stepsDone } from "./runStatus";
@@ -40,7 +42,12 @@ function Row({ run, now }: { run: RunSummary; now: number }) {
         </Link>
       </td>
       <td>
-        <StatusBadge status={statusOfRun(run)}>{t(`pages.runs.status.${run.status}`)}</StatusBadge>
+        <StatusBadge status={statusOfRun(run)}>
+          {t(isPlanned(run, now) ? "run.terms.planned" : `pages.runs.status.${run.status}`)}
+        </StatusBadge>
+        <span className={styles.terms}>
+          <RunTerms run={run} now={now} />
+        </span>
         {run.reason ? <small className={styles.reason}>{reasonWords(run.cause, run.reason)}</small> : null}
       </td>
       <td className={styles.nowrap}>{run.started_at ? stepsDone(run) : "–"}</td>
@@ -101,7 +108,8 @@ function RunsOfSite({ slug }: { slug: string }) {
   const { t } = useTranslation();
   const runs = useRuns(slug);
   const { shown, more, hasMore } = useOlderRuns(slug, runs.data);
-  const open = runs.data?.filter(isOpen).length ?? 0;
+  const now = useNow(15_000);
+  const open = runs.data?.filter((run) => isOpen(run) && !isPlanned(run, now)).length ?? 0;
   return (
     <PageShell
       title={t("shell.nav.runs")}

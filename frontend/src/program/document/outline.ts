@@ -1,4 +1,5 @@
 /** Where each step stands, whatever people or merges have left: the rules of docs/language/README.md, as in Python. */
+import { catchesOf } from "./catches";
 import { isStepKind, kindOf } from "../kinds";
 import type { ProgramDocument, Step } from "./document";
 
@@ -19,7 +20,7 @@ export interface Outline {
 /** The branches that a step of this kind has. */
 export function branchesOf(step: Step): readonly string[] {
   if (step.kind === "parallel") return parallelBranches(step.params.branches);
-  if (step.kind === "try" && step.params.catch === false) return ["body", "finally"];
+  if (step.kind === "try") return ["body", ...catchesOf(step.params), "finally"];
   return kindOf(step.kind).branches ?? [];
 }
 

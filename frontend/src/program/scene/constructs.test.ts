@@ -68,6 +68,14 @@ test("a try offers its catch; a finally only where one is wanted", () => {
   expect([linkTo(full, "head/catch"), linkTo(full, "head/finally")?.word]).toEqual([undefined, "branch.finally"]);
 });
 
+test("each of several catches is offered, and its arrow says what it takes", () => {
+  const params = { kinds: ["timed_out", "blocked"], kinds3: ["offline"], kinds8: [] };
+  const scene = sceneOf({ head: step("try", ["program", "body", "A"], [5, -3], params) })[0];
+  const words = ["catch", "catch2", "catch3", "catch8"].map((branch) => linkTo(scene, `head/${branch}`)?.word);
+  expect(words).toEqual(["caught.timed_out +1", undefined, "caught.offline", "caught.rest"]);
+  expect(linkTo(scene, "head/catch8")?.tone).toBe("catch");
+});
+
 test("catch and finally leave a try beside each other", () => {
   const [scene] = sceneOf({
     head: step("try", ["program", "body", "A"], [5, -3]),

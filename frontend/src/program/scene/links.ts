@@ -1,10 +1,12 @@
 /** Dotted links: what comes next, and the branches with their words. */
 import { pathLength, type PixelPoint, pointAlong } from "@/map/plane/paths";
 import type { Box } from "@/map/plane/projection";
-import type { ProgramDocument } from "../document/document";
+import { catchesOf, isCatch } from "../document/catches";
+import type { ProgramDocument, Step } from "../document/document";
 import { branchesOf, type BranchRef, PROGRAM, type ProgramTree } from "../document/tree";
 import { isFramed } from "../kinds";
 import type { Surroundings } from "../surroundings";
+import { takenBy } from "../words/catchWords";
 import type { Translate } from "../words/stepWords";
 import type { Chip } from "./chips";
 import type { Frame } from "./frames";
@@ -23,6 +25,8 @@ export interface Link {
   /** The step that the link leads to; null for the stub of an empty branch. */
   readonly to: string | null;
   readonly from: string | null;
+  /** How many rows lower its word stands: those of several catches would else lie on each other. */
+  readonly row?: number;
 }
 
 export interface LinkInput {
@@ -101,18 +105,24 @@ function branchLink(input: LinkInput, into: BranchRef, first: string | null): Li
   if (!from || (bodyInside && (!first || frames.get(into.parent)?.holds.has(first)))) return null;
   if (!first && !offersBranch(document, into)) return null;
   const target = first ? boxOf(input, first) : null;
-  const tone = into.branch === "catch" ? "catch" : "branch";
+  const step = document.steps[into.parent];
+  const tone = isCatch(into.branch) ? "catch" : "branch";
   const exit = exitOf(input, into, from);
-  const points = target ? branchWay(into, exit, target) : stub(exit, into.branch);
+  const row =
+    step?.kind === "try" && catchesOf(step.params).length > 1
+      ? drawnExits(input, into, step).indexOf(into.branch) % ROWS
+      : 0;
+  const points = target ? branchWay(into, exit, target) : stub(exit, into.branch, row);
   return {
     id: `${into.parent}/${into.branch}`,
     points,
-    word: branchWord(into.branch, kind, t) || null,
+    word: (step && (takenBy(into.branch, step, t) ?? branchWord(into.branch, step, t))) || null,
     tone,
     into,
     after: null,
     to: first,
     from: into.parent,
+    row,
   };
 }
 
@@ -120,7 +130,7 @@ function branchLink(input: LinkInput, into: BranchRef, first: string | null): Li
 function offersBranch(document: ProgramDocument, { parent, branch }: BranchRef): boolean {
   const step = document.steps[parent];
   if (step?.kind !== "try") return true;
-  return branch === "finally" ? step.params.finally === true : step.params.catch !== false;
+  return branch !== "finally" || step.params.finally === true;
 }
 
 function branchWay({ branch }: BranchRef, exit: Box, target: Box): PixelPoint[] {
@@ -131,10 +141,14 @@ function branchWay({ branch }: BranchRef, exit: Box, target: Box): PixelPoint[] 
 function exitOf(input: LinkInput, { parent, branch }: BranchRef, from: Box): Box {
   const step = input.document.steps[parent];
   if (step?.kind !== "parallel" && step?.kind !== "try") return from;
-  const branches = branchesOf(step).filter((each) => each !== "body" && isDrawn(input, { parent, branch: each }));
+  const branches = drawnExits(input, { parent, branch }, step);
   const width = (from.right - from.left) / Math.max(1, branches.length);
   const left = from.left + width * Math.max(0, branches.indexOf(branch));
   return branch === "body" ? from : { ...from, left, right: left + width };
+}
+
+function drawnExits(input: LinkInput, { parent }: BranchRef, step: Step): readonly string[] {
+  return branchesOf(step).filter((each) => each !== "body" && isDrawn(input, { parent, branch: each }));
 }
 
 function isDrawn({ document, tree }: LinkInput, into: BranchRef): boolean {
@@ -142,13 +156,16 @@ function isDrawn({ document, tree }: LinkInput, into: BranchRef): boolean {
 }
 
 /** What the arrow into a branch says; an event's arrow needs no word. */
-export function branchWord(branch: string, kind: string, t: Translate): string {
-  if (kind === "on_event") return "";
-  return kind === "parallel" ? branch : t(`branch.${branch}`);
+export function branchWord(branch: string, step: Step, t: Translate): string {
+  if (step.kind === "on_event") return "";
+  if (step.kind === "parallel") return branch;
+  if (step.kind !== "try" || !isCatch(branch)) return t(`branch.${branch}`);
+  const taken = takenBy(branch, step, t);
+  return taken === null ? t("branch.catch") : t("branch.catch_of", { taken });
 }
 
 /** An empty branch: a short way out at its usual side. */
-function stub(box: Box, branch: string): PixelPoint[] {
+function stub(box: Box, branch: string, row = 0): PixelPoint[] {
   const across = (box.left + box.right) / 2;
   const down = (box.top + box.bottom) / 2;
   if (branch === "else")
@@ -156,10 +173,10 @@ function stub(box: Box, branch: string): PixelPoint[] {
       { x: across, y: box.top },
       { x: across, y: box.top - 44 },
     ];
-  if (["then", "catch", "finally", "body"].includes(branch))
+  if (["then", "finally", "body"].includes(branch) || isCatch(branch))
     return [
       { x: across, y: box.bottom },
-      { x: across, y: box.bottom + 42 },
+      { x: across, y: box.bottom + 42 + row * ROW },
     ];
   const side = branch === "a" ? -1 : 1;
   const edge = side < 0 ? box.left : box.right;
@@ -182,16 +199,20 @@ export interface WordPlace {
 
 const ALONG = 24;
 const LETTER = 6.6;
+/** Words of neighbouring ways out stand in rows of this height, so many below each other. */
+const ROW = 15;
+const ROWS = 3;
 
-export function wordPlace(link: Pick<Link, "points">): WordPlace | null {
-  const at = pointAlong(link.points, Math.min(ALONG, pathLength(link.points) / 2));
+export function wordPlace(link: Pick<Link, "points" | "row">): WordPlace | null {
+  const lower = (link.row ?? 0) * ROW;
+  const at = pointAlong(link.points, Math.min(ALONG + lower, pathLength(link.points) / (lower > 0 ? 1.3 : 2)));
   if (!at) return null;
   const flat = Math.abs(at.angle) < 45 || Math.abs(at.angle) > 135;
   return flat ? { x: at.x, y: at.y - 7, anchor: "middle" } : { x: at.x + 8, y: at.y + 4, anchor: "start" };
 }
 
 /** About the room that the word takes. */
-export function wordBox(link: Pick<Link, "points" | "word">): Box | null {
+export function wordBox(link: Pick<Link, "points" | "word" | "row">): Box | null {
   const place = link.word ? wordPlace(link) : null;
   if (!place || !link.word) return null;
   const width = link.word.length * LETTER;

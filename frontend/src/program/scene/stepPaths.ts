@@ -1,5 +1,6 @@
 /** Which paths a program drives, so that their routes can be asked for and drawn. */
 import { type Position, type Place, type ProgramDocument, type Step, textOf } from "../document/document";
+import { isCatch } from "../document/catches";
 import { isRobot } from "@/map/devices/device";
 import { type PixelPoint, simplified } from "@/map/plane/paths";
 import { type Point, toMetres } from "@/map/plane/projection";
@@ -49,7 +50,7 @@ export function pathsOf(document: ProgramDocument, tree: ProgramTree, surroundin
 
 /** What is done when something fails is no part of the usual path. */
 function isInCatch(document: ProgramDocument, id: string): boolean {
-  return [id, ...ancestors(document, id)].some((each) => document.steps[each]?.place?.[1] === "catch");
+  return [id, ...ancestors(document, id)].some((each) => isCatch(document.steps[each]?.place?.[1]));
 }
 
 /** The function that a step belongs to, if it stands in one's body. */

@@ -1,12 +1,13 @@
 /** How many questions wait at the site, with the questions behind it; new ones and notices come as toasts. */
 import { Popover } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
+import i18next from "i18next";
 import { CircleHelp } from "lucide-react";
 import { useEffect } from "react";
 import { useTranslation } from "react-i18next";
 import { useQuestions, useSite } from "@/api/queries";
 import type { Question } from "@/api/types";
-import { useLiveStore } from "@/live/store";
+import { type Notice, useLiveStore } from "@/live/store";
 import { QuestionCard } from "./QuestionCard";
 import styles from "./questions.module.css";
 import { openCount, shownQuestions } from "./openQuestions";
@@ -33,10 +34,16 @@ function useToasts(questions: readonly Question[], allowed: boolean): void {
       if (notice.id <= lastNotice) continue;
       lastNotice = notice.id;
       const color = notice.level === "warning" ? "yellow" : "blue";
-      notifications.show({ message: notice.text, color, autoClose: 8000 });
+      notifications.show({ message: wordsOf(notice), color, autoClose: 8000 });
     }
     if (notices.length === 0) lastNotice = 0;
   }, [notices]);
+}
+
+/** A notice of VIPO in the language of the screen; a program's own as it says it. */
+function wordsOf(notice: Notice): string {
+  const key = `run.event.${notice.code}`;
+  return notice.code && i18next.exists(key) ? i18next.t(key, { ...notice.args }) : notice.text;
 }
 
 export function QuestionsBell({ slug }: { slug: string }) {

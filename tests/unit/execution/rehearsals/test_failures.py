@@ -23,6 +23,19 @@ def test_a_program_that_fails_has_its_text_as_the_error():
     assert [(s["step"], s["status"]) for s in result["steps"]] == [("f", "failed")]
 
 
+def test_a_rehearsal_takes_the_first_catch_that_fits():
+    steps = {
+        "t": step("try", kinds=["offline"], kinds2=["failed"], kinds3=[]),
+        "f": step("fail", ("t", "body"), message="The box is wet."),
+        "a": step("notify", ("t", "catch"), message="Call somebody.", level="info"),
+        "b": step("notify", ("t", "catch2"), message="Dry it.", level="info"),
+        "c": step("notify", ("t", "catch3"), message="Stop.", level="info"),
+    }
+    result = rehearsed(steps)
+    assert result["ok"] is True
+    assert [(s["step"], s["status"]) for s in result["steps"]] == [("t", "done"), ("f", "failed"), ("b", "done")]
+
+
 def test_a_rehearsal_whose_failure_is_caught_goes_well_and_tells_of_it():
     steps = {
         "t": step("try", kinds=["failed"]),

@@ -20,6 +20,7 @@ from editor.language.tree.nodes import (
     Block,
     Break,
     Call,
+    Catch,
     Continue,
     End,
     Event,
@@ -84,8 +85,8 @@ def use(*values: Expression) -> tuple[Node, ...]:
         If(TRUE, (End(),)),
         Repeat(Constant(2), (End(),)),
         ForEach("x", (ONE,), body=(End(),)),
-        Try((), (End(),), (End(),)),
-        Try((), (PAUSE,), (), (End(),)),
+        Try((End(),), (Catch((), (End(),)),)),
+        Try((PAUSE,), (Catch(),), (End(),)),
         Parallel(((End(),), (PAUSE,))),
     ],
 )
@@ -102,8 +103,8 @@ def test_what_follows_is_never_reached(leaving: Node) -> None:
         Repeat(Constant(0), (End(),)),
         Repeat(X, (End(),)),
         Repeat(Constant(3), (PAUSE, Break())),
-        Try((), (End(),), (PAUSE,)),
-        Try((), (PAUSE,), (End(),)),
+        Try((End(),), (Catch((), (PAUSE,)),)),
+        Try((PAUSE,), (Catch((), (End(),)),)),
         Parallel(((PAUSE,), (PAUSE,))),
     ],
 )
@@ -114,7 +115,7 @@ def test_what_follows_may_be_reached(going_on: Node) -> None:
 def test_a_loop_that_nothing_leaves_never_ends() -> None:
     assert flow(While(TRUE, (PAUSE,))) == [("s1", "never_ends")]
     assert flow(While(TRUE, (While(HOT, (Break(),)),))) == [("s1", "never_ends")]
-    assert flow(While(TRUE, (Try((), (If(HOT, (Break(),)),)),))) == []
+    assert flow(While(TRUE, (Try((If(HOT, (Break(),)),), (Catch(),)),))) == []
 
 
 @pytest.mark.parametrize(
@@ -126,7 +127,7 @@ def test_a_loop_that_nothing_leaves_never_ends() -> None:
         ((Repeat(Constant(2), (PAUSE, Continue())), PAUSE), ""),
         ((ForEach("i", (ONE,), body=(If(HOT, (Continue(),), (End(),)),)), PAUSE), ""),
         ((ForEach("i", (ONE,), body=(If(HOT, (End(),)), Continue())), PAUSE), ""),
-        ((Repeat(ONE, (Try((), (Continue(),), (), (PAUSE,), catches=False),)), PAUSE), ""),
+        ((Repeat(ONE, (Try((Continue(),), (), (PAUSE,)),)), PAUSE), ""),
     ],
 )
 def test_a_round_that_is_left_goes_on_with_the_next(program: tuple[Node, ...], found: str) -> None:
@@ -213,8 +214,8 @@ def test_functions_are_used_when_the_program_or_an_event_leads_to_them() -> None
         ((Repeat(Constant(2), (Set("x", ONE),)), *use(X)), []),
         ((Repeat(Y, (Set("x", ONE),)), *use(X)), ["may_be_unset"]),
         ((ForEach("y", (ONE,), body=(Set("x", Y),)), *use(X)), []),
-        ((Try((), (Set("x", ONE),), (PAUSE,)), *use(X)), ["may_be_unset"]),
-        ((Try((), (PAUSE,), (), (Set("x", ONE),)), *use(X)), []),
+        ((Try((Set("x", ONE),), (Catch((), (PAUSE,)),)), *use(X)), ["may_be_unset"]),
+        ((Try((PAUSE,), (Catch(),), (Set("x", ONE),)), *use(X)), []),
         ((Parallel(((Set("x", ONE),), (PAUSE,))), *use(X)), []),
         ((Parallel(((Set("x", ONE),), use(X))),), ["may_be_unset"]),
         ((Set("x", ONE),), ["unused_variable"]),

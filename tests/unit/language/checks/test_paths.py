@@ -132,3 +132,16 @@ def test_an_edit_is_told_as_the_whole_program_is() -> None:
 def test_a_failure_that_is_caught_within_a_loop_does_not_end_it(body: str, functions: str, codes: list[str]) -> None:
     fail = 'raise Failed("The oven is cold.")'
     assert told(body.replace("FAIL", fail), functions.replace("FAIL", fail)) == codes
+
+
+@pytest.mark.parametrize(
+    ("body", "codes"),
+    [
+        (f"SHELF\n{PICK}\n{PICK}\nwhile {HOT}:\n    SHELF\n    {PICK}\n    BOOTH\n    {DROP}", ["carrying_too_much"]),
+        (f"SHELF\n{PICK}\nwhile {HOT}:\n    SHELF\n    {PICK}\n    BOOTH\n    {DROP}\nBOOTH\n{DROP}", []),
+        (f"self.n = 0\nwhile {HOT}:\n    self.notify(f'{{1 / self.n}}')\n    self.n = self.n + 1", ["divided_by_zero"]),
+        (f"self.n = 1\nwhile {HOT}:\n    self.notify(f'{{1 / self.n}}')\n    self.n = self.n + 1", []),
+    ],
+)
+def test_the_first_round_of_a_loop_is_told_of_by_what_is_known_before_it(body: str, codes: list[str]) -> None:
+    assert told(body) == codes

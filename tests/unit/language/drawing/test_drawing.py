@@ -13,6 +13,7 @@ from editor.language import compile_document, parse_script, tree_to_document
 from editor.language.document.format_migrations import migrate
 from editor.language.document.fractional_index import keep_orders, order_between
 from editor.language.drawing.alignment import common_row
+from editor.language.drawing.merge import with_named_zones
 from tests.kit.demo_site import factory
 from tests.unit.language.strategies import broken_documents, documents, json_values
 
@@ -338,7 +339,7 @@ def test_a_script_drawn_over_any_document_means_what_it_says(first: dict[str, An
     tree = parse_script(compile_document(first, factory()).script, factory()).tree
     assert tree is not None
     drawn = tree_to_document(tree, factory(), second)
-    assert compile_document(drawn, factory()).tree == tree
+    assert compile_document(drawn, factory()).tree == with_named_zones(tree, second)
     kept = compile_document(second, factory())
     old: Any = migrate(second)
     steps: Any = drawn["steps"]

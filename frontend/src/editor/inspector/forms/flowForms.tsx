@@ -1,6 +1,5 @@
-/** Loops over items, what a function gives back, and what a Try catches. */
-import { Checkbox, SegmentedControl, Select, Switch } from "@mantine/core";
-import { fieldsOf } from "@/program/kinds";
+/** Loops over items, and what a function gives back. */
+import { SegmentedControl, Select } from "@mantine/core";
 import { functionOf } from "@/program/scene/stepPaths";
 import { useOpenProgram } from "../../state/context";
 import { FieldFrame } from "../fields/FieldFrame";
@@ -75,61 +74,5 @@ export function ReturnForm() {
       <WrittenValue label={t("return.value")} field="value" wanted={result?.type} />
       <p className={classes.now}>{t(result ? "return.note" : "return.nothing")}</p>
     </>
-  );
-}
-
-const TRY_KINDS = fieldsOf("try").find((field) => field.name === "kinds")?.choices ?? [];
-
-export function TryForm() {
-  const { t, scene } = useOpenProgram();
-  const { id, step, set, disabled } = useStepEditor();
-  const inside = (branch: string) => scene.tree.children(id, branch).length > 0;
-  const catches = step.params.catch !== false;
-  const final = step.params.finally === true || inside("finally");
-  return (
-    <>
-      <Switch
-        label={t("try.catches")}
-        description={catches && inside("catch") ? t("try.empty_first") : undefined}
-        checked={catches}
-        disabled={disabled || (catches && inside("catch"))}
-        onChange={(event) => set("catch", event.currentTarget.checked ? null : false)}
-      />
-      {catches ? <Kinds /> : null}
-      <p className={classes.now}>{t(catches ? "try.knows" : "try.goes_on")}</p>
-      <hr className={classes.line} />
-      <Switch
-        label={t("try.finally")}
-        description={t(inside("finally") ? "try.empty_first" : "try.finally_means")}
-        checked={final}
-        disabled={disabled || inside("finally")}
-        onChange={(event) => set("finally", event.currentTarget.checked || null)}
-      />
-    </>
-  );
-}
-
-function Kinds() {
-  const { t } = useOpenProgram();
-  const { step, set, disabled } = useStepEditor();
-  const kinds = Array.isArray(step.params.kinds) ? step.params.kinds.map(String) : [];
-  return (
-    <Checkbox.Group
-      label={t("try.label")}
-      description={kinds.length === 0 ? t("try.any") : undefined}
-      value={kinds}
-      onChange={(next) =>
-        set(
-          "kinds",
-          TRY_KINDS.filter((kind) => next.includes(kind)),
-        )
-      }
-    >
-      <div className={classes.choices}>
-        {TRY_KINDS.map((kind) => (
-          <Checkbox key={kind} value={kind} label={t(`try.${kind}`)} disabled={disabled} />
-        ))}
-      </div>
-    </Checkbox.Group>
   );
 }

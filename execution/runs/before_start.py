@@ -1,0 +1,42 @@
+"""A run that waits for its time: it can be paused, resumed and cancelled, and nothing of it has begun."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from execution.floor_protocol import DeadlinePassed, ResumeAsked, ToRun
+from execution.machine.messages import CancelAsked, PauseAsked
+from execution.models import Run
+from execution.runs import notices
+from execution.runs.journal import Journal, describe
+
+
+def is_before_start(run: Run) -> bool:
+    """Tell whether a run was planned for later and has not begun."""
+    return run.state is None and run.not_before is not None
+
+
+def may_begin(run: Run, now: datetime) -> bool:
+    """Tell whether a run that is open goes on, or begins, now; one that is paused before its start does not."""
+    if not is_before_start(run):
+        return True
+    return run.status == Run.Status.PENDING and run.not_before is not None and run.not_before <= now
+
+
+def take_in(run: Run, journal: Journal, messages: list[ToRun]) -> None:
+    """Do what people want of a run before its start; a Cancel that arrives together with the start comes before it."""
+    for message in messages:
+        match message:
+            case CancelAsked(reason=why) if run.status in Run.OPEN:
+                run.status, run.reason, run.ended_at = Run.Status.CANCELLED, why, journal.now
+                journal.say("run", describe("cancelled", why), code="cancelled")
+            case PauseAsked(reason=why) if run.status == Run.Status.PENDING:
+                run.status, run.reason = Run.Status.PAUSED, why
+                journal.say("run", describe("paused", why), code="paused")
+            case ResumeAsked() if run.status == Run.Status.PAUSED:
+                run.status, run.reason = Run.Status.PENDING, ""
+                journal.say("run", "The run waits for its time again.", code="waits_again")
+            case DeadlinePassed() if run.status in Run.OPEN:
+                notices.tell_late(run, journal)
+            case _:
+                journal.note(message)
