@@ -54,7 +54,10 @@ def parsed(text: str, site: Surroundings) -> Tree:
 def compiled(tree: Tree, site: Surroundings, text: str) -> Compiled:
     """Compile what is drawn for a script, on a map with the zones of which it speaks."""
     document: dict[str, Any] = tree_to_document(tree, site)
-    document["zones"] = dict.fromkeys(re.findall(r'ctx\.zone\("(\w+)"\)', text), CORNER)
+    document["zones"] = {
+        **document.get("zones", {}),
+        **dict.fromkeys(re.findall(r'ctx\.zone\("(\w+)"\)', text), CORNER),
+    }
     return compile_document(document, site)
 
 
@@ -101,3 +104,13 @@ def test_a_program_of_the_field_does_what_can_be_done_and_comes_to_its_end(file:
 def _is_meant(reason: str, text: str) -> bool:
     """Tell whether a run may fail for this reason: the program says so, or it has given something a time."""
     return "raise Failed" in text or (("timeout=" in text or "self.limit" in text) and bool(reason))
+
+
+def test_a_trial_tells_of_what_a_right_program_does_not() -> None:
+    text = (RIGHT / "factory" / "two-boxes-at-once.txt").read_text().replace('drop({"value": 2', 'drop({"value": 1')
+    found = compiled(parsed(text, factory()), factory(), text)
+    assert [each.code for each in found.diagnostics] == ["ends_carrying"]
+    assert found.plan is not None
+    trial = Trial(found.plan, factory(), random.Random(1))
+    assert trial.run()[0] == "finished"
+    assert [each.partition(" ")[2] for each in trial.wrong] == ["ends with {'box': 1}"]
