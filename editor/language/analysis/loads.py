@@ -1,7 +1,8 @@
 """The domain of loads: how many of each kind of object every robot carries, at least and at most.
 
 Where paths meet the range widens; what grows with each round of an uncounted loop has no end. After a failure what
-changed is not known any more and nothing is said of it.
+changed is not known any more and nothing is said of it. What was picked by a value is known by that value, too, as long
+as nothing in it is set: who drops by the same value drops all of it, however many that are.
 """
 
 from __future__ import annotations
@@ -9,20 +10,31 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import ClassVar
+from typing import ClassVar, Final, NamedTuple
 
 from editor.language.analysis.domain import PairwiseDomain, Place, Transfer
 from editor.language.analysis.effects import Effects
 from editor.language.analysis.variables import Variables
-from editor.language.expressions.nodes import Constant, Expression
+from editor.language.expressions.nodes import Constant, Expression, Operation, Variable
 from editor.language.expressions.ranges import Range
+from editor.language.expressions.values import parts_of
 from editor.language.messages.phrases import Argument
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Function
+from editor.language.tree.variables import set_by
 
-Count = tuple[int, float | None]
-"""At least, at most; without end where each round of a loop brings more, None: nobody can tell."""
-ANY: Count = (0, None)
+
+class Count(NamedTuple):
+    """How many: at least, at most (without end where each round of a loop brings more, None: nobody can tell)."""
+
+    least: int
+    most: float | None
+    by: Expression | None = None
+    """What it is now, whatever that is: a value of variables that nothing has set since."""
+
+
+NONE: Final = Count(0, 0)
+ANY: Final = Count(0, None)
 Carried = Mapping[tuple[str, str], Count]
 """(role, object) → how many; what is not in it is not carried."""
 _EVERYTHING = "*"
@@ -59,6 +71,7 @@ class Loads(PairwiseDomain[Carried]):
 
     def disturb(self, place: Place, known: Carried, effects: Effects) -> Carried:
         """Return that these roles may carry anything."""
+        known = _without_values_of(known, effects.names | effects.shared)
         return _forget(known, effects.loaded) if effects.loaded else known
 
     def join(self, place: Place, before: Carried, ends: Sequence[tuple[Carried, Effects]]) -> Carried:
@@ -67,7 +80,7 @@ class Loads(PairwiseDomain[Carried]):
         joined = {key: count for key, count in before.items() if key[0] not in changed}
         for carried, effects in ends:
             joined.update({key: count for key, count in carried.items() if key[0] in effects.loaded})
-        return joined
+        return _without_values_of(joined, frozenset().union(*(each.names | each.shared for _, each in ends)))
 
     def passing(self, passed: Carried, known: Carried) -> Carried:
         """Return what is carried at the one point or the other."""
@@ -77,6 +90,7 @@ class Loads(PairwiseDomain[Carried]):
         """Return that these roles carry what they did at any point; what functions did is not known."""
         if effects.calls:
             return self.disturb(place, known, effects)
+        known = _without_values_of(known, effects.names | effects.shared)
         between = self.either(known, passed)
         kept = {key: count for key, count in known.items() if key[0] not in effects.loaded}
         return {**kept, **{key: count for key, count in between.items() if key[0] in effects.loaded}}
@@ -84,18 +98,29 @@ class Loads(PairwiseDomain[Carried]):
     def key(self, place: Place, known: Carried, node: n.Call, function: Function) -> object:
         """Return what the function's robots carry."""
         loaded = place.effects.functions[function.method].loaded
-        return frozenset((key, count) for key, count in known.items() if key[0] in loaded)
+        return frozenset((key, count[:2]) for key, count in known.items() if key[0] in loaded)
+
+    def enter(self, place: Place, known: Carried, node: n.Call, function: Function) -> Carried:
+        """Return what is carried; what the function calls its variables may be others of these names."""
+        return _without_values(known)
+
+    def enter_round(
+        self, place: Place, known: Carried, node: n.ForEach, items: Sequence[Expression], rounds: Range
+    ) -> Carried:  # fmt: skip
+        """Return what is carried, where the loop's variables have other values."""
+        return _without_values_of(known, frozenset({node.variable, node.index or ""}))
 
     def leave(self, place: Place, known: Carried, after: Carried, function: Function) -> Carried:
         """Return what the function left its robots with; the others carry what they did."""
-        loaded = place.effects.functions[function.method].loaded
-        kept = {key: count for key, count in known.items() if key[0] not in loaded}
-        return {**kept, **{key: count for key, count in after.items() if key[0] in loaded}}
+        effects = place.effects.functions[function.method]
+        loaded, still = effects.loaded, _without_values_of(known, effects.names | effects.shared)
+        kept = {key: count for key, count in still.items() if key[0] not in loaded}
+        return {**kept, **{key: count for key, count in _without_values(after).items() if key[0] in loaded}}
 
     def end(self, place: Place, node: n.Node | None, known: Carried) -> None:
         """Tell of what is still carried where the program ends."""
         last = node or (place.tree.body[-1] if place.tree.body else None)
-        for (role, thing), (least, _) in sorted(known.items()):
+        for (role, thing), least in sorted((key, count.least) for key, count in known.items()):
             if least > 0 and last is not None:
                 args: dict[str, Argument] = {"robot": self.robot(role), "quantity": least, "object": thing}
                 place.report(last, "ends_carrying", "", args)
@@ -107,7 +132,7 @@ class Loads(PairwiseDomain[Carried]):
             return _forget(known, frozenset({node.role}))
         thing, (fewest, most) = load
         mine = [(t, count) for (role, t), count in known.items() if role == node.role and t != _EVERYTHING]
-        least, all_ = _total([count for _, count in mine])
+        least, all_, _ = _total([count for _, count in mine])
         if capacity and least + fewest > capacity:
             text = ", ".join(f"{count[0]} {each}" for each, count in sorted(mine) if count[0])
             self._tell(place, node, "carrying_too_much", {"carried": text, "capacity": capacity})
@@ -115,8 +140,10 @@ class Loads(PairwiseDomain[Carried]):
         if capacity and all_ is not None and all_ + most > capacity and (node.role, _EVERYTHING) not in known:
             self._tell(place, node, "may_carry_too_much", {"capacity": capacity})
         before = _count(known, (node.role, thing))
-        most_after = None if before[1] is None else min(before[1] + most, capacity or inf)
-        return {**known, (node.role, thing): (min(before[0] + fewest, capacity or inf), most_after)}  # type: ignore[dict-item]
+        most_after = None if before.most is None else min(before.most + most, capacity or inf)
+        least_after = min(before.least + fewest, capacity or before.least + fewest)
+        by = node.quantity if before == NONE and _stays(place, node.quantity) else None
+        return {**known, (node.role, thing): Count(least_after, most_after, by)}
 
     def _drop(self, place: Place, node: n.Drop, known: Carried) -> Carried:
         load = self._load(place, node)
@@ -124,6 +151,8 @@ class Loads(PairwiseDomain[Carried]):
             return _forget(known, frozenset({node.role}))
         thing, (fewest, most) = load
         before = _count(known, (node.role, thing))
+        if before.by is not None and before.by == node.quantity:
+            return {**known, (node.role, thing): NONE}
         if before[1] is not None:
             args: dict[str, Argument] = {"object": thing, "quantity": fewest, "carried": before[1]}
             if before[1] < fewest:
@@ -131,18 +160,29 @@ class Loads(PairwiseDomain[Carried]):
             elif before[0] < most:
                 self._tell(place, node, "may_drop_nothing", {**args, "quantity": int(most)})
         left = None if before[1] is None else max(before[1] - fewest, 0)
-        return {**known, (node.role, thing): (max(before[0] - int(most), 0), left)}
+        return {**known, (node.role, thing): Count(max(before[0] - int(most), 0), left)}
 
     def _release(self, place: Place, node: n.Release, known: Carried) -> Carried:
         """Return that the role's next robot carries nothing, or what this one was released with."""
         mine = {thing: count for (role, thing), count in known.items() if role == node.role}
-        for thing, (least, most) in sorted(mine.items()):
+        for thing, (least, most, _) in sorted(mine.items(), key=lambda item: item[0]):
             if least > 0 or (most is not None and most > 0):
                 args: dict[str, Argument] = {"robot": self.robot(node.role), "quantity": least, "object": thing}
                 place.report(node, "releases_carrying" if least > 0 else "may_release_carrying", "role", args)
-        return {key: (0, count[1]) if key[0] == node.role else count for key, count in known.items()}
+        return {key: Count(0, count.most) if key[0] == node.role else count for key, count in known.items()}
 
-    transfers: ClassVar[Mapping[type[n.Node], Transfer]] = {n.Pick: _pick, n.Drop: _drop, n.Release: _release}
+    def _set(self, place: Place, node: n.Set | n.Ask | n.Call, known: Carried) -> Carried:
+        """Return that what was known by a variable's old value is not known by it any more."""
+        return _without_values_of(known, frozenset({set_by(node)}))
+
+    transfers: ClassVar[Mapping[type[n.Node], Transfer]] = {
+        n.Pick: _pick,
+        n.Drop: _drop,
+        n.Release: _release,
+        n.Set: _set,
+        n.Ask: _set,
+        n.Call: _set,
+    }
 
     def _tell(self, place: Place, node: n.Pick | n.Drop, code: str, args: dict[str, Argument]) -> None:
         place.report(node, code, "quantity", {"robot": self.robot(node.role), **args})
@@ -177,25 +217,55 @@ def _total(counts: Iterable[Count]) -> Count:
         least += count[0]
         most += count[1] or 0
         known = known and count[1] is not None
-    return least, most if known else None
+    return Count(least, most if known else None)
+
+
+_LASTING: Final = frozenset({"+", "-", "*", "/", "abs", "round", "min", "max", "nth", "len"})
+"""What gives the same again while the variables in it do."""
+
+
+def _stays(place: Place, value: Expression) -> bool:
+    """Tell whether a value is one of variables alone, which nothing beside the path sets."""
+    return not isinstance(value, Constant) and all(
+        isinstance(part, Constant)
+        or (isinstance(part, Variable) and part.name not in place.volatile)
+        or (isinstance(part, Operation) and part.operator in _LASTING)
+        for part in parts_of(value)
+    )
+
+
+def _without_values_of(known: Carried, names: frozenset[str]) -> Carried:
+    """Return what is carried where these variables may have been set."""
+    gone = {
+        key: Count(count.least, count.most)
+        for key, count in known.items()
+        if count.by is not None
+        and any(isinstance(part, Variable) and part.name in names for part in parts_of(count.by))
+    }
+    return {**known, **gone} if gone else known
+
+
+def _without_values(known: Carried) -> Carried:
+    return {key: Count(count.least, count.most) for key, count in known.items()}
 
 
 def _count(carried: Carried, key: tuple[str, str]) -> Count:
     """Return how many of an object a robot carries."""
-    return carried.get(key, ANY if (key[0], _EVERYTHING) in carried else (0, 0))
+    return carried.get(key, ANY if (key[0], _EVERYTHING) in carried else NONE)
 
 
 def _between(first: Count, second: Count) -> Count:
     most = None if first[1] is None or second[1] is None else max(first[1], second[1])
-    return min(first[0], second[0]), most
+    return Count(min(first[0], second[0]), most, first.by if first.by == second.by else None)
 
 
 def _widened(before: Count, after: Count) -> Count:
     """Return a range that more rounds do not leave: what falls may fall to nothing, what grows has no end."""
     least = before[0] if after[0] >= before[0] else 0
+    by = before.by if before.by == after.by else None
     if before[1] is None or after[1] is None:
-        return least, None
-    return least, before[1] if after[1] <= before[1] else inf
+        return Count(least, None, by)
+    return Count(least, before[1] if after[1] <= before[1] else inf, by)
 
 
 def _forget(carried: Carried, roles: frozenset[str]) -> Carried:

@@ -145,3 +145,36 @@ def test_a_failure_that_is_caught_within_a_loop_does_not_end_it(body: str, funct
 )
 def test_the_first_round_of_a_loop_is_told_of_by_what_is_known_before_it(body: str, codes: list[str]) -> None:
     assert told(body) == codes
+
+
+ASKED = "self.n = self.ask('How many?', type='number', minimum=1, maximum=2)\n"
+SOME = 'self.robot.pick({"value": self.n, "object": "box"})'
+SAME = 'self.robot.drop({"value": self.n, "object": "box"})'
+
+
+@pytest.mark.parametrize(
+    ("body", "functions", "codes"),
+    [
+        (f"{ASKED}SHELF\n{SOME}\nBOOTH\n{SAME}", "", []),
+        (f"{ASKED}while {HOT}:\n    SHELF\n    {SOME}\n    BOOTH\n    {SAME}", "", []),
+        (f"{ASKED}SHELF\n{SOME}\n{ASKED}BOOTH\n{SAME}", "", ["may_drop_nothing"]),
+        (f"{ASKED}SHELF\n{SOME}\nif {HOT}:\n    self.n = 2\nBOOTH\n{SAME}", "", ["may_drop_nothing"]),
+        (f"{ASKED}SHELF\n{SOME}\nself.more()\nBOOTH\n{SAME}", "def more(self):\n    self.n = 2", ["may_drop_nothing"]),
+        (f"{ASKED}SHELF\n{SOME}\nself.rest()\nBOOTH\n{SAME}", "def rest(self):\n    self.wait(60)", []),
+        (
+            f"{ASKED}SHELF\n{SOME}\nself.parallel(self.branch_4a, self.branch_4b)\nBOOTH\n{SAME}",
+            "def branch_4a(self):\n    self.n = 2\n\ndef branch_4b(self):\n    self.wait(1)",
+            ["may_drop_nothing"],
+        ),
+        (
+            f"{ASKED}SHELF\n{SOME}\nself.leave(n=1)\nBOOTH\n{DROP}",
+            'def leave(self, n: Number):\n    BOOTH\n    self.robot.drop({"value": n, "object": "box"})',
+            ["may_drop_nothing"],
+        ),
+    ],
+)
+def test_who_drops_by_the_value_that_was_picked_drops_all_while_nothing_sets_it(
+    body: str, functions: str, codes: list[str]
+) -> None:
+    functions = functions.replace("BOOTH", "self.robot.move(self.booth.location)")
+    assert told(body, functions) == codes

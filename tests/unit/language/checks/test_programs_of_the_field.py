@@ -27,16 +27,12 @@ CORNER = {
     "rule": "one_at_a_time",
     "points": [[2.4, -13.6], [4.8, -13.6], [4.8, -12], [2.4, -12]],
 }
-SAME_NUMBER = "What is dropped is known to lie in the range of what was picked, not that it is the same number."
 SAME_CONDITION = "A condition that is asked twice is not known to have the same answer."
 KNOWN_FALSE: dict[str, tuple[list[str], str]] = {
-    "factory/answer-is-load": (["may_drop_nothing"], SAME_NUMBER),
     "factory/only-if-good-carry": (["may_drop_nothing"], SAME_CONDITION),
     "hospital/asked-only-if-needed": (["may_be_unset"], SAME_CONDITION),
     "hospital/found-flag": (["may_be_unset"], SAME_CONDITION),
     "hospital/gather-if-any": (["may_drop_nothing"], "That a variable counts what is carried is not known."),
-    "hospital/load-number-by-branch": (["may_drop_nothing"], SAME_NUMBER),
-    "warehouse/kit-by-list": (["may_drop_nothing"], SAME_NUMBER),
 }
 """Programs that are right and of which something is told: the codes, and why they are told."""
 
