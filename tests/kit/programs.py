@@ -6,8 +6,20 @@ import json
 from typing import Any
 
 from editor.language.expressions.nodes import Constant, PlaceRef
-from editor.language.plan.instructions import Call, Drop, End, Instruction, Move, Pick, Plan, RoleBinding
+from editor.language.plan.instructions import (
+    Call,
+    Drop,
+    End,
+    Instruction,
+    LimitBegin,
+    Move,
+    Pick,
+    Plan,
+    RoleBinding,
+    TryEnd,
+)
 from execution.machine import machine
+from execution.machine import messages as r
 from execution.models import Run
 from registry.models import Device
 
@@ -107,3 +119,30 @@ def paths_in(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
     """Return the path of the value itself, which is empty, and of every value inside it."""
     inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     return [path, *(found for key, each in inner for found in paths_in(each, (*path, key)))]
+
+
+def limit(step: str = "l", seconds: float = 60) -> Instruction:
+    """Return the beginning of a time limit."""
+    return Instruction(LimitBegin(Constant(seconds)), step, enters=(step,))
+
+
+def over(step: str = "l") -> Instruction:
+    """Return the end of one."""
+    return Instruction(TryEnd(), step, leaves=(step,))
+
+
+def told(actions: Any) -> list[tuple[Any, ...]]:
+    """Return the names of actions, with the texts that people are told."""
+    return [
+        ("Tell", a.text) if isinstance(a, r.Tell) else name for a, name in zip(actions, names(actions), strict=True)
+    ]
+
+
+def carry(plan: Plan, *events: Any) -> tuple[Any, list[list[tuple[Any, ...]]]]:
+    """Carry a plan out, stored and read between all events; return the last state, and the actions of each event."""
+    state, actions = machine.start(plan, {})
+    done = [actions]
+    for event in events:
+        state, actions = machine.step(plan, reload(state), event)
+        done.append(actions)
+    return state, [told(each) for each in done]
