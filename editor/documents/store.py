@@ -87,8 +87,8 @@ def load_document(program_id: str) -> Stored:
         return Stored(program.site.slug, tuple(updates), program.last_seq, compacted, program.stored_to)
 
 
-def append_changes(program_id: str, changes: Sequence[Change], now: datetime, stored_to: str = "") -> int:
-    """Append a batch; returns the number of its last row. Changes of one author that follow each other are one row.
+def append_changes(program_id: str, changes: Sequence[Change], now: datetime, stored_to: str = "") -> range:
+    """Append a batch; returns the numbers of its rows. Changes of one author that follow each other are one row.
 
     `stored_to` is kept as the entry of the room's stream up to which the rows go. Raises NoSuchProgram.
     """
@@ -96,9 +96,10 @@ def append_changes(program_id: str, changes: Sequence[Change], now: datetime, st
         program = Program.objects.select_for_update().filter(pk=program_id).first()
         if program is None:
             raise NoSuchProgram("There is no such program. It may have been deleted.")
+        first = program.last_seq + 1
         rows = [
-            DocumentUpdate(program=program, seq=program.last_seq + number, author_id=change.author, data=change.update)
-            for number, change in enumerate(_gathered(changes), 1)
+            DocumentUpdate(program=program, seq=seq, author_id=change.author, data=change.update)
+            for seq, change in enumerate(_gathered(changes), first)
         ]
         DocumentUpdate.objects.bulk_create(rows)
         program.last_seq += len(rows)
@@ -107,7 +108,12 @@ def append_changes(program_id: str, changes: Sequence[Change], now: datetime, st
         authors = [change.author for change in changes if change.author is not None]
         program.edited_by_id = authors[-1] if authors else program.edited_by_id
         program.save(update_fields=["last_seq", "stored_to", "edited_at", "edited_by"])
-        return int(program.last_seq)
+        return range(first, program.last_seq + 1)
+
+
+def last_row(program_id: str) -> int:
+    """Return the number of a program's last row; 0 if the program is gone."""
+    return Program.objects.filter(pk=program_id).values_list("last_seq", flat=True).first() or 0
 
 
 def _gathered(changes: Sequence[Change]) -> list[Change]:

@@ -18,6 +18,8 @@ from editor.rooms.stream import Entry, Note
 
 ADOPTED_AFTER_S = 1.0
 """So long a change of another process may wait to be stored before it is written here."""
+UNKNOWN_FOR_S = 1.0
+"""So long nobody may have told of a row before it is read from the database."""
 _DATABASE = ""
 """In the place of an origin: what has yet to be compared with the database."""
 
@@ -46,6 +48,27 @@ class Ledger:
         self._entries: deque[tuple[str, str, int]] = deque()
         self.stored_to = ""
         """The entry of the stream up to which every change is stored."""
+        self.rows_to = 0
+        """The row up to which it is known who wrote each."""
+        self._rows: set[int] = set()
+        self._unknown_since: float | None = None
+
+    def know_rows(self, rows: range) -> None:
+        """Take in that rows of these numbers hold changes that are or will be heard."""
+        self._rows.update(row for row in rows if row > self.rows_to)
+        while self.rows_to + 1 in self._rows:
+            self.rows_to += 1
+        self._rows = {row for row in self._rows if row > self.rows_to}
+
+    def see_row(self, number: int, now_s: float) -> None:
+        """Take in that there are rows up to a number; of those that nobody tells of, their process has died since."""
+        if number <= self.rows_to:
+            self._unknown_since = None
+        elif self._unknown_since is None:
+            self._unknown_since = now_s
+        elif now_s - self._unknown_since > UNKNOWN_FOR_S:
+            self._unknown_since = None
+            self.doubt("", now_s)
 
     def add(self, change: Change, now_s: float) -> Waiting:
         """Take in a change that was made here."""
@@ -66,7 +89,9 @@ class Ledger:
                     number, change = decode_change(entry.note.data)
                     self.hear(entry.id, entry.origin, number, change, now_s)
                 case "saved":
-                    for origin, number in decode_stored(entry.note.data)[0].items():
+                    numbers, rows = decode_stored(entry.note.data)
+                    self.know_rows(rows)
+                    for origin, number in numbers.items():
                         self.note_stored(origin, number)
                 case "lacking" | "full":
                     self.doubt(entry.id, now_s)
@@ -162,14 +187,14 @@ def last_numbers(stored: Sequence[Waiting]) -> dict[str, int]:
     return {each.origin: each.number for each in stored}
 
 
-def encode_stored(numbers: dict[str, int], seq: int) -> Note:
-    """Return the note that tells up to which numbers processes' changes are stored, and how far the rows go."""
+def encode_stored(numbers: dict[str, int], rows: range) -> Note:
+    """Return the note that tells up to which numbers processes' changes are stored, and in which rows the last ones."""
     parts = b"".join(encode_sized(origin.encode()) + encode_integer(number) for origin, number in numbers.items())
-    return Note("saved", encode_integer(seq) + encode_integer(len(numbers)) + parts)
+    return Note("saved", encode_integer(rows.start) + encode_integer(len(rows)) + encode_integer(len(numbers)) + parts)
 
 
-def decode_stored(data: bytes) -> tuple[dict[str, int], int]:
-    """Return the numbers and the row of such a note. Raises BadFrame."""
+def decode_stored(data: bytes) -> tuple[dict[str, int], range]:
+    """Return the numbers and the rows of such a note. Raises BadFrame."""
     reader = Reader(data)
-    seq, count = reader.integer(), reader.integer()
-    return {reader.sized(100).decode(): reader.integer() for _ in range(count)}, seq
+    first, rows, count = reader.integer(), reader.integer(), reader.integer()
+    return {reader.sized(100).decode(): reader.integer() for _ in range(count)}, range(first, first + rows)

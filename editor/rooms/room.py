@@ -281,7 +281,7 @@ class Room:
                 self.board.hear(entry.origin, yjs_protocol.decode_awareness(note.data).entries)
                 self.wake()
             case "saved":
-                self.note_stored(decode_stored(note.data)[0])
+                self.note_stored(*decode_stored(note.data))
             case "keep":
                 self.must_keep = True
                 self.wake()
@@ -327,16 +327,17 @@ class Room:
         self._spread(update)
         self.ledger.doubt("", now_s)
 
-    def note_stored(self, numbers: dict[str, int]) -> None:
-        """Take in up to which numbers processes' changes are in the database; tell the connections."""
+    def note_stored(self, numbers: dict[str, int], rows: range) -> None:
+        """Take in up to which numbers processes' changes are in the database, the last in these rows; tell people."""
+        self.ledger.know_rows(rows)
         for origin, number in numbers.items():
             self.ledger.note_stored(origin, number)
         self._tell_saved(self.members)
 
-    def say_stored(self, numbers: dict[str, int], seq: int) -> None:
-        """Take in what this process has stored, and tell the others and the connections."""
-        self.to_publish.append(encode_stored(numbers, seq))
-        self.note_stored(numbers)
+    def say_stored(self, numbers: dict[str, int], rows: range) -> None:
+        """Take in what this process has stored in these rows, and tell the others and the connections."""
+        self.to_publish.append(encode_stored(numbers, rows))
+        self.note_stored(numbers, rows)
         self.wake()
 
     def settle(self, doubts: int) -> None:

@@ -20,6 +20,7 @@ from editor.documents.store import (
     Stored,
     append_changes,
     compact_document,
+    last_row,
     load_document,
 )
 from editor.documents.yjs_encoding import BadFrame
@@ -36,6 +37,7 @@ SAVE_EVERY_S = 0.25
 PUBLISH_EVERY_S = 0.01
 SPREAD_EVERY_S = 0.01
 ADOPT_EVERY_S = 0.5
+LOOK_FOR_ROWS_S = 3.0
 LOST_FOR_S = 20.0
 """So long a room goes on by itself while the other processes cannot be reached."""
 AWARENESS_EVERY_S = 0.033
@@ -88,6 +90,7 @@ class OpenRoom:
             self._every(ADOPT_EVERY_S, self._events["save"].set),
             self._when("awareness", AWARENESS_EVERY_S, self._spread_awareness),
             self._compare_often(),
+            self._look_for_rows(),
             self._every(BEAT_EVERY_S, self._beat),
             self._read(),
             *self.checks.loops(),
@@ -212,7 +215,7 @@ class OpenRoom:
             if waiting:
                 changes, at = [each.change for each in waiting], ledger.stored_to
                 try:
-                    seq = await in_database(append_changes)(self.room.program, changes, timezone.now(), at)
+                    rows = await in_database(append_changes)(self.room.program, changes, timezone.now(), at)
                 except NoSuchProgram as error:
                     for origin, number in last_numbers(waiting).items():
                         ledger.note_stored(origin, number)
@@ -221,9 +224,10 @@ class OpenRoom:
                 except DatabaseError as error:
                     self._try_later(error)
                     return
-                self.room.say_stored(last_numbers(waiting), seq)
-                if seq - self._compacted >= COMPACT_AFTER_ROWS:
-                    self._compacted = seq
+                self.room.say_stored(last_numbers(waiting), rows)
+                ledger.see_row(rows[-1], time.monotonic())
+                if rows[-1] - self._compacted >= COMPACT_AFTER_ROWS:
+                    self._compacted = rows[-1]
                     await self._compact()
             if ledger.doubts:
                 await self._compare_with_database()
@@ -241,6 +245,17 @@ class OpenRoom:
                 async with self._saving:
                     await self._compare_with_database()
 
+    async def _look_for_rows(self) -> None:
+        """Now and then see whether there are rows of which nobody has told."""
+        while True:
+            await asyncio.sleep(LOOK_FOR_ROWS_S)
+            try:
+                seq = await in_database(last_row)(self.room.program)
+            except DatabaseError as error:
+                log.warning("The rows of program %s could not be counted: %s", self.room.program, error)
+            else:
+                self.room.ledger.see_row(seq, time.monotonic())
+
     async def _compare_with_database(self) -> None:
         """Give the database what it lacks of the document, and the document what it lacks of the database."""
         room, place, doubts = self.room, self.room.ledger.place, self.room.ledger.last_doubt
@@ -252,7 +267,8 @@ class OpenRoom:
             lacking_there, lacking_here = await asyncio.to_thread(_differences, here, stored)
             if lacking_there:
                 log.warning("The database lacked a part of program %s, which the room has added.", room.program)
-                await in_database(append_changes)(room.program, [Change(None, lacking_there)], timezone.now())
+                rows = await in_database(append_changes)(room.program, [Change(None, lacking_there)], timezone.now())
+                room.say_stored({}, rows)
         except (DatabaseError, BadUpdate) as error:
             self._try_later(error)
             return
@@ -261,6 +277,7 @@ class OpenRoom:
             return
         if lacking_here:
             room.take_over([lacking_here], time.monotonic())
+        room.ledger.know_rows(range(room.ledger.rows_to + 1, stored.seq + 1))
         room.settle(doubts)
         self._compared_place = place
 
@@ -280,6 +297,7 @@ async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Ca
     tail, after = await _read_tail(stream, program_id, stored.stored_to)
     document, migrated = await asyncio.to_thread(_open_document, stored, tail)
     room = Room(program_id, stored.site, origin, document)
+    room.ledger.know_rows(range(1, stored.seq + 1))
     room.ledger.hear_all(tail, time.monotonic())
     if migrated:
         room.ledger.doubt("", time.monotonic())

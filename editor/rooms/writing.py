@@ -127,7 +127,7 @@ def _write(program_id: UUID | str, read: Content, wanted: Mapping[str, Any], aut
             raise BadRequest(TOO_LARGE)
         update = stored.encode(before)
         change, origin = Change(author, update), uuid.uuid4().hex
-        seq = append_changes(str(program_id), [change], timezone.now())
+        rows = append_changes(str(program_id), [change], timezone.now())
         try:
             tell_rooms(str(program_id), origin, encode_change(1, change))
         except StreamLost as error:
@@ -135,7 +135,7 @@ def _write(program_id: UUID | str, read: Content, wanted: Mapping[str, Any], aut
                 "Nothing was changed: those who have the program open cannot be told. Try again."
             ) from error
     with suppress(StreamLost):  # who does not hear that it is stored stores it once more
-        tell_rooms(str(program_id), origin, encode_stored({origin: 1}, seq))
+        tell_rooms(str(program_id), origin, encode_stored({origin: 1}, rows))
     get_compiled(program_id=program_id)
     return read_content(program_id=program_id)
 

@@ -47,7 +47,7 @@ def steps(program: str) -> list[str]:
 
 def test_a_batch_is_appended_with_its_authors(program: str, author: Any) -> None:
     changes = [Change(author.pk, drawing("s1")), Change(None, drawing("s2"))]
-    assert append_changes(program, changes, NOW) == 3
+    assert append_changes(program, changes, NOW) == range(2, 4)
     assert steps(program) == ["s1", "s2"]
     rows = DocumentUpdate.objects.order_by("seq").values_list("seq", "author_id")
     assert list(rows) == [(2, author.pk), (3, None)]
@@ -60,16 +60,16 @@ def test_compacting_keeps_the_document_and_drops_the_rows(program: str, author: 
     before = SharedDocument(load_document(program).updates).digest()
     compact_document(program)
     assert SharedDocument(load_document(program).updates).digest() == before
-    assert (DocumentUpdate.objects.count(), Snapshot.objects.get().seq) == (0, 10)
+    assert (DocumentUpdate.objects.count(), Snapshot.objects.get().seq) == (0, 2)
     append_changes(program, [Change(author.pk, drawing("later"))], NOW)
     compact_document(program)
     assert "later" in steps(program)
-    assert Snapshot.objects.get().seq == 11
+    assert Snapshot.objects.get().seq == 3
 
 
 def test_changes_of_one_person_that_follow_each_other_are_one_row(program: str, author: Any) -> None:
     changes = [Change(who, drawing(f"s{number}")) for number, who in enumerate([author.pk] * 3 + [None] + [author.pk])]
-    assert append_changes(program, changes, NOW) == 4
+    assert append_changes(program, changes, NOW) == range(2, 5)
     assert [author for (author,) in DocumentUpdate.objects.order_by("seq").values_list("author_id")] == [
         author.pk,
         None,

@@ -88,7 +88,25 @@ def test_nothing_is_called_stored_that_a_plain_count_would_not_call_so() -> None
             assert ledger.stored_place == plain
 
 
+def test_rows_of_which_nobody_tells_are_looked_at_after_a_second() -> None:
+    ledger = Ledger("me")
+    ledger.know_rows(range(1, 5))
+    ledger.see_row(6, 0.0)
+    ledger.know_rows(range(6, 7))
+    ledger.see_row(6, 0.9)
+    assert (ledger.rows_to, ledger.doubts) == (4, 0)
+    ledger.know_rows(range(5, 6))
+    ledger.see_row(6, 1.5)
+    assert (ledger.rows_to, ledger.doubts) == (6, 0)
+    ledger.see_row(8, 2.0)
+    ledger.see_row(8, 3.1)
+    assert ledger.doubts == 1
+
+
 def test_notes_are_read_back() -> None:
     assert decode_change(encode_change(300, Change(None, b"abc")).data) == (300, Change(None, b"abc"))
     assert decode_change(encode_change(1, Change(0, b"")).data) == (1, Change(0, b""))
-    assert decode_stored(encode_stored({"ä": 3, "b": 400}, 12).data) == ({"ä": 3, "b": 400}, 12)
+    assert decode_stored(encode_stored({"ä": 3, "b": 400}, range(300, 312)).data) == (
+        {"ä": 3, "b": 400},
+        range(300, 312),
+    )

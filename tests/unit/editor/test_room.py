@@ -180,9 +180,9 @@ def test_who_asks_is_told_how_many_of_their_messages_are_in_the_database() -> No
     ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
     ada.send(yjs_protocol.encode_update(ada.edit("s2", 1)))
     assert not ada.member.outbox
-    here.say_stored({"here": 1}, 7)
+    here.say_stored({"here": 1}, range(7, 7 + 1))
     assert saved(ada) == (2, 0)
-    here.say_stored({"here": 2}, 8)
+    here.say_stored({"here": 2}, range(8, 8 + 1))
     assert saved(ada) == (3, 0)
     here.spread()
     assert [frame[0] for frame in bob.member.outbox] == [yjs_protocol.SYNC]
@@ -194,12 +194,12 @@ def test_a_deletion_is_saved_when_it_is_in_the_database_and_not_before() -> None
     ada.read()
     ada.send(ASK)
     ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
-    here.say_stored({"here": 1}, 1)
+    here.say_stored({"here": 1}, range(1, 1 + 1))
     state = ada.document.get_state()
     del ada.document.get("steps", type=Map)["s1"]
     ada.send(yjs_protocol.encode_update(ada.document.get_update(state)))
     assert saved(ada) == (2, 0)
-    here.say_stored({"here": 2}, 2)
+    here.say_stored({"here": 2}, range(2, 2 + 1))
     assert saved(ada) == (3, 0)
 
 
@@ -214,12 +214,12 @@ def test_what_builds_on_a_change_of_another_process_is_saved_with_it() -> None:
     both.carry()
     bob.read()
     bob.send(yjs_protocol.encode_update(bob.edit("s1", 2)))
-    b.say_stored({"b": 1}, 1)
+    b.say_stored({"b": 1}, range(1, 1 + 1))
     bob.send(ASK)
     assert saved(bob) == (1, 0)
     adopted = b.ledger.adoptable(1.0)
     assert [(each.origin, each.change.author) for each in adopted] == [("a", 1)]
-    b.say_stored(last_numbers(adopted), 2)
+    b.say_stored(last_numbers(adopted), range(2, 2 + 1))
     assert saved(bob) == (2, 0)
 
 
@@ -232,7 +232,7 @@ def test_a_message_after_a_hole_is_not_saved_before_the_client_has_said_all() ->
     ada.send(yjs_protocol.encode_update(ada.edit("s2", 1)))
     assert saved(ada) == (1, 0)
     ada.send(yjs_protocol.encode_step_2(ada.document.get_update(here.document.state())))
-    here.say_stored({"here": 2}, 1)
+    here.say_stored({"here": 2}, range(1, 1 + 1))
     assert (saved(ada), sorted(here.document.to_json()["steps"])) == ((3, 0), ["s1", "s2"])
 
 
