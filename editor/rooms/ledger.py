@@ -133,6 +133,10 @@ class Ledger:
         """The place up to which every change is stored."""
         return next(iter(self._waiting), self.place + 1) - 1
 
+    def is_stored_later(self, place: int) -> bool:
+        """Tell whether of the changes up to a place some wait to be stored by their processes, or by this one."""
+        return any(each.place <= place and each.origin != _DATABASE for each in self._waiting.values())
+
     def own(self) -> list[Waiting]:
         """Return the changes that this process has yet to store."""
         return [each for each in self._waiting.values() if each.origin == self._mine]

@@ -229,21 +229,22 @@ class OpenRoom:
                 if rows[-1] - self._compacted >= COMPACT_AFTER_ROWS:
                     self._compacted = rows[-1]
                     await self._compact()
-            if ledger.doubts:
-                await self._compare_with_database()
 
     def _try_later(self, error: Exception) -> None:
         log.warning("Program %s could not be saved; it is tried again: %s", self.room.program, error)
         asyncio.get_running_loop().call_later(RETRY_AFTER_S, self._events["save"].set)
 
     async def _compare_often(self) -> None:
-        """Now and then tell the other processes what is here, and see whether the database holds it."""
+        """Now and then tell the other processes what is here; see whether the database holds it, sooner in doubt."""
+        told_at = time.monotonic()
         while True:
-            await asyncio.sleep(COMPARE_EVERY_S)
-            self.room.say_state()
-            if self.room.ledger.place != self._compared_place:
-                async with self._saving:
-                    await self._compare_with_database()
+            await asyncio.sleep(ADOPT_EVERY_S)
+            is_due = time.monotonic() - told_at >= COMPARE_EVERY_S
+            if is_due:
+                told_at = time.monotonic()
+                self.room.say_state()
+            if self.room.ledger.doubts or (is_due and self.room.ledger.place != self._compared_place):
+                await self._compare_with_database()
 
     async def _look_for_rows(self) -> None:
         """Now and then see whether there are rows of which nobody has told."""
@@ -259,9 +260,9 @@ class OpenRoom:
     async def _compare_with_database(self) -> None:
         """Give the database what it lacks of the document, and the document what it lacks of the database."""
         room, place, doubts = self.room, self.room.ledger.place, self.room.ledger.last_doubt
-        if room.ledger.stored_place < place - room.ledger.doubts:
-            return  # what waits is written first
         here = room.document.encode()
+        while room.ledger.is_stored_later(place) and not self._ended:  # noqa: ASYNC110 - by whom, nobody knows
+            await asyncio.sleep(SAVE_EVERY_S)
         try:
             stored = await in_database(load_document)(room.program)
             lacking_there, lacking_here = await asyncio.to_thread(_differences, here, stored)

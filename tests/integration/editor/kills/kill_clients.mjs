@@ -46,10 +46,18 @@ async function draw(me, name, everyMs) {
 const until = async (what, check) => {
   const end = Date.now() + 60000;
   while (!check()) {
-    if (Date.now() > end) throw new Error(`gave up waiting: ${what}`);
+    if (Date.now() > end) throw new Error(`gave up waiting: ${what} ${unsaved()}`);
     await new Promise((done) => setTimeout(done, 10));
   }
 };
+
+const unsaved = () =>
+  JSON.stringify(
+    [...people].filter(([, me]) => !isSaved(me.client)).map(([name, { client }]) => {
+      const { made, savedAt, frames, saved, marks, closed, provider } = client;
+      return { name, made, savedAt, frames, saved, marks: marks.slice(-3), closed, synced: provider.synced };
+    }),
+  );
 
 const commands = {
   async open(command) {
