@@ -46,7 +46,7 @@ from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
 from editor.language.tree.program import Tree
-from editor.language.tree.traversal import needed_of_roles
+from editor.language.tree.traversal import first_uses, needed_of_roles
 from editor.language.tree.variable_types import (
     type_of_items,
 )
@@ -357,12 +357,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
 def _check_roles(context: Context) -> None:
     """Check every robot at the first step that uses it."""
     tree = context.tree
-    needed = needed_of_roles(tree, tree.functions)
-    first: dict[str, n.Node] = {}
-    for block in _bodies(tree):
-        for node in tree.walked(block):
-            if isinstance(node, n.OF_ROBOTS) and node.role not in first:
-                first[node.role] = node
+    needed, first = needed_of_roles(tree, tree.functions), first_uses(tree, tree.functions)
     for role in tree.roles:
         check_role(context, first[role.name], role, needed[role.name])
         check_choice(context, first[role.name], role)

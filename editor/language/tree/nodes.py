@@ -260,7 +260,7 @@ class Try:
     @property
     def catches(self) -> tuple[Block, ...]:
         """Return the steps of each of its catches."""
-        return tuple(handler.block for handler in self.handlers)
+        return tuple([handler.block for handler in self.handlers])
 
 
 @dataclass(frozen=True, slots=True)
@@ -378,7 +378,7 @@ def walk(block: Block) -> list[Node]:
 def _gather(block: Block, nodes: list[Node]) -> None:
     for node in block:
         nodes.append(node)
-        if node.__class__ in COMPOSITES:
-            for inner in blocks_of(node):
-                if inner:
-                    _gather(inner, nodes)
+        get = _BLOCKS.get(node.__class__)
+        if get is not None:
+            for inner in get(node):
+                _gather(inner, nodes)

@@ -144,8 +144,6 @@ def with_crew(surroundings: Surroundings, roles: Sequence[Role]) -> Surroundings
 
 def with_roles_of_robots(tree: Tree, surroundings: Surroundings) -> Tree:
     """Return the tree in which every Operate of a robot is done by a role; one that is bound to the robot already."""
-    if not tree.holds(Operate):
-        return tree
     bodies = (tree.body, *(f.body for f in tree.functions), *(event.body for event in tree.events))
     operated = (node.device.device for body in bodies for node in tree.walked(body) if isinstance(node, Operate))
     robots = dict.fromkeys(device for device in operated if device and is_robot(surroundings, device))
