@@ -9,6 +9,7 @@ from typing import cast
 from editor.language.analysis.memo import Memos
 from editor.language.checks.bodies import Body, find_bodies
 from editor.language.checks.context import Context
+from editor.language.checks.covers import check_cover, check_covered_zone
 from editor.language.checks.devices import check_floor, check_load_place, check_place, check_role, usable_device
 from editor.language.checks.exits import check_exits
 from editor.language.checks.idle import check_idle
@@ -86,6 +87,8 @@ def check(
     check_updates(context)
     check_library(context, document)
     check_floor(context, document)
+    for node in tree.of_kind(n.Cover):
+        check_covered_zone(context, node)
     _check_left_over(context, reading)
     return context.found
 
@@ -330,6 +333,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Move: _move,
     n.Pick: _pick,
     n.Drop: _drop,
+    n.Cover: check_cover,
     n.Release: _release,
     n.Operate: _operate,
     n.Perform: check_own_method,
