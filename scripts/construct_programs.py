@@ -77,15 +77,15 @@ def _steps_of_robots() -> dict[str, Picture]:
             (4.6, -1.0),
         ),
         "cover": Picture(
-            {"a": step("cover", 3.6, -2.2, role="robot", zone="hall")},
+            {"a": step("cover", 4.2, -6.2, role="robot", zone="hall")},
             WEST,
-            (1.3, -1.6),
+            (1.3, -6.2),
             zones={
                 "hall": {
                     "name": "Hall",
                     "rule": "slow",
                     "speed_m_s": 0.3,
-                    "points": [[1.6, -3.2], [6.2, -3.2], [6.2, -5.6], [1.6, -5.6]],
+                    "points": [[1.2, -3.2], [5.4, -3.2], [5.4, -5.3], [1.2, -5.3]],
                 }
             },
             selected="a",

@@ -28,8 +28,13 @@ def check_cover(context: Context, node: n.Cover) -> None:
         check_limits(context, node, "lane", found, (NARROWEST_LANE_M, None), "The width of a lane", "M")
 
 
-def check_covered_zone(context: Context, node: n.Cover) -> None:
-    """Check that robots may and can drive over the zone of a cover."""
+def check_covers(context: Context) -> None:
+    """Check that robots may and can drive over the zones of all covers."""
+    for node in context.tree.of_kind(n.Cover):
+        _check_zone(context, node)
+
+
+def _check_zone(context: Context, node: n.Cover) -> None:
     zone = next((zone for zone in context.tree.zones if zone.id == node.zone), None)
     if zone is None:
         return

@@ -101,6 +101,12 @@ def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, mis
         context.report(node, missing_code, field)
 
 
+def check_route_length(context: Context, node: n.Move) -> None:
+    """A way leads over a limited number of points: each is kept with every state of the floor."""
+    if len(node.route) > MOST_ROUTE_POINTS:
+        context.report(node, "route_too_long", "route", {"count": len(node.route), "most": MOST_ROUTE_POINTS})
+
+
 def _check_goal_device(context: Context, node: n.Move, facts: DeviceFacts, field: str) -> None:
     """A robot stands beside machines, not beside other robots: these go where they like."""
     if facts.description.kind == "robot":
@@ -215,10 +221,7 @@ def _check_goal(
 
 def _check_route(context: Context, node: n.Move, closed: list[Zone]) -> None:
     """Check that any robot of the role can drive over the points of a way; the first that none can is told."""
-    if len(node.route) > MOST_ROUTE_POINTS:
-        context.report(node, "route_too_long", "route", {"count": len(node.route), "most": MOST_ROUTE_POINTS})
-        return
-    for number, point in enumerate(node.route, start=1):
+    for number, point in enumerate(node.route[:MOST_ROUTE_POINTS], start=1):
         zone = next((zone for zone in closed if is_in(point, zone.points)), None)
         if zone is not None:
             context.report(node, "route_in_keep_out", "route", {"number": number, "zone": zone.name})
