@@ -39,7 +39,7 @@ def test_a_zone_is_drawn_and_a_robot_covers_it(sign_in: SignIn) -> None:
     page.keyboard.press(".")
     page.keyboard.type("Cover zone")
     page.keyboard.press("Enter")
-    press_at(page, 2.6, -4.8)
+    press_at(page, 4.1, -4.5)
     expect(chip(page, "1, Cover zone, Cover Zone 1")).to_be_visible()
     lanes = page.locator("svg[data-lanes] path")
     expect(lanes).to_have_count(2)
