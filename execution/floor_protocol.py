@@ -64,6 +64,15 @@ class WaitNoted:
 
 
 @dataclass(frozen=True, slots=True)
+class TaskNoted:
+    """Something that people shall read of a step's task: `reason` says what."""
+
+    step: str
+    robot: str
+    reason: m.Reason
+
+
+@dataclass(frozen=True, slots=True)
 class CommandGiven:
     """A device was told to do something for the run."""
 
@@ -115,7 +124,7 @@ class DeadlinePassed:
 
 
 ToRun = (
-    TaskEnded | RoleFilled | RoleEmptied | WaitNoted | CommandGiven | CommandEnded | RobotSetsOut
+    TaskEnded | RoleFilled | RoleEmptied | WaitNoted | TaskNoted | CommandGiven | CommandEnded | RobotSetsOut
     | ResumeAsked | QuestionAnswered | DeadlinePassed | r.TimerFired | r.PauseAsked | r.CancelAsked
 )  # fmt: skip
 """What a run is told: by the floor, by devices' answers, by the ticker, by people."""
@@ -165,6 +174,8 @@ def to_run(action: m.Action) -> tuple[str, ToRun] | None:
             return action.run, RoleEmptied(action.role, action.robot, action.bound)
         case m.WaitChanged():
             return action.run, WaitNoted(action.step, action.robot, action.reason)
+        case m.TaskTold():
+            return action.run, TaskNoted(action.step, action.robot, action.reason)
         case m.SendCommand():
             is_told = action.run and not action.piece and action.method not in m.CONTROLS
             given = CommandGiven(action.device, action.method, action.step, action.arguments)
@@ -190,7 +201,7 @@ def to_machine(message: ToRun) -> r.Event | None:
             return r.Resumed()
         case r.TimerFired() | r.PauseAsked() | r.CancelAsked():
             return message
-        case WaitNoted() | CommandGiven() | CommandEnded() | RobotSetsOut() | DeadlinePassed():
+        case WaitNoted() | TaskNoted() | CommandGiven() | CommandEnded() | RobotSetsOut() | DeadlinePassed():
             return None
         case _:
             assert_never(message)
@@ -213,6 +224,7 @@ TO_RUN: Mapping[str, type[ToRun]] = {
     "role_bound": RoleFilled,
     "role_released": RoleEmptied,
     "wait": WaitNoted,
+    "told": TaskNoted,
     "command": CommandGiven,
     "answer": CommandEnded,
     "way": RobotSetsOut,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import hypot
 
+from execution.traffic.covering import go_round_lanes
 from execution.traffic.floor_state import Robot
 from execution.traffic.layout import Node
 from execution.traffic.messages import FloorZone
@@ -133,6 +134,9 @@ def _go_round(turn: Turn, robot: Robot) -> None:
     goal = robot.path[-1]
     moving = {c for r in turn.robots.values() if r.id != robot.id for c in r.held} - standing
     task = turn.task_of(robot) if robot.route_at else None
+    if task is not None and task.lanes:
+        go_round_lanes(turn, task, robot, standing)
+        return
     along = path_along(turn, robot, points_ahead(task), goal, closed=standing, extra=dict.fromkeys(moving, 4.0))
     if along is not None and along[0] != robot.path[robot.passed :] and not standing & turn.layout.needed(goal):
         since = robot.blocked_since

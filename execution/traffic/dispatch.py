@@ -14,6 +14,7 @@ from editor.language.plan.json_form import expression_from_json
 from execution.machine.evaluation import EvaluationError, is_true
 from execution.machine.places import ROLE
 from execution.traffic.conflicts import make_room_for
+from execution.traffic.covering import cover, distance_to_zone
 from execution.traffic.floor_state import FloorTask, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
 from execution.traffic.messages import RoleBound, RoleReleased
@@ -133,6 +134,8 @@ def _cost(turn: Turn, task: FloorTask, robot: Robot) -> float:
     if not _is_able(turn.layout.devices.get(robot.id), task.can) or not _fits(turn, task, robot):
         return UNABLE
     try:
+        if task.order.kind == "cover":
+            return distance_to_zone(turn, task, robot)
         goal = turn.layout.spot_for(task.order.target).cell
     except NoSuchSpot:
         return 0.0
@@ -186,6 +189,9 @@ def _dispatch_with(turn: Turn, task: FloorTask, robot: Robot) -> None:
         return
     if task.order.kind == "perform":
         _perform(turn, task, robot)
+        return
+    if task.order.kind == "cover":
+        cover(turn, task, robot)
         return
     try:
         spot = turn.layout.spot_for(task.order.target)

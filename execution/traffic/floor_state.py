@@ -9,6 +9,7 @@ from typing import Any
 from execution.machine.floor_task import TaskOrder, order_from_json
 from execution.traffic.layout import Node
 from execution.traffic.messages import FloorZone, Reason, zone_from_json
+from registry.floorplan.coverage import Lane
 
 STATE_FORMAT = 1
 
@@ -73,7 +74,11 @@ class FloorTask:
     behind_since: float | None = None
     """Since when it has found no robot and others went first; None: not yet."""
     points_passed: int = 0
-    """How many points of its route the robot has driven over, in their order."""
+    """How many points of its route, or of its lanes, the robot has driven over, in their order."""
+    lanes: tuple[Lane, ...] = ()
+    """The lanes of a cover, in their order, worked out when it has its robot."""
+    put_off: int = 0
+    """How many points at the end of the lanes were in somebody's way before, and are tried a second time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +132,7 @@ STORED_AS: Mapping[type, Mapping[str, str]] = {
 
 
 WRITTEN_WHERE_SET = frozenset(
-    {"where", "said", "priority", "due", "behind_since", "points_passed", "route_of", "route_at"}
+    {"where", "said", "priority", "due", "behind_since", "points_passed", "route_of", "route_at", "lanes", "put_off"}
 )
 """Parts that are written only where they say something, so that the version before reads all other states."""
 
@@ -192,4 +197,5 @@ def _task(data: Mapping[str, Any]) -> FloorTask:
     known = _known(data, FloorTask)
     reason = Reason(**known["wait"]) if known["wait"] else None
     order = order_from_json(known["order"])
-    return FloorTask(**{**known, "order": order, "can": tuple(known["can"]), "wait": reason})
+    lanes = tuple(Lane(*lane) for lane in known.get("lanes", ()))
+    return FloorTask(**{**known, "order": order, "can": tuple(known["can"]), "wait": reason, "lanes": lanes})

@@ -230,6 +230,17 @@ class WaitChanged:
 
 
 @dataclass(frozen=True, slots=True)
+class TaskTold:
+    """Something that people shall read of a task that goes on or is just over; `reason` says what."""
+
+    run: str
+    task: int
+    step: str
+    robot: str
+    reason: Reason
+
+
+@dataclass(frozen=True, slots=True)
 class PathPlanned:
     """A robot has a new path, as a drawn line in metres."""
 
@@ -238,4 +249,4 @@ class PathPlanned:
     path: tuple[tuple[float, float], ...]
 
 
-Action = SendCommand | TaskOver | RoleBound | RoleReleased | WaitChanged | PathPlanned
+Action = SendCommand | TaskOver | RoleBound | RoleReleased | WaitChanged | TaskTold | PathPlanned

@@ -6,13 +6,13 @@ from itertools import pairwise
 from math import hypot
 
 from execution.traffic.floor_state import Robot, Sent
-from execution.traffic.lattice import Point
 from execution.traffic.layout import Node
 from execution.traffic.messages import PathPlanned
 from execution.traffic.route_points import pass_points
 from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
 from execution.traffic.zones import in_the_way, speed_limit, take_zones
+from registry.floorplan.lattice import Point, attach
 
 AHEAD = 4
 """Nodes that a robot may be released ahead of where it is."""
@@ -54,10 +54,7 @@ def _nearest_node(turn: Turn, robot: Robot) -> Node:
 
 
 def _can_stand(turn: Turn, point: Point) -> bool:
-    ground, lattice = turn.layout.ground, turn.layout.lattice
-    room_m = ground.radius_m + 0.02
-    near = (c for c in lattice.cells_within(point, 1.2) if c in lattice.links)
-    return ground.room_m(point) >= room_m and any(ground.is_passable(lattice.centre(c), point, room_m) for c in near)
+    return attach(turn.layout.ground, turn.layout.lattice, point) is not None
 
 
 def take_pose(turn: Turn, robot: Robot, x: float, y: float, theta: float) -> None:

@@ -76,6 +76,10 @@ class Turn:
         self.actions.append(SendCommand(command, sent.device, method, arguments, sent.run, step, piece))
         return command
 
+    def shift(self, sent: Sent, nodes: int) -> None:
+        """Count a piece of path from a node that lies so many behind the one from which it was counted."""
+        self.sent[sent.id] = replace(sent, upto=sent.upto - nodes)
+
     def tell(self, sent: Sent, method: str) -> None:
         """Pause, resume or cancel a command that is under way; the answer is the command's own."""
         arguments = {"command": sent.id}

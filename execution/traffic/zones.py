@@ -11,11 +11,11 @@ from math import hypot
 
 from execution.machine.places import lies_in
 from execution.traffic.floor_state import Robot
-from execution.traffic.lattice import Point
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import FloorZone
 from execution.traffic.routes import plan_path
 from execution.traffic.turn import Turn
+from registry.floorplan.lattice import Point
 
 SLOWEST_M_S = 0.05
 INSIDE_COST = 1000.0

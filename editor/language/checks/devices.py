@@ -22,6 +22,11 @@ from editor.language.tree.robots import robots_for
 from editor.language.tree.zones import area_m2, is_in, read_zones
 from vipo_device.protocol.description import Description
 
+MOST_ROUTE_POINTS = 100
+"""A way leads over so many points."""
+USUAL_RADIUS_M = 0.18
+"""What traffic takes for robots that do not say their size."""
+
 
 def known_device(context: Context, node: n.Node, device_id: str, field: str) -> DeviceFacts | None:
     """Return a device that the program may use, now or later; what is wrong with it is reported."""
@@ -96,6 +101,12 @@ def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, mis
         context.report(node, missing_code, field)
 
 
+def check_route_length(context: Context, node: n.Move) -> None:
+    """A way leads over a limited number of points: each is kept with every state of the floor."""
+    if len(node.route) > MOST_ROUTE_POINTS:
+        context.report(node, "route_too_long", "route", {"count": len(node.route), "most": MOST_ROUTE_POINTS})
+
+
 def _check_goal_device(context: Context, node: n.Move, facts: DeviceFacts, field: str) -> None:
     """A robot stands beside machines, not beside other robots: these go where they like."""
     if facts.description.kind == "robot":
@@ -117,6 +128,8 @@ def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> 
         context.report(node, "place_blocked", field, name)
     elif not any(floor.is_reachable((r.pose.x, r.pose.y), point, r.radius_m) for r in robots):
         context.report(node, "place_unreachable", field, name)
+    elif not floor.can_stop(*point, context.largest_radius_m(USUAL_RADIUS_M)):
+        context.report(node, "place_blocked", field, name)
 
 
 def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
@@ -208,7 +221,7 @@ def _check_goal(
 
 def _check_route(context: Context, node: n.Move, closed: list[Zone]) -> None:
     """Check that any robot of the role can drive over the points of a way; the first that none can is told."""
-    for number, point in enumerate(node.route, start=1):
+    for number, point in enumerate(node.route[:MOST_ROUTE_POINTS], start=1):
         zone = next((zone for zone in closed if is_in(point, zone.points)), None)
         if zone is not None:
             context.report(node, "route_in_keep_out", "route", {"number": number, "zone": zone.name})
@@ -223,6 +236,8 @@ def _is_passed(context: Context, role: str, point: e.Point) -> bool:
     floor, robots = context.surroundings.floor, context.robots(role)
     if floor is None or not robots:
         return floor is None or floor.is_inside(*point)
+    if not floor.can_stop(*point, context.largest_radius_m(USUAL_RADIUS_M)):
+        return False
     fitting = (robot for robot in robots if floor.is_free(*point, robot.radius_m))
     return any(floor.is_reachable((robot.pose.x, robot.pose.y), point, robot.radius_m) for robot in fitting)
 

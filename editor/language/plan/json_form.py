@@ -205,6 +205,7 @@ ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "Drop": lambda b: _load(p.Drop, b),
     "Call": lambda b: p.Call(_place_from_json(b["device"]), b["method"], _named(b["arguments"]), b["serves"]),
     "Perform": lambda b: p.Perform(b["role"], b["method"], _named(b["arguments"])),
+    "Cover": lambda b: p.Cover(b["role"], b["zone"], _maybe(b["lane_m"])),
     "Release": lambda b: p.Release(b["role"]),
     "Wait": lambda b: p.Wait(expression_from_json(b["seconds"])),
     "WaitUntil": lambda b: p.WaitUntil(expression_from_json(b["condition"]), _maybe(b["timeout_s"])),

@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 
 from editor.language.expressions.names import (
-    RELEASE,
+    OF_THE_FLEET,
     RESERVED_ATTRIBUTES,
     ROBOT_METHODS,
     member_name,
@@ -67,7 +67,7 @@ def short_name(robots: Robots, name: str) -> str | None:
     if name in ROBOT_METHODS or described_alike(robots, name) is None:
         return None
     names = {member_name(name, [method.name for method in robot.methods]) for robot in robots}
-    return names.pop() if len(names) == 1 and names != {RELEASE} else None
+    return names.pop() if len(names) == 1 and names.isdisjoint(OF_THE_FLEET) else None
 
 
 def methods_called(robots: Robots, short: str) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Final
 
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.tree.nodes import OF_ROBOTS, Block, Call, Node, Perform, Release
+from editor.language.tree.nodes import OF_ROBOTS, Block, Call, Cover, Node, Perform, Release
 from editor.language.tree.program import Function, Role, Tree
 
 
@@ -66,7 +66,7 @@ _OF_NO_METHOD: Final = frozenset({Perform, Release})
 
 def _methods_of(uses: set[type[Node]], own: set[str]) -> tuple[str, ...]:
     """Return the methods that such steps need, those of a robot's own behind the others."""
-    methods = {use.__name__.lower() for use in uses if use not in _OF_NO_METHOD}
+    methods = {"move" if use is Cover else use.__name__.lower() for use in uses if use not in _OF_NO_METHOD}
     wanted = methods - {"move"} or methods
     return (*(method for method in ROBOT_METHODS if method in wanted), *sorted(own))
 

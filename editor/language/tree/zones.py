@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import hypot
 from typing import Literal
 
 from editor.language.document.outline import mapping
@@ -57,6 +58,17 @@ def area_m2(points: tuple[Point, ...]) -> float:
     """Return the area of a polygon by the shoelace formula."""
     around = zip(points, (*points[1:], points[0]), strict=True)
     return abs(sum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in around)) / 2
+
+
+def width_m(points: tuple[Point, ...]) -> float:
+    """Return how wide a polygon is across that side along which it is narrowest, in metres."""
+    widths = []
+    for (x1, y1), (x2, y2) in zip(points, (*points[1:], points[0]), strict=True):
+        length_m = hypot(x2 - x1, y2 - y1)
+        if length_m > 0:
+            across = [((x - x1) * (y2 - y1) - (y - y1) * (x2 - x1)) / length_m for x, y in points]
+            widths.append(max(across) - min(across))
+    return min(widths, default=0.0)
 
 
 def is_in(point: Point, points: tuple[Point, ...]) -> bool:

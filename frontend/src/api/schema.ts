@@ -3058,7 +3058,7 @@ export interface components {
             priority: "low" | "normal" | "high";
         };
         /** @enum {string} */
-        StepKind: "move" | "pick" | "drop" | "pick_and_drop" | "release" | "operate" | "wait" | "if" | "while" | "repeat" | "for_each" | "parallel" | "try" | "limit" | "on_event" | "break" | "continue" | "return" | "end" | "fail" | "call" | "set" | "notify" | "ask" | "comment";
+        StepKind: "move" | "pick" | "drop" | "pick_and_drop" | "cover" | "release" | "operate" | "wait" | "if" | "while" | "repeat" | "for_each" | "parallel" | "try" | "limit" | "on_event" | "break" | "continue" | "return" | "end" | "fail" | "call" | "set" | "notify" | "ask" | "comment";
         /** @description A step: `place` is parent, branch and order; without it the step is a draft. `pos` in metres. */
         StepShape: {
             kind: components["schemas"]["StepKind"];

@@ -119,6 +119,9 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "pick": st.fixed_dictionaries({**loads, "at": places}),
     "drop": st.fixed_dictionaries({**loads, "at": places}),
     "pick_and_drop": st.fixed_dictionaries({**loads, "source": places, "target": places}),
+    "cover": st.fixed_dictionaries(
+        {"role": st.sampled_from(ROLES), "zone": st.sampled_from(["z1", "gone", None, 3]), "lane": values}
+    ),
     "release": st.fixed_dictionaries({"role": st.sampled_from([*ROLES, "gone", None, 3])}),
     "operate": st.fixed_dictionaries(
         {
