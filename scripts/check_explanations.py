@@ -118,6 +118,12 @@ _FLOOR: Final = {
     "fits, or no path leads there.",
     "route_in_keep_out": "A point of the route lies in a zone that robots keep out of.",
     "zone_too_small": "The zone's area is smaller than that of the smallest robot.",
+    "missing_door": "A zone with the rule for a passage has no door yet.",
+    "door_cannot_open": "The device of a passage offers no method that opens it: one whose name says so (`open`, "
+    "`openDoor`, `raise`) and that needs no values. The class of the device does not matter.",
+    "passage_nowhere": "No robot of the site has room in the passage, or none finds a way there.",
+    "door_left_open": "A step opens the door of a passage, and no step of the program closes it. What a step opens "
+    "stays open for good: robots that pass close only what was opened for them.",
 }
 _WAYS: Final = {
     "never_reached": "The first step behind a Return, a Break, an End, an endless loop or an endless call.",
