@@ -99,6 +99,9 @@ def _is_inside(turn: Turn, robot: Robot, zone: FloorZone) -> bool:
 def _comes(turn: Turn, robot: Robot, zone: FloorZone) -> bool:
     if not robot.online or (robot.run in turn.paused and not robot.evading):
         return False
+    known = turn.doors.get(zone.door)
+    if robot.evading and known is not None and known.why:
+        return False  # a broken door is not tried again and again for who only goes home
     ahead = robot.path[robot.passed : robot.passed + 1 + AHEAD_NODES]
     return any(is_in(turn.layout, node, zone) for node in ahead)
 

@@ -132,6 +132,7 @@ function DoorField({ id, zone }: { id: string; zone: Zone }) {
       data={[...known, ...named]}
       value={zone.door ?? null}
       searchable
+      allowDeselect={false}
       disabled={!open.canEdit}
       onChange={(door) => changeZone(open, id, { door })}
     />

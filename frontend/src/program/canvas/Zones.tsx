@@ -58,7 +58,7 @@ function ZoneShape(props: { zone: Zone; selected: boolean; t: Translate; onSelec
   );
 }
 
-/** A passage bears the sign of a door. */
+/** A passage bears the sign of a door, and no more words than its name: it is as narrow as its doorway. */
 export function zoneIcon(zone: Zone): string {
   return zone.rule === "door" ? "door" : "zone";
 }
@@ -67,7 +67,7 @@ export function zoneWords(zone: Zone, t: Translate): string {
   const name = String(zone.name ?? "");
   if (zone.rule === "keep_out") return t("gesture.zone.say_keep_out", { name });
   if (zone.rule === "one_at_a_time") return t("gesture.zone.say_one_at_a_time", { name });
-  if (zone.rule === "door") return t("gesture.zone.say_door", { name });
+  if (zone.rule === "door") return name;
   return t("gesture.zone.say_slow", { name, speed: `${zone.speed_m_s ?? "?"}\u202fm/s` });
 }
 
