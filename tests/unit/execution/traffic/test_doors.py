@@ -1,98 +1,23 @@
 """Doors on the floor: opened for who comes, held for who is in, closed behind the last."""
 
-import random
-from dataclasses import replace
-from math import hypot
-
 import pytest
 
-from execution.machine.floor_task import Target, TaskOrder
-from execution.machine.places import lies_in
 from execution.traffic import floor as pure
 from execution.traffic import messages as m
 from execution.traffic.layout import make_layout
 from tests.kit import demo_floor
+from tests.unit.execution.traffic.floor_with_door import (
+    EAST,
+    PASSAGE,
+    WEST,
+    WithDoor,
+    call,
+    door_device,
+    go,
+    over,
+    reasons,
+)
 from tests.unit.execution.traffic.simulated_floor import PretendFloor
-from vipo_device.protocol.description import Description, MethodSpec, Pose, PropertySpec, Size
-
-PASSAGE = ((9.0, -9.0), (10.0, -9.0), (10.0, -5.0), (9.0, -5.0))
-WEST, EAST = (3.0, -8.0), (18.0, -8.0)
-TAKES_S = 2.0
-
-
-def door_device(opens="open", closes="close", reading="state"):
-    methods = tuple(MethodSpec(name, f"vipo/v1/dev/door02/down/{name}") for name in (opens, closes) if name)
-    spec = PropertySpec(reading, "text", options=("closed", "moving", "open"))
-    pose, size = Pose(0.3, -0.3), Size(0.1, 0.1, 0.1)
-    told = (spec,) if reading else ()
-    return Description("door02", "Door 2", "machine", "gate", pose, size, properties=told, methods=methods)
-
-
-class WithDoor(PretendFloor):
-    """A floor with a door between west and east that takes two seconds; it checks who drives through it."""
-
-    def __init__(self, poses, device=None):
-        self.device = device or door_device()
-        self.is_open, self.is_broken, self.ids, self.stays_shut, self.line = False, "", {}, False, []
-        plain = demo_floor.layout()
-        layout = make_layout(plain.ground.grid, [*plain.devices.values(), self.device], demo_floor.places())
-        super().__init__(layout, poses)
-
-    def take(self, command):
-        if command.device != "door02":
-            super().take(command)
-            return
-        self.sent.append(command)
-        self.line.append(command.method)
-        self.ids[command.id] = command.method
-        if command.method not in {"pause", "resume", "cancel"} and "door02" not in self.deaf:
-            self.works.append((self.now + TAKES_S, command.id))
-
-    def tell(self, *events):
-        answered = [event for event in events if isinstance(event, m.CommandAnswered) and event.command in self.ids]
-        events = [event for event in events if event not in answered]
-        for event in answered:
-            events.append(replace(event, status=self.is_broken, why="Motor fault") if self.is_broken else event)
-            if not self.is_broken and not self.stays_shut:
-                self.is_open = self.ids[event.command].lower().startswith(("open", "raise"))
-        reading = {"door02": {"state": "open" if self.is_open else "closed"}}
-        told = [m.RobotsReport(reading)] if self.device.properties else []
-        return super().tell(*told, *events)
-
-    def pass_time(self, dt_s=0.1):
-        actions = super().pass_time(dt_s)
-        for name, at in self.at.items():
-            assert self.is_open or not lies_in(at, PASSAGE) or name in self.may_be_shut_in, f"{name} in a shut door"
-        return actions
-
-    may_be_shut_in = frozenset()
-
-    def inside(self, name):
-        return lies_in(self.at[name], PASSAGE)
-
-    def door(self):
-        return self.state.doors["door02"]
-
-
-ZONES = (m.FloorZone("p/z", "Door", "door", PASSAGE, door="door02"),)
-
-
-def go(floor, goal, run="r", task=1, robot="robot01", zones=ZONES):
-    order = TaskOrder("move", Target("", goal), "robot", step=f"{run}-step")
-    floor.tell(m.TaskAsked(run, task, order, robot, ("move",), run, zones))
-
-
-def call(floor, method, run="r", task=9, step="door"):
-    order = TaskOrder("call", Target("door02"), method=method, step=step)
-    floor.tell(m.TaskAsked(run, task, order, "", (), run, ZONES))
-
-
-def over(floor, run="r", task=1):
-    return lambda: (run, task) in floor.over
-
-
-def reasons(floor):
-    return [wait.reason.code for wait in floor.waits if wait.reason]
 
 
 @pytest.mark.parametrize(
@@ -371,19 +296,6 @@ def test_a_floor_that_is_stored_while_it_holds_a_door_goes_on_holding_it():
     assert floor.line == ["open", "close"]
 
 
-def test_nine_robots_tasks_through_one_door_all_arrive():
-    floor = WithDoor({})
-    for number, robot in enumerate(sorted(floor.state.robots)):
-        go(floor, (18.0 - number, -8.0), run=f"run{number}", robot=robot)
-    floor.run_until(lambda: len(floor.over) == len(floor.state.robots), 1200)
-    assert set(floor.over.values()) == {("", "")}
-    for number, robot in enumerate(sorted(floor.state.robots)):
-        go(floor, (3.0 + number, -8.0), run=f"run{number}", task=2, robot=robot)
-    floor.run_until(lambda: len(floor.over) == 2 * len(floor.state.robots), 1200)
-    assert set(floor.over.values()) == {("", "")}
-    assert hypot(floor.at["robot01"][0] - 3.0, floor.at["robot01"][1] + 8.0) < 0.1
-
-
 def test_a_broken_door_is_not_tried_for_ever_for_a_robot_that_only_goes_home():
     floor = WithDoor({"robot01": EAST, "robot02": (18.0, -5.0), "robot03": (15.0, -3.0)})
     floor.is_broken = "FAILED"
@@ -398,29 +310,3 @@ def test_a_broken_door_is_not_tried_for_ever_for_a_robot_that_only_goes_home():
     go(floor, WEST, run="next")
     floor.run_until(over(floor, "next"))
     assert floor.over["next", 1] == ("", "")
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_robots_with_many_tasks_through_a_door_that_breaks_and_is_shut_now_and_then_all_arrive(seed):
-    rng = random.Random(seed)
-    floor = WithDoor({})
-    runs = {f"run{number}": robot for number, robot in enumerate(sorted(floor.state.robots))}
-    floor.may_be_shut_in = frozenset(runs.values())
-    narrow = replace(ZONES[0], key="p/one", rule="one_at_a_time", door="")
-    zones = (*ZONES, narrow) if seed % 2 else ZONES
-    done = dict.fromkeys(runs, 0)
-    targets = [*floor.layout.stations, *floor.layout.docks]
-
-    def settled():
-        for run, robot in runs.items():
-            if done[run] < 4 and (not done[run] or (run, done[run]) in floor.over):
-                done[run] += 1
-                order = TaskOrder("move", Target(rng.choice(targets)), "robot", step=run)
-                floor.tell(m.TaskAsked(run, done[run], order, robot, ("move",), run, zones))
-        floor.is_broken = "FAILED" if rng.random() < 0.3 else ""
-        if rng.random() < 0.01:
-            floor.is_open = False
-        return all((run, 4) in floor.over for run in runs)
-
-    floor.run_until(settled, 2000)
-    assert set(floor.over.values()) == {("", "")}
