@@ -176,6 +176,8 @@ def to_run(action: m.Action) -> tuple[str, ToRun] | None:
             return action.run, WaitNoted(action.step, action.robot, action.reason)
         case m.TaskTold():
             return action.run, TaskNoted(action.step, action.robot, action.reason)
+        case m.DoorStuck():
+            return None
         case m.SendCommand():
             is_told = action.run and not action.piece and action.method not in m.CONTROLS
             given = CommandGiven(action.device, action.method, action.step, action.arguments)
@@ -250,6 +252,8 @@ class UnreadableMessage(Exception):
 def to_json(message: ToFloor | ToRun) -> dict[str, Any]:
     """Return a message as plain JSON; its `type` says what it is."""
     said = {name: value for name, value in asdict(message).items() if value or name not in WRITTEN_WHERE_SET}
+    if isinstance(message, m.TaskAsked):
+        said["zones"] = [m.zone_to_json(zone) for zone in message.zones]
     parts = {STORED_AS.get(name, name): value for name, value in said.items()}
     return {"type": _names[type(message)], **parts}
 

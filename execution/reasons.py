@@ -38,6 +38,8 @@ SENTENCES: Mapping[str, str] = {
     "no_answer": "The device did not answer in time. Look whether it is switched on and connected.",
     "late": "The device took longer than it may. Look what it is doing.",
     "no_able_robot": "No robot of this site can {methods}. Approve one that can, or change the role.",
+    "door_shut": "{door} did not open in time.",
+    "no_door": "{door} is no approved device that can be told to open.",
     "no_way": "There is no way for {robot} to {target}.",
     "no_standing": "No robot can stand at {place}; there is no free side that it can reach.",
     "no_room": "A robot cannot stand at ({point}); choose a place with more room.",

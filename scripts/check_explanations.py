@@ -125,6 +125,12 @@ _FLOOR: Final = {
     "too_many_lanes": "A zone is covered in at most 1,000 lanes that are at most 10 km long together.",
     "lane_wider_than_zone": "The zone of a Cover is narrower than one lane; the robot drives once through its middle.",
     "zone_too_small": "The zone's area is smaller than that of the smallest robot.",
+    "missing_door": "A zone with the rule for a passage has no door yet.",
+    "door_cannot_open": "The device of a passage offers no method that opens it: one whose name says so (`open`, "
+    "`openDoor`, `raise`) and that needs no values. The class of the device does not matter.",
+    "passage_nowhere": "No robot of the site has room in the passage, or none finds a way there.",
+    "door_left_open": "A step opens the door of a passage, and no step of the program closes it. What a step opens "
+    "stays open for good: robots that pass close only what was opened for them.",
 }
 _WAYS: Final = {
     "never_reached": "The first step behind a Return, a Break, an End, an endless loop or an endless call.",

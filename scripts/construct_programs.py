@@ -210,7 +210,13 @@ def _words_with_people() -> dict[str, Picture]:
             "name": "Aisle",
             "rule": "slow",
             "speed_m_s": 0.2,
-            "points": [[2.4, -5.3], [6.2, -5.3], [6.2, -6.6], [2.4, -6.6]],
+            "points": [[2.4, -5.3], [5.0, -5.3], [5.0, -6.6], [2.4, -6.6]],
+        },
+        "d": {
+            "name": "Ward door",
+            "rule": "door",
+            "door": "wardADoor",
+            "points": [[5.4, -5.3], [7.9, -5.3], [7.9, -6.6], [5.4, -6.6]],
         },
     }
     return {

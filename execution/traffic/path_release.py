@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from math import hypot
 
+from execution.traffic.doors import shut_door
 from execution.traffic.floor_state import Robot, Sent
 from execution.traffic.layout import Node
 from execution.traffic.messages import PathPlanned
@@ -162,8 +163,9 @@ def _may_drive(turn: Turn, robot: Robot) -> bool:
 
 
 def may_enter(turn: Turn, robot: Robot, index: int) -> bool:
-    """Tell whether the robot may go to that node as far as machines and zones are concerned."""
-    return _machine_is_ready(turn, robot, index) and in_the_way(turn, robot, index) is None
+    """Tell whether the robot may go to that node as far as machines, zones and doors are concerned."""
+    is_let_in = _machine_is_ready(turn, robot, index) and in_the_way(turn, robot, index) is None
+    return is_let_in and shut_door(turn, robot, index) is None
 
 
 def _machine_is_ready(turn: Turn, robot: Robot, index: int) -> bool:

@@ -33,6 +33,8 @@ class Turn:
         self.names = dict(state.names)
         self.zones = dict(state.zones)
         self.locks = dict(state.locks)
+        self.passages = state.passages
+        self.doors = dict(state.doors)
         self.readings: Mapping[str, Mapping[str, Scalar]] = {}
         self.waits: dict[tuple[str, int], Reason] = {}
         self.actions: list[Action] = []
@@ -55,6 +57,8 @@ class Turn:
             names=self.names,
             zones=self.zones,
             locks=self.locks,
+            passages=self.passages,
+            doors=self.doors,
         )
         return state, tuple(self.actions)
 

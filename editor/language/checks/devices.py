@@ -7,6 +7,7 @@ from functools import partial
 from math import pi
 
 from editor.language.checks.context import Context
+from editor.language.checks.doors import check_passages
 from editor.language.checks.possible import check_each_device, check_held_device, check_held_place
 from editor.language.checks.robot_readings import check_robot_reading, tell_unknown
 from editor.language.expressions import nodes as e
@@ -199,6 +200,7 @@ def check_floor(context: Context, document: object) -> None:
                     _check_goal(context, node, node.to, "to", closed)
                 _check_route(context, node, closed)
     _check_sizes(context, zones)
+    check_passages(context, zones)
 
 
 def _check_goal(
@@ -268,9 +270,9 @@ def _station(context: Context, device: str, robot: Description) -> e.Point | Non
 
 
 def _check_sizes(context: Context, zones: tuple[Zone, ...]) -> None:
-    """A zone in which not even the smallest robot has room changes nothing for any."""
+    """A zone in which not even the smallest robot has room changes nothing for any; a passage may be narrow."""
     robots = [f.description for f in context.surroundings.devices.values() if f.description.kind == "robot"]
     smallest = min(robots, key=lambda robot: (robot.radius_m, robot.id), default=None)
     for zone in zones:
-        if smallest is not None and area_m2(zone.points) < pi * smallest.radius_m**2:
+        if zone.rule != "door" and smallest is not None and area_m2(zone.points) < pi * smallest.radius_m**2:
             context.report_step("", "zone_too_small", f"zones.{zone.id}", {"zone": zone.name, "robot": smallest.name})

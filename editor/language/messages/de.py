@@ -246,6 +246,18 @@ TEXTS_DE: Final[Mapping[str, str]] = {
         "ändern Sie die Zone."
     ),
     "zone_too_small": "{zone} ist kleiner als {robot} und bewirkt deshalb nichts. Vergrößern Sie die Zone.",
+    "missing_door": "Wählen Sie die Tür, die bei {zone} für Roboter aufgeht.",
+    "door_cannot_open": (
+        "{device} kann nicht geöffnet werden, wie es {zone} braucht: mit einer Methode, die so heißt und keine Werte "
+        "verlangt. Möglich ist: {options}."
+    ),
+    "passage_nowhere": (
+        "Kein Roboter fährt durch {zone}; die Tür geht deshalb nie auf. Verschieben Sie die Zone in den Durchgang."
+    ),
+    "door_left_open": (
+        "Kein Schritt schließt {device} wieder; das Gerät bleibt offen. Schließen Sie es, oder lassen Sie diesen "
+        "Schritt weg: Für Roboter geht es von selbst auf."
+    ),
     # a script that was written by hand
     "not_python": "Zeile {line}, Spalte {column}: Das kann nicht gelesen werden. {detail}",
     "not_in_language": "Zeile {line}, Spalte {column}: {found} gehört nicht zur Sprache. {instead}",

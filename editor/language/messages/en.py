@@ -269,6 +269,17 @@ TEXTS: Final[Mapping[str, Text]] = {
         "Point {number} of this way lies in {zone}, which robots keep out of. Move the point, or change the zone.",
     ),
     "zone_too_small": ("warning", "{zone} is smaller than {robot}, so it has no effect. Make it larger."),
+    "missing_door": ("error", "Choose the door that opens for robots at {zone}."),
+    "door_cannot_open": (
+        "error",
+        "{device} cannot be told to open, which {zone} needs: a method named so, without values to enter. It can: "
+        "{options}.",
+    ),
+    "passage_nowhere": ("warning", "No robot drives through {zone}, so its door never opens. Move it to the doorway."),
+    "door_left_open": (
+        "warning",
+        "No step closes {device} again, so it stays open. Close it, or leave this out: it opens for robots by itself.",
+    ),
     # a script that was written by hand
     "not_python": ("error", "Line {line}, column {column}: this cannot be read. {detail}"),
     "not_in_language": ("error", "Line {line}, column {column}: {found} is not part of the language. {instead}"),

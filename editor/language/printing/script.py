@@ -129,8 +129,9 @@ def _drawn(zone: Zone) -> str:
     """Return `"z1", [(0, 0), (3, 0), (3, 2)], rule="slow", speed=0.3, name="Ramp"`; the name where it is not the id."""
     points = ", ".join(map(point_text, zone.points))
     speed = "" if zone.speed_m_s is None else f", speed={scalar_text(zone.speed_m_s)}"
+    door = f", door={quote(zone.door) if zone.door else None}" if zone.rule == "door" else ""
     name = "" if zone.name == zone.id else f", name={quote(zone.name)}"
-    return f"{quote(zone.id)}, [{points}], rule={quote(rule_text(zone.rule))}{speed}{name}"
+    return f"{quote(zone.id)}, [{points}], rule={quote(rule_text(zone.rule))}{door}{speed}{name}"
 
 
 def _given_to_parameter(parameter: Parameter) -> str:

@@ -10,8 +10,13 @@ from editor.language.document.outline import mapping
 from editor.language.expressions.nodes import Point, Zone
 from editor.language.expressions.values import is_number, read_point
 
-Rule = Literal["keep_out", "one_at_a_time", "slow"]
-RULES: Mapping[str, Rule] = {"keep_out": "keep_out", "one_at_a_time": "one_at_a_time", "slow": "slow"}
+Rule = Literal["keep_out", "one_at_a_time", "slow", "door"]
+RULES: Mapping[str, Rule] = {
+    "keep_out": "keep_out",
+    "one_at_a_time": "one_at_a_time",
+    "slow": "slow",
+    "door": "door",
+}
 """What a zone asks of robots, by its name in documents."""
 FEWEST_CORNERS = 3
 SMALLEST_AREA_M2 = 1e-4
@@ -39,13 +44,14 @@ def _zone(name: str, item: Mapping[str, object]) -> Zone | None:
     is_polygon = FEWEST_CORNERS <= len(points) <= MOST_CORNERS and area_m2(points) >= SMALLEST_AREA_M2
     if not name or rule is None or not is_polygon:
         return None
-    called = item.get("name")
+    called, door = item.get("name"), item.get("door")
     return Zone(
         name,
         called if isinstance(called, str) and called else name,
         rule,
         points,
         float(speed) if is_number(speed) and speed > 0 else None,
+        door if rule == "door" and isinstance(door, str) else "",
     )
 
 

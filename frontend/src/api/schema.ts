@@ -3160,13 +3160,14 @@ export interface components {
         };
         /** @description A named area of the map: a polygon in metres, and what it asks of robots. */
         ZoneShape: {
+            door?: string | null;
             name: string;
             points: [
                 number,
                 number
             ][];
             /** @enum {string} */
-            rule: "keep_out" | "one_at_a_time" | "slow";
+            rule: "keep_out" | "one_at_a_time" | "slow" | "door";
             speed_m_s?: number | null;
         };
         /** @description A zone of the program. */
