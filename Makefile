@@ -4,7 +4,7 @@ BIN := .venv/bin
 SOURCES := vipo_site vipo_device registry editor simulation execution connectors firmware/robot_agent tests bench scripts manage.py
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
-.PHONY: demo test check check-static check-frontend check-units bench mutation audit checks-page constructs openapi format frontend setup setup-dev servers clean
+.PHONY: demo test test-python check check-beside check-static check-frontend check-units bench mutation audit checks-page constructs openapi format frontend setup setup-dev servers clean
 
 demo: setup frontend
 	@exec $(BIN)/python -m vipo_site.demo
@@ -62,9 +62,18 @@ check-frontend: setup-dev
 check-units: setup-dev
 	$(BIN)/python -m pytest -q -p no:schemathesis --numprocesses=2 --dist=loadfile --no-loadscope-reorder tests/unit
 
-test: setup-dev servers frontend
-	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target check-frontend check-static
-	VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --durations=25 --numprocesses=2 --dist=loadfile --no-loadscope-reorder
+# Fetching waits for the network and tests wait for each other's clocks, so things stand beside each other here: three
+# processes of tests on two cores, and the static checks beside them. Tests start hundreds of Python processes, which
+# read compiled modules also where the surroundings say that none are to be written.
+test:
+	@$(MAKE) --no-print-directory --jobs=3 setup-dev servers frontend
+	@$(MAKE) --no-print-directory --jobs=2 test-python check-beside
+
+test-python:
+	PYTHONDONTWRITEBYTECODE= VIPO_STEADY=1 $(BIN)/python -m pytest --tb=native --durations=25 --numprocesses=3 --dist=loadfile --no-loadscope-reorder
+
+check-beside:
+	@$(MAKE) --no-print-directory --output-sync=target check-frontend check-static
 
 constructs: setup-dev
 	$(BIN)/python manage.py constructs

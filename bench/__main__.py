@@ -6,7 +6,18 @@ import importlib
 import json
 import sys
 
-NAMES = ("language", "rehearsal", "traffic", "rooms", "compiled_frames", "devices", "steps", "firmware", "start")
+NAMES = (
+    "language",
+    "rehearsal",
+    "traffic",
+    "rooms",
+    "compiled_frames",
+    "devices",
+    "steps",
+    "firmware",
+    "start",
+    "paths",
+)
 
 
 def main() -> None:

@@ -58,16 +58,16 @@ class Count:
     cpu_ms: float = 0.0
 
 
-def fill_hall(count: int) -> None:
-    """Make the hall, with this many approved devices that are there."""
+def fill_hall(count: int, robots: int = ROBOTS) -> None:
+    """Make the hall, with this many approved devices that are there; so many of them are robots."""
     registry.create_site(name="Hall", slug=SITE)
     registry.save_map(site=SITE, grid=Grid(CELLS, CELLS, CELL_M, 0.0, 0.0, bytes(CELLS * CELLS)))
     site = Site.objects.get(slug=SITE)
-    Device.objects.bulk_create(_row(_describe(number), site) for number in range(count))
+    Device.objects.bulk_create(_row(_describe(number, robots), site) for number in range(count))
 
 
-def _describe(number: int) -> Description:
-    robot = number >= 1 and number <= ROBOTS
+def _describe(number: int, robots: int) -> Description:
+    robot = 1 <= number <= robots
     name = f"robot{number:03d}" if robot else f"machine{number:03d}"
     row, column = divmod(number, int(CELLS * CELL_M / APART_M))
     methods = ("move", "pick", "drop") if robot else ("heat", "dispense", "accept")

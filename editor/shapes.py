@@ -132,9 +132,10 @@ class ZoneShape(Schema):
     """A named area of the map: a polygon in metres, and what it asks of robots."""
 
     name: str
-    rule: Literal["keep_out", "one_at_a_time", "slow"]
+    rule: Literal["keep_out", "one_at_a_time", "slow", "door"]
     points: list[Position]
     speed_m_s: float | None = None
+    door: str | None = None
 
 
 class ResultShape(Schema):

@@ -64,6 +64,15 @@ class WaitNoted:
 
 
 @dataclass(frozen=True, slots=True)
+class TaskNoted:
+    """Something that people shall read of a step's task: `reason` says what."""
+
+    step: str
+    robot: str
+    reason: m.Reason
+
+
+@dataclass(frozen=True, slots=True)
 class CommandGiven:
     """A device was told to do something for the run."""
 
@@ -115,7 +124,7 @@ class DeadlinePassed:
 
 
 ToRun = (
-    TaskEnded | RoleFilled | RoleEmptied | WaitNoted | CommandGiven | CommandEnded | RobotSetsOut
+    TaskEnded | RoleFilled | RoleEmptied | WaitNoted | TaskNoted | CommandGiven | CommandEnded | RobotSetsOut
     | ResumeAsked | QuestionAnswered | DeadlinePassed | r.TimerFired | r.PauseAsked | r.CancelAsked
 )  # fmt: skip
 """What a run is told: by the floor, by devices' answers, by the ticker, by people."""
@@ -165,6 +174,10 @@ def to_run(action: m.Action) -> tuple[str, ToRun] | None:
             return action.run, RoleEmptied(action.role, action.robot, action.bound)
         case m.WaitChanged():
             return action.run, WaitNoted(action.step, action.robot, action.reason)
+        case m.TaskTold():
+            return action.run, TaskNoted(action.step, action.robot, action.reason)
+        case m.DoorStuck():
+            return None
         case m.SendCommand():
             is_told = action.run and not action.piece and action.method not in m.CONTROLS
             given = CommandGiven(action.device, action.method, action.step, action.arguments)
@@ -190,7 +203,7 @@ def to_machine(message: ToRun) -> r.Event | None:
             return r.Resumed()
         case r.TimerFired() | r.PauseAsked() | r.CancelAsked():
             return message
-        case WaitNoted() | CommandGiven() | CommandEnded() | RobotSetsOut() | DeadlinePassed():
+        case WaitNoted() | TaskNoted() | CommandGiven() | CommandEnded() | RobotSetsOut() | DeadlinePassed():
             return None
         case _:
             assert_never(message)
@@ -213,6 +226,7 @@ TO_RUN: Mapping[str, type[ToRun]] = {
     "role_bound": RoleFilled,
     "role_released": RoleEmptied,
     "wait": WaitNoted,
+    "told": TaskNoted,
     "command": CommandGiven,
     "answer": CommandEnded,
     "way": RobotSetsOut,
@@ -238,6 +252,8 @@ class UnreadableMessage(Exception):
 def to_json(message: ToFloor | ToRun) -> dict[str, Any]:
     """Return a message as plain JSON; its `type` says what it is."""
     said = {name: value for name, value in asdict(message).items() if value or name not in WRITTEN_WHERE_SET}
+    if isinstance(message, m.TaskAsked):
+        said["zones"] = [m.zone_to_json(zone) for zone in message.zones]
     parts = {STORED_AS.get(name, name): value for name, value in said.items()}
     return {"type": _names[type(message)], **parts}
 

@@ -11,6 +11,7 @@ _ENTERED: Final = {
     "missing_source": "It does not say at which machine the robot picks up.",
     "missing_target": "It does not say at which machine the robot drops.",
     "missing_destination": "A Move does not say where to.",
+    "missing_zone": "A Cover does not say which zone.",
     "missing_machine": "An Operate names no machine.",
     "missing_method": "An Operate does not say what the machine does.",
     "missing_own_method": "An Operate of a robot does not say which of its own methods is meant.",
@@ -117,7 +118,19 @@ _FLOOR: Final = {
     "route_blocked": "A robot drives over the points of a route one after the other. At this one no robot of the role "
     "fits, or no path leads there.",
     "route_in_keep_out": "A point of the route lies in a zone that robots keep out of.",
+    "route_too_long": "A route has more points than a way may lead over.",
+    "cover_in_keep_out": "The zone of a Cover is one that robots keep out of.",
+    "cover_outside": "The zone of a Cover lies beside the map.",
+    "cover_nothing": "The zone of a Cover holds no place where a robot can stand and to which a way leads.",
+    "too_many_lanes": "A zone is covered in at most 1,000 lanes that are at most 10 km long together.",
+    "lane_wider_than_zone": "The zone of a Cover is narrower than one lane; the robot drives once through its middle.",
     "zone_too_small": "The zone's area is smaller than that of the smallest robot.",
+    "missing_door": "A zone with the rule for a passage has no door yet.",
+    "door_cannot_open": "The device of a passage offers no method that opens it: one whose name says so (`open`, "
+    "`openDoor`, `raise`) and that needs no values. The class of the device does not matter.",
+    "passage_nowhere": "No robot of the site has room in the passage, or none finds a way there.",
+    "door_left_open": "A step opens the door of a passage, and no step of the program closes it. What a step opens "
+    "stays open for good: robots that pass close only what was opened for them.",
 }
 _WAYS: Final = {
     "never_reached": "The first step behind a Return, a Break, an End, an endless loop or an endless call.",

@@ -69,6 +69,8 @@ def photograph(browser: Browser, demo: Demo, wanted: dict[str, Picture], made: d
         page.keyboard.press("Control+j")
         page.get_by_role("button", name=re.compile("^Fit|whole floor", re.IGNORECASE)).first.click()
         page.wait_for_timeout(900)
+        if picture.selected:
+            page.locator(f'.react-flow__node[data-id="{picture.selected}"]').click()
         page.mouse.move(2, 2)
         page.evaluate("document.fonts.ready")
         page.screenshot(path=IMAGES / f"{kind}.png", clip=clip_of(page, picture.frame), animations="disabled")

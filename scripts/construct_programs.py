@@ -25,6 +25,8 @@ class Picture:
     start: tuple[float, float] = (1.3, -3.2)
     functions: Mapping[str, Any] = field(default_factory=dict)
     zones: Mapping[str, Any] = field(default_factory=dict)
+    selected: str = ""
+    """The step that is selected."""
 
     def document(self) -> dict[str, Any]:
         """Return the program as a document."""
@@ -73,6 +75,20 @@ def _steps_of_robots() -> dict[str, Picture]:
             {"a": carry("pick_and_drop", 5.6, -8.0, source=SHELF, target=OVEN_ID)},
             (0.2, -0.2, 13.2, -13.6),
             (4.6, -1.0),
+        ),
+        "cover": Picture(
+            {"a": step("cover", 4.2, -6.2, role="robot", zone="hall")},
+            WEST,
+            (1.3, -6.2),
+            zones={
+                "hall": {
+                    "name": "Hall",
+                    "rule": "slow",
+                    "speed_m_s": 0.3,
+                    "points": [[1.2, -3.2], [5.4, -3.2], [5.4, -5.3], [1.2, -5.3]],
+                }
+            },
+            selected="a",
         ),
         "release": Picture(
             {
@@ -194,7 +210,13 @@ def _words_with_people() -> dict[str, Picture]:
             "name": "Aisle",
             "rule": "slow",
             "speed_m_s": 0.2,
-            "points": [[2.4, -5.3], [6.2, -5.3], [6.2, -6.6], [2.4, -6.6]],
+            "points": [[2.4, -5.3], [5.0, -5.3], [5.0, -6.6], [2.4, -6.6]],
+        },
+        "d": {
+            "name": "Ward door",
+            "rule": "door",
+            "door": "wardADoor",
+            "points": [[5.4, -5.3], [7.9, -5.3], [7.9, -6.6], [5.4, -6.6]],
         },
     }
     return {

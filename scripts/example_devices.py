@@ -70,6 +70,35 @@ def free(most: float) -> tuple[PropertySpec, ...]:
 
 
 @dataclass(frozen=True)
+class Door:
+    """A door that opens and closes when it is told to, and says how it stands; its drive hangs beside the doorway."""
+
+    id: str
+    name: str
+    at: Spot
+    size: Spot
+    text: str
+
+    def describe(self, site: str) -> Description:
+        """Return its description at a site."""
+        return Description(
+            id=self.id,
+            name=self.name,
+            kind="machine",
+            device_class="door",
+            pose=Pose(self.at[0], -self.at[1], 0.0, 0.0),
+            size=Size(self.size[0], self.size[1], 2.1),
+            description=self.text,
+            site=site,
+            simulated=True,
+            properties=(PropertySpec("state", "text", title="State", options=("closed", "moving", "open")),),
+            methods=tuple(
+                MethodSpec(name, down_topic(self.id, name), "", name.capitalize()) for name in ("open", "close")
+            ),
+        )
+
+
+@dataclass(frozen=True)
 class Robot:
     """A robot that carries two objects, or one that cleans floors."""
 

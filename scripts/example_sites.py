@@ -15,7 +15,7 @@ sys.path.insert(0, str(ROOT))
 
 from registry.demo.factory import make_grid  # noqa: E402
 from registry.floorplan.map_server import write_pgm, write_yaml  # noqa: E402
-from scripts.example_devices import Machine, Robot, Spot, free, stock  # noqa: E402
+from scripts.example_devices import Door, Machine, Robot, Spot, free, stock  # noqa: E402
 from vipo_device.protocol.description import PropertySpec, Scalar, description_to_json  # noqa: E402
 
 FOLDER = ROOT / "examples" / "field"
@@ -33,7 +33,7 @@ class Example:
 
     id: str
     plan: Plan
-    devices: tuple[Machine | Robot, ...]
+    devices: tuple[Door | Machine | Robot, ...]
     places: Mapping[str, tuple[str, str, float, float]]
     readings: Mapping[str, Mapping[str, Scalar]] = field(default_factory=dict)
     labels: Mapping[str, Spot] = field(default_factory=dict)
@@ -69,7 +69,7 @@ def _outer_walls() -> list[list[float]]:
 
 
 TEMPERATURE = PropertySpec("temperature", "number", "DEG_C", 15.0, 120.0, "Temperature")
-HOSPITAL_DEVICES: tuple[Machine | Robot, ...] = (
+HOSPITAL_DEVICES: tuple[Door | Machine | Robot, ...] = (
     Machine(
         "pharmacy",
         "Pharmacy",
@@ -142,6 +142,7 @@ HOSPITAL_DEVICES: tuple[Machine | Robot, ...] = (
         takes="medicine",
         readings=free(9),
     ),
+    Door("wardADoor", "Ward A Door", (20.5, 6.4), (0.5, 0.24), "Opens Ward A to the corridor."),
     Robot("courier01", "Courier 1", (1.6, 14.2), "Carries up to two objects."),
     Robot("courier02", "Courier 2", (3.6, 14.2), "Carries up to two objects."),
     Robot("cleaner01", "Cleaner", (5.6, 14.2), "Cleans the floor where it stands.", cleans=True),

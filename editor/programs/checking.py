@@ -150,18 +150,22 @@ def _store(program_id: str, document: Mapping[str, Any], compiled: Compiled, fin
 
 def devices_in(document: Mapping[str, Any]) -> frozenset[str]:
     """Return the ids of the devices that a document names, wherever they stand."""
-    found: set[str] = set()
+    named: list[Any] = []
     waiting: list[Any] = [document.get(name) for name in ("steps", "roles", "parameters", "functions")]
-    while waiting:
-        value = waiting.pop()
-        if isinstance(value, Mapping):
-            read = value.get("property")
-            named = [value.get("device"), *(read[:1] if isinstance(read, list) else ())]
-            found.update(name for name in named if isinstance(name, str))
-            waiting.extend(value.values())
+    for value in waiting:  # grows while it is gone through
+        if isinstance(value, dict):
+            if "device" in value:
+                named.append(value["device"])
+            if "property" in value and isinstance(value["property"], list):
+                named += value["property"][:1]
+            waiting += [each for each in value.values() if isinstance(each, _HOLD_MORE)]
         elif isinstance(value, list):
-            waiting.extend(value)
-    return frozenset(found)
+            waiting += [each for each in value if isinstance(each, _HOLD_MORE)]
+    return frozenset(name for name in named if isinstance(name, str))
+
+
+_HOLD_MORE = (dict, list)
+"""What of plain JSON something else can stand in."""
 
 
 def _store_uses(program: Program, document: Mapping[str, Any]) -> None:

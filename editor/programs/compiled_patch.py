@@ -72,9 +72,8 @@ def apply_patch(before: Mapping[str, Any], patch: Mapping[str, Any]) -> Json:
 def hunks_between(old: Sequence[Any], new: Sequence[Any]) -> list[Hunk]:
     """Return hunks that make `old` into `new`: short, not always the shortest; in proportion to their length."""
     head = _common(old, new)
-    old_end, new_end = len(old), len(new)
-    while min(old_end, new_end) > head and old[old_end - 1] == new[new_end - 1]:
-        old_end, new_end = old_end - 1, new_end - 1
+    tail = _common(old[: head - len(old) - 1 : -1], new[: head - len(new) - 1 : -1])
+    old_end, new_end = len(old) - tail, len(new) - tail
     hunks: list[Hunk] = []
     i = j = head
     while i < old_end or j < new_end:
@@ -87,10 +86,15 @@ def hunks_between(old: Sequence[Any], new: Sequence[Any]) -> list[Hunk]:
 
 
 def _common(old: Sequence[Any], new: Sequence[Any]) -> int:
-    for index, (left, right) in enumerate(zip(old, new, strict=False)):
-        if left != right:
-            return index
-    return min(len(old), len(new))
+    """Return how many items both begin with alike: by halves, since whole stretches are compared quickly."""
+    least, most = 0, min(len(old), len(new))
+    while least < most:
+        middle = (least + most + 1) // 2
+        if old[least:middle] == new[least:middle]:
+            least = middle
+        else:
+            most = middle - 1
+    return least
 
 
 def _next_meeting(

@@ -23,6 +23,7 @@ from execution.traffic.messages import CONTROLS, CallCancelled, CallSent
 from execution.views import CallView, view_call
 from registry import services as registry
 from vipo_device.protocol.arguments import find_misfits
+from vipo_device.protocol.doors import door_methods
 
 EXPIRY_S = 30.0
 """A call that no device has answered after so long is given up: a person waits, and a late start would surprise."""
@@ -48,7 +49,9 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
     with transaction.atomic():
         FloorState.objects.get_or_create(site_id=registry.get_site_id(site=site))
         row = FloorState.objects.select_for_update(of=("self",)).get(site__slug=site)
-        _check_free(row, registry.get_device(site=site, device_id=device_id))
+        present = registry.get_device(site=site, device_id=device_id)
+        _check_free(row, present)
+        _check_passage(row, present, method)
         command = _write(row, device_id, method, given, by)
         sent = CallSent(str(command.id), device_id, method, given, f"{command.by}, by hand")
         mailbox.post_to_floor(site, [(f"call:{command.id}", sent)])
@@ -79,6 +82,14 @@ def _check_free(row: FloorState, device: registry.DeviceView) -> None:
     other = _open_commands(row.site_id, device.id).first()
     if other is not None:
         raise NotPossibleNow(f"{device.name} still carries out {other.method}. Wait until it is done.")
+
+
+def _check_passage(row: FloorState, device: registry.DeviceView, method: str) -> None:
+    """Refuse whatever is not opening to a door that robots pass; to open one that sticks helps them."""
+    door = floor.from_json(row.state).doors.get(device.id) if row.state else None
+    methods = door_methods(device.canonical)
+    if door is not None and door.robots and (methods is None or method != methods.opens):
+        raise NotPossibleNow(f"{device.name} is held open for robots that pass. Wait until they are through.")
 
 
 def _holding_run(row: FloorState, device_id: str) -> str:

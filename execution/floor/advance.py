@@ -17,6 +17,7 @@ from execution.floor_protocol import TaskEnded, ToFloor, to_run
 from execution.models import Command, FloorState
 from execution.traffic import floor
 from execution.traffic import messages as m
+from execution.traffic.doors import doors_of
 from execution.traffic.floor_state import FloorState as State
 from execution.traffic.floor_state import FloorTask
 from execution.traffic.layout import Layout, make_layout
@@ -24,6 +25,7 @@ from registry import services as registry
 from vipo_device.protocol.description import Description, Pose
 
 TRAFFIC_EVERY_S = 0.2
+MOST_CHARACTERS = 300
 AFTERWARDS_S = 20.0
 """A floor is looked after this long after its last robot has come to rest."""
 
@@ -119,14 +121,16 @@ def _news(before: State, devices: tuple[registry.PositionView, ...]) -> list[m.E
 
 
 def _reports(slug: str, before: State, told: Sequence[ToFloor]) -> list[m.Event]:
-    """Return what free robots report, where a task waits for a robot that is chosen by it: one read, and seldom."""
+    """Return what free robots report, where a task waits for a robot that is chosen by it, and the doors: one read."""
+    doors = doors_of(before, (zone for each in told if isinstance(each, m.TaskAsked) for zone in each.zones))
     tasks: list[FloorTask | m.TaskAsked] = [*before.tasks, *(each for each in told if isinstance(each, m.TaskAsked))]
     waiting = (f"{task.run}/{task.order.role}" for task in tasks if task.where)
-    if all(key in before.roles for key in waiting):
+    choosing = not all(key in before.roles for key in waiting)
+    if not choosing and not doors:
         return []
     over = {message.run for message in told if isinstance(message, m.RunOver)}
-    free = [robot.id for robot in before.robots.values() if robot.run == "" or robot.run in over]
-    readings = registry.get_readings(site=slug, ids=free)
+    free = [robot.id for robot in before.robots.values() if choosing and (robot.run == "" or robot.run in over)]
+    readings = registry.get_readings(site=slug, ids=[*free, *sorted(doors)])
     return [m.RobotsReport({robot: one.values for robot, one in readings.items()})]
 
 
@@ -149,14 +153,23 @@ def _write(slug: str, row: FloorState, before: State, after: State, actions: tup
         still_open.update(status=Command.Status.TIMED_OUT, ended_at=now)
     for number, action in enumerate(actions):
         _tell_run(row, number, action)
+    stuck = [action for action in actions if isinstance(action, m.DoorStuck)]
+    registry.raise_alerts(raised=[_as_raised(door, now) for door in stuck])
     if commands:
         transaction.on_commit(lambda: registry.wake("gateway"))
+
+
+def _as_raised(door: m.DoorStuck, now: datetime) -> registry.Raised:
+    """Return the alert about a door that has kept robots waiting; it is over once the door has done what it is told."""
+    why = {"why": door.why[:MOST_CHARACTERS]} if door.why else {}
+    return registry.Raised(door.device, "command_failed", now, {"method": door.method, **why})
 
 
 def _is_active(state: State) -> bool:
     moving = any(len(robot.path) > 1 for robot in state.robots.values())
     resting = any(state.now - robot.idle_since < AFTERWARDS_S for robot in state.robots.values())
-    return bool(state.tasks or state.sent or moving or resting)
+    held = any(door.ours for door in state.doors.values())
+    return bool(state.tasks or state.sent or moving or resting or held)
 
 
 def _command_rows(row: FloorState, commands: list[m.SendCommand], now: datetime) -> list[Command]:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from vipo_device.protocol.description import Scalar
 
-TaskKind = Literal["move", "pick", "drop", "call", "perform", "release"]
+TaskKind = Literal["move", "pick", "drop", "call", "perform", "release", "cover"]
 FAILURE_KINDS = ("refused", "failed", "timed_out", "offline", "blocked", "cancelled")
 
 
@@ -24,7 +24,8 @@ class Target:
 class TaskOrder:
     """What is asked: `role` names the robot's role (empty for a call on a machine that no robot takes part in).
 
-    A robot performs a method of its own where it stands, and is released there: such a task has no target.
+    A robot performs a method of its own where it stands, and is released there: such a task has no target, and neither
+    has a cover, whose `arguments` are the `zone` by its id and the `lane` in metres (0: as wide as the robot).
     """
 
     kind: TaskKind

@@ -43,7 +43,7 @@ __all__ = ["YIELD_S", "from_json", "start", "step", "to_json"]
 TIMED_OUT = Wake("timed_out", "The condition did not come true in time.")
 UNANSWERED = Wake("timed_out", "Nobody answered in time.")
 NO_REASON = "The program failed here and does not say why."
-FloorAction = p.Move | p.Pick | p.Drop | p.Call | p.Perform | p.Release
+FloorAction = p.Move | p.Pick | p.Drop | p.Cover | p.Call | p.Perform | p.Release
 
 
 def start(
@@ -193,7 +193,7 @@ def _carry_out(turn: Turn, thread: Thread) -> Thread:
     thread = turn.keep(turn.begin(thread))
     action = turn.plan.instructions[thread.at].do
     match action:
-        case p.Move() | p.Pick() | p.Drop() | p.Call() | p.Perform() | p.Release():
+        case p.Move() | p.Pick() | p.Drop() | p.Cover() | p.Call() | p.Perform() | p.Release():
             return _ask_floor(turn, thread, action)
         case p.Wait(seconds=seconds):
             return turn.wait(thread, "timer", turn.seconds(thread, seconds))
@@ -262,6 +262,11 @@ def _order(turn: Turn, thread: Thread, action: FloorAction) -> TaskOrder:
             return TaskOrder("perform", Target(), role, method=method, arguments=_worked_out(turn, thread, arguments))
         case p.Release(role=role):
             return TaskOrder("release", Target(), role)
+        case p.Cover(role=role, zone=zone, lane_m=lane):
+            lane_m = 0.0 if lane is None else turn.number(thread, lane)
+            if lane is not None and lane_m <= 0:
+                raise Failure("refused", f"The lanes are {lane_m:g} m wide; they must be wider than nothing.")
+            return TaskOrder("cover", Target(), role, arguments={"zone": zone, "lane": lane_m})
         case p.Pick() | p.Drop():
             quantity = turn.number(thread, action.quantity)
             if quantity <= 0:

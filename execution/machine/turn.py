@@ -18,7 +18,7 @@ LONGEST_WAIT_S = 1e9
 """About thirty years; calendars end soon after."""
 YIELD_S = 1.0
 """How long a thread rests that has used up its share; a loop without a wait cannot stop the others."""
-_LEAVES = (p.Move, p.Pick, p.Drop, p.Call, p.Perform, p.Release, p.Wait, p.WaitUntil, p.Assign, p.AskPerson,
+_LEAVES = (p.Move, p.Pick, p.Drop, p.Cover, p.Call, p.Perform, p.Release, p.Wait, p.WaitUntil, p.Assign, p.AskPerson,
            p.Notify, p.Fail, p.End)  # fmt: skip
 
 

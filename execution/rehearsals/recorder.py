@@ -151,6 +151,8 @@ class Recorder:
                 self._say(t_s, "", robot, f"{self._layout.name(robot)} sets out, {far_m:.1f} m.", "way", length_m=far_m)
             case m.WaitChanged():
                 self._note_wait(t_s, action)
+            case m.TaskTold(step=step, robot=robot, reason=said):
+                self._say(t_s, step, robot, said.text, said.code, **said.args)
             case m.RoleBound(role=role, robot=robot):
                 text = f"{self._layout.name(robot)} takes the role “{role}”."
                 self._say(t_s, "", robot, text, "role_bound", role=role)

@@ -203,9 +203,10 @@ class _Rehearsal:
                 self.run_events.append(event)
 
     def _reports(self) -> list[m.Event]:
-        """Return what robots report, where some are chosen by it."""
+        """Return what robots and doors report, where some are chosen by it or pass a door."""
         chosen = any(role.where is not None for role in self.plan.roles.values())
-        return [m.RobotsReport(self.world.readings())] if chosen else []
+        passed = any(zone.rule == "door" for zone in self.plan.zones)
+        return [m.RobotsReport(self.world.readings())] if chosen or passed else []
 
     def _do_run(self, actions: tuple[r.Action, ...]) -> None:
         now = self.world.time_s

@@ -18,6 +18,7 @@ from execution.floor_protocol import (
     RoleEmptied,
     RoleFilled,
     TaskEnded,
+    TaskNoted,
     ToRun,
     WaitNoted,
 )
@@ -113,6 +114,8 @@ class Journal:
                 self.say("role", text, code="role_released", robot=robot, role=role)
             case WaitNoted():
                 self._note_wait(message)
+            case TaskNoted(step=step, robot=robot, reason=said):
+                self.say("step", said.text, step=step, code=said.code, robot=robot, device=robot, **said.args)
             case CommandGiven():
                 self._note_command(message)
             case CommandEnded():

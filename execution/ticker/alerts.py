@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from datetime import datetime, timedelta
 
-from execution.models import Command, Run
+from execution.models import Command, FloorState, Run
 from execution.traffic.messages import CONTROLS
 from registry import services as registry
 
@@ -28,11 +28,13 @@ def watch_alerts(*, now: datetime, since: datetime) -> None:
 
 
 def _find_at_work() -> frozenset[str]:
-    """Return the devices that carry something out, and the robots of runs that are under way."""
+    """Return the devices that carry something out, the robots of runs that are under way, and the doors before them."""
     commands = Command.objects.filter(status__in=Command.OPEN).exclude(method__in=CONTROLS)
     runs = Run.objects.filter(status__in=(Run.Status.RUNNING, Run.Status.PAUSED))
     robots = {robot for roles in runs.values_list("roles", flat=True) for robot in roles.values()}
-    return frozenset(robots.union(commands.values_list("device", flat=True).distinct()))
+    kept = FloorState.objects.filter(active=True).values_list("state__doors", flat=True)
+    doors = {door["id"] for each in kept for door in each or () if door["robots"]}
+    return frozenset(robots.union(doors, commands.values_list("device", flat=True).distinct()))
 
 
 def _find_gone_wrong(known: Sequence[registry.AlertView], now: datetime) -> Iterator[registry.Raised]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from math import hypot
 
-from execution.traffic.floor_state import Robot
+from execution.traffic.covering import go_round_lanes
+from execution.traffic.doors import report_stuck, shut_door, why_not_waited_for
+from execution.traffic.floor_state import Door, Robot
 from execution.traffic.layout import Node
 from execution.traffic.messages import FloorZone
 from execution.traffic.path_release import cut_path, may_enter, set_path
@@ -31,9 +33,13 @@ def resolve(turn: Turn) -> None:
         stands = robot.path and not turn.is_driving(robot) and robot.online and not turn.is_acting(robot)
         if not stands or robot.released + 1 >= len(robot.path) or robot.blocked_since is None or turn.stopped:
             continue
+        door = shut_door(turn, robot, robot.released + 1)
         if robot.evading:
-            if turn.now - robot.blocked_since > GIVE_UP_EVADING_S:
+            limit_s = GIVE_UP_EVADING_S if door is None or why_not_waited_for(turn, door) else BLOCKED_LIMIT_S
+            if turn.now - robot.blocked_since > limit_s:
                 _settle_here(turn, robot)
+        elif door is not None:
+            _wait_for_door(turn, robot, door)
         elif not robot.yields_to and robot.run not in turn.paused:
             _unblock(turn, robot)
 
@@ -102,6 +108,21 @@ def _unblock(turn: Turn, robot: Robot) -> None:
         cut_path(turn, turn.robots[robot.id])
 
 
+def _wait_for_door(turn: Turn, robot: Robot, door: Door) -> None:
+    """Say which door a robot waits for; a task that has waited too long for it fails."""
+    task = turn.task_of(robot)
+    if task is None or robot.run in turn.paused:
+        return
+    if why := why_not_waited_for(turn, door):
+        report_stuck(turn, door)
+        turn.finish(task, "blocked", why)
+        cut_path(turn, robot)
+        return
+    name, code = turn.name(door.id), "door_away" if door.id in turn.offline else "door_shut"
+    text = f"{turn.name(robot.id)} waits for {name}" + (", which is offline." if code == "door_away" else " to open.")
+    turn.wait(task, code, text, robot=robot.id, device=door.id)
+
+
 def _wait_for_zone(turn: Turn, robot: Robot, zone: FloorZone, holder: Robot) -> None:
     """Say what the robot waits for; who stands in the zone without getting on leaves it, who is at a machine too."""
     task = turn.task_of(robot)
@@ -119,7 +140,9 @@ def _move_blocker(turn: Turn, robot: Robot, blocker: Robot) -> None:
     busy = turn.is_driving(blocker) or turn.is_acting(blocker) or blocker.evading
     if busy or not blocker.online or (blocker.run and blocker.run in turn.paused):
         return
-    waits_for_machine = len(blocker.path) > blocker.released + 1 and not may_enter(turn, blocker, blocker.released + 1)
+    index = blocker.released + 1
+    has_more = len(blocker.path) > index and shut_door(turn, blocker, index) is None
+    waits_for_machine = has_more and not may_enter(turn, blocker, index)
     if turn.is_idle(blocker) or blocker.yields_to or waits_for_machine or _rank(turn, robot) < _rank(turn, blocker):
         if turn.is_idle(blocker) and turn.now - blocker.idle_since < 0.5:
             return
@@ -133,6 +156,9 @@ def _go_round(turn: Turn, robot: Robot) -> None:
     goal = robot.path[-1]
     moving = {c for r in turn.robots.values() if r.id != robot.id for c in r.held} - standing
     task = turn.task_of(robot) if robot.route_at else None
+    if task is not None and task.lanes:
+        go_round_lanes(turn, task, robot, standing)
+        return
     along = path_along(turn, robot, points_ahead(task), goal, closed=standing, extra=dict.fromkeys(moving, 4.0))
     if along is not None and along[0] != robot.path[robot.passed :] and not standing & turn.layout.needed(goal):
         since = robot.blocked_since

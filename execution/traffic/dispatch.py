@@ -5,6 +5,7 @@ to answer (`limit_of`).
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -14,6 +15,8 @@ from editor.language.plan.json_form import expression_from_json
 from execution.machine.evaluation import EvaluationError, is_true
 from execution.machine.places import ROLE
 from execution.traffic.conflicts import make_room_for
+from execution.traffic.covering import cover, distance_to_zone
+from execution.traffic.doors import is_kept_open
 from execution.traffic.floor_state import FloorTask, Robot, Sent
 from execution.traffic.layout import NoSuchSpot, Spot
 from execution.traffic.messages import RoleBound, RoleReleased
@@ -133,6 +136,8 @@ def _cost(turn: Turn, task: FloorTask, robot: Robot) -> float:
     if not _is_able(turn.layout.devices.get(robot.id), task.can) or not _fits(turn, task, robot):
         return UNABLE
     try:
+        if task.order.kind == "cover":
+            return distance_to_zone(turn, task, robot)
         goal = turn.layout.spot_for(task.order.target).cell
     except NoSuchSpot:
         return 0.0
@@ -186,6 +191,9 @@ def _dispatch_with(turn: Turn, task: FloorTask, robot: Robot) -> None:
         return
     if task.order.kind == "perform":
         _perform(turn, task, robot)
+        return
+    if task.order.kind == "cover":
+        cover(turn, task, robot)
         return
     try:
         spot = turn.layout.spot_for(task.order.target)
@@ -296,6 +304,10 @@ def _call(turn: Turn, task: FloorTask) -> None:
         _await_device(turn, task, device.id)
     elif robot is not None:
         _call_robot(turn, task, robot)
+    elif door := is_kept_open(turn, device.id, task.order.method):
+        passing = " and ".join(turn.name(each) for each in door.robots) or "robots"
+        others = ",".join(door.robots)
+        turn.wait(task, "door_in_use", f"{device.name} is held open for {passing}.", device=device.id, others=others)
     elif device.id in turn.calls:
         run = turn.names.get(turn.calls[device.id], "another run")
         turn.wait(task, "machine_busy", f"{device.name} is busy for {run}.", device=device.id, run=run)
@@ -309,6 +321,7 @@ def _call(turn: Turn, task: FloorTask) -> None:
         turn.calls[device.id] = task.run
         method, arguments = task.order.method, dict(task.order.arguments)
         sent = Sent("", device.id, task.run, task.number, limit_s=limit_of(device, method, arguments))
+        sent = replace(sent, told=method if device.id in turn.doors else "")
         command = turn.send(sent, method, arguments, task.order.step)
         turn.put_task(task, command=command, absent_since=None)
 

@@ -13,6 +13,7 @@ from typing import assert_never
 from execution.traffic import messages as m
 from execution.traffic.conflicts import resolve, send_home
 from execution.traffic.dispatch import ABSENCE_S, CALL_LIMIT_S, bind_roles, dispatch, limit_of, release_roles
+from execution.traffic.doors import keep_doors, learn_passages, note_users, take_door_answer
 from execution.traffic.floor_state import FloorState, FloorTask, Robot, Sent, from_json, to_json
 from execution.traffic.layout import Layout
 from execution.traffic.path_release import (
@@ -64,11 +65,13 @@ def step(
     release_roles(turn)
     bind_roles(turn)
     dispatch(turn)
+    keep_doors(turn)
     _release_all(turn)
     resolve(turn)
     send_home(turn)
     _release_all(turn)
     dispatch(turn)
+    note_users(turn)
     turn.announce_waits()
     return turn.close()
 
@@ -101,7 +104,15 @@ def _without_gap(state: FloorState, now: float) -> FloorState:
         for task in state.tasks
     )
     offline = {device: since + gap for device, since in state.offline.items()}
-    return replace(state, robots=robots, sent=sent, tasks=tasks, offline=offline)
+    doors = {
+        key: replace(
+            door,
+            shut_since=None if door.shut_since is None else door.shut_since + gap,
+            needed_at=door.needed_at + gap,
+        )
+        for key, door in state.doors.items()
+    }
+    return replace(state, robots=robots, sent=sent, tasks=tasks, offline=offline, doors=doors)
 
 
 def _release_all(turn: Turn) -> None:
@@ -187,6 +198,7 @@ def _take_task(turn: Turn, event: m.TaskAsked) -> None:
     turn.names[event.run] = event.run_name
     if event.zones:
         turn.zones[event.run] = event.zones
+        learn_passages(turn, event.zones)
 
 
 def _take_call(turn: Turn, event: m.CallSent) -> None:
@@ -194,6 +206,7 @@ def _take_call(turn: Turn, event: m.CallSent) -> None:
     device = turn.layout.devices.get(event.device)
     limit_s = limit_of(device, event.method, event.arguments) if device else CALL_LIMIT_S
     sent = Sent(event.command, event.device, at=turn.now, limit_s=limit_s, held_up=turn.stopped)
+    sent = replace(sent, told=event.method if event.device in turn.doors else "")
     turn.sent[event.command] = sent
     if event.device not in turn.robots:
         turn.calls[event.device] = event.command
@@ -242,6 +255,8 @@ def _take_answer_of_robot(turn: Turn, robot: Robot, sent: Sent, kind: str, why: 
 
 def _end_act(turn: Turn, sent: Sent, kind: str, why: str, event: m.CommandAnswered | None) -> None:
     """A device is done with a task's command, or will not be."""
+    if take_door_answer(turn, sent, kind, why):
+        return
     if sent.device not in turn.robots:
         caller = turn.calls.pop(sent.device, "")
         if not sent.run:

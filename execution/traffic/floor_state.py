@@ -8,7 +8,8 @@ from typing import Any
 
 from execution.machine.floor_task import TaskOrder, order_from_json
 from execution.traffic.layout import Node
-from execution.traffic.messages import FloorZone, Reason, zone_from_json
+from execution.traffic.messages import FloorZone, Reason, zone_from_json, zone_to_json
+from registry.floorplan.coverage import Lane
 
 STATE_FORMAT = 1
 
@@ -73,7 +74,11 @@ class FloorTask:
     behind_since: float | None = None
     """Since when it has found no robot and others went first; None: not yet."""
     points_passed: int = 0
-    """How many points of its route the robot has driven over, in their order."""
+    """How many points of its route, or of its lanes, the robot has driven over, in their order."""
+    lanes: tuple[Lane, ...] = ()
+    """The lanes of a cover, in their order, worked out when it has its robot."""
+    put_off: int = 0
+    """How many points at the end of the lanes were in somebody's way before, and are tried a second time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +93,29 @@ class Sent:
     at: float = 0.0
     limit_s: float = 0.0
     held_up: bool = False
+    told: str = ""
+    """The method that a door is told; empty for all other devices."""
+
+
+@dataclass(frozen=True, slots=True)
+class Door:
+    """A door that robots pass, as far as it concerns them."""
+
+    id: str
+    is_open: bool = False
+    ours: bool = False
+    """It was opened here and is to be closed here."""
+    command: str = ""
+    """The opening or closing under way."""
+    robots: tuple[str, ...] = ()
+    """Who is in the passage or will be soon."""
+    shut_since: float | None = None
+    """Since when robots have needed it without its being open."""
+    needed_at: float = 0.0
+    moved_at: float = 0.0
+    retry_at: float = 0.0
+    why: str = ""
+    """What it said last when it did not do what it was told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +144,9 @@ class FloorState:
     """By run: the zones of its program."""
     locks: Mapping[str, str] = field(default_factory=dict)
     """By zone for one robot at a time: the robot that is in it."""
+    passages: tuple[FloorZone, ...] = ()
+    """The passages of doors that runs have told of; they hold for every robot."""
+    doors: Mapping[str, Door] = field(default_factory=dict)
 
 
 STORED_AS: Mapping[type, Mapping[str, str]] = {
@@ -127,7 +158,19 @@ STORED_AS: Mapping[type, Mapping[str, str]] = {
 
 
 WRITTEN_WHERE_SET = frozenset(
-    {"where", "said", "priority", "due", "behind_since", "points_passed", "route_of", "route_at"}
+    {
+        "where",
+        "said",
+        "priority",
+        "due",
+        "behind_since",
+        "points_passed",
+        "route_of",
+        "route_at",
+        "lanes",
+        "put_off",
+        "told",
+    }
 )
 """Parts that are written only where they say something, so that the version before reads all other states."""
 
@@ -135,7 +178,7 @@ WRITTEN_WHERE_SET = frozenset(
 def to_json(state: FloorState) -> dict[str, Any]:
     """Return the state as plain JSON."""
     whole = {f.name: getattr(state, f.name) for f in fields(state) if f.name != "tasks"}
-    return {
+    stored = {
         **whole,
         "format": STATE_FORMAT,
         "robots": [_stored(robot) for robot in state.robots.values()],
@@ -146,9 +189,12 @@ def to_json(state: FloorState) -> dict[str, Any]:
         "roles": dict(state.roles),
         "names": dict(state.names),
         "offline": dict(state.offline),
-        "zones": {run: [asdict(zone) for zone in zones] for run, zones in state.zones.items()},
+        "zones": {run: [zone_to_json(zone) for zone in zones] for run, zones in state.zones.items()},
         "locks": dict(state.locks),
+        "passages": [zone_to_json(zone) for zone in state.passages],
+        "doors": [asdict(door) for door in state.doors.values()],
     }
+    return {name: value for name, value in stored.items() if value or name not in {"passages", "doors"}}
 
 
 def from_json(data: Mapping[str, Any]) -> FloorState:
@@ -163,6 +209,8 @@ def from_json(data: Mapping[str, Any]) -> FloorState:
         "sent": {item.id: item for item in sent},
         "paused": tuple(data["paused"]),
         "zones": {run: tuple(map(zone_from_json, zones)) for run, zones in data.get("zones", {}).items()},
+        "passages": tuple(map(zone_from_json, data.get("passages", ()))),
+        "doors": {item["id"]: Door(**{**item, "robots": tuple(item["robots"])}) for item in data.get("doors", ())},
     }
     return FloorState(**{**{key: value for key, value in data.items() if key not in {"format", "jobs"}}, **more})
 
@@ -192,4 +240,5 @@ def _task(data: Mapping[str, Any]) -> FloorTask:
     known = _known(data, FloorTask)
     reason = Reason(**known["wait"]) if known["wait"] else None
     order = order_from_json(known["order"])
-    return FloorTask(**{**known, "order": order, "can": tuple(known["can"]), "wait": reason})
+    lanes = tuple(Lane(*lane) for lane in known.get("lanes", ()))
+    return FloorTask(**{**known, "order": order, "can": tuple(known["can"]), "wait": reason, "lanes": lanes})

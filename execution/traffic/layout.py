@@ -7,13 +7,14 @@ from dataclasses import dataclass, field
 
 from editor.language.site.surroundings import PlaceFacts
 from execution.machine.floor_task import Target
-from execution.traffic.lattice import Ground, Lattice, Point, make_lattice
-from registry.floorplan.plan import Grid, stations
+from registry.floorplan.lattice import STANDING_MARGIN_M, Ground, Lattice, Point, attach, make_lattice
+from registry.floorplan.plan import FloorPlan, Grid, stations
 from vipo_device.protocol.description import Description
 
 BODY_M = 0.6
 """A robot off the lattice keeps others off all cells this near; see docs/execution.md for the sum."""
-REACH_M = 1.2
+MOST_POINTS = 50_000
+"""So many points are kept at a time; more are worked out anew."""
 DEFAULT_RADIUS_M = 0.18
 Node = int | str
 """A cell by its number, or a spot by its id."""
@@ -69,6 +70,8 @@ class Layout:
         if spot in self.places:
             return self.places[spot]
         if spot not in self.points:
+            if len(self.points) >= MOST_POINTS:
+                self.points.clear()
             x, y = (float(part) for part in spot.removeprefix("@").split(","))
             self.points[spot] = _attach(self.ground, self.lattice, spot, (x, y), None)
         return self.points[spot]
@@ -107,7 +110,7 @@ def make_layout(grid: Grid, devices: Iterable[Description], places: Iterable[Pla
     """Work out the layout of a site from its map, its approved devices and its named places."""
     devices = list(devices)
     radius_m = max((d.radius_m for d in devices if d.kind == "robot"), default=0.0) or DEFAULT_RADIUS_M
-    ground = Ground(grid, devices, radius_m)
+    ground = Ground(grid, FloorPlan(grid, devices).clearance_m, radius_m)
     lattice = make_lattice(ground)
     names = {d.id: d.name for d in devices} | {p.id: p.name for p in places}
     found: dict[str, Spot] = {}
@@ -133,11 +136,10 @@ def _put(
 
 def _attach(ground: Ground, lattice: Lattice, name: str, point: Point, theta: float | None) -> Spot:
     """Join a point to the lattice by the nearest cell from which one can drive straight to it."""
-    room_m = ground.radius_m + 0.02
-    if ground.room_m(point) < room_m:
+    if ground.room_m(point) < ground.radius_m + STANDING_MARGIN_M:
         raise NoSuchSpot(f"A robot cannot stand at ({point[0]:.2f}, {point[1]:.2f}); choose a place with more room.")
-    for cell in lattice.cells_within(point, REACH_M):
-        if cell in lattice.links and ground.is_passable(lattice.centre(cell), point, room_m):
-            body = frozenset((cell, *lattice.cells_within(point, BODY_M)))
-            return Spot(name, point[0], point[1], theta, cell, body)
-    raise NoSuchSpot(f"No robot can reach ({point[0]:.2f}, {point[1]:.2f}).")
+    cell = attach(ground, lattice, point)
+    if cell is None:
+        raise NoSuchSpot(f"No robot can reach ({point[0]:.2f}, {point[1]:.2f}).")
+    body = frozenset((cell, *lattice.cells_within(point, BODY_M)))
+    return Spot(name, point[0], point[1], theta, cell, body)

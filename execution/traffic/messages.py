@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from editor.language.expressions.nodes import Zone
@@ -32,6 +32,8 @@ class FloorZone:
     rule: str
     points: tuple[tuple[float, float], ...]
     speed_m_s: float | None = None
+    door: str = ""
+    """The device that is opened for who drives through, where the rule is `door`."""
 
 
 def zone_from_json(data: Mapping[str, Any]) -> FloorZone:
@@ -41,7 +43,12 @@ def zone_from_json(data: Mapping[str, Any]) -> FloorZone:
 
 def floor_zones(program: str, zones: Iterable[Zone]) -> tuple[FloorZone, ...]:
     """Return the zones of a plan as the floor knows them."""
-    return tuple(FloorZone(f"{program}/{z.id}", z.name, z.rule, z.points, z.speed_m_s) for z in zones)
+    return tuple(FloorZone(f"{program}/{z.id}", z.name, z.rule, z.points, z.speed_m_s, z.door) for z in zones)
+
+
+def zone_to_json(zone: FloorZone) -> dict[str, Any]:
+    """Return a zone as plain JSON; a door only where there is one, so that the version before reads all others."""
+    return {name: value for name, value in asdict(zone).items() if value or name != "door"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +92,7 @@ class RobotMoved:
 
 @dataclass(frozen=True, slots=True)
 class RobotsReport:
-    """What robots report now, by robot: for choices that depend on it; it is known in this step alone."""
+    """What robots and doors report now, by device: what depends on it is decided in this step, nothing is kept."""
 
     readings: Mapping[str, Mapping[str, Scalar]]
 
@@ -230,6 +237,17 @@ class WaitChanged:
 
 
 @dataclass(frozen=True, slots=True)
+class TaskTold:
+    """Something that people shall read of a task that goes on or is just over; `reason` says what."""
+
+    run: str
+    task: int
+    step: str
+    robot: str
+    reason: Reason
+
+
+@dataclass(frozen=True, slots=True)
 class PathPlanned:
     """A robot has a new path, as a drawn line in metres."""
 
@@ -238,4 +256,13 @@ class PathPlanned:
     path: tuple[tuple[float, float], ...]
 
 
-Action = SendCommand | TaskOver | RoleBound | RoleReleased | WaitChanged | PathPlanned
+@dataclass(frozen=True, slots=True)
+class DoorStuck:
+    """A door has kept robots waiting too long: people should look at it. `why` is what it said, if anything."""
+
+    device: str
+    method: str
+    why: str = ""
+
+
+Action = DoorStuck | SendCommand | TaskOver | RoleBound | RoleReleased | WaitChanged | TaskTold | PathPlanned

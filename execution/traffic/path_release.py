@@ -5,14 +5,15 @@ from __future__ import annotations
 from itertools import pairwise
 from math import hypot
 
+from execution.traffic.doors import shut_door
 from execution.traffic.floor_state import Robot, Sent
-from execution.traffic.lattice import Point
 from execution.traffic.layout import Node
 from execution.traffic.messages import PathPlanned
 from execution.traffic.route_points import pass_points
 from execution.traffic.routes import drawn
 from execution.traffic.turn import Turn
 from execution.traffic.zones import in_the_way, speed_limit, take_zones
+from registry.floorplan.lattice import Point, attach
 
 AHEAD = 4
 """Nodes that a robot may be released ahead of where it is."""
@@ -54,10 +55,7 @@ def _nearest_node(turn: Turn, robot: Robot) -> Node:
 
 
 def _can_stand(turn: Turn, point: Point) -> bool:
-    ground, lattice = turn.layout.ground, turn.layout.lattice
-    room_m = ground.radius_m + 0.02
-    near = (c for c in lattice.cells_within(point, 1.2) if c in lattice.links)
-    return ground.room_m(point) >= room_m and any(ground.is_passable(lattice.centre(c), point, room_m) for c in near)
+    return attach(turn.layout.ground, turn.layout.lattice, point) is not None
 
 
 def take_pose(turn: Turn, robot: Robot, x: float, y: float, theta: float) -> None:
@@ -165,8 +163,9 @@ def _may_drive(turn: Turn, robot: Robot) -> bool:
 
 
 def may_enter(turn: Turn, robot: Robot, index: int) -> bool:
-    """Tell whether the robot may go to that node as far as machines and zones are concerned."""
-    return _machine_is_ready(turn, robot, index) and in_the_way(turn, robot, index) is None
+    """Tell whether the robot may go to that node as far as machines, zones and doors are concerned."""
+    is_let_in = _machine_is_ready(turn, robot, index) and in_the_way(turn, robot, index) is None
+    return is_let_in and shut_door(turn, robot, index) is None
 
 
 def _machine_is_ready(turn: Turn, robot: Robot, index: int) -> bool:

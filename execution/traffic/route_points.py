@@ -13,13 +13,28 @@ from execution.traffic.layout import Node
 from execution.traffic.turn import Turn
 from execution.traffic.zones import path_for
 
+HORIZON = 60
+"""So many points of a cover are looked at ahead; its path is made longer as the robot drives."""
 Along = tuple[tuple[Node, ...], tuple[int, ...]]
 """A path, and where on it the points of a route are."""
 
 
 def points_ahead(task: FloorTask | None) -> tuple[tuple[float, float], ...]:
     """Return the points of a task's route that its robot has still to drive over."""
-    return () if task is None else task.order.route[task.points_passed :]
+    if task is None:
+        return ()
+    return points_of_lanes(task) if task.lanes else task.order.route[task.points_passed :]
+
+
+def points_of_lanes(task: FloorTask) -> tuple[tuple[float, float], ...]:
+    """Return the points of a cover's lanes that its robot has still to drive over, at most `HORIZON` of them."""
+    skipped, found = task.points_passed, list[tuple[float, float]]()
+    for lane in task.lanes:
+        found.extend(lane.point(index) for index in range(min(skipped, lane.stops), lane.stops))
+        skipped = max(0, skipped - lane.stops)
+        if len(found) >= HORIZON:
+            break
+    return tuple(found[:HORIZON])
 
 
 def path_along(

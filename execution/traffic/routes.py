@@ -7,8 +7,8 @@ from collections.abc import Collection, Mapping
 from itertools import pairwise
 from math import hypot
 
-from execution.traffic.lattice import Point
 from execution.traffic.layout import Layout, Node
+from registry.floorplan.lattice import Point
 
 TURN_COST = 0.8
 NARROW_COST = 0.35
@@ -91,9 +91,9 @@ def plan_path(
 def drawn(layout: Layout, path: tuple[Node, ...]) -> tuple[Point, ...]:
     """Return a path as a tidy line: only its corners, its ends at right angles to the spots that it joins."""
     points = [layout.point(node) for node in path]
-    if len(path) > 2 and isinstance(path[0], str):
+    if len(path) > 2 and isinstance(path[0], str) and isinstance(path[1], int):
         points = _square_off(points)
-    if len(path) > 2 and isinstance(path[-1], str):
+    if len(path) > 2 and isinstance(path[-1], str) and isinstance(path[-2], int):
         points = _square_off(points[::-1])[::-1]
     return _corners(points)
 

@@ -33,6 +33,8 @@ class Turn:
         self.names = dict(state.names)
         self.zones = dict(state.zones)
         self.locks = dict(state.locks)
+        self.passages = state.passages
+        self.doors = dict(state.doors)
         self.readings: Mapping[str, Mapping[str, Scalar]] = {}
         self.waits: dict[tuple[str, int], Reason] = {}
         self.actions: list[Action] = []
@@ -55,6 +57,8 @@ class Turn:
             names=self.names,
             zones=self.zones,
             locks=self.locks,
+            passages=self.passages,
+            doors=self.doors,
         )
         return state, tuple(self.actions)
 
@@ -75,6 +79,10 @@ class Turn:
         piece = sent.upto >= 0
         self.actions.append(SendCommand(command, sent.device, method, arguments, sent.run, step, piece))
         return command
+
+    def shift(self, sent: Sent, nodes: int) -> None:
+        """Count a piece of path from a node that lies so many behind the one from which it was counted."""
+        self.sent[sent.id] = replace(sent, upto=sent.upto - nodes)
 
     def tell(self, sent: Sent, method: str) -> None:
         """Pause, resume or cancel a command that is under way; the answer is the command's own."""

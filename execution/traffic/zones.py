@@ -11,11 +11,11 @@ from math import hypot
 
 from execution.machine.places import lies_in
 from execution.traffic.floor_state import Robot
-from execution.traffic.lattice import Point
 from execution.traffic.layout import Layout, Node
 from execution.traffic.messages import FloorZone
 from execution.traffic.routes import plan_path
 from execution.traffic.turn import Turn
+from registry.floorplan.lattice import Point
 
 SLOWEST_M_S = 0.05
 INSIDE_COST = 1000.0
@@ -26,12 +26,13 @@ def cells_of(layout: Layout, zone: FloorZone) -> frozenset[int]:
     """Return the cells of a zone; worked out once for each layout."""
     if zone.points not in layout.zone_cells:
         lattice, reach_m = layout.lattice, layout.ground.radius_m
-        cells = (c for c in lattice.links if _touches(zone.points, lattice.centre(c), reach_m))
+        cells = (c for c in lattice.links if touches(zone.points, lattice.centre(c), reach_m))
         layout.zone_cells[zone.points] = frozenset(cells)
     return layout.zone_cells[zone.points]
 
 
-def _touches(outline: tuple[Point, ...], point: Point, reach_m: float) -> bool:
+def touches(outline: tuple[Point, ...], point: Point, reach_m: float) -> bool:
+    """Tell whether a point lies in an outline or nearer to its edge than `reach_m`."""
     edges = zip(outline, (*outline[1:], *outline[:1]), strict=True)
     return lies_in(point, outline) or any(_edge_distance_m(point, start, end) < reach_m for start, end in edges)
 
@@ -48,7 +49,8 @@ def _zones(turn: Turn, robot: Robot, rule: str) -> Iterator[FloorZone]:
     return (zone for zone in turn.zones.get(robot.run, ()) if zone.rule == rule)
 
 
-def _is_in(layout: Layout, node: Node, zone: FloorZone) -> bool:
+def is_in(layout: Layout, node: Node, zone: FloorZone) -> bool:
+    """Tell whether a node lies in a zone."""
     return layout.cell(node) in cells_of(layout, zone) or lies_in(layout.point(node), zone.points)
 
 
@@ -84,7 +86,7 @@ def speed_limit(turn: Turn, robot: Robot, nodes: tuple[Node, ...]) -> float | No
     limits = [
         zone.speed_m_s or SLOWEST_M_S
         for zone in _zones(turn, robot, "slow")
-        if any(_is_in(turn.layout, node, zone) for node in nodes)
+        if any(is_in(turn.layout, node, zone) for node in nodes)
     ]
     return max(SLOWEST_M_S, min(limits)) if limits else None
 
@@ -97,7 +99,7 @@ def _wanted(turn: Turn, robot: Robot, index: int) -> list[FloorZone]:
     zones = list(_zones(turn, robot, "one_at_a_time"))
     wanted: dict[str, FloorZone] = {}
     for node in robot.path[index:] if zones else ():
-        here = {zone.key: zone for zone in zones if _is_in(turn.layout, node, zone)}
+        here = {zone.key: zone for zone in zones if is_in(turn.layout, node, zone)}
         if not here:
             break
         wanted |= here
@@ -128,7 +130,7 @@ def keep_zones(turn: Turn) -> None:
             del turn.locks[key]
     for robot in turn.robots.values():
         for zone in _zones(turn, robot, "one_at_a_time"):
-            if robot.path and _is_in(turn.layout, turn.node(robot), zone):
+            if robot.path and is_in(turn.layout, turn.node(robot), zone):
                 turn.locks.setdefault(zone.key, robot.id)
 
 
@@ -137,5 +139,5 @@ def _stays_in(turn: Turn, robot: Robot, zone: FloorZone) -> bool:
     ahead = range(robot.passed, min(robot.released + 1, len(robot.path)))
     if any(zone in _wanted(turn, robot, index) for index in ahead):
         return True
-    here = _touches(zone.points, (robot.x, robot.y), turn.layout.ground.radius_m)
+    here = touches(zone.points, (robot.x, robot.y), turn.layout.ground.radius_m)
     return here and bool(cells_of(turn.layout, zone) & set(robot.held))

@@ -11,12 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from registry.floorplan.coverage import CannotCover, plan_lanes
+from registry.floorplan.lattice import Ground, Lattice, attach, make_lattice
 from vipo_device.protocol.description import Description, Pose
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, 255
 STATION_GAP_M = 0.15
 COMFORT_M = 0.3
 MOST_RUNS = 50_000
+MOST_COVERS = 200
+"""Of so many zones it is kept at a time whether they can be covered."""
 Box = tuple[float, float, float, float]
 Corners = tuple[tuple[float, float], ...]
 
@@ -241,6 +245,8 @@ class FloorPlan:
         self.clearance_m = clearance_m(with_devices(grid, self._devices))
         self._regions: dict[float, NDArray[np.int32]] = {}
         self._stations: dict[tuple[str, float], Pose | None] = {}
+        self._traffic: dict[float, tuple[Ground, Lattice]] = {}
+        self._covers: dict[object, str] = {}
 
     def is_inside(self, x_m: float, y_m: float) -> bool:
         """Tell whether the point lies on the map."""
@@ -261,6 +267,32 @@ class FloorPlan:
             return False
         region = self.regions(radius_m)[goal]
         return bool(region) and region in self._regions_around(from_xy, radius_m)
+
+    def can_stop(self, x_m: float, y_m: float, radius_m: float) -> bool:
+        """Tell whether traffic lets robots drive to a point, `radius_m` being the largest robot's of the site."""
+        return attach(*self._traffic_of(radius_m), (x_m, y_m)) is not None
+
+    def why_not_covered(self, outline: tuple[tuple[float, float], ...], lane_m: float, radius_m: float) -> str:
+        """Return why robots cannot cover a zone in lanes so wide: outside, nothing, too_many; empty: they can.
+
+        `radius_m` is the largest robot's of the site.
+        """
+        key = (outline, lane_m, radius_m)
+        if key not in self._covers:
+            if len(self._covers) >= MOST_COVERS:
+                self._covers.clear()
+            try:
+                plan_lanes(*self._traffic_of(radius_m), outline, lane_m)
+                self._covers[key] = ""
+            except CannotCover as error:
+                self._covers[key] = error.code
+        return self._covers[key]
+
+    def _traffic_of(self, radius_m: float) -> tuple[Ground, Lattice]:
+        if radius_m not in self._traffic:
+            ground = Ground(self.grid, self.clearance_m, radius_m)
+            self._traffic[radius_m] = ground, make_lattice(ground)
+        return self._traffic[radius_m]
 
     def regions(self, radius_m: float) -> NDArray[np.int32]:
         """Return the number of the connected region of each cell where the robot's middle may be; 0 is nowhere."""

@@ -9,6 +9,7 @@ from math import exp
 from simulation.actors.actor import Actor, Emit, InitialState
 from vipo_device.kit.arguments import counted_object, duration_s
 from vipo_device.protocol.description import Description, PropertySpec, Scalar
+from vipo_device.protocol.doors import door_methods, said_of_door
 from vipo_device.protocol.messages import AckMessage
 
 AMBIENT_C = 22.0
@@ -49,6 +50,7 @@ class Machine(Actor):
         super().__init__(description, emit, initial)
         self.stock = _stock_at(initial, description, self.slots) if initial.holds is None else dict(initial.holds)
         self._job: Job | None = None
+        self._door = door_methods(description)
         self._pieces = initial.seed
         self._warmth = WARMTH.get(description.device_class, MILD)
         known = initial.readings.get("temperature")
@@ -134,6 +136,7 @@ class Machine(Actor):
         self._say(t_s, AckMessage(command, "ACCEPTED"))
         self._say(t_s, AckMessage(command, "RUNNING"))
         self._job = Job(command, method, duration_s(spec, arguments))
+        self._read_door(t_s, method, is_done=False)
         self.read(t_s, "jobStatus", 0)
         self._read_pressure(t_s)
         return ""
@@ -159,7 +162,8 @@ class Machine(Actor):
         self._job = None
         self.read(t_s, "jobStatus", 100)
         self._read_pressure(t_s)
-        self._say_done(t_s, job.command, self._finish(t_s, job))
+        if self._say_done(t_s, job.command, self._finish(t_s, job)):
+            self._read_door(t_s, job.method, is_done=True)
 
     def _finish(self, t_s: float, job: Job) -> dict[str, Scalar]:
         """Do what a job does to objects and readings; return what is worth reporting."""
@@ -194,6 +198,16 @@ class Machine(Actor):
     def _read_pressure(self, t_s: float) -> None:
         bar = 2.5 if self._job is not None and self._job.method not in {"dispense", "accept"} else 0.0
         self.read(t_s, "pressure", _within(self.description.property("pressure"), bar))
+
+    def _read_door(self, t_s: float, method: str, *, is_done: bool) -> None:
+        """A door is open once it has opened, and is not from the moment on in which it begins to close."""
+        spec = self.description.property(self._door.reading) if self._door is not None else None
+        if self._door is None or spec is None:
+            return
+        if method == self._door.opens and is_done:
+            self.read(t_s, spec.name, said_of_door(spec, is_open=True))
+        elif method == self._door.closes and not is_done:
+            self.read(t_s, spec.name, said_of_door(spec, is_open=False))
 
     def _read_stock(self, t_s: float) -> None:
         total = sum(self.stock.values())

@@ -155,3 +155,13 @@ def open_script(page: Page) -> Locator:
     page.get_by_role("tab", name="Script").click()
     expect(editor(page)).to_be_visible()
     return editor(page)
+
+
+def write_program(page: Page, name: str, script: str) -> None:
+    """Make a program by putting a whole script into its panel."""
+    make_program(page, name)
+    open_script(page)
+    editor(page).click()
+    page.keyboard.press("Control+a")
+    page.keyboard.insert_text(script)
+    saved(page)

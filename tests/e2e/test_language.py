@@ -12,14 +12,12 @@ from tests.e2e.screens import (
     SITE,
     ask,
     draw_task,
-    editor,
     make_program,
-    open_script,
     reading,
     run_state,
-    saved,
     show_programs,
     start_run,
+    write_program,
 )
 from tests.kit.waiting import wait_for
 
@@ -62,16 +60,6 @@ RESTOCKING = """class Task(object):
         ctx.start_when(self.item_inventory.stock < %d, self.when_e1)
         self.new_task()
 """
-
-
-def write_program(page: Page, name: str, script: str) -> None:
-    """Make a program by putting a whole script into its panel."""
-    make_program(page, name)
-    open_script(page)
-    editor(page).click()
-    page.keyboard.press("Control+a")
-    page.keyboard.insert_text(script)
-    saved(page)
 
 
 def wait_until_no_run_is_under_way(page: Page) -> None:

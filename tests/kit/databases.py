@@ -3,7 +3,8 @@
 A test that kills, stops, restarts or sets up a server starts its own, with tests.kit.servers.
 
 With VIPO_TEST_DATABASE=postgres all tests that touch the database do so on PostgreSQL instead of SQLite; what they
-start as processes of its own keeps to what it is told.
+start as processes of its own keeps to what it is told. The URL of a database that has the product's tables, instead of
+the word, lets them copy that one and needs no server more.
 """
 
 from __future__ import annotations
@@ -47,14 +48,15 @@ def django_db_keepdb() -> bool:
 @pytest.fixture(scope="session")
 def django_db_modify_db_settings(request: pytest.FixtureRequest) -> None:
     """Choose the database on which pytest-django makes the one of the tests."""
-    if os.environ.get("VIPO_TEST_DATABASE") != "postgres":
+    chosen = os.environ.get("VIPO_TEST_DATABASE", "")
+    if not chosen.startswith("postgres"):
         request.getfixturevalue("django_db_modify_db_settings_parallel_suffix")
         copy_migrated(Path(connections.databases["default"]["TEST"]["NAME"]))
         return
-    url = request.getfixturevalue("_postgres").url
+    there = postgres(request.getfixturevalue("_postgres").url if chosen == "postgres" else chosen)
     described = connections.databases["default"]
-    test = {**described["TEST"], "NAME": None, "TEMPLATE": "vipo"}
-    connections.databases["default"] = {**described, **postgres(url), "TEST": test}
+    test = {**described["TEST"], "NAME": None, "TEMPLATE": there["NAME"]}
+    connections.databases["default"] = {**described, **there, "TEST": test}
     del connections["default"]
 
 

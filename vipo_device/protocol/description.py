@@ -96,11 +96,17 @@ class Description:
 
     def method(self, name: str) -> MethodSpec | None:
         """Return the method of that name, if the device has it."""
-        return next((m for m in self.methods if m.name == name), None)
+        for method in self.methods:
+            if method.name == name:
+                return method
+        return None
 
     def property(self, name: str) -> PropertySpec | None:
         """Return the property of that name, if the device has it."""
-        return next((p for p in self.properties if p.name == name), None)
+        for known in self.properties:
+            if known.name == name:
+                return known
+        return None
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,7 +53,7 @@ class Crew(PairwiseDomain[Held]):
         whole = before.union(*(held for held, _ in ends))
         return whole.difference(*(effects.released - held for held, effects in ends))
 
-    def _take(self, place: Place, node: n.Move | n.Pick | n.Drop | n.Perform, known: Held) -> Held:
+    def _take(self, place: Place, node: n.Move | n.Pick | n.Drop | n.Cover | n.Perform, known: Held) -> Held:
         if node.role in known or node.role in self.released:
             return known
         together = known | {node.role}

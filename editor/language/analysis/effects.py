@@ -22,7 +22,7 @@ class Effects:
     shared: Names = NO_NAMES
     """Variables of the program that called functions set, whatever the same names mean in the block."""
     moved: Names = NO_NAMES
-    """Roles whose robots go somewhere else by a Move."""
+    """Roles whose robots go somewhere else by a Move or a Cover."""
     loaded: Names = NO_NAMES
     """Roles whose robots take or leave something, and go there before in a program that is drawn."""
     released: Names = NO_NAMES
@@ -122,7 +122,7 @@ class EffectTable:
         if found is None:
             roles = frozenset({role})
             found = Effects(
-                moved=roles if kind in {n.Move, n.Release} else NO_NAMES,
+                moved=roles if kind in {n.Move, n.Cover, n.Release} else NO_NAMES,
                 loaded=roles if kind in {n.Pick, n.Drop, n.Release} else NO_NAMES,
                 released=roles if kind is n.Release else NO_NAMES,
                 used=roles if kind is not n.Release else NO_NAMES,

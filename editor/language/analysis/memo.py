@@ -35,10 +35,11 @@ class Memo:
 
     def get(self, node: Node, given: object = None) -> Any:
         """Return what was found of this very node when as much was given; None where nothing is known."""
-        entry = self._last.get(id(node))
+        key = id(node)
+        entry = self._last.get(key)
         if entry is None or entry[1] != given:
             return None
-        self._now[id(node)] = entry
+        self._now[key] = entry
         return entry[2]
 
     def put(self, node: Node, found: object, given: object = None) -> None:
@@ -91,7 +92,7 @@ def _changed(before: Outline, after: Outline) -> set[str]:
 
 def _differing(before: Mapping[Key, object], after: Mapping[Key, object]) -> Iterator[Key]:
     """Yield the keys under which two mappings do not hold the same."""
-    if before is not after:
+    if before is not after and before != after:
         yield from (key for key, value in after.items() if before.get(key) is not value and before.get(key) != value)
         yield from (key for key in before if key not in after)
 

@@ -21,6 +21,7 @@ from editor.language.tree.nodes import (
     Break,
     Call,
     Continue,
+    Cover,
     Drop,
     End,
     Fail,
@@ -106,7 +107,7 @@ class _Follower:
                 nodes.append(node)
             elif isinstance(node, LOADS):
                 standing = self._load(node, standing, nodes)
-            elif isinstance(node, Release):
+            elif isinstance(node, Cover | Release):
                 standing = _without(standing, frozenset({node.role}))
                 nodes.append(node)
             elif isinstance(node, Call):
@@ -282,7 +283,7 @@ class _Follower:
         """Return the roles whose robot a block moves, also in the functions it calls; a script says every move."""
         roles: set[str] = set()
         for node in walk(block):
-            if isinstance(node, Move | Release) or (isinstance(node, LOADS) and not self.from_script):
+            if isinstance(node, Move | Cover | Release) or (isinstance(node, LOADS) and not self.from_script):
                 roles.add(node.role)
             elif isinstance(node, Call):
                 roles.update(self.moved.get(node.function, ()))

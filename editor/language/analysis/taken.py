@@ -42,7 +42,7 @@ class Takers(PairwiseDomain[Taken]):
         sure = sure.difference(*(effects.released - taken[0] for taken, effects in ends))
         return sure, before[1].union(*(taken[1] for taken, _ in ends))
 
-    def _take(self, place: Place, node: n.Move | n.Pick | n.Drop | n.Perform, known: Taken) -> Taken:
+    def _take(self, place: Place, node: n.Move | n.Pick | n.Drop | n.Cover | n.Perform, known: Taken) -> Taken:
         return (known[0] | {node.role}, known[1] | {node.role}) if node.role in self.roles else known
 
     def _release(self, place: Place, node: n.Release, known: Taken) -> Taken:

@@ -9,7 +9,7 @@ from editor.language.analysis.memo import Memo
 from editor.language.expressions.values import roles_in
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Tree
-from editor.language.tree.variables import read_by, set_by, worked_out
+from editor.language.tree.variables import read_in, set_by, worked_out
 
 
 @dataclass(slots=True)
@@ -31,31 +31,32 @@ class Uses:
 
 def uses_of(tree: Tree, memo: Memo | None) -> Uses:
     """Return what the program's steps use; of a step that is the same as at the last look, `memo` knows it."""
-    memo = memo or Memo()
-    memo.begin(None)
+    if memo is not None:
+        memo.begin(None)
     return _of_blocks((tree.body, *(event.body for event in tree.events), *(f.body for f in tree.functions)), memo)
 
 
-def _of_blocks(blocks: tuple[n.Block, ...], memo: Memo) -> Uses:
+def _of_blocks(blocks: tuple[n.Block, ...], memo: Memo | None) -> Uses:
     uses = Uses()
     for block in blocks:
         for node in block:
-            found: Uses | None = memo.get(node)
+            found: Uses | None = None if memo is None else memo.get(node)
             if found is None:
                 found = _of_step(node, memo)
-                memo.put(node, found)
+                if memo is not None:
+                    memo.put(node, found)
             if found is not _NOTHING:
                 uses.add(found)
-    return uses
+    return uses if uses != _NOTHING else _NOTHING
 
 
-def _of_step(node: n.Node, memo: Memo) -> Uses:
+def _of_step(node: n.Node, memo: Memo | None) -> Uses:
     inner = _of_blocks(n.blocks_of(node), memo) if node.__class__ in n.COMPOSITES else _NOTHING
     name, values = set_by(node), worked_out(node)
     if not name and not values:
         return inner
     uses = Uses() if inner is _NOTHING else inner
-    if reads := read_by(node):
+    if reads := read_in(values):
         uses.reads[id(node)] = reads
     if asks := {role: each for each, value in values for role in roles_in(value)}:
         uses.asks[id(node)] = asks

@@ -46,15 +46,15 @@ class Body:
             memo = context.memos.of_block(self.name, (self.types, self.result))
         for node in context.tree.walked(self.block):
             seen = self.types_in_loops.get(id(node)) if self.types_in_loops else None
-            context.variables = self.types if seen is None else seen
-            _check_node(context, checks, node, memo, seen)
+            reported: Findings | None = memo.get(node, seen) if memo is not None else None
+            if reported is None:
+                context.variables = self.types if seen is None else seen
+                _check_node(context, checks, node, memo, seen)
+            else:
+                context.found += reported
 
 
 def _check_node(context: Context, checks: Checks, node: n.Node, memo: Memo | None, seen: object) -> None:
-    reported: Findings | None = memo.get(node, seen) if memo is not None else None
-    if reported is not None:
-        context.found.extend(reported)
-        return
     before = len(context.found)
     checks[type(node)](context, node)
     if memo is not None and not _looks_around(node):

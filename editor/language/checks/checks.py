@@ -9,7 +9,15 @@ from typing import cast
 from editor.language.analysis.memo import Memos
 from editor.language.checks.bodies import Body, find_bodies
 from editor.language.checks.context import Context
-from editor.language.checks.devices import check_floor, check_load_place, check_place, check_role, usable_device
+from editor.language.checks.covers import check_cover, check_covers
+from editor.language.checks.devices import (
+    check_floor,
+    check_load_place,
+    check_place,
+    check_role,
+    check_route_length,
+    usable_device,
+)
 from editor.language.checks.exits import check_exits
 from editor.language.checks.idle import check_idle
 from editor.language.checks.library import check_library
@@ -46,10 +54,8 @@ from editor.language.site.surroundings import Surroundings, what_programs_see
 from editor.language.tree import nodes as n
 from editor.language.tree.nodes import walk
 from editor.language.tree.program import Tree
-from editor.language.tree.traversal import needed_of_roles
-from editor.language.tree.variable_types import (
-    type_of_items,
-)
+from editor.language.tree.traversal import first_uses, needed_of_roles
+from editor.language.tree.variable_types import type_of_items
 from vipo_device.protocol.description import Description, ParameterSpec
 
 
@@ -86,6 +92,7 @@ def check(
     check_updates(context)
     check_library(context, document)
     check_floor(context, document)
+    check_covers(context)
     _check_left_over(context, reading)
     return context.found
 
@@ -117,6 +124,7 @@ def _bodies(tree: Tree) -> tuple[n.Block, ...]:
 def _move(context: Context, node: n.Move) -> None:
     if not node.added:
         check_place(context, node, node.to, "to", "missing_destination")
+    check_route_length(context, node)
 
 
 def _pick(context: Context, node: n.Pick) -> None:
@@ -128,10 +136,6 @@ def _drop(context: Context, node: n.Drop) -> None:
     check_load_place(context, node, gives=False)
     if node.place_field != "target":  # a Pick-and-Drop says what it carries once, with its pick
         check_quantity(context, node)
-
-
-def _release(context: Context, node: n.Release) -> None:
-    """What may be wrong with it shows along the ways to it, and beside other branches."""
 
 
 def _operate(context: Context, node: n.Operate) -> None:
@@ -322,15 +326,16 @@ def _return(context: Context, node: n.Return) -> None:
             check_value(context, node, node.value, "value", context.result, "The result")
 
 
-def _leave(context: Context, node: n.End | n.Break | n.Continue) -> None:
-    """What these leave is checked for all of them at once."""
+def _leave(context: Context, node: n.End | n.Break | n.Continue | n.Release) -> None:
+    """What these leave is checked for all of them at once; of a Release, along the ways to it."""
 
 
 CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
     n.Move: _move,
     n.Pick: _pick,
     n.Drop: _drop,
-    n.Release: _release,
+    n.Cover: check_cover,
+    n.Release: _leave,
     n.Operate: _operate,
     n.Perform: check_own_method,
     n.Wait: _wait,
@@ -357,12 +362,7 @@ CHECKS: Mapping[type[n.Node], Callable[..., None]] = {
 def _check_roles(context: Context) -> None:
     """Check every robot at the first step that uses it."""
     tree = context.tree
-    needed = needed_of_roles(tree, tree.functions)
-    first: dict[str, n.Node] = {}
-    for block in _bodies(tree):
-        for node in tree.walked(block):
-            if isinstance(node, n.OF_ROBOTS) and node.role not in first:
-                first[node.role] = node
+    needed, first = needed_of_roles(tree, tree.functions), first_uses(tree, tree.functions)
     for role in tree.roles:
         check_role(context, first[role.name], role, needed[role.name])
         check_choice(context, first[role.name], role)

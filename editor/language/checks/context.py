@@ -101,6 +101,12 @@ class Context:
         able = all(description.method(method) for method in role.can)
         return description.kind == "robot" and facts.lifecycle == "approved" and able
 
+    def largest_radius_m(self, usual_m: float) -> float:
+        """Return the radius of the site's largest robot, for which traffic keeps room everywhere; else the usual."""
+        found = self.surroundings.devices.values()
+        robots = (f.description for f in found if f.lifecycle == "approved" and f.description.kind == "robot")
+        return max((robot.radius_m for robot in robots), default=0.0) or usual_m
+
     def capacity(self, role: str) -> int:
         """Return how many objects the role's robot holds at most; 0 when that is not known."""
         return max((robot.capacity for robot in self.robots(role)), default=0)

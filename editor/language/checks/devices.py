@@ -7,6 +7,7 @@ from functools import partial
 from math import pi
 
 from editor.language.checks.context import Context
+from editor.language.checks.doors import check_passages
 from editor.language.checks.possible import check_each_device, check_held_device, check_held_place
 from editor.language.checks.robot_readings import check_robot_reading, tell_unknown
 from editor.language.expressions import nodes as e
@@ -21,6 +22,11 @@ from editor.language.tree.program import Role
 from editor.language.tree.robots import robots_for
 from editor.language.tree.zones import area_m2, is_in, read_zones
 from vipo_device.protocol.description import Description
+
+MOST_ROUTE_POINTS = 100
+"""A way leads over so many points."""
+USUAL_RADIUS_M = 0.18
+"""What traffic takes for robots that do not say their size."""
 
 
 def known_device(context: Context, node: n.Node, device_id: str, field: str) -> DeviceFacts | None:
@@ -96,6 +102,12 @@ def check_place(context: Context, node: n.Move, place: PlaceRef, field: str, mis
         context.report(node, missing_code, field)
 
 
+def check_route_length(context: Context, node: n.Move) -> None:
+    """A way leads over a limited number of points: each is kept with every state of the floor."""
+    if len(node.route) > MOST_ROUTE_POINTS:
+        context.report(node, "route_too_long", "route", {"count": len(node.route), "most": MOST_ROUTE_POINTS})
+
+
 def _check_goal_device(context: Context, node: n.Move, facts: DeviceFacts, field: str) -> None:
     """A robot stands beside machines, not beside other robots: these go where they like."""
     if facts.description.kind == "robot":
@@ -117,6 +129,8 @@ def _check_floor(context: Context, node: n.Move, point: e.Point, field: str) -> 
         context.report(node, "place_blocked", field, name)
     elif not any(floor.is_reachable((r.pose.x, r.pose.y), point, r.radius_m) for r in robots):
         context.report(node, "place_unreachable", field, name)
+    elif not floor.can_stop(*point, context.largest_radius_m(USUAL_RADIUS_M)):
+        context.report(node, "place_blocked", field, name)
 
 
 def check_readings(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
@@ -186,6 +200,7 @@ def check_floor(context: Context, document: object) -> None:
                     _check_goal(context, node, node.to, "to", closed)
                 _check_route(context, node, closed)
     _check_sizes(context, zones)
+    check_passages(context, zones)
 
 
 def _check_goal(
@@ -208,7 +223,7 @@ def _check_goal(
 
 def _check_route(context: Context, node: n.Move, closed: list[Zone]) -> None:
     """Check that any robot of the role can drive over the points of a way; the first that none can is told."""
-    for number, point in enumerate(node.route, start=1):
+    for number, point in enumerate(node.route[:MOST_ROUTE_POINTS], start=1):
         zone = next((zone for zone in closed if is_in(point, zone.points)), None)
         if zone is not None:
             context.report(node, "route_in_keep_out", "route", {"number": number, "zone": zone.name})
@@ -223,6 +238,8 @@ def _is_passed(context: Context, role: str, point: e.Point) -> bool:
     floor, robots = context.surroundings.floor, context.robots(role)
     if floor is None or not robots:
         return floor is None or floor.is_inside(*point)
+    if not floor.can_stop(*point, context.largest_radius_m(USUAL_RADIUS_M)):
+        return False
     fitting = (robot for robot in robots if floor.is_free(*point, robot.radius_m))
     return any(floor.is_reachable((robot.pose.x, robot.pose.y), point, robot.radius_m) for robot in fitting)
 
@@ -253,9 +270,9 @@ def _station(context: Context, device: str, robot: Description) -> e.Point | Non
 
 
 def _check_sizes(context: Context, zones: tuple[Zone, ...]) -> None:
-    """A zone in which not even the smallest robot has room changes nothing for any."""
+    """A zone in which not even the smallest robot has room changes nothing for any; a passage may be narrow."""
     robots = [f.description for f in context.surroundings.devices.values() if f.description.kind == "robot"]
     smallest = min(robots, key=lambda robot: (robot.radius_m, robot.id), default=None)
     for zone in zones:
-        if smallest is not None and area_m2(zone.points) < pi * smallest.radius_m**2:
+        if zone.rule != "door" and smallest is not None and area_m2(zone.points) < pi * smallest.radius_m**2:
             context.report_step("", "zone_too_small", f"zones.{zone.id}", {"zone": zone.name, "robot": smallest.name})

@@ -47,13 +47,13 @@ def check_value(
 ) -> bool:  # fmt: skip
     """Check what a value reads and of which type and unit it is; tell whether it is good."""
     before = len(context.found)
+    parts = [value] if isinstance(value, Constant) else parts_of(value)
     if not isinstance(value, Constant):
-        parts = parts_of(value)
         check_readings(context, node, parts, field)
         _check_divisors(context, node, parts, field)
         _check_things(context, node, parts, field)
         _check_numbers_of_items(context, node, parts, field)
-    _check_lengths(context, node, value, field)
+    _check_lengths(context, node, parts, field)
     checker = TypeChecker(context.surroundings, context.variables, [])
     value_type = checker.type_of(value)
     for mismatch in checker.mismatches:
@@ -82,10 +82,10 @@ def _check_divisors(context: Context, node: n.Node, parts: Sequence[Expression],
 
 def _check_numbers_of_items(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
     """Tell of an item that the list does not have, or may not have as far as it is known."""
-    here = Here(context.surroundings, context.known)
     for part in parts:
         if not isinstance(part, Operation) or part.operator != "nth":
             continue
+        here = Here(context.surroundings, context.known)
         items, number = here.items(part.arguments[0]), here.range(converted(context, part.arguments[1], ""))
         broken = -inf < number.least == number.most and number.least != int(number.least)
         if broken or number.most < 1 or (items is not None and number.least > items.most):
@@ -96,8 +96,8 @@ def _check_numbers_of_items(context: Context, node: n.Node, parts: Sequence[Expr
             context.report(node, "may_be_no_such_item", field)
 
 
-def _check_lengths(context: Context, node: n.Node, value: Expression, field: str) -> None:
-    for part in [value] if isinstance(value, Constant) else parts_of(value):
+def _check_lengths(context: Context, node: n.Node, parts: Sequence[Expression], field: str) -> None:
+    for part in parts:
         if isinstance(part, Constant) and isinstance(part.value, tuple):
             check_length(context, node, part.value, field)
         elif isinstance(part, Operation) and part.operator == "list":
@@ -189,6 +189,8 @@ def _check_things(context: Context, node: n.Node, parts: Sequence[Expression], f
 
 def converted(context: Context, value: Expression, unit: str) -> Expression:
     """Return a value as it is in a unit when the program runs."""
+    if isinstance(value, Constant):
+        return value
     return convert_units(value, unit, TypeChecker(context.surroundings, context.variables, []))
 
 

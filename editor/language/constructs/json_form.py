@@ -18,6 +18,7 @@ _TYPES = {
     "variable": "name of a variable",
     "loop_variable": "name",
     "route": "[[x, y], …]",
+    "zone": "zone id",
     "answer": "{type: `boolean`/`number`/`text`/`choice`, unit?, minimum?, maximum?, options?}",
     "arguments": "{name: Value or Place}",
     "method": "name",
@@ -91,6 +92,7 @@ def _parameter(field: Field) -> str:
         return "`role`"
     words = "/".join(f"`{choice}`" for choice in field.choices)
     kind = {"choice": words, "choices": f"[] (any) or of {words}"}.get(field.type) or _TYPES[field.type]
-    unit = " (a bare number is in seconds)" if field.wanted == "time" else ""
+    bare = {"time": "seconds", "length": "metres"}.get(field.wanted)
+    unit = f" (a bare number is in {bare})" if bare else ""
     more = f", and so optional `{field.name}2` … `{field.name}{field.numbered}`" if field.numbered else ""
     return f"{'optional ' if field.optional else ''}`{field.name}`: {kind}{unit}{more}"

@@ -20,6 +20,7 @@ FieldType = Literal[
     "choice",
     "choices",
     "route",
+    "zone",
     "answer",
     "arguments",
     "method",
@@ -31,8 +32,9 @@ FieldType = Literal[
 ]
 """What can stand in a field. `own_robot`: the role whose robot does a method of its own; `variable`: the name of one
 that the step sets; `loop_variable`: its body alone sees it; `choice`: one of fixed words, `choices`: several of them;
-`route`: points; `whole`: a whole number that is written out; `text`: plain text without values."""
-Wanted = Literal["", "time", "number", "text", "boolean", "object", "list"]
+`route`: points; `zone`: one of the program; `whole`: a whole number that is written out; `text`: plain text without
+values."""
+Wanted = Literal["", "time", "length", "number", "text", "boolean", "object", "list"]
 
 
 @dataclass(frozen=True, slots=True)

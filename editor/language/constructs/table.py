@@ -42,6 +42,18 @@ _RELEASE = Construct(
     (Form("Release", (ROLE,), "role.release()", "Write self.robot.release()."),),
     Look("release", "motion", "pill", rare=True, letters=16),
 )
+_COVER = Construct(
+    "cover",
+    (
+        Form(
+            "Cover",
+            (ROLE, Field("zone", "zone"), Field("lane", wanted="length", at="lane_m", optional=True, shown=False)),
+            "role.cover(zone, lane=lane)",
+            "Write self.robot.cover(self.hall), or self.robot.cover(self.hall, lane=0.4).",
+        ),
+    ),
+    Look("cover", "motion", "pill", rare=True, letters=6),
+)
 _PICK_AND_DROP = Construct(
     "pick_and_drop",
     (
@@ -228,7 +240,7 @@ _COMMENT = Construct("comment", (Form("", (Field("text", "text"),)),), Look("com
 CONSTRUCTS: Final[Mapping[str, Construct]] = {
     construct.kind: construct
     for construct in (
-        _MOVE, _PICK, _DROP, _PICK_AND_DROP, _RELEASE, _OPERATE, _WAIT, _IF, _WHILE,
+        _MOVE, _PICK, _DROP, _PICK_AND_DROP, _COVER, _RELEASE, _OPERATE, _WAIT, _IF, _WHILE,
         _REPEAT, _FOR_EACH, _PARALLEL, _TRY,
         _LIMIT, _ON_EVENT, _BREAK, _CONTINUE, _RETURN, _END, _FAIL, _CALL, _SET, _NOTIFY, _ASK, _COMMENT,
     )

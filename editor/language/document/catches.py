@@ -15,17 +15,14 @@ KINDS_OF: Final[Mapping[str, str]] = {FIRST_CATCH: "kinds"} | {
     f"catch{number}": f"kinds{number}" for number in range(2, MOST_CATCHES + 1)
 }
 """The branches of all catches that a Try can have, in the order in which they are tried, with their parameters."""
+_NUMBERED: Final = [(branch, kinds) for branch, kinds in KINDS_OF.items() if branch != FIRST_CATCH]
+_LISTS: Final = (list, tuple)
 
 
 def catches_of(params: Mapping[str, object]) -> tuple[str, ...]:
     """Return the branches of the catches that a Try has: the first unless it says no, others that have a list."""
     first = () if params.get(FIRST_CATCH) is False else (FIRST_CATCH,)
-    others = (each for each, kinds in KINDS_OF.items() if each != FIRST_CATCH and _is_list(params.get(kinds)))
-    return (*first, *others)
-
-
-def _is_list(value: object) -> bool:
-    return isinstance(value, list | tuple)
+    return (*first, *[each for each, kinds in _NUMBERED if isinstance(params.get(kinds), _LISTS)])
 
 
 def params_of_catches(caught: Mapping[str, Sequence[str]]) -> dict[str, object]:

@@ -133,7 +133,10 @@ def _circle_breakers(places: Mapping[str, Place]) -> list[str]:
     """Return the step with the smallest id of each circle of parents."""
     visited: set[str] = set()
     breakers: list[str] = []
-    for name in places:
+    for name, (parent, _, _) in places.items():
+        if parent in visited or parent not in places:  # as it is where there are no circles
+            visited.add(name)
+            continue
         path: dict[str, None] = {}
         here = name
         while here in places and here not in visited and here not in path:

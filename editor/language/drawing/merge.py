@@ -189,8 +189,10 @@ def merge_zones(zones: Sequence[Zone], old: Plain) -> dict[str, object]:
 
 def _drawn_zone(zone: Zone, raw: Plain) -> dict[str, object]:
     body = {**raw, "name": zone.name, "rule": zone.rule, "points": [list(point) for point in zone.points]}
-    body.pop("speed_m_s", None)
-    return body if zone.speed_m_s is None else {**body, "speed_m_s": zone.speed_m_s}
+    for name in ("speed_m_s", "door"):
+        body.pop(name, None)
+    speed = {} if zone.speed_m_s is None else {"speed_m_s": zone.speed_m_s}
+    return {**body, **speed, **({"door": zone.door} if zone.door else {})}
 
 
 def with_named_zones(tree: Tree, old: Plain) -> Tree:

@@ -104,6 +104,7 @@ _WRITERS: Mapping[FieldType, Callable[[StepEncoder, Any], object]] = {
     "variable": lambda encoder, name: name or None,
     "choice": lambda encoder, word: word,
     "route": lambda encoder, route: [list(point) for point in route],
+    "zone": lambda encoder, zone: zone or None,
     "answer": lambda encoder, answer: answer_to_json(answer),
 }
 """How each type of field is written."""

@@ -96,13 +96,17 @@ class AnswerSpec:
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """A named area of the map: a polygon in metres that robots of this run keep out of, share, or go slowly in."""
+    """A named area of the map: a polygon in metres that robots of this run keep out of, share, or go slowly in.
+
+    With the rule `door` it is the passage of the device `door`, which is opened for every robot that comes.
+    """
 
     id: str
     name: str
-    rule: Literal["keep_out", "one_at_a_time", "slow"]
+    rule: Literal["keep_out", "one_at_a_time", "slow", "door"]
     points: tuple[Point, ...]
     speed_m_s: float | None = None
+    door: str = ""
 
 
 MISSING = Constant(None)

@@ -222,6 +222,21 @@ TEXTS_DE: Final[Mapping[str, str]] = {
         "Dieser Ort liegt in {zone}, wo kein Roboter hineinfährt. Wählen Sie einen anderen, "
         "oder ändern Sie die Zone."
     ),
+    "route_too_long": "Dieser Weg hat {count} Punkte, und höchstens {most} sind möglich. Nehmen Sie einige heraus.",
+    "missing_zone": "Wählen Sie die Zone, die {robot} abfahren soll.",
+    "cover_in_keep_out": (
+        "{zone} ist eine Zone, in die kein Roboter fährt. Wählen Sie eine andere, oder ändern Sie ihre Regel."
+    ),
+    "cover_outside": "{zone} liegt außerhalb der Karte. Zeichnen Sie die Zone auf die Karte.",
+    "cover_nothing": (
+        "{robot} kann nirgends in {zone} stehen oder findet nicht dorthin. Zeichnen Sie die Zone auf freien Boden."
+    ),
+    "too_many_lanes": (
+        "{zone} ist für so schmale Bahnen zu groß. Machen Sie die Bahnen breiter oder die Zone kleiner."
+    ),
+    "lane_wider_than_zone": (
+        "{zone} ist schmaler als eine Bahn, {robot} fährt also einmal durch die Mitte. Machen Sie die Zone breiter."
+    ),
     "route_blocked": (
         "{robot} kann nicht über Punkt {number} dieses Wegs fahren: Er liegt zu nah an einer Wand oder Maschine oder "
         "außerhalb der Karte, oder kein Weg führt dorthin. Verschieben Sie den Punkt."
@@ -231,6 +246,18 @@ TEXTS_DE: Final[Mapping[str, str]] = {
         "ändern Sie die Zone."
     ),
     "zone_too_small": "{zone} ist kleiner als {robot} und bewirkt deshalb nichts. Vergrößern Sie die Zone.",
+    "missing_door": "Wählen Sie die Tür, die bei {zone} für Roboter aufgeht.",
+    "door_cannot_open": (
+        "{device} kann nicht geöffnet werden, wie es {zone} braucht: mit einer Methode, die so heißt und keine Werte "
+        "verlangt. Möglich ist: {options}."
+    ),
+    "passage_nowhere": (
+        "Kein Roboter fährt durch {zone}; die Tür geht deshalb nie auf. Verschieben Sie die Zone in den Durchgang."
+    ),
+    "door_left_open": (
+        "Kein Schritt schließt {device} wieder; das Gerät bleibt offen. Schließen Sie es, oder lassen Sie diesen "
+        "Schritt weg: Für Roboter geht es von selbst auf."
+    ),
     # a script that was written by hand
     "not_python": "Zeile {line}, Spalte {column}: Das kann nicht gelesen werden. {detail}",
     "not_in_language": "Zeile {line}, Spalte {column}: {found} gehört nicht zur Sprache. {instead}",
@@ -279,6 +306,7 @@ WORDS_DE: Final[Mapping[str, str]] = {
     "The quantity": "Die Menge",
     "The object": "Das Objekt",
     "The time to wait": "Die Wartezeit",
+    "The width of a lane": "Die Breite einer Bahn",
     "The time limit": "Die Zeitgrenze",
     "The place": "Der Ort",
     "How many times": "Wie oft",

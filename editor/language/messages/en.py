@@ -246,6 +246,19 @@ TEXTS: Final[Mapping[str, Text]] = {
         "This place lies in {zone}, which robots keep out of. Choose another, or change the "
         "zone.",
     ),
+    "route_too_long": ("error", "This way has {count} points, and {most} are the most. Take some of them out."),
+    "missing_zone": ("error", "Choose the zone that {robot} is to cover."),
+    "cover_in_keep_out": ("error", "{zone} is a zone that robots keep out of. Choose another, or change its rule."),
+    "cover_outside": ("error", "{zone} is off the map. Draw it on the map."),
+    "cover_nothing": (
+        "error",
+        "{robot} cannot stand anywhere in {zone}, or finds no way there. Draw it where there is free floor.",
+    ),
+    "too_many_lanes": ("error", "{zone} is too large for such narrow lanes. Make them wider, or the zone smaller."),
+    "lane_wider_than_zone": (
+        "warning",
+        "{zone} is narrower than a lane, so {robot} drives once through its middle. Make the zone wider.",
+    ),
     "route_blocked": (
         "error",
         "{robot} cannot drive over point {number} of this way: it is too near to a wall or a machine, off the map, or "
@@ -256,6 +269,17 @@ TEXTS: Final[Mapping[str, Text]] = {
         "Point {number} of this way lies in {zone}, which robots keep out of. Move the point, or change the zone.",
     ),
     "zone_too_small": ("warning", "{zone} is smaller than {robot}, so it has no effect. Make it larger."),
+    "missing_door": ("error", "Choose the door that opens for robots at {zone}."),
+    "door_cannot_open": (
+        "error",
+        "{device} cannot be told to open, which {zone} needs: a method named so, without values to enter. It can: "
+        "{options}.",
+    ),
+    "passage_nowhere": ("warning", "No robot drives through {zone}, so its door never opens. Move it to the doorway."),
+    "door_left_open": (
+        "warning",
+        "No step closes {device} again, so it stays open. Close it, or leave this out: it opens for robots by itself.",
+    ),
     # a script that was written by hand
     "not_python": ("error", "Line {line}, column {column}: this cannot be read. {detail}"),
     "not_in_language": ("error", "Line {line}, column {column}: {found} is not part of the language. {instead}"),

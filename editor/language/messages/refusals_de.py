@@ -30,8 +30,12 @@ REFUSALS_DE: Final[Mapping[str, str]] = {
     "A change of “{x}”": "Eine Änderung von „{x}“",
     "The name {x}": "Der Name {x}",
     "A zone without a rule": "Eine Zone ohne Regel",
+    "A passage without a door": "Ein Durchgang ohne Tür",
     # what to write instead
-    "A zone takes rule, speed and name. {x}": "Eine Zone hat rule, speed und name. {x}",
+    "A zone takes rule, door, speed and name. {x}": "Eine Zone hat rule, door, speed und name. {x}",
+    "Add the id of the device that opens: {x}.": "Ergänzen Sie die Kennung des Geräts, das öffnet: {x}.",
+    "Write the id of the device that opens: {x}.": "Schreiben Sie die Kennung des Geräts, das öffnet: {x}.",
+    "Only a passage has a door: {x}.": "Nur ein Durchgang hat eine Tür: {x}.",
     "Write the corners as a list of points: {x}.": "Schreiben Sie die Ecken als Liste von Punkten: {x}.",
     "A zone has at least {x} corners.": "Eine Zone hat mindestens {x} Ecken.",
     "A zone has at most {x} corners.": "Eine Zone hat höchstens {x} Ecken.",

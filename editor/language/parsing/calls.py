@@ -46,11 +46,21 @@ def _route(scope: Scope, field: Field, node: ast.expr) -> tuple[e.Point, ...]:
     return tuple(parse_point(point) for point in node.elts)
 
 
+def _zone(scope: Scope, field: Field, node: ast.expr) -> str:
+    value = parse_expression(node, scope)
+    if isinstance(value, e.Located) and value.zone is not None:
+        return value.zone
+    if e.is_missing(value):
+        return ""
+    raise Refused(node, quoted(node), 'Write a zone: self.hall, with self.hall = ctx.zone("hall") in run.')
+
+
 _PARSERS: Mapping[FieldType, Callable[[Scope, Field, ast.expr], object]] = {
     "place": lambda scope, field, node: parse_place(node, scope),
     "value": _value,
     "choice": _choice,
     "route": _route,
+    "zone": _zone,
 }
 _UNWRITTEN: Mapping[FieldType, object] = {"place": e.NOWHERE, "route": (), "value": None}
 """What a node has where the call says nothing."""

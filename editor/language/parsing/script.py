@@ -18,8 +18,8 @@ from editor.language.messages.diagnostics import Diagnostic, Problem, put_into_w
 from editor.language.messages.syntax_errors import STATEMENTS, count_characters, explain_syntax, instead_of_import
 from editor.language.parsing.answers import unplaced_load
 from editor.language.parsing.bindings import Entry, parse_parameters, parse_run, read_type, takes_only
-from editor.language.parsing.robots import calls_in, robots_driven
-from editor.language.parsing.scope import Refused, Scope, attribute_of_self, quoted, written
+from editor.language.parsing.robots import calls_made, robots_driven
+from editor.language.parsing.scope import Binding, Refused, Scope, attribute_of_self, quoted, written
 from editor.language.parsing.steps import Parser
 from editor.language.parsing.variables import check_local, names_assigned
 from editor.language.parsing.zones import zones_given
@@ -82,8 +82,10 @@ def _parse_module(module: ast.Module, surroundings: Surroundings) -> Parsed:
             raise Refused(module.body[0], f"A task without {needed}", f"Write {heading} in class Task.")
     if not takes_only(methods["new_task"], ["self"]):
         raise Refused(methods["new_task"], "This new_task", "Write def new_task(self):. Values come by ctx.parameter.")
-    calls = cache(lambda: calls_in(module))
-    scope = Scope(surroundings, robots=cache(lambda: robots_driven(calls(), scope)), methods=methods)
+    calls = cache(lambda: calls_made(methods.values()))
+    bindings: dict[str, Binding] = {}  # not the scope, which would hold itself: all of the script would stay longer
+    robots = cache(lambda: robots_driven(calls(), bindings, surroundings))
+    scope = Scope(surroundings, bindings, robots=robots, methods=methods)
     entries = parse_run(methods["run"], scope)
     parser = Parser(methods, scope)
     handlers = _handlers(entries, methods)

@@ -10,7 +10,7 @@ from string import ascii_lowercase
 
 from editor.language.document.outline import DEEPEST_STEP
 from editor.language.expressions import nodes as e
-from editor.language.expressions.names import RELEASE, ROBOT_METHODS, member_name, snake_case
+from editor.language.expressions.names import OF_THE_FLEET, ROBOT_METHODS, member_name, snake_case
 from editor.language.expressions.nodes import Expression, PlaceRef
 from editor.language.messages.syntax_errors import (
     LIMIT,
@@ -199,9 +199,9 @@ class Parser:
             self.origins[id(node)] = call
             return node
         if robot is not None and robot in self.scope.robots():
-            if function.attr == RELEASE:
+            if function.attr in OF_THE_FLEET:
                 self.roles.add(robot)
-                return ROBOT_CALLS[RELEASE](self.scope, call, robot)
+                return ROBOT_CALLS[function.attr](self.scope, call, robot)
             return self._perform(call, function, robot)
         instead = instead_of_call(call)
         if instead is not None:

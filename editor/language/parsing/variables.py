@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from editor.language.expressions.names import attribute_name, local_name
@@ -11,7 +11,7 @@ from editor.language.parsing.answers import taken_name
 from editor.language.parsing.scope import Refused, Scope, attribute_of_self, quoted
 
 Methods = Mapping[str, ast.FunctionDef]
-_PER_LOOP = (ast.For, ast.While, ast.If, ast.Try)
+_BRANCHING = (ast.For, ast.While, ast.If)
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,41 +24,45 @@ class Assigned:
 
 def names_assigned(method: ast.FunctionDef, methods: Methods) -> Assigned:
     """Return what a method assigns; the variable of a loop counts nowhere in that loop."""
-    targets = list(_targets(method.body, methods, frozenset(), {method.name}))
+    targets: list[ast.expr] = []
+    _gather(method.body, methods, frozenset(), {method.name}, targets)
     attributes = frozenset(name for name in map(attribute_of_self, targets) if name is not None)
     return Assigned(attributes, frozenset(target.id for target in targets if isinstance(target, ast.Name)))
 
 
-def _targets(
-    statements: Iterable[ast.stmt], methods: Methods, loops: frozenset[str], seen: set[str]
-) -> Iterator[ast.expr]:
+def _gather(
+    statements: Iterable[ast.stmt], methods: Methods, loops: frozenset[str], seen: set[str], targets: list[ast.expr]
+) -> None:
     for statement in statements:
         inside = loops
         match statement:
-            case ast.Assign(targets=[target]) | ast.AugAssign(target=target):
-                if not (isinstance(target, ast.Name) and target.id in loops):
-                    yield target
-            case ast.For(target=ast.Name() | ast.Tuple() as target):
-                named = target.elts if isinstance(target, ast.Tuple) else [target]
-                inside = loops.union(name.id for name in named if isinstance(name, ast.Name))
             case ast.Expr(value=ast.Call() as call) if attribute_of_self(call.func) == "parallel":
                 for branch in map(attribute_of_self, call.args):
                     if branch is not None and branch in methods and branch not in seen:
                         seen.add(branch)
-                        yield from _targets(methods[branch].body, methods, loops, seen)
-        for inner in _blocks_of(statement):
-            yield from _targets(inner, methods, inside, seen)
+                        _gather(methods[branch].body, methods, loops, seen, targets)
+            case ast.Expr():
+                continue
+            case ast.Assign(targets=[target]) | ast.AugAssign(target=target):
+                if not (isinstance(target, ast.Name) and target.id in loops):
+                    targets.append(target)
+            case ast.For(target=ast.Name() | ast.Tuple() as target):
+                named = target.elts if isinstance(target, ast.Tuple) else [target]
+                inside = loops.union(name.id for name in named if isinstance(name, ast.Name))
+        for inner in blocks_of(statement):
+            _gather(inner, methods, inside, seen, targets)
 
 
-def _blocks_of(statement: ast.stmt) -> Iterator[list[ast.stmt]]:
-    if isinstance(statement, _PER_LOOP):
-        yield statement.body
-        yield statement.orelse
+def blocks_of(statement: ast.stmt) -> list[list[ast.stmt]]:
+    """Return the blocks of statements that stand in a statement of the language."""
+    if isinstance(statement, _BRANCHING):
+        return [statement.body, statement.orelse]
     if isinstance(statement, ast.With):
-        yield statement.body
+        return [statement.body]
     if isinstance(statement, ast.Try):
-        yield from (handler.body for handler in statement.handlers)
-        yield statement.finalbody
+        caught = (handler.body for handler in statement.handlers)
+        return [statement.body, statement.orelse, *caught, statement.finalbody]
+    return []
 
 
 def parse_target(node: ast.expr, scope: Scope, methods: Methods) -> str:

@@ -15,7 +15,7 @@ from editor.language.tree.zones import FEWEST_CORNERS, MOST_CORNERS, RULES, SMAL
 _FORM = 'Write ctx.zone("wet floor", [(1, 2), (4, 2), (4, 5)], rule="keep out").'
 _RULES = {rule_text(rule): rule for rule in RULES.values()}
 _WRITE_RULE = f"Write one of: {', '.join(map(quote, _RULES))}."
-_GIVEN = frozenset({"rule", "speed", "name"})
+_GIVEN = frozenset({"rule", "speed", "door", "name"})
 
 
 def parse_zone(call: ast.Call, scope: Scope) -> Binding:
@@ -27,7 +27,7 @@ def parse_zone(call: ast.Call, scope: Scope) -> Binding:
     given = {keyword.arg or "": keyword for keyword in call.keywords}
     for name, keyword in given.items():
         if name not in _GIVEN:
-            raise Refused(keyword, quoted(keyword), f"A zone takes rule, speed and name. {_FORM}")
+            raise Refused(keyword, quoted(keyword), f"A zone takes rule, door, speed and name. {_FORM}")
     match call.args:
         case [ast.Constant(value=str() as zone_id)] if zone_id and not given:
             return Binding("zone", zone_id)
@@ -35,7 +35,8 @@ def parse_zone(call: ast.Call, scope: Scope) -> Binding:
             if zone_id in scope.drawn_zones:
                 raise Refused(call.args[0], f"A second zone {quote(zone_id)}", "Write another text here for this zone.")
             points, rule = _corners(corners), _rule(call, given)
-            scope.drawn_zones[zone_id] = Zone(zone_id, _name(given) or zone_id, rule, points, _speed(given))
+            name, door = _name(given) or zone_id, _door(call, given, rule)
+            scope.drawn_zones[zone_id] = Zone(zone_id, name, rule, points, _speed(given), door)
             return Binding("zone", zone_id)
     raise Refused(call, quoted(call), _FORM)
 
@@ -73,6 +74,23 @@ def _speed(given: Mapping[str, ast.keyword]) -> float | None:
     if not is_number(speed) or speed <= 0:
         raise Refused(node, quoted(node), "Write the speed in m/s, above 0: speed=0.3.")
     return float(speed)
+
+
+def _door(call: ast.Call, given: Mapping[str, ast.keyword], rule: Rule) -> str:
+    """Return the device that is opened, by its id; an empty text where it is still to be chosen."""
+    if "door" not in given:
+        if rule == "door":
+            raise Refused(call, "A passage without a door", 'Add the id of the device that opens: door="gate01".')
+        return ""
+    node = given["door"].value
+    if rule != "door":
+        raise Refused(node, quoted(node), 'Only a passage has a door: rule="door".')
+    if isinstance(node, ast.Constant) and node.value is None:
+        return ""  # still to be chosen
+    door = parse_scalar(node)
+    if not isinstance(door, str) or not door:
+        raise Refused(node, quoted(node), 'Write the id of the device that opens: door="gate01".')
+    return door
 
 
 def _name(given: Mapping[str, ast.keyword]) -> str:

@@ -69,6 +69,10 @@ def _release(builder: Builder, node: n.Release, leaves: Leaves) -> None:
     builder.add(p.Release(node.role), node, leaves=leaves)
 
 
+def _cover(builder: Builder, node: n.Cover, leaves: Leaves) -> None:
+    builder.add(p.Cover(node.role, node.zone, builder.given(node.lane_m, "M")), node, leaves=leaves)
+
+
 def _wait(builder: Builder, node: n.Wait, leaves: Leaves) -> None:
     builder.add(p.Wait(builder.value(node.seconds, "SEC")), node, leaves=leaves)
 
@@ -137,6 +141,7 @@ COMPILERS: Mapping[type[n.Node], Compiler] = {
     n.Drop: _drop,
     n.Operate: _operate,
     n.Perform: _perform,
+    n.Cover: _cover,
     n.Release: _release,
     n.Wait: _wait,
     n.WaitUntil: _wait_until,
@@ -217,8 +222,8 @@ def _with_role_ids(tree: Tree, instructions: list[p.Instruction], events: tuple[
 def _rename(instruction: p.Instruction, renamed: Mapping[str, str]) -> p.Instruction:
     do: Any = instruction.do
     match do:
-        case p.Move(role=role) | p.Pick(role=role) | p.Drop(role=role) | p.Perform(role=role) | p.Release(role=role):
-            do = replace(do, role=renamed.get(role, role))
+        case p.Move() | p.Pick() | p.Drop() | p.Cover() | p.Perform() | p.Release():
+            do = replace(do, role=renamed.get(do.role, do.role))
         case p.Call(serves=str(role)):
             do = replace(do, serves=renamed.get(role, role))
     changed = {name: _with_roles(getattr(do, name), renamed) for name in _EXPRESSIONS.get(type(do), ())}

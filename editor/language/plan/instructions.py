@@ -27,6 +27,15 @@ class Move:
 
 
 @dataclass(frozen=True, slots=True)
+class Cover:
+    """The role's robot drives over the whole of a zone, by its id, in lanes of `lane_m` metres; None: as wide as it."""
+
+    role: str
+    zone: str
+    lane_m: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Pick:
     """The role's robot takes objects at a device, and is brought there first if it stands elsewhere."""
 
@@ -226,7 +235,7 @@ class EventEnd:
 
 
 Action = (
-    Move | Pick | Drop | Release | Call | Perform | Wait | WaitUntil | Branch | Jump | Fork | Join
+    Move | Pick | Drop | Cover | Release | Call | Perform | Wait | WaitUntil | Branch | Jump | Fork | Join
     | TryBegin | Caught | TryEnd | LimitBegin | Rethrow | Invoke | Return | Assign | AskPerson | Notify | Fail | End
     | EventEnd
 )  # fmt: skip

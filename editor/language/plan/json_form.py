@@ -186,12 +186,13 @@ def _event_from_json(body: Mapping[str, Any]) -> p.EventEntry:
 
 def _zone_to_json(zone: e.Zone) -> dict[str, Any]:
     points = [list(point) for point in zone.points]
-    return {"id": zone.id, "name": zone.name, "rule": zone.rule, "points": points, "speed_m_s": zone.speed_m_s}
+    body = {"id": zone.id, "name": zone.name, "rule": zone.rule, "points": points, "speed_m_s": zone.speed_m_s}
+    return {**body, "door": zone.door} if zone.door else body
 
 
 def _zone_from_json(body: Mapping[str, Any]) -> e.Zone:
     points = tuple(_point(point) for point in body["points"])
-    return e.Zone(body["id"], body["name"], body["rule"], points, body["speed_m_s"])
+    return e.Zone(body["id"], body["name"], body["rule"], points, body["speed_m_s"], body.get("door", ""))
 
 
 def _load(kind: type[p.Pick] | type[p.Drop], b: Mapping[str, Any]) -> p.Pick | p.Drop:
@@ -205,6 +206,7 @@ ACTIONS: Mapping[str, Callable[[Mapping[str, Any]], p.Action]] = {
     "Drop": lambda b: _load(p.Drop, b),
     "Call": lambda b: p.Call(_place_from_json(b["device"]), b["method"], _named(b["arguments"]), b["serves"]),
     "Perform": lambda b: p.Perform(b["role"], b["method"], _named(b["arguments"])),
+    "Cover": lambda b: p.Cover(b["role"], b["zone"], _maybe(b["lane_m"])),
     "Release": lambda b: p.Release(b["role"]),
     "Wait": lambda b: p.Wait(expression_from_json(b["seconds"])),
     "WaitUntil": lambda b: p.WaitUntil(expression_from_json(b["condition"]), _maybe(b["timeout_s"])),

@@ -37,6 +37,7 @@ FIELD_TEXTS: Mapping[FieldType, _Text] = {
     "variable": lambda printer, name: f"{printer.variable(name)} = " if name else "",
     "choice": lambda printer, word: quote(word),
     "route": _route,
+    "zone": lambda printer, zone: printer.zone(zone) if zone else "None",
     "answer": _answer,
 }
 

@@ -55,7 +55,7 @@ def print_tree(
     for event in tree.events:
         _print_method(printer, f"def {_event_method(printer, event)}(self):", event.body, step=event.step)
     _print_run(printer)
-    return Script("\n".join(printer.texts) + "\n", tuple(printer.steps), dict(printer.places))
+    return Script("\n".join(printer.texts) + "\n", tuple(printer.steps), printer.places)
 
 
 def _heading(function: Function) -> str:
@@ -100,8 +100,7 @@ def _print_run(printer: Printer) -> None:
     watched = [(event, printer.value(event.condition)) for event in printer.tree.events]
     for parameter in printer.tree.parameters:
         printer.line(2, f"self.{parameter.name} = ctx.parameter({_given_to_parameter(parameter)})")
-    nodes = (node for body in _bodies(printer.tree) for node in printer.tree.walked(body))
-    driven = frozenset(node.role for node in nodes if isinstance(node, DRIVES))
+    driven = printer.tree.roles_of(*DRIVES)
     for role in printer.tree.roles:
         sure = role.name in driven or is_robot(printer.surroundings, role.device)
         printer.line(2, f"self.{role.name} = {_binding(printer, role, sure=sure)}")
@@ -110,7 +109,7 @@ def _print_run(printer: Printer) -> None:
         printer.line(2, f"{attribute} = {get}")
     _print_zones(printer)
     for event, condition in watched:
-        printer.places.append((id(event), len(printer.texts) + 1))
+        printer.places[id(event)] = len(printer.steps) + 1
         when = "ctx.start_when" if event.starts == "run" else "ctx.when"
         printer.line(2, f"{when}({condition}, self.{_event_method(printer, event)})", event.step)
     printer.line(2, "self.new_task()")
@@ -130,8 +129,9 @@ def _drawn(zone: Zone) -> str:
     """Return `"z1", [(0, 0), (3, 0), (3, 2)], rule="slow", speed=0.3, name="Ramp"`; the name where it is not the id."""
     points = ", ".join(map(point_text, zone.points))
     speed = "" if zone.speed_m_s is None else f", speed={scalar_text(zone.speed_m_s)}"
+    door = f", door={quote(zone.door) if zone.door else None}" if zone.rule == "door" else ""
     name = "" if zone.name == zone.id else f", name={quote(zone.name)}"
-    return f"{quote(zone.id)}, [{points}], rule={quote(rule_text(zone.rule))}{speed}{name}"
+    return f"{quote(zone.id)}, [{points}], rule={quote(rule_text(zone.rule))}{door}{speed}{name}"
 
 
 def _given_to_parameter(parameter: Parameter) -> str:
@@ -140,10 +140,6 @@ def _given_to_parameter(parameter: Parameter) -> str:
     if kind:
         return f"{quote(parameter.name)}, {scalar_text(parameter.default)}, {kind}"
     return quote(parameter.name) + ("" if parameter.default is None else f", {scalar_text(parameter.default)}")
-
-
-def _bodies(tree: Tree) -> tuple[Block, ...]:
-    return (tree.body, *(function.body for function in tree.functions), *(event.body for event in tree.events))
 
 
 def _binding(printer: Printer, role: Role, *, sure: bool) -> str:

@@ -24,9 +24,9 @@ _INDENTS = tuple("    " * depth for depth in range(80))
 class _Printed:
     """The lines of a step that holds others, and where each node stands in them, counted from 1."""
 
-    texts: tuple[str, ...]
+    text: str
     steps: tuple[str, ...]
-    places: tuple[tuple[int, int], ...]
+    places: Mapping[int, int]
     names: Mapping[PlaceRef | Located | str, str]
 
 
@@ -41,8 +41,10 @@ class Printer:
     printers: Mapping[type[Node], Callable[..., None]]
     """How each construct is printed."""
     texts: list[str] = field(default_factory=list)
+    """Lines, and where steps are taken as they were, several of them in one."""
     steps: list[str] = field(default_factory=list)
-    places: list[tuple[int, int]] = field(default_factory=list)
+    """The step of each line."""
+    places: dict[int, int] = field(default_factory=dict)
     """The line of each node, by the node's identity."""
     attributes: dict[PlaceRef | str, str] = field(default_factory=dict)
     """Devices (by id) and places, with their names in the script, in the order of first use."""
@@ -75,7 +77,7 @@ class Printer:
             if self.memo is not None and node.__class__ in COMPOSITES:
                 self._holding(self.memo, node, depth)
             else:
-                self.places.append((id(node), len(self.texts) + 1))
+                self.places[id(node)] = len(self.steps) + 1
                 self.printers[type(node)](self, node, depth)
         if not block:
             self.line(depth, "pass")
@@ -84,16 +86,17 @@ class Printer:
         """Print a step that holds others, or take its lines as they were when all names are still the same."""
         given = depth, self.locals
         known: _Printed | None = memo.get(node, given)
-        begin = len(self.texts)
-        if known is None or not self._names_still(known.names):
+        if known is None or not (known.names.items() <= self.used.items() or self._names_still(known.names)):
             known = self._print_anew(node, depth)
             if known is not None:
                 memo.put(node, known, given)
         else:
-            self.texts.extend(known.texts)
-            self.steps.extend(known.steps)
+            begin = len(self.steps)
+            self.texts.append(known.text)
+            self.steps += known.steps
             self.used.update(known.names)
-            self.places.extend([(key, begin + line) for key, line in known.places])
+            for key, line in known.places.items():
+                self.places[key] = begin + line
 
     def _names_still(self, names: Mapping[PlaceRef | Located | str, str]) -> bool:
         """Tell whether things have these names still; those that have none yet get theirs, in this order."""
@@ -101,16 +104,18 @@ class Printer:
 
     def _print_anew(self, node: Node, depth: int) -> _Printed | None:
         """Print a step that holds others; None where its lines depend on its number, or print more elsewhere."""
-        outside, self.used = self.used, {}
-        begin, branches, placed = len(self.texts), len(self.branches), len(self.places)
-        self.places.append((id(node), begin + 1))
+        outside = self.used, self.places
+        self.used, self.places = {}, {id(node): len(self.steps) + 1}
+        first, begin, branches = len(self.texts), len(self.steps), len(self.branches)
         self.printers[type(node)](self, node, depth)
-        names, self.used = self.used, outside
+        names, places = self.used, self.places
+        self.used, self.places = outside
         self.used.update(names)
+        self.places.update(places)
         if len(self.branches) != branches:
             return None
-        places = tuple((key, line - begin) for key, line in self.places[placed:])
-        return _Printed(tuple(self.texts[begin:]), tuple(self.steps[begin:]), places, names)
+        inside = {key: line - begin for key, line in places.items()}
+        return _Printed("\n".join(self.texts[first:]), tuple(self.steps[begin:]), inside, names)
 
     def _name_of(self, key: PlaceRef | Located | str) -> str:
         if isinstance(key, str):

@@ -10,6 +10,7 @@ from editor.language.document.outline import Params, mapping
 from editor.language.expressions.declarations import normal_answer
 from editor.language.expressions.nodes import Point
 from editor.language.expressions.values import read_point
+from editor.language.reading.names import text_of
 from editor.language.reading.reader import Reader
 
 LISTS: Final = (list, tuple)
@@ -58,6 +59,11 @@ def read_route(value: object) -> tuple[Point, ...]:
     return tuple(point for point in points if point is not None)
 
 
+def _zone(field: Field) -> ReadsField:
+    name = field.name
+    return lambda reader, step, params: text_of(params.get(name))
+
+
 def _answer(field: Field) -> ReadsField:
     name = field.name
     return lambda reader, step, params: normal_answer(mapping(params.get(name)))
@@ -70,5 +76,6 @@ FIELD_READERS: Mapping[FieldType, Callable[[Field], ReadsField]] = {
     "variable": _variable,
     "choice": _choice,
     "route": _route,
+    "zone": _zone,
     "answer": _answer,
 }

@@ -47,6 +47,12 @@ class FloorFacts(Protocol):
     def is_reachable(self, from_xy: tuple[float, float], to_xy: tuple[float, float], radius_m: float) -> bool:
         """Tell whether a robot of that radius finds a path."""
 
+    def can_stop(self, x_m: float, y_m: float, radius_m: float) -> bool:
+        """Tell whether traffic lets robots drive to a point, `radius_m` being the largest robot's of the site."""
+
+    def why_not_covered(self, outline: tuple[tuple[float, float], ...], lane_m: float, radius_m: float) -> str:
+        """Return why robots cannot cover a zone in lanes so wide: outside, nothing, too_many; empty: they can."""
+
     def has_machine(self, device_id: str) -> bool:
         """Tell whether the machine stands on this floor."""
 

@@ -77,6 +77,16 @@ class Perform:
 
 
 @dataclass(frozen=True, slots=True)
+class Cover:
+    """The role's robot drives over the whole of a zone (its id), in lanes of `lane_m` metres; None: as wide as it."""
+
+    role: str
+    zone: str = ""
+    lane_m: Expression | None = None
+    step: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Release:
     """The role gives its robot back; used again it gets one anew."""
 
@@ -260,7 +270,7 @@ class Try:
     @property
     def catches(self) -> tuple[Block, ...]:
         """Return the steps of each of its catches."""
-        return tuple(handler.block for handler in self.handlers)
+        return tuple([handler.block for handler in self.handlers])
 
 
 @dataclass(frozen=True, slots=True)
@@ -284,12 +294,12 @@ class Call:
 
 
 Node = (
-    Move | Pick | Drop | Release | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach | Parallel | Try
-    | Limit | Call | Set | Ask | Notify | End | Fail | Return | Break | Continue
+    Move | Pick | Drop | Cover | Release | Operate | Perform | Wait | WaitUntil | If | While | Repeat | ForEach
+    | Parallel | Try | Limit | Call | Set | Ask | Notify | End | Fail | Return | Break | Continue
 )  # fmt: skip
 Block = tuple[Node, ...]
 LOADS: Final = (Pick, Drop)
-DRIVES: Final = (Move, Pick, Drop)
+DRIVES: Final = (Move, Pick, Drop, Cover)
 """What a robot goes for. (A check of a class against such a row is several times as quick as against a union.)"""
 ACTS: Final = (*DRIVES, Perform)
 """What a robot does, there or where it stands."""
@@ -378,7 +388,7 @@ def walk(block: Block) -> list[Node]:
 def _gather(block: Block, nodes: list[Node]) -> None:
     for node in block:
         nodes.append(node)
-        if node.__class__ in COMPOSITES:
-            for inner in blocks_of(node):
-                if inner:
-                    _gather(inner, nodes)
+        get = _BLOCKS.get(node.__class__)
+        if get is not None:
+            for inner in get(node):
+                _gather(inner, nodes)

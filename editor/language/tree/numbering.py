@@ -8,8 +8,7 @@ deep in others. Events are e1, e2 …, their steps e1.1, e1.2 ….
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Set
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from string import ascii_lowercase
 
@@ -21,8 +20,6 @@ _MORE = COMPOSITES | {Call}
 """The nodes by which other steps get their numbers."""
 _OF_CATCHES = "cdeghijk"
 """The letters of a Try's catches; its final part is f, as it always was."""
-_BEFORE_FINAL = _OF_CATCHES.index("g")
-_PARTS = re.compile(r"[0-9]+|[a-z]")
 
 
 def letters_of(node: Node) -> Iterator[tuple[str, Block]]:
@@ -39,10 +36,8 @@ class Numbering:
 
     numbers: dict[str, str] = field(default_factory=dict)
     depths: dict[str, int] = field(default_factory=dict)
-    first_calls: dict[str, tuple[str, int]] = field(default_factory=dict)
-    """Function → the number and the depth of its first call."""
-    late: set[str] = field(default_factory=set)
-    """The numbers of final parts that are read behind catches with later letters."""
+    first_calls: dict[str, tuple[str, str, int]] = field(default_factory=dict)
+    """Function → the step, the number and the depth of its first call."""
 
     def block(self, block: Block, prefix: str, depth: int) -> None:
         """Number the steps of a block; a step of several nodes counts once."""
@@ -60,11 +55,9 @@ class Numbering:
         """Number one step and what stands in it."""
         self.numbers[node.step], self.depths[node.step] = number, depth
         if isinstance(node, Call) and node.function:
-            self.first_calls.setdefault(node.function, (number, depth))
+            self.first_calls.setdefault(node.function, (node.step, number, depth))
         if node.__class__ not in COMPOSITES:
             return
-        if isinstance(node, Try) and len(node.handlers) > _BEFORE_FINAL:
-            self.late.add(f"{number}f")
         for letter, block in letters_of(node):
             if block and block[0].step == block[-1].step:
                 self.node(block[0], f"{number}{letter}", depth + 1)
@@ -79,18 +72,38 @@ def number_steps(tree: Tree) -> Numbering:
     for index, event in enumerate(tree.events, start=1):
         numbering.numbers[event.step], numbering.depths[event.step] = f"e{index}", 0
         numbering.block(event.body, f"e{index}.", 1)
-    uncalled = 0
-    for function in tree.functions:
-        number, depth = numbering.first_calls.get(function.method, ("", -1))
-        if not number or depth >= DEEPEST_STEP:  # numbers behind numbers would grow with every call in a long chain
-            depth = -1
-            uncalled += 1
-            number = f"f{uncalled}"
-        numbering.block(function.body, f"{number}.", depth + 1)
     if tree.functions:
-        ordered = sorted(numbering.numbers.items(), key=lambda pair: _reading_key(pair[1], numbering.late))
-        numbering.numbers = dict(ordered)
+        _number_functions(tree, numbering)
     return numbering
+
+
+def _number_functions(tree: Tree, numbering: Numbering) -> None:
+    """Number the steps of the functions, and put them behind the first call, or last of all."""
+    parts = [numbering.numbers]
+    called: dict[str, dict[str, str]] = {}
+    for function in tree.functions:
+        step, number, depth = numbering.first_calls.get(function.method, ("", "", -1))
+        numbering.numbers = {}
+        if not number or depth >= DEEPEST_STEP:  # numbers behind numbers would grow with every call in a long chain
+            parts.append(numbering.numbers)
+            numbering.block(function.body, f"f{len(parts) - 1}.", 0)
+        else:
+            called[step] = numbering.numbers
+            numbering.block(function.body, f"{number}.", depth + 1)
+    numbering.numbers = dict(pair for part in parts for pair in _with_called(part, called))
+
+
+def _with_called(part: Mapping[str, str], called: Mapping[str, Mapping[str, str]]) -> Iterator[tuple[str, str]]:
+    """Yield steps with their numbers, behind a first call those of its function."""
+    left = [iter(part.items())]
+    while left:
+        for step, number in left[-1]:
+            yield step, number
+            if step in called:
+                left.append(iter(called[step].items()))
+                break
+        else:
+            left.pop()
 
 
 def numbers_in_script(tree: Tree) -> dict[str, str]:
@@ -98,14 +111,3 @@ def numbers_in_script(tree: Tree) -> dict[str, str]:
     if tree.events or tree.functions or tree.holds(Parallel):
         return number_steps(tree).numbers
     return dict.fromkeys([node.step for node in tree.walked(tree.body)], "")
-
-
-def _reading_key(number: str, late: Set[str]) -> list[tuple[int, str]]:
-    """Sort 2 before 10, 1b before 1b.1, events behind the program, the functions that nobody calls last."""
-    parts = list(_PARTS.finditer(number))
-    key = [(int(part[0]), "") if part[0].isdigit() else (0, _letter(number[: part.end()], late)) for part in parts]
-    return [({"e": 1, "f": 2}.get(parts[0][0], 0), ""), *key]
-
-
-def _letter(number: str, late: Set[str]) -> str:
-    return "z" if number in late else number[-1]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from editor.language.expressions.nodes import Expression, Zone
@@ -76,7 +78,9 @@ class Tree:
     """The ids of zones of which a script says no more: they stay as they are drawn."""
     _walked: dict[int, list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
     _derived: dict[object, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
-    _by_kind: dict[type[Node], list[Node]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _by_kind: defaultdict[type[Node], list[Node]] = field(
+        default_factory=partial(defaultdict, list), init=False, repr=False, compare=False
+    )
 
     def walked(self, block: Block) -> list[Node]:
         """Return the nodes of one of the tree's own blocks as `walk` does; they are gathered once."""
@@ -101,13 +105,21 @@ class Tree:
         """Tell whether any step of the program is of one of these kinds."""
         return not self._kinds().keys().isdisjoint(kinds)
 
+    def roles_of(self, *kinds: type[Node]) -> set[str]:
+        """Return the roles that the steps of some kinds name, each of them one of `OF_ROBOTS`."""
+        by_kind: Mapping[Any, list[Any]] = self._kinds()
+        return {node.role for kind in kinds for node in by_kind.get(kind, ())}
+
+    def in_order(self, functions: tuple[Function, ...], roles: tuple[Role, ...]) -> Tree:
+        """Return the tree with its functions and roles in another order; its blocks need not be gathered again."""
+        tree = replace(self, functions=functions, roles=roles)
+        tree._walked.update(self._walked)
+        return tree
+
     def _kinds(self) -> dict[type[Node], list[Node]]:
-        if not self._by_kind:
+        by_kind = self._by_kind
+        if not by_kind:
             for block in (self.body, *(f.body for f in self.functions), *(event.body for event in self.events)):
                 for node in self.walked(block):
-                    kind = node.__class__
-                    if kind in self._by_kind:
-                        self._by_kind[kind].append(node)
-                    else:
-                        self._by_kind[kind] = [node]
-        return self._by_kind
+                    by_kind[node.__class__].append(node)
+        return by_kind

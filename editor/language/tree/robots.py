@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 
 from editor.language.expressions.names import (
-    RELEASE,
+    OF_THE_FLEET,
     RESERVED_ATTRIBUTES,
     ROBOT_METHODS,
     member_name,
@@ -67,7 +67,7 @@ def short_name(robots: Robots, name: str) -> str | None:
     if name in ROBOT_METHODS or described_alike(robots, name) is None:
         return None
     names = {member_name(name, [method.name for method in robot.methods]) for robot in robots}
-    return names.pop() if len(names) == 1 and names != {RELEASE} else None
+    return names.pop() if len(names) == 1 and names.isdisjoint(OF_THE_FLEET) else None
 
 
 def methods_called(robots: Robots, short: str) -> tuple[str, ...]:
@@ -144,8 +144,6 @@ def with_crew(surroundings: Surroundings, roles: Sequence[Role]) -> Surroundings
 
 def with_roles_of_robots(tree: Tree, surroundings: Surroundings) -> Tree:
     """Return the tree in which every Operate of a robot is done by a role; one that is bound to the robot already."""
-    if not tree.holds(Operate):
-        return tree
     bodies = (tree.body, *(f.body for f in tree.functions), *(event.body for event in tree.events))
     operated = (node.device.device for body in bodies for node in tree.walked(body) if isinstance(node, Operate))
     robots = dict.fromkeys(device for device in operated if device and is_robot(surroundings, device))

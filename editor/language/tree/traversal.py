@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Final
 
 from editor.language.expressions.names import ROBOT_METHODS
-from editor.language.tree.nodes import OF_ROBOTS, Block, Call, Node, Perform, Release, walk
+from editor.language.tree.nodes import OF_ROBOTS, Block, Call, Cover, Node, Perform, Release
 from editor.language.tree.program import Function, Role, Tree
 
 
@@ -19,35 +19,45 @@ def reading_order(tree: Tree) -> tuple[Function, ...]:
     found: dict[str, Function] = {}
     uncalled = sorted(tree.functions, key=lambda function: function.method, reverse=True)
     bodies = (tree.body, *(event.body for event in tree.events))
-    first = [function for body in bodies for function in _called_in(body, by_method)]
+    first = [function for body in bodies for function in _called_in(tree, body, by_method)]
     left = [*uncalled, *reversed(first)]
     while left:
         function = left.pop()
         if function.method not in found:
             found[function.method] = function
-            left.extend(reversed(_called_in(function.body, by_method)))
+            left.extend(reversed(_called_in(tree, function.body, by_method)))
     return tuple(found.values())
 
 
-def _called_in(block: Block, by_method: Mapping[str, Function]) -> list[Function]:
-    calls = (node.function for node in walk(block) if isinstance(node, Call))
+def _called_in(tree: Tree, block: Block, by_method: Mapping[str, Function]) -> list[Function]:
+    calls = [node.function for node in tree.walked(block) if isinstance(node, Call)]
     return [by_method[name] for name in calls if name in by_method]
 
 
 def needed_of_roles(tree: Tree, functions: tuple[Function, ...]) -> dict[str, tuple[str, ...]]:
     """Return what each role must be able to do, roles in the order of first use; a robot that picks also drives."""
-    blocks = (tree.body, *(f.body for f in functions), *(event.body for event in tree.events))
-    needed: dict[str, set[type[Node]]] = {}
+    needed = {role: set[type[Node]]() for role in first_uses(tree, functions)}
+    for kind in OF_ROBOTS if needed else ():
+        for role in tree.roles_of(kind):
+            needed[role].add(kind)
     own: dict[str, set[str]] = {}
-    for block in blocks:
-        for node in tree.walked(block):
-            if isinstance(node, OF_ROBOTS):
-                if node.role not in needed:
-                    needed[node.role] = set()
-                needed[node.role].add(node.__class__)
-                if isinstance(node, Perform) and node.method not in ROBOT_METHODS:
-                    own.setdefault(node.role, set()).add(node.method)
+    for node in tree.of_kind(Perform):
+        if node.method not in ROBOT_METHODS:
+            own.setdefault(node.role, set()).add(node.method)
     return {role: _methods_of(uses, own.get(role, set()) - {""}) for role, uses in needed.items()}
+
+
+def first_uses(tree: Tree, functions: tuple[Function, ...]) -> dict[str, Node]:
+    """Return the first step of each role, where the functions stand in this order; as far as need be gone through."""
+    roles = tree.roles_of(*OF_ROBOTS)
+    first: dict[str, Node] = {}
+    for block in (tree.body, *(f.body for f in functions), *(event.body for event in tree.events)):
+        for node in tree.walked(block):
+            if len(first) == len(roles):
+                return first
+            if isinstance(node, OF_ROBOTS):
+                first.setdefault(node.role, node)
+    return first
 
 
 _OF_NO_METHOD: Final = frozenset({Perform, Release})
@@ -56,7 +66,7 @@ _OF_NO_METHOD: Final = frozenset({Perform, Release})
 
 def _methods_of(uses: set[type[Node]], own: set[str]) -> tuple[str, ...]:
     """Return the methods that such steps need, those of a robot's own behind the others."""
-    methods = {use.__name__.lower() for use in uses if use not in _OF_NO_METHOD}
+    methods = {"move" if use is Cover else use.__name__.lower() for use in uses if use not in _OF_NO_METHOD}
     wanted = methods - {"move"} or methods
     return (*(method for method in ROBOT_METHODS if method in wanted), *sorted(own))
 
@@ -169,7 +179,7 @@ def in_reading_order(tree: Tree) -> Tree:
     needed = needed_of_roles(tree, functions)
     by_name = {role.name: role for role in tree.roles}
     roles = (_fill(by_name[name], methods) for name, methods in needed.items())
-    return replace(tree, functions=functions, roles=tuple(roles))
+    return tree.in_order(functions, tuple(roles))
 
 
 def _fill(role: Role, needed: tuple[str, ...]) -> Role:

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import hypot
 from typing import Literal
 
 from editor.language.document.outline import mapping
 from editor.language.expressions.nodes import Point, Zone
 from editor.language.expressions.values import is_number, read_point
 
-Rule = Literal["keep_out", "one_at_a_time", "slow"]
-RULES: Mapping[str, Rule] = {"keep_out": "keep_out", "one_at_a_time": "one_at_a_time", "slow": "slow"}
+Rule = Literal["keep_out", "one_at_a_time", "slow", "door"]
+RULES: Mapping[str, Rule] = {
+    "keep_out": "keep_out",
+    "one_at_a_time": "one_at_a_time",
+    "slow": "slow",
+    "door": "door",
+}
 """What a zone asks of robots, by its name in documents."""
 FEWEST_CORNERS = 3
 SMALLEST_AREA_M2 = 1e-4
@@ -38,13 +44,14 @@ def _zone(name: str, item: Mapping[str, object]) -> Zone | None:
     is_polygon = FEWEST_CORNERS <= len(points) <= MOST_CORNERS and area_m2(points) >= SMALLEST_AREA_M2
     if not name or rule is None or not is_polygon:
         return None
-    called = item.get("name")
+    called, door = item.get("name"), item.get("door")
     return Zone(
         name,
         called if isinstance(called, str) and called else name,
         rule,
         points,
         float(speed) if is_number(speed) and speed > 0 else None,
+        door if rule == "door" and isinstance(door, str) else "",
     )
 
 
@@ -57,6 +64,17 @@ def area_m2(points: tuple[Point, ...]) -> float:
     """Return the area of a polygon by the shoelace formula."""
     around = zip(points, (*points[1:], points[0]), strict=True)
     return abs(sum(x1 * y2 - x2 * y1 for (x1, y1), (x2, y2) in around)) / 2
+
+
+def width_m(points: tuple[Point, ...]) -> float:
+    """Return how wide a polygon is across that side along which it is narrowest, in metres."""
+    widths = []
+    for (x1, y1), (x2, y2) in zip(points, (*points[1:], points[0]), strict=True):
+        length_m = hypot(x2 - x1, y2 - y1)
+        if length_m > 0:
+            across = [((x - x1) * (y2 - y1) - (y - y1) * (x2 - x1)) / length_m for x, y in points]
+            widths.append(max(across) - min(across))
+    return min(widths, default=0.0)
 
 
 def is_in(point: Point, points: tuple[Point, ...]) -> bool:

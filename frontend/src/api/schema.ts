@@ -3085,7 +3085,7 @@ export interface components {
             priority: "low" | "normal" | "high";
         };
         /** @enum {string} */
-        StepKind: "move" | "pick" | "drop" | "pick_and_drop" | "release" | "operate" | "wait" | "if" | "while" | "repeat" | "for_each" | "parallel" | "try" | "limit" | "on_event" | "break" | "continue" | "return" | "end" | "fail" | "call" | "set" | "notify" | "ask" | "comment";
+        StepKind: "move" | "pick" | "drop" | "pick_and_drop" | "cover" | "release" | "operate" | "wait" | "if" | "while" | "repeat" | "for_each" | "parallel" | "try" | "limit" | "on_event" | "break" | "continue" | "return" | "end" | "fail" | "call" | "set" | "notify" | "ask" | "comment";
         /** @description A step: `place` is parent, branch and order; without it the step is a draft. `pos` in metres. */
         StepShape: {
             kind: components["schemas"]["StepKind"];
@@ -3187,13 +3187,14 @@ export interface components {
         };
         /** @description A named area of the map: a polygon in metres, and what it asks of robots. */
         ZoneShape: {
+            door?: string | null;
             name: string;
             points: [
                 number,
                 number
             ][];
             /** @enum {string} */
-            rule: "keep_out" | "one_at_a_time" | "slow";
+            rule: "keep_out" | "one_at_a_time" | "slow" | "door";
             speed_m_s?: number | null;
         };
         /** @description A zone of the program. */

@@ -56,7 +56,6 @@ export type AlertSeverity = Alert["severity"];
 
 export type Program = Schemas["ProgramShape"];
 export type ProgramDocument = Schemas["DocumentShape"];
-export type StepKind = Schemas["StepKind"];
 export type Place = Schemas["Place"];
 export type Step = Schemas["StepShape"];
 export type Compiled = Schemas["CompiledShape"];

@@ -28,6 +28,7 @@ import { settle } from "./state/actions";
 import { useGestures } from "./state/gestures";
 import { Cursors } from "./canvas/Cursors";
 import { DevicePalette } from "./canvas/DevicePalette";
+import { LanePreview } from "./canvas/LanePreview";
 import { LoadAsk } from "./canvas/LoadAsk";
 import { PreviewLine } from "./canvas/PreviewLine";
 import { ZONE_TOOL } from "./state/tools";
@@ -69,7 +70,12 @@ export function EditorMap({ insets, fitInsets, small }: EditorMapProps) {
         showCursor(at);
         drawing.pointer.set({ ...toPixels(at), zoom: 1 });
       }}
-      under={<EditorZones />}
+      under={
+        <>
+          <EditorZones />
+          <LanePreview />
+        </>
+      }
       plane={<Plane drawing={drawing} />}
     >
       <FollowView />

@@ -1,5 +1,5 @@
 /** The kinds of steps, as the server's records of constructs have them (`make constructs` writes them here). */
-import type { StepKind } from "@/api/types";
+import type { StepKind } from "./document/document";
 import records from "./constructs.json";
 
 export type Family = "motion" | "machine" | "logic" | "func" | "note";

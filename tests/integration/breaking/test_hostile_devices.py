@@ -46,6 +46,7 @@ def device(port: int, name: str, password: str) -> Iterator[tuple[paho.Client, l
 def test_a_new_device_that_talks_nonsense_is_noted_and_others_keep_working(factory: Factory) -> None:
     join = (factory.demo.state / "secrets" / "join").read_text().strip()
     text = MIXER_TEXT.replace("paintMixer03", "loud01").encode()
+    wait_for("robot02 at home, whatever another test had for it", lambda: factory.device("robot02")["status"] == "idle")
     before = factory.device("robot02")
     with device(factory.mqtt_port, "loud01", join) as (client, heard):
         up = "vipo/v1/dev/loud01/up"

@@ -184,4 +184,6 @@ def test_a_cookie_that_is_no_text_is_a_stranger(db: None, value: str) -> None:
 def test_the_database_is_the_one_that_was_asked_for(db: None) -> None:
     import os
 
-    assert connection.vendor == ("postgresql" if os.environ.get("VIPO_TEST_DATABASE") == "postgres" else "sqlite")
+    assert connection.vendor == (
+        "postgresql" if os.environ.get("VIPO_TEST_DATABASE", "").startswith("postgres") else "sqlite"
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -27,14 +28,18 @@ import json, pathlib
 from editor import services
 document = json.loads(pathlib.Path("examples/pick-and-drop.json").read_text())["document"]
 services.create_program(site="painting-factory", name="Task", document=document)
+wait = {"kind": "wait", "place": ["program", "body", "V"], "pos": [1, -1], "params": {"seconds": %d}}
+document = {**document, "steps": {"wait": wait}}
+services.create_program(site="painting-factory", name="Wait", document=document)
 """
+WAIT_S = 6
 OVER = {"finished", "failed", "cancelled"}
 
 
 @pytest.fixture(scope="module")
 def served(tmp_path_factory: pytest.TempPathFactory, module_database_url: str, shared_redis: Redis) -> Iterator[Served]:
     with running_served(tmp_path_factory.mktemp("served"), module_database_url, shared_redis.url) as running:
-        running.manage("shell", "-c", MAKE_TASK)
+        running.manage("shell", "-c", MAKE_TASK % WAIT_S)
         for number in (0, 1):
             running.wait("a web process", lambda n=number: is_up(running.web_ports[n]), 200)
         yield running
@@ -145,6 +150,43 @@ def test_a_run_survives_the_death_of_a_worker_and_of_the_gateway(served: Served)
         served.start("worker-1", *WORKER, "-n", "worker-1@%h")
         done = served.wait("the end of the run", lambda: over(client, run), 180)
         assert (done["status"], done["reason"]) == ("finished", ""), served.story()
+
+
+def plan_waits(client: httpx.Client, begin: datetime) -> list[str]:
+    """Plan runs of a program that only waits: they matter little and much, and are due before they can be over."""
+    programs = client.get(f"{SITE}/programs").json()
+    waits = next(program for program in programs if program["name"] == "Wait")
+    runs = []
+    for priority in ("low", "high", "normal", "high"):
+        due = begin + timedelta(seconds=WAIT_S / 2)
+        terms = {"priority": priority, "not_before": begin.isoformat(), "deadline": due.isoformat()}
+        answer = client.post(f"/api/programs/{waits['id']}/runs", json=terms)
+        assert answer.status_code == 202, answer.text
+        assert terms.items() <= answer.json().items()
+        runs.append(str(answer.json()["id"]))
+    return runs
+
+
+def test_planned_runs_begin_once_at_their_time_though_workers_die_while_they_wait(served: Served) -> None:
+    with served.signed_in("author", 0) as client:
+        begin = datetime.now(UTC) + timedelta(seconds=5)
+        runs = plan_waits(client, begin)
+        served.kill("worker-1")
+        assert [client.get(f"/api/runs/{run}").json()["status"] for run in runs] == ["pending"] * 4
+        served.start("worker-1", *WORKER, "-n", "worker-1@%h")
+        for run in runs:
+            served.wait("its start", lambda r=run: client.get(f"/api/runs/{r}").json()["status"] == "running")
+        served.kill("worker-2")
+        served.start("worker-2", *WORKER, "-n", "worker-2@%h")
+        for run in runs:
+            done = served.wait("its end", lambda r=run: over(client, r), 120)
+            assert (done["status"], done["reason"]) == ("finished", ""), served.story()
+            assert datetime.fromisoformat(done["started_at"]) >= begin
+            codes = [event["code"] for event in client.get(f"/api/runs/{run}/events").json()]
+            told = [code for code in codes if code in {"started_planned", "deadline_passed", "finished"}]
+            assert told == ["started_planned", "deadline_passed", "finished"], codes
+        shown = {run["id"]: run["priority"] for run in client.get(f"{SITE}/runs").json()}
+        assert [shown[run] for run in runs] == ["low", "high", "normal", "high"]
 
 
 def test_every_process_ends_when_it_is_asked(served: Served) -> None:

@@ -8,7 +8,7 @@ from execution.machine import messages as m
 from execution.machine.floor_task import Target, TaskOrder
 from execution.machine.state import FLOOR_TASK
 from execution.traffic import floor
-from execution.traffic.floor_state import FloorTask, Robot, Sent
+from execution.traffic.floor_state import Door, FloorTask, Robot, Sent
 from execution.traffic.messages import FloorZone, Reason
 
 RUN = "21d39520-eca2-4d7a-be85-ebfe640e5d9f"
@@ -66,6 +66,20 @@ def test_a_floor_is_kept_in_the_words_that_the_version_before_reads():
 def test_a_floor_kept_before_there_were_zones_is_read():
     before = {key: value for key, value in FLOOR.items() if key not in {"zones", "locks"}}
     assert floor.from_json(before).zones == {}
+
+
+def test_a_floor_that_knows_doors_is_read_as_it_was_kept_and_one_without_says_nothing_of_them():
+    zone = {"key": "p/d", "name": "Ward", "rule": "door", "points": [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]],
+            "speed_m_s": None, "door": "gate01"}  # fmt: skip
+    door = {"id": "gate01", "is_open": True, "ours": True, "command": "", "robots": ["robot01"], "shut_since": None,
+            "needed_at": 1795361342.0, "moved_at": 1795361340.0, "retry_at": 0.0, "why": ""}  # fmt: skip
+    kept = {**FLOOR, "passages": [zone], "doors": [door], "zones": {RUN: [zone]}}
+    state = floor.from_json(kept)
+    outline = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0))
+    assert state.passages == (FloorZone("p/d", "Ward", "door", outline, door="gate01"),)
+    assert state.doors["gate01"] == Door("gate01", True, True, "", ("robot01",), None, 1795361342.0, 1795361340.0)
+    assert as_stored(state) == kept
+    assert {"passages", "doors"}.isdisjoint(as_stored(floor.from_json(FLOOR)))
 
 
 def test_a_kept_run_that_waits_for_the_floor_is_read_and_kept_the_same():

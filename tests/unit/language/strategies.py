@@ -119,6 +119,9 @@ PARAMS: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "pick": st.fixed_dictionaries({**loads, "at": places}),
     "drop": st.fixed_dictionaries({**loads, "at": places}),
     "pick_and_drop": st.fixed_dictionaries({**loads, "source": places, "target": places}),
+    "cover": st.fixed_dictionaries(
+        {"role": st.sampled_from(ROLES), "zone": st.sampled_from(["z1", "gone", None, 3]), "lane": values}
+    ),
     "release": st.fixed_dictionaries({"role": st.sampled_from([*ROLES, "gone", None, 3])}),
     "operate": st.fixed_dictionaries(
         {
@@ -184,10 +187,11 @@ corners = st.lists(st.one_of(st.tuples(numbers, numbers).map(list), st.just("x")
 zones = st.dictionaries(
     st.sampled_from(["z1", "z2", "wet floor", 'Größe "9"', "robot"]),
     st.fixed_dictionaries(
-        {"rule": st.sampled_from(["slow", "keep_out", "one_at_a_time", "dance", None]), "points": corners},
+        {"rule": st.sampled_from(["slow", "keep_out", "one_at_a_time", "door", "dance", None]), "points": corners},
         optional={
             "name": st.sampled_from(["robot", "Wet floor", "", "z1", "minutes", 4]),
             "speed_m_s": st.sampled_from([0.3, 1, 0, -2, None, "fast"]),
+            "door": st.sampled_from(["gate01", "curingOven01", 'a "b"', "", None, 3]),
         },
     ),
     max_size=3,

@@ -195,7 +195,7 @@ def test_the_examples_use_every_construct() -> None:
     kinds = {step["kind"] for path in PROGRAMS for step in _document(path)["steps"].values()}
     assert kinds == {*BRANCHES, "comment"}
     rules = {zone["rule"] for path in PROGRAMS for zone in _document(path)["zones"].values()}
-    assert rules == {"keep_out", "one_at_a_time", "slow"}
+    assert rules == {"keep_out", "one_at_a_time", "slow", "door"}
 
 
 def test_the_examples_use_every_form_of_value() -> None:

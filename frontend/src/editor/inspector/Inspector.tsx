@@ -7,7 +7,7 @@ import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/design/VipoIcon";
 import { useGestures } from "../state/gestures";
 import { knownNames } from "../edits/variables";
-import type { StepKind } from "@/api/types";
+import type { StepKind } from "@/program/document/document";
 import { isStepKind, kindOf } from "@/program/kinds";
 import { canLimit, duplicateSelected, limitSteps, removeSelected } from "../state/actions";
 import { useOpenProgram } from "../state/context";

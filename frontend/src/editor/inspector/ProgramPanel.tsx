@@ -5,6 +5,7 @@ import { IconButton } from "@/design/IconButton";
 import { VipoIcon } from "@/design/VipoIcon";
 import { namesSet } from "../edits/variables";
 import { changeProgramParameter } from "../edits/names";
+import { zoneIcon } from "@/program/canvas/Zones";
 import { unitText } from "@/program/words/stepWords";
 import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
@@ -135,7 +136,7 @@ function Zones() {
         {zones.map(([id, zone]) => (
           <li key={id}>
             <span style={{ color: "var(--note)", display: "inline-flex" }}>
-              <VipoIcon name="zone" size={16} />
+              <VipoIcon name={zoneIcon(zone)} size={16} />
             </span>
             <span className={classes.grow}>{zone.name}</span>
             <span>{t(`zone_rule.${zone.rule}`)}</span>

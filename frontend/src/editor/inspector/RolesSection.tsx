@@ -7,7 +7,7 @@ import { makeId } from "../state/actions";
 import { useOpenProgram } from "../state/context";
 import classes from "../panel.module.css";
 import { NamedField } from "./fields/NamedField";
-import { ChoiceField } from "./ChoiceField";
+import { RobotChoice } from "./RobotChoice";
 import { Section } from "./fields/FieldFrame";
 
 const ANY = ":any";
@@ -121,7 +121,7 @@ function Binding({ id, name, role, store }: BindingProps) {
         />
       )}
       {role.device ? null : (
-        <ChoiceField
+        <RobotChoice
           id={id}
           name={name}
           role={role}

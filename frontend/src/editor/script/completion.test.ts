@@ -60,7 +60,7 @@ test("behind self stand what run gives, functions, variables and the site's othe
 
 test("behind a device stand what it does and reports, behind a robot its verbs", () => {
   expect(labels("        self.curing_oven.")).toEqual(["cure_paint", "temperature", "location"]);
-  expect(labels("        self.robot.p")).toEqual(["move", "pick", "drop", "release"]);
+  expect(labels("        self.robot.p")).toEqual(["move", "pick", "drop", "cover", "release"]);
 });
 
 test("devices are offered by id where run gives them", () => {
@@ -89,6 +89,7 @@ test("behind any robot stands what robots report, each reading once", () => {
     "verb move",
     "verb pick",
     "verb drop",
+    "verb cover",
     "verb release",
     "property battery",
     "property wheel_slip",
@@ -110,6 +111,7 @@ test("behind a robot stand its own methods too, behind any robot those of all, e
     "move",
     "pick",
     "drop",
+    "cover",
     "release",
     "honk",
     "open_gripper",

@@ -5,6 +5,7 @@ import { type FieldRecord, fieldsOf, isStepKind } from "@/program/kinds";
 import { freshName } from "../edits/variables";
 import { frameAt, type Frame } from "@/program/scene/frames";
 import { spotBelow, spotByRobot, spotOnMachine } from "./placement";
+import { zoneAt } from "@/program/scene/coverLanes";
 import { outerBox } from "@/program/scene/scene";
 import { operable } from "@/program/operation";
 import { deviceBox, type SiteDevice } from "@/program/surroundings";
@@ -74,12 +75,18 @@ export function createOnFloor(open: OpenProgram, gesture: Gesture, at: Point): v
   const params = freshParams(gesture.tool, document);
   if (!params) return;
   const kind = gesture.tool as StepKind;
+  if (kind === "cover") params.zone = zoneAt(document, at) ?? onlyZone(document);
   const apart = kind === "on_event" || kind === "comment";
   const id = createStep(document, apply, { kind, pos: (apart ? null : insideFrame(open)) ?? at, params });
   if (kind === "on_event")
     useUi.setState({
       into: { branch: { parent: id, branch: "body" }, link: `${id}/body`, word: open.t("kind.on_event") },
     });
+}
+
+function onlyZone(document: ProgramDocument): string | null {
+  const [only, second] = Object.keys(document.zones);
+  return second === undefined ? (only ?? null) : null;
 }
 
 /** A step for a frame's body goes under what stands there already. */

@@ -1,5 +1,5 @@
 /** The inspector of a zone: its name, its rule, its speed. */
-import { NumberInput, Radio, TextInput } from "@mantine/core";
+import { NumberInput, Radio, Select, TextInput } from "@mantine/core";
 import { Trash2, X } from "lucide-react";
 import { useEffect, useState } from "react";
 import { IconButton } from "@/design/IconButton";
@@ -7,7 +7,7 @@ import { VipoIcon } from "@/design/VipoIcon";
 import { useGestures, selectZone } from "../state/gestures";
 import inspector from "../panel.module.css";
 import type { Zone } from "@/program/document/document";
-import { soundZones } from "@/program/canvas/Zones";
+import { soundZones, zoneIcon } from "@/program/canvas/Zones";
 import { useOpenProgram } from "../state/context";
 import { useUi } from "../state/ui";
 import { changeZone, removeZone } from "./zoneTool";
@@ -30,7 +30,7 @@ function Panel({ id, zone }: { id: string; zone: Zone }) {
     <aside className={inspector.panel} aria-label={t("gesture.zone.label")}>
       <header className={inspector.head}>
         <span className={inspector.icon} style={{ color: "var(--note)", background: "var(--note-soft)" }}>
-          <VipoIcon name="zone" size={20} />
+          <VipoIcon name={zoneIcon(zone)} size={20} />
         </span>
         <span className={inspector.title}>
           <h2>{t("gesture.zone.label")}</h2>
@@ -49,6 +49,7 @@ function Panel({ id, zone }: { id: string; zone: Zone }) {
         <NameField id={id} zone={zone} />
         <RuleField id={id} zone={zone} />
         {zone.rule === "slow" ? <SpeedField id={id} zone={zone} /> : null}
+        {zone.rule === "door" ? <DoorField id={id} zone={zone} /> : null}
         <p className={inspector.now}>{t("gesture.zone.corners", { count: zone.points.length, area })}</p>
       </div>
     </aside>
@@ -106,6 +107,34 @@ function SpeedField({ id, zone }: { id: string; zone: Zone }) {
       decimalScale={2}
       disabled={!open.canEdit}
       onChange={(speed) => changeZone(open, id, { speed_m_s: typeof speed === "number" ? speed : null })}
+    />
+  );
+}
+
+/** Any machine with something that needs no values may be a door; whether it opens, the checks say. */
+function DoorField({ id, zone }: { id: string; zone: Zone }) {
+  const open = useOpenProgram();
+  const devices = open.devices.filter(
+    (device) =>
+      device.id === zone.door ||
+      (device.kind === "machine" &&
+        device.lifecycle === "approved" &&
+        device.methods.some((method) => !method.parameters.some((parameter) => parameter.required))),
+  );
+  const known = devices.map((device) => ({ value: device.id, label: device.name }));
+  const named =
+    zone.door && !devices.some((device) => device.id === zone.door) ? [{ value: zone.door, label: zone.door }] : [];
+  return (
+    <Select
+      label={open.t("gesture.zone.door_device")}
+      description={open.t("gesture.zone.door_help")}
+      placeholder={open.t("gesture.zone.door_choose")}
+      data={[...known, ...named]}
+      value={zone.door ?? null}
+      searchable
+      allowDeselect={false}
+      disabled={!open.canEdit}
+      onChange={(door) => changeZone(open, id, { door })}
     />
   );
 }

@@ -2,7 +2,7 @@
 import { FEWEST_CORNERS } from "@/program/canvas/Zones";
 import type { Position, ProgramDocument, Zone } from "@/program/document/document";
 
-export const ZONE_RULES = ["keep_out", "one_at_a_time", "slow"] as const;
+export const ZONE_RULES = ["keep_out", "one_at_a_time", "slow", "door"] as const;
 const SLOW_M_S = 0.3;
 const SIDE_M = 2;
 

@@ -49,7 +49,7 @@ function ZoneShape(props: { zone: Zone; selected: boolean; t: Translate; onSelec
       {box ? (
         <foreignObject className={classes.words} x={box.left + 6} y={box.bottom - 28} width={60} height={24}>
           <button type="button" className={classes.tag} onClick={onSelect} tabIndex={onSelect ? 0 : -1}>
-            <VipoIcon name="zone" size={13} />
+            <VipoIcon name={zoneIcon(zone)} size={13} />
             <span>{words}</span>
           </button>
         </foreignObject>
@@ -58,10 +58,16 @@ function ZoneShape(props: { zone: Zone; selected: boolean; t: Translate; onSelec
   );
 }
 
+/** A passage bears the sign of a door, and no more words than its name: it is as narrow as its doorway. */
+export function zoneIcon(zone: Zone): string {
+  return zone.rule === "door" ? "door" : "zone";
+}
+
 export function zoneWords(zone: Zone, t: Translate): string {
   const name = String(zone.name ?? "");
   if (zone.rule === "keep_out") return t("gesture.zone.say_keep_out", { name });
   if (zone.rule === "one_at_a_time") return t("gesture.zone.say_one_at_a_time", { name });
+  if (zone.rule === "door") return name;
   return t("gesture.zone.say_slow", { name, speed: `${zone.speed_m_s ?? "?"}\u202fm/s` });
 }
 

@@ -27,6 +27,17 @@ test("one more stands behind the others; in a gap only when there is no number l
   expect(addedCatch(all)).toBeNull();
 });
 
+test("who comes later at a Try leaves the next number to who was there first, as long as there is room", () => {
+  expect([0, 1, 2].map((turn) => addedCatch({}, turn))).toEqual([
+    ["kinds2", []],
+    ["kinds3", []],
+    ["kinds4", []],
+  ]);
+  expect(addedCatch({ catch: false }, 1)).toEqual(["kinds2", []]);
+  expect(addedCatch({ kinds7: [] }, 1)).toEqual(["kinds8", []]);
+  expect(addedCatch({ kinds8: [] }, 1)).toEqual(["kinds2", []]);
+});
+
 test("what removes a catch takes it away and leaves the others", () => {
   const params = { kinds: ["failed"], kinds2: ["offline"], kinds3: [] };
   const without = (branch: string) => catchesOf({ ...params, ...Object.fromEntries([removedCatch(branch)]) });

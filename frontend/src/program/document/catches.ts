@@ -26,11 +26,15 @@ export function isCatch(branch: string | undefined): boolean {
 /** A parameter with the value that it gets. */
 export type Change = readonly [name: string, value: unknown];
 
-/** What makes one more: behind those that are there, as long as there is room, else in a gap; null when all are there. */
-export function addedCatch(params: Params): Change | null {
+/**
+ * What makes one more: behind those that are there, as long as there is room, else in a gap; null when all are there.
+ * Two who add one at the same moment must not take the same number, for then there would be one: who is `turn`th of
+ * those at the Try leaves the numbers of those before free.
+ */
+export function addedCatch(params: Params, turn = 0): Change | null {
   const there = catchesOf(params);
   const behind = ALL.slice(ALL.indexOf(there.at(-1) ?? "") + 1);
-  const branch = behind[0] ?? ALL.find((each) => !there.includes(each));
+  const branch = behind[Math.min(turn, behind.length - 1)] ?? ALL.find((each) => !there.includes(each));
   if (branch === undefined) return null;
   return branch === FIRST ? [FIRST, null] : [kindsOf(branch), []];
 }

@@ -41,6 +41,8 @@ test.each<[string, Step["params"], string]>([
   ["set", {}, "? = ?"],
   ["ask", { question: "Is it dry?" }, "Ask Is it dry?"],
   ["fail", { message: "The box is wet" }, "Fail The box is wet"],
+  ["cover", {}, "Cover ?"],
+  ["cover", { zone: "gone" }, "Cover gone"],
   ["release", {}, "Release Carrier"],
   ["release", { role: "gone" }, "Release gone"],
   ["parallel", { branches: ["a", "b", "c"] }, "Parallel"],

@@ -85,6 +85,7 @@ function fieldPart(field: FieldRecord, step: Step, speaker: Speaker): TextPart |
   if (field.type === "role") return plain(roleName(textOf(value, DEFAULT_ROLE), speaker));
   if (field.type === "place") return partOf(placeName(value as Place | null, speaker));
   if (field.type === "variable") return partOf(textOf(value) || null);
+  if (field.type === "zone") return partOf(zoneName(textOf(value), speaker));
   if (field.type !== "value") return null;
   if (field.wanted === "time" && typeof value === "number") return plain(durationText(value));
   const { family, shape } = kindOf(step.kind);
@@ -94,6 +95,10 @@ function fieldPart(field: FieldRecord, step: Step, speaker: Speaker): TextPart |
   if (field.wanted === "text") return { text: shortened(text), tone: "soft" };
   if (field.wanted) return plain(text);
   return full ? { ...plain(shortened(text)), ...swatchOf(value) } : plain(shortened(text));
+}
+
+function zoneName(id: string, { document }: Speaker): string | null {
+  return id ? textOf(document.zones[id]?.name) || id : null;
 }
 
 function partOf(text: string | null): TextPart | null {

@@ -29,6 +29,7 @@ actions = st.one_of(
     st.builds(p.Pick, st.just("robot"), shelf, values, values),
     st.builds(p.Call, shelf, st.just("mix"), st.fixed_dictionaries({"time": values})),
     st.just(p.Release("robot")),
+    st.builds(p.Cover, st.just("robot"), st.just("hall"), st.none() | values),
     st.builds(p.Wait, values),
     st.builds(p.WaitUntil, truths, maybe),
     st.builds(p.Branch, truths, addresses),

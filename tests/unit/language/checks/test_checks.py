@@ -20,6 +20,12 @@ class WallInTheMiddle:
     def is_reachable(self, from_xy: tuple[float, float], to_xy: tuple[float, float], radius_m: float) -> bool:
         return (from_xy[0] < 10) == (to_xy[0] < 10)
 
+    def can_stop(self, x_m: float, y_m: float, radius_m: float) -> bool:
+        return self.is_inside(x_m, y_m) and self.is_free(x_m, y_m, radius_m)
+
+    def why_not_covered(self, outline: tuple[tuple[float, float], ...], lane_m: float, radius_m: float) -> str:
+        return "" if any(self.can_stop(x, y, radius_m) for x, y in outline) else "nothing"
+
     def has_machine(self, device_id: str) -> bool:
         return True
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-from editor.language import compile_document, parse_script, tree_to_document
-from tests.kit.demo_site import factory
+from editor.language import compile_document, parse_script, plan_from_json, plan_to_json, tree_to_document
+from tests.kit.demo_site import factory, with_device
+from vipo_device.protocol.description import Description, MethodSpec
 
 WET = {"name": "Wet floor", "rule": "keep_out", "points": [[1, 2], [4, 2], [4, 5]], "colour": "red"}
 RAMP = {"name": "z2", "rule": "slow", "points": [[0, 0], [3, 0], [3, -3.5]], "speed_m_s": 0.3}
@@ -86,3 +88,59 @@ def test_steps_ask_about_a_zone_of_the_script() -> None:
     compiled = compile_document(tree_to_document(parsed.tree, factory()), factory())
     assert compiled.script == text
     assert compiled.plan is not None
+
+
+GATE = {"name": "Gate", "rule": "door", "points": [[0, 0], [1, 0], [1, 2]], "door": "gate01"}
+GATE_LINE = 'self.gate = ctx.zone("g", [(0, 0), (1, 0), (1, 2)], rule="door", door="gate01", name="Gate")'
+
+
+def test_a_script_says_which_door_a_passage_has() -> None:
+    document = _document(g=GATE)
+    compiled = compile_document(document, factory())
+    assert compiled.script == _script(GATE_LINE)
+    assert _drawn(compiled.script, document) == document["zones"]
+    assert _drawn(_script(GATE_LINE)) == {"g": GATE}
+    assert _drawn(_script(GATE_LINE.replace("gate01", "gate02")), document)["g"] == {**GATE, "door": "gate02"}
+
+
+def test_a_passage_whose_door_is_still_to_be_chosen_reads_back() -> None:
+    open_yet = {key: value for key, value in GATE.items() if key != "door"}
+    script = compile_document(_document(g=open_yet), factory()).script
+    assert script == _script(GATE_LINE.replace('"gate01"', "None"))
+    assert _drawn(script) == {"g": open_yet}
+
+
+def test_a_door_goes_with_its_rule() -> None:
+    slow = _drawn(_script(GATE_LINE.replace('rule="door", door="gate01"', 'rule="slow"')), _document(g=GATE))
+    assert slow == {"g": {"name": "Gate", "rule": "slow", "points": GATE["points"]}}
+    forgotten = {**GATE, "rule": "slow"}
+    script = compile_document(_document(g=forgotten), factory()).script
+    assert "door" not in script
+    assert _drawn(script, _document(g=forgotten)) == {"g": forgotten}
+
+
+def test_what_is_wrong_with_a_door_is_said_with_what_to_write() -> None:
+    def said(line: str) -> str:
+        return "\n".join(d.message for d in parse_script(_script(line), factory()).diagnostics)
+
+    assert 'door="gate01"' in said(GATE_LINE.replace(', door="gate01"', ""))
+    assert 'Only a passage has a door: rule="door".' in said(GATE_LINE.replace('rule="door"', 'rule="slow"'))
+    assert 'Write the id of the device that opens: door="gate01".' in said(GATE_LINE.replace('"gate01"', "7"))
+    assert 'Write the id of the device that opens: door="gate01".' in said(GATE_LINE.replace('"gate01"', '""'))
+
+
+def test_the_plan_has_the_door_and_older_plans_have_none() -> None:
+    document = _document(g=GATE, z2=RAMP)
+    steps = {"w": {"kind": "wait", "place": ["program", "body", "V"], "pos": [1, -1], "params": {"duration": 5}}}
+    site = with_device("curingOven01", description=_opening(factory().devices["curingOven01"].description))
+    gate = {**GATE, "door": "curingOven01"}
+    plan = compile_document({**document, "steps": steps, "zones": {"g": gate, "z2": RAMP}}, site).plan
+    assert plan is not None
+    kept = plan_to_json(plan)
+    assert [zone.get("door") for zone in kept["zones"]] == ["curingOven01", None]
+    assert "door" not in kept["zones"][1]
+    assert plan_from_json(kept) == plan
+
+
+def _opening(oven: Description) -> Description:
+    return replace(oven, methods=(MethodSpec("openLid", "x"), MethodSpec("closeLid", "y")))

@@ -12,6 +12,7 @@ import { RouteField } from "../fields/RouteField";
 import { useStepEditor } from "../fields/stepEditor";
 import { TextField } from "../fields/TextField";
 import { VariableField } from "../fields/VariableField";
+import { ZoneField } from "../fields/ZoneField";
 import { WrittenValue } from "./WrittenValue";
 import { ConditionForm } from "./ConditionForm";
 
@@ -72,13 +73,14 @@ const FIELDS: Readonly<Record<string, (shown: Shown) => ReactNode>> = {
       explained={field.explained}
     />
   ),
+  zone: ({ field, label }) => <ZoneField label={label} field={field.name} />,
   text: ({ field, label, example }) => <TextField label={label} field={field.name} placeholder={example} />,
 };
 
 function ValueOfStep({ field: { name, wanted }, label, example }: Shown) {
   if (wanted === "boolean") return <ConditionForm field={name} />;
   if (wanted === "text") return <MessageField label={label} field={name} placeholder={example} />;
-  const kind = wanted === "time" ? "number" : wanted;
+  const kind = wanted === "time" || wanted === "length" ? "number" : wanted;
   return <WrittenValue label={label} field={name} wanted={kind} placeholder={example} />;
 }
 

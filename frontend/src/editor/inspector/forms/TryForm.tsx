@@ -5,6 +5,7 @@ import { useId, useRef } from "react";
 import { addedCatch, catchesOf, kindsOf, removedCatch } from "@/program/document/catches";
 import { fieldsOf } from "@/program/kinds";
 import { useOpenProgram } from "../../state/context";
+import type { Person } from "../../state/presence";
 import classes from "../../panel.module.css";
 import { FieldFrame } from "../fields/FieldFrame";
 import { useStepEditor } from "../fields/stepEditor";
@@ -33,12 +34,12 @@ export function TryForm() {
 
 /** The keyboard goes on in a catch that was added, and at the button that adds one when a catch is gone. */
 function Catches() {
-  const { t } = useOpenProgram();
-  const { step, set, disabled } = useStepEditor();
+  const { t, people } = useOpenProgram();
+  const { id, step, set, disabled } = useStepEditor();
   const add = useRef<HTMLButtonElement>(null);
   const list = useRef<HTMLDivElement>(null);
   const there = catchesOf(step.params);
-  const added = addedCatch(step.params);
+  const added = addedCatch(step.params, turnAt(people, id));
   const several = there.length > 1;
   const addOne = () => {
     if (!added) return;
@@ -83,6 +84,12 @@ function Catches() {
   );
 }
 
+/** The how manyth of those who have the step before them one is, from 0; the same in everybody's browser. */
+function turnAt(people: readonly Person[], step: string): number {
+  const me = people.find((person) => person.me);
+  return me ? people.filter((each) => each.client < me.client && each.selection.includes(step)).length : 0;
+}
+
 /** One catch with what it takes; its number is 0 where it is the only one. */
 function OneCatch({ branch, number, onRemove }: { branch: string; number: number; onRemove: () => void }) {
   const { t, scene } = useOpenProgram();
@@ -101,6 +108,7 @@ function OneCatch({ branch, number, onRemove }: { branch: string; number: number
           <>
             <Checkbox.Group
               id={label}
+              role="group"
               aria-label={says}
               description={kinds.length === 0 ? none : undefined}
               value={kinds}

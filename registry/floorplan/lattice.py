@@ -6,17 +6,46 @@ from collections import deque
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from math import ceil, hypot
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from registry.floorplan.plan import FloorPlan, Grid
-from vipo_device.protocol.description import Description
-
 SIDE_M = 0.5
 MARGIN_M = 0.1
 PASSING_MARGIN_M = 0.05
+STANDING_MARGIN_M = 0.02
+"""The room that a robot needs beside its body to stand somewhere off the lattice, and to drive there."""
+REACH_M = 1.2
+"""How far off the lattice a robot may stand."""
 Point = tuple[float, float]
+
+
+class Raster(Protocol):
+    """How a map's cells lie, as the grid of the floor plan says: metres, rows from the bottom up."""
+
+    @property
+    def width(self) -> int:
+        """Return how many cells in a row."""
+
+    @property
+    def height(self) -> int:
+        """Return how many rows."""
+
+    @property
+    def resolution_m(self) -> float:
+        """Return the side of a cell in metres."""
+
+    @property
+    def origin_x_m(self) -> float:
+        """Return where the left edge is, in metres."""
+
+    @property
+    def origin_y_m(self) -> float:
+        """Return where the bottom edge is, in metres."""
+
+    def cell_of(self, x_m: float, y_m: float) -> tuple[int, int] | None:
+        """Return (row, column) of the cell that holds the point, or None off the map."""
 
 
 @dataclass(frozen=True)
@@ -64,12 +93,12 @@ class Lattice:
 
 
 class Ground:
-    """What the map and the machines leave free for a robot of one radius."""
+    """What the map and the machines leave free for a robot of one radius; `clearance_m` is the floor plan's."""
 
-    def __init__(self, grid: Grid, devices: Iterable[Description], radius_m: float) -> None:
+    def __init__(self, grid: Raster, clearance_m: NDArray[np.float64], radius_m: float) -> None:
         self.grid = grid
         self.radius_m = radius_m
-        self.clearance_m: NDArray[np.float64] = FloorPlan(grid, devices).clearance_m
+        self.clearance_m = clearance_m
 
     def room_m(self, point: Point) -> float:
         """Return the clearance at a point; none off the map."""
@@ -82,6 +111,17 @@ class Ground:
         points = ((start[0] + (end[0] - start[0]) * i / steps, start[1] + (end[1] - start[1]) * i / steps)
                   for i in range(steps + 1))  # fmt: skip
         return all(self.room_m(point) >= room_m for point in points)
+
+
+def attach(ground: Ground, lattice: Lattice, point: Point) -> int | None:
+    """Return the nearest cell from which one can drive straight to a point; None where no robot can stand or come."""
+    room_m = ground.radius_m + STANDING_MARGIN_M
+    if ground.room_m(point) < room_m:
+        return None
+    for cell in lattice.cells_within(point, REACH_M):
+        if cell in lattice.links and ground.is_passable(lattice.centre(cell), point, room_m):
+            return cell
+    return None
 
 
 def make_lattice(ground: Ground) -> Lattice:

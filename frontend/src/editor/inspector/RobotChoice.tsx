@@ -18,7 +18,7 @@ interface Props {
   readonly store: (where: Value) => void;
 }
 
-export function ChoiceField({ id, name, role, store }: Props) {
+export function RobotChoice({ id, name, role, store }: Props) {
   const { t, canEdit, devices, speaker } = useOpenProgram();
   const readings = reportedBy(robotsFor(role, devices));
   const where = (role.where ?? null) as Value;
