@@ -156,6 +156,7 @@ class Room:
         elif member.synced:
             self._change(member, [update], MOST_CLIENTS, now_s)
         else:
+            check_update(update, _ROOTS, MOST_CLIENTS)
             member.hold(update)
 
     def _receive_step_2(self, member: Member, update: bytes, now_s: float) -> None:

@@ -16,9 +16,9 @@ afterEach(() => {
 function serve() {
   const server = new WebSocketServer({ port: 0 });
   servers.push(server);
-  const seen = { asked: 0, frames: 0, socket: null as NodeSocket | null };
+  const seen = { asked: 0, connections: 0, frames: 0, socket: null as NodeSocket | null };
   server.on("connection", (socket) => {
-    Object.assign(seen, { frames: 0, socket });
+    Object.assign(seen, { connections: seen.connections + 1, frames: 0, socket });
     socket.send(Uint8Array.of(0, 0, 1, 0)); // what do you have?
     socket.on("message", (data: Buffer) => {
       if (data[0] === 100) seen.asked += 1;
@@ -27,7 +27,11 @@ function serve() {
     });
   });
   const { port } = server.address() as AddressInfo;
-  return { seen, url: `ws://127.0.0.1:${port}`, save: (n: number, not = 0) => seen.socket?.send(Uint8Array.of(100, n, not)) };
+  return {
+    seen,
+    url: `ws://127.0.0.1:${port}`,
+    save: (n: number, not = 0) => seen.socket?.send(Uint8Array.of(100, n, not)),
+  };
 }
 
 function join(url: string) {
@@ -68,7 +72,7 @@ test("what was made without a connection waits for the answer to the first quest
   edit("a");
   expect(saved.waiting).toBe(1);
   provider.connect();
-  await expect.poll(() => server.seen.frames).toBe(1);
+  await expect.poll(() => [server.seen.connections, server.seen.frames]).toEqual([2, 1]);
   expect(saved.waiting).toBe(1);
   server.save(1);
   await expect.poll(() => saved.waiting).toBe(0);
