@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import binascii
 from collections.abc import Mapping
 from datetime import datetime
 from typing import Annotated, Any
@@ -14,8 +16,9 @@ from ninja.responses import Status
 from pydantic import ValidationError
 
 from editor import services
+from editor.documents.knowledge import MOST_BYTES as MOST_SNAPSHOT_BYTES
 from editor.programs.views import LibraryView, ProgramView, VersionView
-from editor.rooms.writing import read_content, write_document, write_script
+from editor.rooms.writing import ensure_stored, read_content, write_document, write_script
 from editor.shapes import (
     Compiled,
     Definition,
@@ -116,6 +119,15 @@ class VersionMessage(Asked):
     """What a version is about."""
 
     message: str = Field("", max_length=300)
+
+
+class Seen(Asked):
+    """How far somebody has seen a program."""
+
+    seen: str = Field(
+        max_length=4 * MOST_SNAPSHOT_BYTES // 3 + 4,
+        description="A snapshot of the Yjs document, as `Y.encodeSnapshot` writes it, in base64.",
+    )
 
 
 class ScriptText(Asked):
@@ -303,6 +315,21 @@ def pin_version(request: HttpRequest, program: UUID, body: VersionMessage) -> St
     _program(request, program, "author")
     pinned = services.pin_version(program_id=program, user=request.user, message=body.message)
     return Status(201 if pinned.made else 200, pinned)
+
+
+@router.post("/programs/{program}/stored", response={204: None}, openapi_extra=refuses(409))
+def wait_until_stored(request: HttpRequest, program: UUID, body: Seen) -> Status[None]:
+    """Wait until the database holds what somebody sees of a program, so that what is made of it next holds it, too.
+
+    The answer is 409 if that takes longer than a few seconds.
+    """
+    _program(request, program, "viewer")
+    try:
+        seen = base64.b64decode(body.seen, validate=True)
+    except binascii.Error as error:
+        raise services.BadRequest("What was seen is not base64. Send Y.encodeSnapshot(…) in base64.") from error
+    ensure_stored(program_id=program, seen=seen)
+    return Status(204, None)
 
 
 @router.get("/programs/{program}/versions/{number}", response=WholeVersionShape)

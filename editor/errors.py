@@ -23,3 +23,17 @@ class BadRequest(EditorError):
 
     code = "bad_request"
     status = 422
+
+
+class DocumentHole(EditorError):
+    """Changes are missing in the database on which others build; what is there is not shown as if it were all."""
+
+    code = "document_hole"
+    status = 409
+
+
+class NotStored(EditorError):
+    """What stands on somebody's screen is not in the database yet, so nothing can be made of it."""
+
+    code = "not_stored"
+    status = 409

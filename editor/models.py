@@ -18,6 +18,8 @@ class Program(models.Model):
     edited_at = models.DateTimeField()
     edited_by = models.ForeignKey(settings.AUTH_USER_MODEL, null=True, on_delete=models.SET_NULL, related_name="+")
     last_seq = models.BigIntegerField(default=0)
+    stored_to = models.CharField(max_length=40, blank=True, default="")
+    """The entry of the room's stream up to which every change is in the rows."""
     last_version = models.PositiveIntegerField(default=0)
     kinds = models.JSONField(default=list)
     devices = models.JSONField(default=list)
@@ -47,11 +49,15 @@ class DocumentUpdate(models.Model):
 
 
 class Snapshot(models.Model):
-    """A whole shared document as one update, holding everything up to `seq`."""
+    """A whole shared document as one update, holding everything up to `seq`.
+
+    `authors` has for each Yjs client, as text, whose it was: the rows that said so are gone.
+    """
 
     program = models.ForeignKey(Program, on_delete=models.CASCADE, related_name="snapshots")
     seq = models.BigIntegerField()
     data = models.BinaryField()
+    authors = models.JSONField(default=dict)
     at = models.DateTimeField(auto_now_add=True)
 
     class Meta:

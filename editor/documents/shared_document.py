@@ -9,12 +9,14 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from pycrdt import Array, Doc, Map, Text, TransactionEvent, merge_updates
-from pycrdt import get_state as state_of_update
 
+from editor.documents.knowledge import Knowledge, read_deletions
+from editor.documents.yjs_encoding import BadFrame, Reader, decode_state_vector, is_within
+from editor.documents.yjs_updates import MOST_CLIENTS_OF_ALL, check_update
 from editor.language.document.format_migrations import FIRST_FORMAT, FORMAT, format_of, migrate
 from vipo_device.protocol.texts import cleaned, cleaned_json, find_unfit, normal
 
@@ -106,6 +108,21 @@ class SharedDocument:
     def state(self) -> bytes:
         """Return the state vector."""
         return self._document.get_state()
+
+    def knowledge(self) -> Knowledge:
+        """Return how far this document goes, deletions included."""
+        state = self.state()
+        reader = Reader(self.encode(state))
+        reader.integer()  # of changes it lacks none of its own; what follows are the deletions
+        return Knowledge(decode_state_vector(state), read_deletions(reader))
+
+    def has_hole(self, updates: Iterable[bytes]) -> bool:
+        """Tell whether something is missing on which these updates build, that were given to this document.
+
+        The updates were checked when they came (`check_update`). pycrdt passes over holes and says nothing.
+        """
+        clocks = decode_state_vector(self.state())
+        return not all(is_within(_read(update).ends().items(), clocks) for update in updates)
 
     def step_count(self) -> int:
         """Return the number of steps, drafts included."""
@@ -208,6 +225,18 @@ def _set_all(shared: Any, wanted: Mapping[str, Any]) -> None:
             shared[name] = wanted[name]
 
 
+def clients_of(update: bytes) -> Collection[int]:
+    """Return the Yjs clients whose changes an update brings."""
+    return _read(update).clocks.keys()
+
+
+def _read(update: bytes) -> Knowledge:
+    try:
+        return check_update(update, {root.encode() for root in ROOTS}, MOST_CLIENTS_OF_ALL)
+    except BadFrame:
+        return Knowledge({}, {})  # written when other bounds held
+
+
 def merge(updates: Iterable[bytes]) -> bytes:
     """Return one update that holds them all, whatever their order. Raises BadUpdate."""
     parts = [update for update in updates if update and update != EMPTY_UPDATE]
@@ -215,14 +244,6 @@ def merge(updates: Iterable[bytes]) -> bytes:
         return EMPTY_UPDATE
     try:
         return merge_updates(*parts) if len(parts) > 1 else parts[0]
-    except ValueError as error:
-        raise BadUpdate(str(error)) from error
-
-
-def state_after(update: bytes) -> bytes:
-    """Return the state vector of a document that holds just this update. Raises BadUpdate."""
-    try:
-        return state_of_update(update)
     except ValueError as error:
         raise BadUpdate(str(error)) from error
 

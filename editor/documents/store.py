@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from itertools import groupby
 from typing import Any
 from uuid import UUID
 
 from django.db import transaction
 
-from editor.documents.shared_document import SharedDocument
-from editor.documents.yjs_encoding import decode_state_vector
-from editor.errors import NoSuchProgram
+from editor.documents.shared_document import SharedDocument, clients_of, merge
+from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot
 
 COMPACT_AFTER_ROWS = 500
@@ -24,11 +24,26 @@ class SnapshotDiffers(RuntimeError):
 
 @dataclass(frozen=True, slots=True)
 class Stored:
-    """What the database holds of a document: updates to be merged, and the number of the last one."""
+    """What the database holds of a document: updates to be merged.
+
+    `seq` is the number of the last one, `compacted` of the last one in the snapshot; `stored_to` is the entry of the
+    room's stream up to which every change is in them.
+    """
 
     site: str
     updates: tuple[bytes, ...]
     seq: int
+    compacted: int
+    stored_to: str
+
+    def open(self, more: Iterable[bytes] = ()) -> SharedDocument:
+        """Return the document, with further updates. Raises DocumentHole."""
+        document = SharedDocument([*self.updates, *more])
+        if document.has_hole([*self.updates[self.compacted > 0 :], *more]):
+            raise DocumentHole(
+                "A part of this program is missing in the database. `vipo mend-program` shows what is left."
+            )
+        return document
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,10 +64,10 @@ def flush_before_reading(flush: Callable[[str], None]) -> None:
 
 
 def get_document(*, program_id: UUID | str) -> dict[str, Any]:
-    """Return a program's document as it is now, as plain JSON in today's format. Raises NoSuchProgram."""
+    """Return a program's document as it is now, as plain JSON in today's format. Raises NoSuchProgram, DocumentHole."""
     for flush in _flushes:
         flush(str(program_id))
-    document = SharedDocument(load_document(str(program_id)).updates)
+    document = load_document(str(program_id)).open()
     document.migrate()
     return document.to_json()
 
@@ -64,53 +79,77 @@ def load_document(program_id: str) -> Stored:
         if program is None:
             raise NoSuchProgram("There is no such program. It may have been deleted.")
         snapshot = program.snapshots.order_by("-seq").first()
-        rows = program.updates.filter(seq__gt=snapshot.seq if snapshot else 0).order_by("seq")
+        compacted = snapshot.seq if snapshot else 0
+        rows = program.updates.filter(seq__gt=compacted).order_by("seq")
         updates = [bytes(row) for row in rows.values_list("data", flat=True)]
         if snapshot is not None:
             updates.insert(0, bytes(snapshot.data))
-        return Stored(program.site.slug, tuple(updates), program.last_seq)
+        return Stored(program.site.slug, tuple(updates), program.last_seq, compacted, program.stored_to)
 
 
-def append_changes(program_id: str, changes: Sequence[Change], now: datetime) -> tuple[int, int]:
-    """Append a batch; returns the number of its last change and how many rows there are. Raises NoSuchProgram."""
+def append_changes(program_id: str, changes: Sequence[Change], now: datetime, stored_to: str = "") -> range:
+    """Append a batch; returns the numbers of its rows. Changes of one author that follow each other are one row.
+
+    `stored_to` is kept as the entry of the room's stream up to which the rows go. Raises NoSuchProgram.
+    """
     with transaction.atomic():
         program = Program.objects.select_for_update().filter(pk=program_id).first()
         if program is None:
             raise NoSuchProgram("There is no such program. It may have been deleted.")
+        first = program.last_seq + 1
         rows = [
-            DocumentUpdate(program=program, seq=program.last_seq + number, author_id=change.author, data=change.update)
-            for number, change in enumerate(changes, 1)
+            DocumentUpdate(program=program, seq=seq, author_id=change.author, data=change.update)
+            for seq, change in enumerate(_gathered(changes), first)
         ]
         DocumentUpdate.objects.bulk_create(rows)
         program.last_seq += len(rows)
+        program.stored_to = stored_to or program.stored_to
         program.edited_at = now
         authors = [change.author for change in changes if change.author is not None]
         program.edited_by_id = authors[-1] if authors else program.edited_by_id
-        program.save(update_fields=["last_seq", "edited_at", "edited_by"])
-        return program.last_seq, program.updates.count()
+        program.save(update_fields=["last_seq", "stored_to", "edited_at", "edited_by"])
+        return range(first, program.last_seq + 1)
+
+
+def last_row(program_id: str) -> int:
+    """Return the number of a program's last row; 0 if the program is gone."""
+    return Program.objects.filter(pk=program_id).values_list("last_seq", flat=True).first() or 0
+
+
+def _gathered(changes: Sequence[Change]) -> list[Change]:
+    return [
+        Change(author, merge(change.update for change in each))
+        for author, each in groupby(changes, key=lambda change: change.author)
+    ]
 
 
 def compact_document(program_id: str) -> None:
     """Fold the rows into a snapshot; the rows go only when the snapshot was read back and holds the same.
 
-    Raises SnapshotDiffers.
+    Raises SnapshotDiffers, DocumentHole.
     """
     with transaction.atomic():
         program = Program.objects.select_for_update().filter(pk=program_id).first()
         if program is None:
             return
         stored = load_document(program_id)
-        document = SharedDocument(stored.updates)
+        document = stored.open()
         written, _ = Snapshot.objects.update_or_create(
-            program=program, seq=stored.seq, defaults={"data": document.encode()}
+            program=program, seq=stored.seq, defaults={"data": document.encode(), "authors": _authors(program)}
         )
         written.refresh_from_db()
         copy = SharedDocument([bytes(written.data)])
-        if copy.digest() != document.digest() or _clocks(copy) != _clocks(document):
+        if copy.digest() != document.digest() or copy.knowledge() != document.knowledge():
             raise SnapshotDiffers(f"The snapshot of program {program_id} differs from its updates; they are kept.")
         program.updates.filter(seq__lte=stored.seq).delete()
         program.snapshots.filter(seq__lt=stored.seq).delete()
 
 
-def _clocks(document: SharedDocument) -> dict[int, int]:
-    return decode_state_vector(document.state())
+def _authors(program: Program) -> dict[str, int]:
+    """Return whose each Yjs client is: from the last snapshot and the rows."""
+    snapshot = program.snapshots.order_by("-seq").first()
+    authors: dict[str, int] = dict(snapshot.authors) if snapshot else {}
+    for author, data in program.updates.filter(author__isnull=False).order_by("seq").values_list("author_id", "data"):
+        for client in clients_of(bytes(data)):
+            authors.setdefault(str(client), author)
+    return authors

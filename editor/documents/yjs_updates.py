@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 
+from editor.documents.knowledge import Knowledge, Ranges, joined_ranges
 from editor.documents.yjs_encoding import BadFrame, Reader
 
-MOST_CLIENTS = 5_000
+MOST_CLIENTS, MOST_CLIENTS_OF_ALL = 200, 5_000
+"""Whose changes one edit may bring, and whose all that somebody has; their deletions may be of everybody's."""
 MOST_PARTS = 500_000
 """Changes, values and deletions in one update: read in about two seconds. A full program of 5,000 steps has 200,000."""
 MOST_CLOCK = 2**31 - 1
@@ -44,19 +46,26 @@ class UpdateReader(Reader):
         return number
 
 
-def check_update(update: bytes, roots: Collection[bytes]) -> None:
-    """Raise BadFrame unless an update is well-formed, of these roots and within the bounds."""
+def check_update(update: bytes, roots: Collection[bytes], most_clients: int = MOST_CLIENTS) -> Knowledge:
+    """Return how far an update goes: the clock until which it has each client's changes, and what it deletes.
+
+    Raises BadFrame unless it is well-formed, of these roots and within the bounds.
+    """
     reader = UpdateReader(update)
     depths: dict[Place, int] = {}
-    for _ in range(reader.count(MOST_CLIENTS)):
+    ends: dict[int, int] = {}
+    for _ in range(reader.count(most_clients)):
         number, client, clock = reader.count(), reader.integer(), reader.integer()
         for _ in range(number):
             clock = _checked(clock + _read_change(reader, (client, clock), depths, roots))
+        ends[client] = max(clock, ends.get(client, 0))
+    deletions: dict[int, Ranges] = {}
     for _ in range(reader.count()):  # a client that comes back sends all deletions there ever were, of everybody
-        reader.integer()
-        for _ in range(reader.count()):
-            _checked(reader.integer() + reader.integer())
+        client = reader.integer()
+        pairs = [(reader.integer(), reader.integer()) for _ in range(reader.count())]
+        deletions[client] = joined_ranges((first, _checked(first + length)) for first, length in pairs)
     reader.end()
+    return Knowledge(ends, deletions)
 
 
 def _checked(clock: int) -> int:

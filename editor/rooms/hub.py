@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import uuid
 import weakref
 from collections import defaultdict
@@ -10,24 +11,29 @@ from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from typing import Any
 
+from asgiref.sync import async_to_sync
 from django.conf import settings
 from django.contrib.auth import get_user_model
 from django.db import DatabaseError
 
 from editor.documents.shared_document import BadUpdate
 from editor.documents.store import flush_before_reading
-from editor.errors import NoSuchProgram
+from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import Program
 from editor.programs.checking import DeviceWatch
 from editor.rooms.member import Close, Member, Person
 from editor.rooms.room import INTERRUPTED, Room
-from editor.rooms.runner import OpenRoom, in_database, open_room
-from editor.rooms.stream import RoomStream, StreamLost, make_stream
+from editor.rooms.runner import OpenRoom, open_room
+from editor.rooms.stream import Note, RoomStream, StreamLost, make_stream
+from editor.rooms.threads import in_database
 from registry import services as registry
 from registry.services import Claim, Places, Standing, find_access
 
+log = logging.getLogger(__name__)
 CLOSE_EMPTY_AFTER_S = 5.0
 FLUSH_LIMIT_S = 5.0
+END_LIMIT_S = 5.0
+TELL_LIMIT_S = 5.0
 MOST_CONNECTIONS, MOST_OF_PERSON = 5_000, 40
 _HEARD = {"device", "device_removed", "map", "programs", "library", "hello"}
 
@@ -37,17 +43,20 @@ class Hub:
 
     def __init__(self, stream: RoomStream) -> None:
         self.loop = asyncio.get_running_loop()
-        self._origin = uuid.uuid4().hex
         self.stream = stream
         self._open: dict[str, OpenRoom] = {}
+        self._ending: dict[str, asyncio.Task[None]] = {}
         self._locks: defaultdict[str, asyncio.Lock] = defaultdict(asyncio.Lock)
         self._background: set[asyncio.Task[None]] = set()
         self._watches: defaultdict[str, DeviceWatch] = defaultdict(DeviceWatch)
         self._stop_listening: Callable[[], None] | None = None
+        self._is_closed = False
         self._places = Places(in_all=MOST_CONNECTIONS, of_site=MOST_CONNECTIONS, of_person=MOST_OF_PERSON)
 
     async def enter(self, program_id: str, member: Member) -> Room:
         """Let a connection into a program's room, opening it if it is not open. Raises Close."""
+        if self._is_closed:
+            raise Close(Close.COME_AGAIN, INTERRUPTED)
         if not self._places.take(Claim(member.person.id)):
             raise Close(Close.ABUSE, f"You have {MOST_OF_PERSON} programs open. Close other copies of the page.")
         try:
@@ -63,13 +72,18 @@ class Hub:
                 opened = self._open.get(program_id) or await self._open_room(program_id)
             except NoSuchProgram as error:
                 raise Close(Close.NOT_FOUND, error.detail) from error
+            except DocumentHole as error:
+                log.exception("Program %s cannot be opened: %s", program_id, error.detail)
+                raise Close(Close.COME_AGAIN, error.detail) from error
             except (StreamLost, DatabaseError, BadUpdate) as error:
                 raise Close(Close.COME_AGAIN, INTERRUPTED) from error
             opened.room.join(member)
             return opened.room
 
     async def _open_room(self, program_id: str) -> OpenRoom:
-        opened = await open_room(program_id, self._origin, self.stream, self._drop)
+        if program_id in self._ending:
+            await asyncio.wait([self._ending[program_id]], timeout=END_LIMIT_S)  # its last rows are read by the next
+        opened = await open_room(program_id, uuid.uuid4().hex, self.stream, self._drop)
         self._open[program_id] = opened
         return opened
 
@@ -93,30 +107,34 @@ class Hub:
         """A room ended by itself: what it holds is saved, and the next connection opens it anew."""
         if self._open.get(opened.room.program) is opened:
             del self._open[opened.room.program]
-        self._start(self._stop_room, opened)
-
-    async def _stop_room(self, opened: OpenRoom) -> None:
-        await opened.stop()
+        program = opened.room.program
+        ending = self._ending[program] = self._start(opened.stop)
+        ending.add_done_callback(lambda _: self._ending.pop(program, None))
 
     async def flush(self, program_id: str) -> None:
-        """Write what waits of a program into the database."""
+        """Write what waits of a program into the database, and ask the other processes to do so."""
         opened = self._open.get(program_id)
         if opened is not None:
+            opened.room.to_publish.append(Note("keep", b""))
+            opened.room.wake()
             await opened.save()
 
     async def close(self) -> None:
         """Keep everything and end."""
         if self._stop_listening:
             self._stop_listening()
-        for opened in list(self._open.values()):
-            opened.room.close_all(Close(Close.COME_AGAIN, INTERRUPTED))
-            await opened.stop()
-        self._open.clear()
+        self._is_closed = True
+        opened, self._open = list(self._open.values()), {}
+        for each in opened:
+            each.room.close_all(Close(Close.COME_AGAIN, INTERRUPTED))
+        await asyncio.gather(*(each.stop() for each in opened), *self._ending.values(), return_exceptions=True)
+        await self.stream.close()
 
-    def _start(self, act: Callable[..., Coroutine[Any, Any, None]], *args: Any) -> None:
+    def _start(self, act: Callable[..., Coroutine[Any, Any, None]], *args: Any) -> asyncio.Task[None]:
         task: asyncio.Task[None] = self.loop.create_task(act(*args))
         self._background.add(task)
         task.add_done_callback(self._background.discard)
+        return task
 
     async def _listen(self) -> None:
         if self._stop_listening is None:
@@ -135,7 +153,7 @@ class Hub:
                 self._start(self._review, opened.room)
         if self._watches[site].changes_programs(message):
             for opened in rooms:
-                opened.take_in_surroundings()
+                opened.checks.take_in_surroundings()
 
     async def _review(self, room: Room) -> None:
         """Close the room when its program has been deleted."""
@@ -170,10 +188,40 @@ def hub_of_this_loop() -> Hub:
     return _hubs[loop]
 
 
+async def close_hub() -> None:
+    """Keep everything of the running event loop's rooms, and end them; nobody is let in any more."""
+    hub = _hubs.get(asyncio.get_running_loop())
+    if hub is not None:
+        await hub.close()
+
+
 def flush_program(program_id: str) -> None:
     """Write into the database what this process's room of a program still holds; not to be called on an event loop."""
     for loop, hub in hubs_elsewhere():
         asyncio.run_coroutine_threadsafe(hub.flush(program_id), loop).result(FLUSH_LIMIT_S)
+
+
+def tell_rooms(program_id: str, origin: str, note: Note) -> None:
+    """Tell the rooms of a program in all processes; not to be called on an event loop. Raises StreamLost."""
+    try:
+        told = [
+            asyncio.run_coroutine_threadsafe(hub.stream.append(program_id, origin, [note]), loop)
+            for loop, hub in hubs_elsewhere()
+        ]
+        for each in told:
+            each.result(TELL_LIMIT_S)
+    except TimeoutError as error:
+        raise StreamLost("The rooms of this process do not answer.") from error
+    if not told and not settings.VIPO_STREAM_URL.startswith("memory:"):
+        async_to_sync(_tell_alone)(program_id, origin, note)
+
+
+async def _tell_alone(program_id: str, origin: str, note: Note) -> None:
+    stream: RoomStream = make_stream(settings.VIPO_STREAM_URL)
+    try:
+        await stream.append(program_id, origin, [note])
+    finally:
+        await stream.close()
 
 
 def hubs_elsewhere() -> list[tuple[asyncio.AbstractEventLoop, Hub]]:

@@ -88,6 +88,16 @@ class Member:
         self.clients: set[int] = set()
         self.shown: int | None = None
         """The revision of the compiled form that it has, 0 for none; None while it does not look at it."""
+        self.frames = 0
+        """How many messages with content the connection has sent."""
+        self.saved = 0
+        """How many of them, from the first on, are in the database."""
+        self.refused = 0
+        """How many of them would have changed something, and were not taken."""
+        self.shows_saved = False
+        """Whether the connection wants to be told."""
+        self.unsaved: deque[tuple[int, int]] = deque()
+        """Numbers of messages with the room's place up to which they are saved."""
         self.outbox: deque[bytes] = deque()
         self.closing: Close | None = None
         self._wake = wake
@@ -145,6 +155,13 @@ class Member:
         """Count a frame that asks for work. Raises Close."""
         if not self._frames.spend(1, now_s):
             raise Close(Close.ABUSE, "This connection sends more than 60 messages a second.")
+
+    def note_stored(self, place: int) -> bool:
+        """Take in the place up to which the room's changes are in the database; tell whether that saves messages."""
+        before = self.saved
+        while self.unsaved and self.unsaved[0][1] <= place:
+            self.saved = self.unsaved.popleft()[0]
+        return self.saved > before
 
     def hold(self, update: bytes) -> None:
         """Keep an update that came before the client's step 2. Raises Close."""

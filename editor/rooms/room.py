@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from editor.documents import yjs_encoding
-from editor.documents.shared_document import EMPTY_UPDATE, ROOTS, BadUpdate, SharedDocument
+from editor.documents.shared_document import EMPTY_UPDATE, ROOTS, BadUpdate, SharedDocument, merge
 from editor.documents.store import Change
-from editor.documents.yjs_updates import check_update
+from editor.documents.yjs_updates import MOST_CLIENTS, MOST_CLIENTS_OF_ALL, check_update
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
 from editor.rooms.compiled_form import CompiledForm
+from editor.rooms.ledger import Ledger, decode_change, decode_stored, encode_change, encode_stored
 from editor.rooms.member import MIB, Close, Member
 from editor.rooms.stream import Entry, Note
 
@@ -20,15 +21,18 @@ MOST_READERS, MOST_WRITERS = 50, 50
 MOST_OF_PERSON = 10
 MOST_DOCUMENT_BYTES = 8 * MIB
 MOST_STEPS = 5000
+MOST_CLIENTS_EVER = 20_000
+"""Who have ever changed a document: each page that was opened and drawn in is one."""
 _ROOTS = frozenset(root.encode() for root in ROOTS)
 INTERRUPTED = "The program could not be reached just now. What was typed stays in the browser and follows."
 TOO_LARGE = "The program is full: it may have 8 MiB and 5,000 steps. Remove steps, or make a second program of a part."
+TOO_MANY_PAGES = "This program has been changed from 20,000 pages, which is all that it keeps. Copy it and go on there."
 
 
 class Room:
-    """One per document and process. What is to go to the database and to the other processes waits in queues.
+    """One per document and process. What is to go to the database, to the others and to the connections waits in it.
 
-    `wake` is called when a queue has something in it.
+    `wake` is called when something waits.
     """
 
     def __init__(self, program: str, site: str, origin: str, document: SharedDocument) -> None:
@@ -39,12 +43,14 @@ class Room:
         self.document = document
         self.members: list[Member] = []
         self.board = AwarenessBoard()
-        self.to_save: deque[Change] = deque()
+        self.ledger = Ledger(origin)
         self.to_publish: deque[Note] = deque()
         self.touched = False
         """Whether the document is to be checked by this process."""
         self.form = CompiledForm(origin)
-        self.saved_seq = 0
+        self.must_keep = False
+        """Whether somebody waits until everything is in the database."""
+        self._fresh: list[tuple[Member | None, bytes]] = []
         self._bytes = len(document.encode())
         self.wake: Callable[[], None] = _nobody
 
@@ -85,8 +91,12 @@ class Room:
         if isinstance(message, yjs_protocol.QueryCompiled):
             self._show_form(member, message.revision, now_s)
             return
+        if isinstance(message, yjs_protocol.QuerySaved):
+            member.shows_saved = True
+            member.post(yjs_protocol.encode_saved(member.saved, member.refused))
+            return
         try:
-            self._receive_sync(member, message)
+            self._receive_sync(member, message, now_s)
         except (BadUpdate, yjs_encoding.BadFrame) as error:
             raise Close(Close.MALFORMED, f"The change is not one of a Yjs document: {error}") from error
 
@@ -126,60 +136,78 @@ class Room:
             self.board.take(member, message.entries)
             self.wake()
 
-    def _receive_sync(self, member: Member, message: yjs_protocol.Message) -> None:
+    def _receive_sync(self, member: Member, message: yjs_protocol.Message, now_s: float) -> None:
         match message:
             case yjs_protocol.SyncStep1(state=state):
                 member.post(yjs_protocol.encode_step_2(self.document.encode(state)))
             case yjs_protocol.SyncStep2(update=update):
-                self._receive_step_2(member, update)
-            case yjs_protocol.Update(update=update) if member.can_write:
-                if member.synced:
-                    self._change(member, update)
-                else:
-                    member.hold(update)
+                self._receive_step_2(member, update, now_s)
+            case yjs_protocol.Update(update=update):
+                self._receive_update(member, update, now_s)
             case yjs_protocol.QueryAwareness():
                 member.post(yjs_protocol.encode_awareness(self.board.everybody()))
         if member.probe_is_due:
             member.ask_for_state(self.document.state())
 
-    def _receive_step_2(self, member: Member, update: bytes) -> None:
-        member.note_answer()
-        first, member.synced = not member.synced, True
-        held = member.take_held()
+    def _receive_update(self, member: Member, update: bytes, now_s: float) -> None:
+        member.frames += 1
         if not member.can_write:
-            return
-        for change in (update, *held):
-            self._change(member, change)
-        if first and not self.to_save:
-            member.post(yjs_protocol.encode_saved(self.saved_seq, self.document.state()))
+            self._refuse(member, update, MOST_CLIENTS)
+        elif member.synced:
+            self._change(member, [update], MOST_CLIENTS, now_s)
+        else:
+            check_update(update, _ROOTS, MOST_CLIENTS)
+            member.hold(update)
 
-    def _change(self, member: Member, update: bytes) -> None:
-        """Apply a client's change, save it, publish it."""
-        if update == EMPTY_UPDATE:
-            return
-        if not member.is_sure():
-            raise Close(Close.COME_AGAIN, INTERRUPTED)
-        check_update(update, _ROOTS)
-        if self._leaves_a_hole(update):
-            member.ask_for_state(self.document.state())
-            return
-        self._check_size(update)
+    def _receive_step_2(self, member: Member, update: bytes, now_s: float) -> None:
+        member.frames += 1
+        member.note_answer()
+        member.synced = True
+        held = member.take_held()
+        if member.can_write:
+            self._change(member, [update], MOST_CLIENTS_OF_ALL, now_s)
+            self._change(member, held, MOST_CLIENTS, now_s)
+        else:
+            self._refuse(member, update, MOST_CLIENTS_OF_ALL)
+
+    def _refuse(self, member: Member, update: bytes, most_clients: int) -> None:
+        """Take no change of who may only look; say so, if it would have changed something."""
+        if not self.document.knowledge().covers(check_update(update, _ROOTS, most_clients)):
+            member.refused += 1
+            if member.shows_saved:
+                member.post(yjs_protocol.encode_saved(member.saved, member.refused))
+
+    def _change(self, member: Member, updates: list[bytes], most_clients: int, now_s: float) -> None:
+        """Apply a client's changes, all or, from the first one that leaves a hole, none until it has said all."""
+        for number, update in enumerate(updates):
+            if update == EMPTY_UPDATE:
+                continue
+            if not member.is_sure():
+                raise Close(Close.COME_AGAIN, INTERRUPTED)
+            said = check_update(update, _ROOTS, most_clients)
+            clocks = yjs_encoding.decode_state_vector(self.document.state())
+            if _leaves_a_hole(update, clocks):
+                for later in updates[number:]:
+                    member.hold(later)
+                member.synced = False
+                member.ask_for_state(self.document.state())
+                return
+            if len(clocks) >= MOST_CLIENTS_EVER and not said.clocks.keys() <= clocks.keys():
+                raise Close(Close.TOO_LARGE, TOO_MANY_PAGES)
+            self._check_size(update)
+            self._apply(member, update, now_s)
+        member.unsaved.append((member.frames, self.ledger.place))
+        self._tell_saved([member])
+
+    def _apply(self, member: Member, update: bytes, now_s: float) -> None:
         steps = self.document.step_count()
         for change in self.document.apply(update):
-            self.to_save.append(Change(member.person.id, change))
-            self.to_publish.append(Note("update", change))
-            self._spread(change, besides=member)
+            waiting = self.ledger.add(Change(member.person.id, change), now_s)
+            self.to_publish.append(encode_change(waiting.number, waiting.change))
+            self._spread(change, member)
             self.touched = True
         if steps < self.document.step_count() > MOST_STEPS:
             raise Close(Close.TOO_LARGE, TOO_LARGE)
-
-    def _leaves_a_hole(self, update: bytes) -> bool:
-        """Tell whether a change begins after what is known of its client: Yjs would wait for the rest, pycrdt not."""
-        first = yjs_encoding.first_of_update(update)
-        if first is None:
-            return False
-        client, clock = first
-        return clock > yjs_encoding.decode_state_vector(self.document.state()).get(client, 0)
 
     def _check_size(self, update: bytes) -> None:
         self._bytes += len(update)
@@ -189,22 +217,53 @@ class Room:
             self._bytes -= len(update)
             raise Close(Close.TOO_LARGE, TOO_LARGE)
 
-    def _spread(self, change: bytes, besides: Member | None = None) -> None:
-        frame = yjs_protocol.encode_update(change)
-        for member in self.members:
-            if member is not besides:
-                member.post(frame)
+    def _spread(self, change: bytes, sender: Member | None = None) -> None:
+        self._fresh.append((sender, change))
         self.wake()
 
-    def hear(self, entry: Entry) -> None:
+    def spread(self) -> None:
+        """Send what has changed since the last call, to each connection as one frame, its own changes apart."""
+        fresh, self._fresh = self._fresh, []
+        senders = {sender for sender, _ in fresh}
+        everything = yjs_protocol.encode_update(merge(change for _, change in fresh)) if fresh else b""
+        for member in self.members if fresh else ():
+            if member not in senders:
+                member.post(everything)
+            elif others := [change for sender, change in fresh if sender is not member]:
+                member.post(yjs_protocol.encode_update(merge(others)))
+
+    def hear(self, entry: Entry, now_s: float = 0.0) -> None:
         """Take what a process has to say; of this one's own, only what holds for all from its entry on."""
         is_own, note = entry.origin == self.origin, entry.note
-        if note.kind == "update":
-            self.form.hear_update(entry)
-        if note.kind == "compiled":
-            self._hear_form(entry)
-        elif not is_own:
-            self._hear_other(entry)
+        match note.kind:
+            case "update":
+                self._hear_change(entry, now_s)
+            case "compiled":
+                self._hear_form(entry)
+            case "lacking" | "full" if not is_own:
+                self._hear_missing(entry, now_s)
+            case _ if not is_own:
+                self._hear_other(entry)
+        if note.kind != "update":
+            self.ledger.pass_entry(entry.id)
+
+    def _hear_change(self, entry: Entry, now_s: float) -> None:
+        self.form.hear_update(entry)
+        number, change = decode_change(entry.note.data)
+        self.ledger.hear(entry.id, entry.origin, number, change, now_s)
+        if entry.origin != self.origin:
+            for each in self.document.apply(change.update):
+                self._spread(each)
+
+    def _hear_missing(self, entry: Entry, now_s: float) -> None:
+        """Take what another process found missing here; whether the database has it is not known."""
+        changes = [entry.note.data] if entry.note.kind == "full" else self.document.apply(entry.note.data)
+        if entry.note.kind == "full":
+            self._rebuild(entry.note.data)
+        for change in changes:
+            self._spread(change)
+        if changes:
+            self.ledger.doubt(entry.id, now_s)
 
     def _hear_form(self, entry: Entry) -> None:
         """Take in a check; check here when one's own edits are not in it, or one's own check did not hold."""
@@ -219,16 +278,14 @@ class Room:
     def _hear_other(self, entry: Entry) -> None:
         note = entry.note
         match note.kind:
-            case "update":
-                for change in self.document.apply(note.data):
-                    self._spread(change)
-            case "full":
-                self._take_full(note.data)
             case "awareness":
                 self.board.hear(entry.origin, yjs_protocol.decode_awareness(note.data).entries)
                 self.wake()
             case "saved":
-                self.announce_saved(*decode_saved(note.data))
+                self.note_stored(*decode_stored(note.data))
+            case "keep":
+                self.must_keep = True
+                self.wake()
             case "state":
                 self._compare(note.data)
 
@@ -251,31 +308,50 @@ class Room:
             not yjs_encoding.is_within(theirs.items(), ours),
         )
         if they_lack:
-            self.to_publish.append(Note("update", self.document.encode(state)))
+            self.to_publish.append(Note("lacking", self.document.encode(state)))
         if we_lack:
             self.to_publish.append(self._state_note())
         if not they_lack and not we_lack and digest != self.document.digest():
             self.to_publish.append(Note("full", self.document.encode()))
         self.wake()
 
-    def _take_full(self, update: bytes) -> None:
+    def _rebuild(self, update: bytes) -> None:
         """Build the document anew from all that is known, which mends whatever came in a wrong order."""
-        before = self.document.encode()
-        self.document = SharedDocument([before, update])
-        self._spread(update)
+        self.document = SharedDocument([self.document.encode(), update])
         self.touched = True
 
-    def take_over(self, updates: list[bytes]) -> None:
-        """Take in what the database or a peer holds, in any order: after a gap. Raises BadUpdate."""
+    def take_over(self, updates: list[bytes], now_s: float = 0.0) -> None:
+        """Take in what the database holds, in any order: after a gap. Raises BadUpdate."""
         self.form.forget()
-        self._take_full(SharedDocument(updates).encode())
+        update = merge(updates)
+        self._rebuild(update)
+        self._spread(update)
+        self.ledger.doubt("", now_s)
 
-    def announce_saved(self, seq: int, state: bytes) -> None:
-        """Tell everybody what is in the database."""
-        self.saved_seq = max(seq, self.saved_seq)
-        frame = yjs_protocol.encode_saved(self.saved_seq, state)
-        for member in self.members:
-            member.post(frame)
+    def note_stored(self, numbers: dict[str, int], rows: range) -> None:
+        """Take in up to which numbers processes' changes are in the database, the last in these rows; tell people."""
+        self.ledger.know_rows(rows)
+        for origin, number in numbers.items():
+            self.ledger.note_stored(origin, number)
+        self._tell_saved(self.members)
+
+    def say_stored(self, numbers: dict[str, int], rows: range) -> None:
+        """Take in what this process has stored in these rows, and tell the others and the connections."""
+        self.to_publish.append(encode_stored(numbers, rows))
+        self.note_stored(numbers, rows)
+        self.wake()
+
+    def settle(self, doubts: int) -> None:
+        """Take in that what was in doubt is in the database; tell the connections."""
+        self.ledger.settle(doubts)
+        self._tell_saved(self.members)
+
+    def _tell_saved(self, members: Iterable[Member]) -> None:
+        """Tell connections how many of their frames are in the database."""
+        stored = self.ledger.stored_place
+        for member in members:
+            if member.note_stored(stored) and member.shows_saved:
+                member.post(yjs_protocol.encode_saved(member.saved, member.refused))
 
     def spread_awareness(self) -> None:
         """Send what has changed on the board since the last call."""
@@ -306,13 +382,7 @@ def _nobody() -> None:
     """Nobody waits yet."""
 
 
-def encode_saved_note(seq: int, state: bytes) -> Note:
-    """Return the note that tells the other processes what has been saved."""
-    return Note("saved", yjs_encoding.encode_integer(seq) + state)
-
-
-def decode_saved(data: bytes) -> tuple[int, bytes]:
-    """Return the number and the state vector of a note."""
-    reader = yjs_encoding.Reader(data)
-    seq = reader.integer()
-    return seq, reader.rest()
+def _leaves_a_hole(update: bytes, clocks: dict[int, int]) -> bool:
+    """Tell whether a change begins after what is known of its client: Yjs would wait for the rest, pycrdt not."""
+    first = yjs_encoding.first_of_update(update)
+    return first is not None and first[1] > clocks.get(first[0], 0)

@@ -13,7 +13,7 @@ from editor.rooms import yjs_protocol
 from editor.rooms.hub import Hub, Permission, find_permission, hub_of_this_loop, review
 from editor.rooms.member import Close, Member
 from editor.rooms.room import INTERRUPTED, Room
-from editor.rooms.runner import in_database
+from editor.rooms.threads import in_database
 from registry.services import Seat, session_of_socket, watch_of_this_loop
 
 

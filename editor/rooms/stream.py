@@ -6,15 +6,21 @@ Two implementations with one interface, chosen by `settings.VIPO_STREAM_URL`: in
 from __future__ import annotations
 
 import asyncio
-from collections import defaultdict, deque
+import time
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import Any, Literal, Protocol
 
 from redis.asyncio import Redis
-from redis.exceptions import RedisError
+from redis.asyncio.retry import Retry
+from redis.backoff import ExponentialBackoff
+from redis.exceptions import ConnectionError as RedisConnectionError
+from redis.exceptions import RedisError, ResponseError
+from redis.exceptions import TimeoutError as RedisTimeout
 
-Kind = Literal["update", "awareness", "saved", "state", "full", "compiled"]
+Kind = Literal["update", "awareness", "saved", "state", "lacking", "full", "compiled", "keep"]
 BEGINNING = "0"
 KEPT_ENTRIES = 10_000
 KEPT_SECONDS = 3600
@@ -56,6 +62,9 @@ class RoomStream(Protocol):
     async def append(self, room: str, origin: str, notes: Sequence[Note]) -> None:
         """Add notes at the end, in this order."""
 
+    async def known(self, room: str, entry: str) -> str:
+        """Return the id itself if the stream goes that far, else BEGINNING: it may have been emptied since."""
+
     async def read(self, room: str, after: str, wait_s: float) -> Batch:
         """Return what stands after an id, waiting for it if there is nothing; empty when the time is up."""
 
@@ -63,36 +72,56 @@ class RoomStream(Protocol):
         """Give back connections."""
 
 
-class MemoryStream:
-    """Within one process and one event loop."""
+@dataclass(slots=True)
+class _Kept:
+    """A room's last entries within one process."""
 
-    def __init__(self, kept: int = KEPT_ENTRIES) -> None:
-        self._rooms: dict[str, deque[Entry]] = defaultdict(lambda: deque(maxlen=kept))
-        self._last: dict[str, int] = defaultdict(int)
-        self._grown: dict[str, asyncio.Event] = defaultdict(asyncio.Event)
+    entries: deque[Entry]
+    grown: asyncio.Event
+    last: tuple[int, int] = (0, 0)
+    dropped: tuple[int, int] = (0, 0)
+
+
+class MemoryStream:
+    """Within one process and one event loop; a room of which nothing was said for an hour is forgotten, as in Redis."""
+
+    def __init__(self, kept: int = KEPT_ENTRIES, kept_s: float = KEPT_SECONDS) -> None:
+        self._most = kept
+        self._kept_ms = int(kept_s * 1000)
+        self._rooms: dict[str, _Kept] = {}
 
     async def append(self, room: str, origin: str, notes: Sequence[Note]) -> None:
         """See RoomStream."""
+        now_ms = time.time_ns() // 1_000_000
+        kept = self._room(room)
         for note in notes:
-            self._last[room] += 1
-            self._rooms[room].append(Entry(str(self._last[room]), origin, note))
-        self._grown[room].set()
-        self._grown[room] = asyncio.Event()
+            milliseconds, number = kept.last
+            kept.last = (now_ms, 0) if now_ms > milliseconds else (milliseconds, number + 1)
+            kept.entries.append(Entry("{}-{}".format(*kept.last), origin, note))
+        while len(kept.entries) > self._most:
+            kept.dropped = _order(kept.entries.popleft().id)
+        kept.grown.set()
+        kept.grown = asyncio.Event()
+        for name in [name for name, each in self._rooms.items() if each.last[0] < now_ms - self._kept_ms]:
+            del self._rooms[name]
+
+    def _room(self, room: str) -> _Kept:
+        return self._rooms.setdefault(room, _Kept(deque(), asyncio.Event(), (time.time_ns() // 1_000_000, 0)))
+
+    async def known(self, room: str, entry: str) -> str:
+        """See RoomStream."""
+        return entry if room in self._rooms and entry and self._rooms[room].last >= _order(entry) else BEGINNING
 
     async def read(self, room: str, after: str, wait_s: float) -> Batch:
         """See RoomStream."""
-        if self._last[room] <= int(after):
+        kept, place = self._room(room), _order(after)
+        if not kept.entries or _order(kept.entries[-1].id) <= place:
             try:
-                await asyncio.wait_for(self._grown[room].wait(), wait_s)
+                await asyncio.wait_for(kept.grown.wait(), wait_s)
             except TimeoutError:
                 return Batch(())
-        return self._after(room, int(after))
-
-    def _after(self, room: str, after: int) -> Batch:
-        missing = self._last[room] - after
-        kept = self._rooms[room]
-        entries = tuple(kept)[-missing:] if missing > 0 else ()
-        return Batch(entries, gap=after > 0 and missing > len(kept))
+        newer = tuple(takewhile(lambda entry: _order(entry.id) > place, reversed(kept.entries)))
+        return Batch(newer[::-1], gap=after != BEGINNING and kept.dropped > place)
 
     async def close(self) -> None:
         """Nothing to give back."""
@@ -102,7 +131,14 @@ class RedisStream:
     """Between processes: one Redis Stream for each room."""
 
     def __init__(self, url: str, kept: int = KEPT_ENTRIES) -> None:
-        self._redis: Any = Redis.from_url(url, socket_connect_timeout=3, socket_timeout=10)
+        self._redis: Any = Redis.from_url(
+            url,
+            socket_connect_timeout=3,
+            socket_timeout=10,
+            health_check_interval=10,
+            retry=Retry(ExponentialBackoff(cap=0.5, base=0.05), 2),
+            retry_on_error=[RedisConnectionError, RedisTimeout],
+        )
         self._kept = kept
         self._at_once = min(_READ_AT_ONCE, kept)
         self._doubtful: set[str] = set()
@@ -118,6 +154,17 @@ class RedisStream:
                 await pipe.execute()
         except (RedisError, OSError) as error:
             raise StreamLost(f"Redis does not answer: {error}") from error
+
+    async def known(self, room: str, entry: str) -> str:
+        """See RoomStream."""
+        try:
+            last = await self._redis.xinfo_stream(_key(room))
+        except ResponseError:
+            return BEGINNING  # there is no such stream
+        except (RedisError, OSError) as error:
+            raise StreamLost(f"Redis does not answer: {error}") from error
+        goes_far = bool(entry) and _order(_text(last["last-generated-id"])) >= _order(entry)
+        return entry if goes_far else BEGINNING
 
     async def read(self, room: str, after: str, wait_s: float) -> Batch:
         """See RoomStream."""

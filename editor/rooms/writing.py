@@ -1,4 +1,4 @@
-"""A program's content as one piece, for programs: read with a tag, written by who knows the tag.
+"""A program's content as one piece: read with a tag and written by who knows the tag, or seen on a screen and stored.
 
 What people change in the program's room meanwhile stays: what is written becomes the difference to what was read, as a
 change of the shared document, which the rooms of all processes hear of.
@@ -6,32 +6,39 @@ change of the shared document, which the rooms of all processes hear of.
 
 from __future__ import annotations
 
-import asyncio
 import hashlib
+import time
 import uuid
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 from uuid import UUID
 
-from asgiref.sync import async_to_sync
-from django.conf import settings
 from django.db import transaction
 from django.utils import timezone
 
-from editor.documents.shared_document import SharedDocument, digest_of, migrate_document
+from editor.documents.knowledge import decode_snapshot
+from editor.documents.shared_document import digest_of, migrate_document
 from editor.documents.store import Change, append_changes, get_document, load_document
-from editor.errors import BadRequest, EditorError
+from editor.documents.yjs_encoding import BadFrame
+from editor.errors import BadRequest, EditorError, NotStored
 from editor.language import compile_document
 from editor.models import Program
 from editor.programs.checking import build_surroundings
 from editor.programs.programs import get_compiled, get_program
 from editor.programs.scripts import draw_script
-from editor.rooms.hub import hubs_elsewhere
+from editor.rooms.hub import tell_rooms
+from editor.rooms.ledger import encode_change, encode_stored
 from editor.rooms.room import MOST_DOCUMENT_BYTES, MOST_STEPS, TOO_LARGE
-from editor.rooms.stream import Note, RoomStream, StreamLost, make_stream
+from editor.rooms.stream import Note, StreamLost
 
-SPREAD_LIMIT_S = 5.0
+STORED_WITHIN_S = 4.0
+LOOK_AGAIN_S = 0.05
+_NOT_STORED = (
+    "Not everything that you see is saved yet, so nothing was done. Look at the sign beside the program's name, "
+    "and try again when it says that all is saved."
+)
 
 
 class ContentChanged(EditorError):
@@ -110,7 +117,7 @@ def _read_by_tag(program_id: UUID | str, tag: str) -> Content:
 def _write(program_id: UUID | str, read: Content, wanted: Mapping[str, Any], author: int) -> Content:
     with transaction.atomic():
         Program.objects.select_for_update().filter(pk=program_id).first()
-        stored = SharedDocument(load_document(str(program_id)).updates)
+        stored = load_document(str(program_id)).open()
         before = stored.state()
         stored.migrate()
         if digest_of(stored.to_json()) != digest_of(read.document):
@@ -119,29 +126,34 @@ def _write(program_id: UUID | str, read: Content, wanted: Mapping[str, Any], aut
         if stored.step_count() > MOST_STEPS or len(stored.encode()) > MOST_DOCUMENT_BYTES:
             raise BadRequest(TOO_LARGE)
         update = stored.encode(before)
-        append_changes(str(program_id), [Change(author, update)], timezone.now())
-        _spread(str(program_id), update)
+        change, origin = Change(author, update), uuid.uuid4().hex
+        rows = append_changes(str(program_id), [change], timezone.now())
+        try:
+            tell_rooms(str(program_id), origin, encode_change(1, change))
+        except StreamLost as error:
+            raise RoomsAway(
+                "Nothing was changed: those who have the program open cannot be told. Try again."
+            ) from error
+    with suppress(StreamLost):  # who does not hear that it is stored stores it once more
+        tell_rooms(str(program_id), origin, encode_stored({origin: 1}, rows))
     get_compiled(program_id=program_id)
     return read_content(program_id=program_id)
 
 
-def _spread(program: str, update: bytes) -> None:
-    """Tell the rooms of all processes; what they cannot be told is not kept either. Raises RoomsAway."""
-    note = Note("update", update)
-    try:
-        told = [asyncio.run_coroutine_threadsafe(hub.stream.append(program, uuid.uuid4().hex, [note]), loop)
-                for loop, hub in hubs_elsewhere()]  # fmt: skip
-        for each in told:
-            each.result(SPREAD_LIMIT_S)
-        if not told and not settings.VIPO_STREAM_URL.startswith("memory:"):
-            async_to_sync(_append_alone)(program, note)
-    except (StreamLost, TimeoutError) as error:
-        raise RoomsAway("Nothing was changed: those who have the program open cannot be told. Try again.") from error
+def ensure_stored(*, program_id: UUID | str, seen: bytes) -> None:
+    """Wait until the database holds what somebody has seen of a program, so that what is made of it now holds that.
 
-
-async def _append_alone(program: str, note: Note) -> None:
-    stream: RoomStream = make_stream(settings.VIPO_STREAM_URL)
+    `seen` is a Yjs snapshot (`Y.encodeSnapshot`). Every process is asked to write what it still holds. Returns after
+    STORED_WITHIN_S at the latest. Raises NotStored, BadRequest, NoSuchProgram, DocumentHole.
+    """
     try:
-        await stream.append(program, uuid.uuid4().hex, [note])
-    finally:
-        await stream.close()
+        wanted = decode_snapshot(seen)
+    except BadFrame as error:
+        raise BadRequest(f"What was seen is no snapshot of a Yjs document: {error}") from error
+    ends = time.monotonic() + STORED_WITHIN_S
+    with suppress(StreamLost):
+        tell_rooms(str(program_id), uuid.uuid4().hex, Note("keep", b""))
+    while not load_document(str(program_id)).open().knowledge().covers(wanted):
+        if time.monotonic() > ends:
+            raise NotStored(_NOT_STORED)
+        time.sleep(LOOK_AGAIN_S)

@@ -1,7 +1,9 @@
 """The messages of the y-websocket protocol, decoded with bounds. Pure; a client's bytes are read here first.
 
 A frame holds one message: 0 sync (0 step 1: a state vector, 1 step 2: an update, 2 an update), 1 awareness,
-2 refusal (server only), 3 awareness query, 100 saved (server only: a number and the state vector that is saved),
+2 refusal (server only), 3 awareness query, 100 saved (a client asks; the server answers and goes on with two numbers:
+of the messages of sync step 2 and of updates that this connection has sent, so many are in the database from the first
+one on, and so many were not taken, since who only looks may change nothing),
 101 compiled (a client asks by the revision that it has, 0 for none; the server answers and goes on with JSON).
 """
 
@@ -79,7 +81,12 @@ class QueryCompiled:
     revision: int
 
 
-Message = SyncStep1 | SyncStep2 | Update | Awareness | QueryAwareness | QueryCompiled
+@dataclass(frozen=True, slots=True)
+class QuerySaved:
+    """A client wants to be told what of its messages is saved, now and after each change of that."""
+
+
+Message = QuerySaved | SyncStep1 | SyncStep2 | Update | Awareness | QueryAwareness | QueryCompiled
 
 
 def decode_frame(data: bytes) -> Message:
@@ -94,6 +101,8 @@ def decode_frame(data: bytes) -> Message:
         message = decode_awareness(reader.sized(MOST_FRAME_BYTES))
     elif kind == QUERY_AWARENESS:
         message = QueryAwareness()
+    elif kind == SAVED:
+        message = QuerySaved()
     elif kind == COMPILED:
         message = QueryCompiled(reader.integer())
     else:
@@ -168,9 +177,9 @@ def encode_awareness(entries: Sequence[AwarenessEntry]) -> bytes:
     return bytes((AWARENESS,)) + encode_sized(encode_entries(entries))
 
 
-def encode_saved(seq: int, state: bytes) -> bytes:
-    """Encode a frame that says: everything up to this number, which is this state vector, is in the database."""
-    return encode_integer(SAVED) + encode_integer(seq) + encode_sized(state)
+def encode_saved(saved: int, refused: int) -> bytes:
+    """Encode a frame that says how many of a connection's messages are in the database, and how many were not taken."""
+    return encode_integer(SAVED) + encode_integer(saved) + encode_integer(refused)
 
 
 def encode_compiled(form: object) -> bytes:

@@ -60,7 +60,7 @@ function useShared(id: string | undefined, ready: boolean, canEdit: boolean): Sh
   useEffect(() => {
     if (!id || !ready) return;
     resetUi();
-    const opened = new SharedProgram(id, socketAddress(), !canEdit);
+    const opened = new SharedProgram(id, socketAddress());
     setShared(opened);
     return () => {
       setShared(null);

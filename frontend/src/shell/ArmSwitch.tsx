@@ -11,14 +11,19 @@ interface ArmSwitchProps {
   site: string;
   program: { id: string; kinds: readonly string[] };
   role: Role | undefined;
+  /** Waits until what is seen of the program is stored, where it is seen. */
+  stored?: () => Promise<void>;
 }
 
-export function ArmSwitch({ site, program, role }: ArmSwitchProps) {
+export function ArmSwitch({ site, program, role, stored }: ArmSwitchProps) {
   const { t } = useTranslation();
   const queries = useQueryClient();
   const armed = useArmed(site).data?.find((each) => each.program === program.id);
   const arm = useMutation({
-    mutationFn: (on: boolean) => api.post<ArmedProgram[]>(`/programs/${program.id}/arm`, { on }),
+    mutationFn: async (on: boolean) => {
+      if (on) await stored?.();
+      return api.post<ArmedProgram[]>(`/programs/${program.id}/arm`, { on });
+    },
     onSuccess: (all) => queries.setQueryData(keys.armed(site), all),
     onError: (error) =>
       notifications.show({ color: "red", message: error instanceof ApiProblem ? error.detail : error.message }),

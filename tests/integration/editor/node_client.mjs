@@ -1,12 +1,7 @@
 // Plain y-websocket clients in Node, told what to do by one JSON object a line; every command is answered by a line.
-import { createRequire } from "node:module";
 import { createInterface } from "node:readline";
+import { isSaved, openClient, sorted, Y } from "./yjs_client.mjs";
 
-const require = createRequire(process.argv[2] + "/package.json");
-const Y = require("yjs");
-const { WebsocketProvider } = require("y-websocket");
-const decoding = require("lib0/decoding");
-const WebSocket = require("ws");
 const config = JSON.parse(process.argv[3]);
 const clients = new Map();
 const problems = [];
@@ -14,23 +9,7 @@ console.error = (...words) => problems.push(words.join(" "));
 console.warn = console.error;
 
 function open({ name, session, port }) {
-  class Socket extends WebSocket {
-    constructor(url, protocols) {
-      super(url, protocols, { headers: { Cookie: `sessionid=${session}`, Origin: `http://127.0.0.1:${port}` } });
-    }
-  }
-  const doc = new Y.Doc();
-  const provider = new WebsocketProvider(`ws://127.0.0.1:${port}/ws/program`, config.program, doc, {
-    WebSocketPolyfill: Socket, disableBc: true, maxBackoffTime: 300,
-  });
-  const client = { doc, provider, saved: 0, closed: null };
-  provider.on("closed", (event) => (client.closed = event.code));
-  provider.messageHandlers[100] = (_encoder, decoder) => {
-    decoding.readVarUint(decoder);
-    const state = Y.decodeStateVector(decoding.readVarUint8Array(decoder));
-    client.saved = state.get(doc.clientID) ?? 0;
-  };
-  clients.set(name, client);
+  clients.set(name, openClient({ program: config.program, session, port }));
 }
 
 const until = async (what, check) => {
@@ -40,8 +19,6 @@ const until = async (what, check) => {
     await new Promise((done) => setTimeout(done, 10));
   }
 };
-
-const own = (client) => Y.getState(client.doc.store, client.doc.clientID);
 
 function addStep(client, { id, kind, x, y, parent, params }) {
   client.doc.transact(() => {
@@ -89,7 +66,7 @@ const commands = {
   },
   async saved({ name }) {
     const client = clients.get(name);
-    await until("saved", () => client.provider.synced && client.saved >= own(client));
+    await until("saved", () => isSaved(client));
   },
   async converged() {
     const texts = () => new Set([...clients.values()].map((c) => JSON.stringify(sorted(c.doc.getMap("steps").toJSON()))));
@@ -113,6 +90,11 @@ const commands = {
     await until("others", () => awareness.getStates().size === count);
     return { states: [...awareness.getStates().values()].map((state) => state.user?.name ?? null).sort() };
   },
+  snapshot: ({ name }) => ({ snapshot: Buffer.from(Y.encodeSnapshot(Y.snapshot(clients.get(name).doc))).toString("base64") }),
+  acknowledged: ({ name }) => {
+    const { savedAt, refused, made } = clients.get(name);
+    return { savedAt, refused, made };
+  },
   steps: ({ name }) => ({ steps: clients.get(name).doc.getMap("steps").toJSON() }),
   destroy({ name }) {
     clients.get(name).provider.destroy();
@@ -120,11 +102,6 @@ const commands = {
   },
   problems: () => ({ problems }),
 };
-
-function sorted(value) {
-  if (Array.isArray(value) || value === null || typeof value !== "object") return value;
-  return Object.fromEntries(Object.keys(value).sort().map((key) => [key, sorted(value[key])]));
-}
 
 for await (const line of createInterface({ input: process.stdin })) {
   const command = JSON.parse(line);

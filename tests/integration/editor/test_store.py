@@ -7,11 +7,12 @@ from typing import Any
 from uuid import uuid4
 
 import pytest
+from pycrdt import Doc, Map
 
 from editor import services
-from editor.documents.shared_document import SharedDocument, empty_document, encode_document
+from editor.documents.shared_document import SharedDocument, clients_of, empty_document, encode_document
 from editor.documents.store import Change, SnapshotDiffers, append_changes, compact_document, load_document
-from editor.errors import NoSuchProgram
+from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot, Version
 from registry import services as registry
 from registry.models import Site
@@ -46,7 +47,7 @@ def steps(program: str) -> list[str]:
 
 def test_a_batch_is_appended_with_its_authors(program: str, author: Any) -> None:
     changes = [Change(author.pk, drawing("s1")), Change(None, drawing("s2"))]
-    assert append_changes(program, changes, NOW) == (3, 2)
+    assert append_changes(program, changes, NOW) == range(2, 4)
     assert steps(program) == ["s1", "s2"]
     rows = DocumentUpdate.objects.order_by("seq").values_list("seq", "author_id")
     assert list(rows) == [(2, author.pk), (3, None)]
@@ -59,11 +60,63 @@ def test_compacting_keeps_the_document_and_drops_the_rows(program: str, author: 
     before = SharedDocument(load_document(program).updates).digest()
     compact_document(program)
     assert SharedDocument(load_document(program).updates).digest() == before
-    assert (DocumentUpdate.objects.count(), Snapshot.objects.get().seq) == (0, 10)
+    assert (DocumentUpdate.objects.count(), Snapshot.objects.get().seq) == (0, 2)
     append_changes(program, [Change(author.pk, drawing("later"))], NOW)
     compact_document(program)
     assert "later" in steps(program)
-    assert Snapshot.objects.get().seq == 11
+    assert Snapshot.objects.get().seq == 3
+
+
+def test_changes_of_one_person_that_follow_each_other_are_one_row(program: str, author: Any) -> None:
+    changes = [Change(who, drawing(f"s{number}")) for number, who in enumerate([author.pk] * 3 + [None] + [author.pk])]
+    assert append_changes(program, changes, NOW) == range(2, 5)
+    assert [author for (author,) in DocumentUpdate.objects.order_by("seq").values_list("author_id")] == [
+        author.pk,
+        None,
+        author.pk,
+    ]
+    assert steps(program) == ["s0", "s1", "s2", "s3", "s4"]
+
+
+def test_whose_a_change_is_outlives_compacting(program: str, author: Any) -> None:
+    second = registry.create_user(email="bob@vipo.example", password="a long password", display_name="Bob")
+    drawn = drawing("s1"), drawing("s2")
+    append_changes(program, [Change(author.pk, drawn[0]), Change(second.pk, drawn[1])], NOW)
+    compact_document(program)
+    append_changes(program, [Change(author.pk, drawing("s3"))], NOW)
+    compact_document(program)
+    authors = Snapshot.objects.get().authors
+    assert [authors[str(*clients_of(each))] for each in drawn] == [author.pk, second.pk]
+    assert sorted(authors.values()) == [author.pk, author.pk, second.pk]
+
+
+def test_a_document_with_a_hole_is_never_opened_silently(program: str, author: Any) -> None:
+    document, parts = Doc(), []
+    document.observe(lambda event: parts.append(event.update))
+    texts = document.get("parameters", type=Map)
+    for number in range(3):
+        texts[f"p{number}"] = number
+    append_changes(program, [Change(author.pk, parts[0])], NOW)
+    append_changes(program, [Change(author.pk, parts[2])], NOW)
+    for reads in (services.get_document, services.pin_version):
+        with pytest.raises(DocumentHole, match="A part of this program is missing in the database"):
+            reads(program_id=program, **({"user": author} if reads is services.pin_version else {}))
+    with pytest.raises(DocumentHole):
+        compact_document(program)
+    assert DocumentUpdate.objects.count() == 2
+    append_changes(program, [Change(author.pk, parts[1])], NOW)
+    assert services.get_document(program_id=program)["parameters"] == {"p0": 0, "p1": 1, "p2": 2}
+
+
+def test_a_deletion_of_what_is_missing_is_a_hole(program: str, author: Any) -> None:
+    document, parts = Doc(), []
+    document.observe(lambda event: parts.append(event.update))
+    texts = document.get("parameters", type=Map)
+    texts["p"] = 1
+    del texts["p"]
+    append_changes(program, [Change(author.pk, parts[1])], NOW)
+    with pytest.raises(DocumentHole):
+        load_document(program).open()
 
 
 def test_a_snapshot_that_differs_deletes_nothing(program: str, author: Any, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,40 +8,20 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 
 import pytest
 
 from tests.integration.editor.node_clients import node_clients
+from tests.integration.editor.web_pairs import Pair, running_pair
 from tests.kit.files import ROOT
-from tests.kit.served import served_without_broker
 from tests.kit.servers import Redis
-from tests.kit.web import Web, environment, prepare
-
-
-@dataclass(frozen=True)
-class Pair:
-    """Two web processes that share a database and a Redis."""
-
-    one: Web
-    two: Web
-    redis: Redis
+from tests.kit.web import Web, environment
 
 
 @pytest.fixture(scope="module")
 def pair(tmp_path_factory: pytest.TempPathFactory, module_database_url: str, shared_redis: Redis) -> Iterator[Pair]:
-    folder = tmp_path_factory.mktemp("pair")
-    extra = served_without_broker(folder, module_database_url, shared_redis.url)
-    extra = {name: value for name, value in extra.items() if name.startswith("VIPO_")}
-    made = prepare(folder, extra)
-    one, two = (Web(folder, **made, extra=extra) for _ in range(2))
-    one.start()
-    two.start()
-    try:
-        yield Pair(one, two, shared_redis)
-    finally:
-        one.kill()
-        two.kill()
+    with running_pair(tmp_path_factory.mktemp("pair"), module_database_url, shared_redis) as running:
+        yield running
 
 
 @pytest.mark.servers
@@ -127,3 +107,63 @@ def test_without_redis_nobody_edits_and_afterwards_all_is_there(pair: Pair) -> N
         clients.tell("converged")
         clients.tell("saved", name="ada")
         assert sorted(clients.tell("steps", name="bob")["steps"]) == ["after", "before", "meanwhile"]
+
+
+def press(web: Web, program: str, snapshot: str) -> int:
+    """Make a version of what is seen, as the browser does; return its number."""
+    with web.client("second") as client:
+        stored = client.post(f"/programs/{program}/stored", json={"seen": snapshot})
+        assert stored.status_code == 204, stored.text
+        made = client.post(f"/programs/{program}/versions", json={})
+        assert made.status_code in (200, 201), made.text
+        return int(made.json()["number"])
+
+
+@pytest.mark.servers
+def test_what_is_pinned_in_one_process_has_what_was_drawn_and_deleted_in_the_other(pair: Pair) -> None:
+    program = pair.one.new_program()
+    with node_clients(pair.one, program) as clients, pair.two.client("second") as reader:
+        clients.open("ada", "author", pair.one)
+        clients.open("bob", "second", pair.two)
+        for number in range(20):
+            clients.tell("add", name="ada", id=f"s{number}")
+            if number % 2:
+                clients.tell("remove", name="ada", id=f"s{number - 1}")
+            clients.tell("converged")
+            seen = clients.tell("steps", name="bob")["steps"]
+            version = press(pair.two, program, clients.tell("snapshot", name="bob")["snapshot"])
+            pinned = reader.get(f"/programs/{program}/versions/{version}").json()["document"]["steps"]
+            assert pinned == seen
+
+
+@pytest.mark.servers
+def test_what_a_frozen_process_has_told_is_stored_by_the_other_one(pair: Pair) -> None:
+    program, process = pair.one.new_program(), pair.one.process
+    assert process is not None
+    with node_clients(pair.one, program) as clients:
+        clients.open("ada", "author", pair.one)
+        clients.open("bob", "second", pair.two)
+        clients.tell("add", name="ada", id="s1")
+        clients.tell("converged")
+        process.send_signal(signal.SIGSTOP)
+        try:
+            press(pair.two, program, clients.tell("snapshot", name="bob")["snapshot"])
+            clients.tell("move", name="bob", id="s1", pos=[7, 7])
+            clients.tell("saved", name="bob")
+        finally:
+            process.send_signal(signal.SIGCONT)
+        clients.tell("converged")
+        clients.tell("saved", name="ada")
+
+
+@pytest.mark.servers
+def test_what_was_never_told_is_not_pinned_and_that_is_said(pair: Pair) -> None:
+    program = pair.one.new_program()
+    with node_clients(pair.one, program) as clients, pair.two.client("second") as client:
+        clients.open("ada", "author", pair.one)
+        clients.tell("disconnect", name="ada")
+        clients.tell("add", name="ada", id="only-here")
+        seen = clients.tell("snapshot", name="ada")["snapshot"]
+        refused = client.post(f"/programs/{program}/stored", json={"seen": seen})
+        assert (refused.status_code, refused.json()["code"]) == (409, "not_stored")
+        assert client.post(f"/programs/{program}/stored", json={"seen": "%%%"}).status_code == 422

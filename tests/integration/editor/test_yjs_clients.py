@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+
 from tests.integration.editor.node_clients import node_clients
 from tests.kit.web import Web
 
@@ -142,3 +144,23 @@ def test_who_signs_out_edits_no_more_and_others_go_on(web: Web) -> None:
         assert clients.tell("closed", name="leaving")["closed"] == 4401
         clients.tell("add", name="ada", id="still-works")
         clients.tell("saved", name="ada")
+
+
+def test_a_server_that_is_told_to_end_keeps_what_it_has_heard(web: Web) -> None:
+    program = web.new_program()
+    with node_clients(web, program) as clients:
+        clients.open("ada")
+        for number in range(20):
+            clients.tell("add", name="ada", id=f"s{number}")
+        clients.open("bob", "second")  # asked last, so all has been heard
+        heard = clients.tell("steps", name="bob")["steps"]
+        process = web.process
+        assert process is not None
+        process.send_signal(signal.SIGTERM)
+        clients.tell("destroy", name="ada")
+        clients.tell("destroy", name="bob")
+        assert process.wait(15) == 0
+        web.start()
+        clients.open("eve", "viewer")
+        assert clients.tell("steps", name="eve")["steps"] == heard
+    assert len(heard) == 20

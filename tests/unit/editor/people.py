@@ -46,6 +46,7 @@ class Client:
     def read(self) -> list[yjs_protocol.Message]:
         """Take the frames that were sent, answer the questions among them, apply the changes."""
         read = []
+        self.room.spread()
         while self.member.outbox:
             frame = self.member.outbox.popleft()
             if frame[0] in (yjs_protocol.SAVED, yjs_protocol.REFUSAL):

@@ -5,9 +5,11 @@ from __future__ import annotations
 import random
 
 import pytest
+from pycrdt import Map
 
 from editor.documents import yjs_encoding
 from editor.rooms import yjs_protocol
+from editor.rooms.ledger import last_numbers
 from editor.rooms.member import FRAMES_PER_S, Close, Member, Person
 from editor.rooms.room import MOST_OF_PERSON, MOST_READERS, MOST_WRITERS, Room
 from editor.rooms.stream import Entry, Note
@@ -29,7 +31,7 @@ def test_a_change_reaches_the_others_and_not_its_sender() -> None:
     assert ada.read() == []
     bob.read()
     assert bob.steps() == {"s1": {"kind": "wait", "pos": [3, 0], "params": {}}}
-    assert [(change.author, len(here.to_publish)) for change in here.to_save] == [(1, 1)]
+    assert [(each.change.author, len(here.to_publish)) for each in here.ledger.own()] == [(1, 1)]
 
 
 def test_updates_wait_for_the_step_2_of_their_client() -> None:
@@ -37,7 +39,7 @@ def test_updates_wait_for_the_step_2_of_their_client() -> None:
     ada = Client(here)
     first, second = ada.edit("s1", 1), ada.edit("s2", 2)
     ada.send(yjs_protocol.encode_update(second))
-    assert (here.document.step_count(), len(here.to_save)) == (0, 0)
+    assert (here.document.step_count(), len(here.ledger.own())) == (0, 0)
     ada.send(yjs_protocol.encode_step_2(first))
     assert here.document.to_json()["steps"].keys() == {"s1", "s2"}
 
@@ -48,7 +50,7 @@ def test_a_change_after_a_hole_is_not_let_in_and_the_client_is_asked() -> None:
     ada.read()
     lost, later = ada.edit("s1", 1), ada.edit("s1", 2)
     ada.send(yjs_protocol.encode_update(later))
-    assert (here.document.to_json()["steps"], list(here.to_save)) == ({}, [])
+    assert (here.document.to_json()["steps"], here.ledger.own()) == ({}, [])
     ada.read()
     assert here.document.to_json()["steps"] == ada.steps()
     assert lost != later
@@ -65,7 +67,7 @@ def test_a_reader_is_answered_and_never_heard() -> None:
     reader.send(yjs_protocol.encode_step_1(b"\x00"))
     assert [type(message) for message in reader.read()] == [yjs_protocol.SyncStep2]
     assert list(here.document.to_json()["steps"]) == ["s1"]
-    assert len(here.to_save) == 1
+    assert len(here.ledger.own()) == 1
 
 
 def test_of_somebody_whose_session_was_not_looked_at_lately_no_change_is_taken() -> None:
@@ -79,7 +81,7 @@ def test_of_somebody_whose_session_was_not_looked_at_lately_no_change_is_taken()
     with pytest.raises(Close, match="What was typed stays in the browser") as refused:
         ada.send(yjs_protocol.encode_update(ada.edit("s2", 1)))
     assert refused.value.code == 4503
-    assert (list(here.document.to_json()["steps"]), len(here.to_save)) == (["s1"], 1)
+    assert (list(here.document.to_json()["steps"]), len(here.ledger.own())) == (["s1"], 1)
 
 
 def test_a_room_is_full_at_some_point() -> None:
@@ -156,16 +158,101 @@ def is_refused(client: Client, update: bytes) -> bool:
     return False
 
 
-def test_saved_carries_the_state_it_speaks_of() -> None:
+def saved(client: Client) -> tuple[int, int]:
+    """Take the frames that were sent; return the numbers of the last one that tells what is saved."""
+    told = [frame for frame in client.member.outbox if frame[0] == yjs_protocol.SAVED]
+    client.member.outbox.clear()
+    reader = yjs_encoding.Reader(told[-1])
+    reader.integer()
+    return reader.integer(), reader.integer()
+
+
+ASK = yjs_encoding.encode_integer(yjs_protocol.SAVED)
+
+
+def test_who_asks_is_told_how_many_of_their_messages_are_in_the_database() -> None:
+    here = room()
+    ada, bob = Client(here), Client(here, number=2)
+    ada.read()
+    bob.read()
+    ada.send(ASK)
+    assert saved(ada) == (1, 0)
+    ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
+    ada.send(yjs_protocol.encode_update(ada.edit("s2", 1)))
+    assert not ada.member.outbox
+    here.say_stored({"here": 1}, range(7, 7 + 1))
+    assert saved(ada) == (2, 0)
+    here.say_stored({"here": 2}, range(8, 8 + 1))
+    assert saved(ada) == (3, 0)
+    here.spread()
+    assert [frame[0] for frame in bob.member.outbox] == [yjs_protocol.SYNC]
+
+
+def test_a_deletion_is_saved_when_it_is_in_the_database_and_not_before() -> None:
     here = room()
     ada = Client(here)
     ada.read()
+    ada.send(ASK)
     ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
-    here.announce_saved(12, here.document.state())
-    frame = ada.member.outbox.pop()
-    reader = yjs_encoding.Reader(frame)
-    assert (reader.integer(), reader.integer()) == (yjs_protocol.SAVED, 12)
-    assert yjs_encoding.decode_state_vector(reader.sized(100))[1] > 0
+    here.say_stored({"here": 1}, range(1, 1 + 1))
+    state = ada.document.get_state()
+    del ada.document.get("steps", type=Map)["s1"]
+    ada.send(yjs_protocol.encode_update(ada.document.get_update(state)))
+    assert saved(ada) == (2, 0)
+    here.say_stored({"here": 2}, range(2, 2 + 1))
+    assert saved(ada) == (3, 0)
+
+
+def test_what_builds_on_a_change_of_another_process_is_saved_with_it() -> None:
+    both = TwoProcesses()
+    a, b = both.pair()
+    ada, bob = Client(a), Client(b, number=2)
+    ada.read()
+    bob.read()
+    bob.send(ASK)
+    ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
+    both.carry()
+    bob.read()
+    bob.send(yjs_protocol.encode_update(bob.edit("s1", 2)))
+    b.say_stored({"b": 1}, range(1, 1 + 1))
+    bob.send(ASK)
+    assert saved(bob) == (1, 0)
+    adopted = b.ledger.adoptable(1.0)
+    assert [(each.origin, each.change.author) for each in adopted] == [("a", 1)]
+    b.say_stored(last_numbers(adopted), range(2, 2 + 1))
+    assert saved(bob) == (2, 0)
+
+
+def test_a_message_after_a_hole_is_not_saved_before_the_client_has_said_all() -> None:
+    here = room()
+    ada = Client(here)
+    ada.read()
+    ada.send(ASK)
+    ada.edit("s1", 1)
+    ada.send(yjs_protocol.encode_update(ada.edit("s2", 1)))
+    assert saved(ada) == (1, 0)
+    ada.send(yjs_protocol.encode_step_2(ada.document.get_update(here.document.state())))
+    here.say_stored({"here": 2}, range(1, 1 + 1))
+    assert (saved(ada), sorted(here.document.to_json()["steps"])) == ((3, 0), ["s1", "s2"])
+
+
+def test_a_reader_is_told_that_a_change_was_not_taken() -> None:
+    here = room()
+    author, eve = Client(here), Client(here, can_write=False, number=2)
+    author.read()
+    author.send(yjs_protocol.encode_update(author.edit("s1", 1)))
+    here.spread()
+    eve.read()
+    eve.send(ASK)
+    eve.send(yjs_protocol.encode_step_2(eve.document.get_update()))
+    assert saved(eve) == (0, 0)
+    eve.send(yjs_protocol.encode_update(eve.edit("s2", 1)))
+    assert saved(eve) == (0, 1)
+    state = eve.document.get_state()
+    del eve.document.get("steps", type=Map)["s1"]
+    eve.send(yjs_protocol.encode_update(eve.document.get_update(state)))
+    assert saved(eve) == (0, 2)
+    assert list(here.document.to_json()["steps"]) == ["s1"]
 
 
 def test_a_connection_that_does_not_read_is_sent_away() -> None:
@@ -228,7 +315,7 @@ def test_two_processes_hold_the_same_and_each_keeps_only_its_own() -> None:
     ada.read()
     assert a.document.digest() == b.document.digest()
     assert ada.steps() == bob.steps() == {"s1": {"kind": "wait", "pos": [2, 0], "params": {}}}
-    assert [[change.author for change in each.to_save] for each in (a, b)] == [[1], [2]]
+    assert [[waiting.change.author for waiting in each.ledger.own()] for each in (a, b)] == [[1], [2]]
 
 
 def test_what_the_stream_lost_is_found_by_comparing() -> None:

@@ -1,5 +1,6 @@
 /** The editor's top bar: where we are, what is saved, who is here, what can be done. */
 import { Button } from "@mantine/core";
+import type { Translate } from "@/program/words/stepWords";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { Box, CircleAlert, Cloud, CloudOff, Play, Redo2, TriangleAlert, Undo2 } from "lucide-react";
 import { useEffect, useState, useSyncExternalStore } from "react";
@@ -14,6 +15,7 @@ import { IconButton } from "@/design/IconButton";
 import { undoLast } from "../state/actions";
 import { FollowButton } from "../gestures/FollowButton";
 import { Arm } from "./RunDialog";
+import type { Saving } from "../shared/sharedProgram";
 import { useOpenProgram } from "../state/context";
 import { say, select, showTab, useUi } from "../state/ui";
 import classes from "./top.module.css";
@@ -84,9 +86,14 @@ function SavedChip() {
   return (
     <Chip tone={away ? "note" : "plain"}>
       {away ? <CloudOff size={14} aria-hidden="true" /> : <Cloud size={14} aria-hidden="true" />}
-      <span aria-live="polite">{t(away ? "saved.away" : saving.unsaved ? "saved.saving" : "saved.saved")}</span>
+      <span aria-live="polite">{savedWords(saving, t)}</span>
     </Chip>
   );
+}
+
+function savedWords({ connection, waiting }: Saving, t: Translate): string {
+  if (connection !== "live") return waiting > 0 ? t("saved.waiting", { count: waiting }) : t("saved.away");
+  return t(waiting > 0 ? "saved.saving" : "saved.saved");
 }
 
 function UndoButtons() {
@@ -191,10 +198,13 @@ function Problems() {
 }
 
 function SimulateButton() {
-  const { t, program, canRun } = useOpenProgram();
+  const { t, program, shared, canRun } = useOpenProgram();
   const navigate = useNavigate();
   const rehearse = useMutation({
-    mutationFn: () => api.post<Rehearsal>(`/programs/${program.id}/rehearsals`, {}),
+    mutationFn: async () => {
+      await shared.stored();
+      return api.post<Rehearsal>(`/programs/${program.id}/rehearsals`, {});
+    },
     onSuccess: (rehearsal) => void navigate(`/programs/${program.id}/simulate/${rehearsal.id}`),
     onError: (error) => say(error.message),
   });

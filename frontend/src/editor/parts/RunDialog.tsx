@@ -64,10 +64,13 @@ function Content({ onClose }: { onClose: () => void }) {
 }
 
 function useStartRun(parameters: Given | null, terms: Record<string, string> | null, onStarted: () => void) {
-  const { program } = useOpenProgram();
+  const { program, shared } = useOpenProgram();
   const navigate = useNavigate();
   return useMutation({
-    mutationFn: () => api.post<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {}, ...terms }),
+    mutationFn: async () => {
+      await shared.stored();
+      return api.post<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {}, ...terms });
+    },
     onSuccess: (started) => {
       onStarted();
       void navigate(`/runs/${started.id}`);
@@ -127,11 +130,16 @@ function useRobotLines(): readonly string[] {
 }
 
 export function Arm() {
-  const { program, site, document } = useOpenProgram();
+  const { program, shared, site, document } = useOpenProgram();
   const starts = Object.values(document.steps).some(
     (step) => step.kind === "on_event" && step.params.starts === "run" && step.place,
   );
   return (
-    <ArmSwitch site={site.slug} program={{ id: program.id, kinds: starts ? ["on_event"] : [] }} role={site.role} />
+    <ArmSwitch
+      site={site.slug}
+      program={{ id: program.id, kinds: starts ? ["on_event"] : [] }}
+      role={site.role}
+      stored={() => shared.stored()}
+    />
   );
 }

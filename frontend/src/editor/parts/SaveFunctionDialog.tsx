@@ -65,16 +65,18 @@ function Form({ functionId, onDone }: { functionId: string; onDone: () => void }
 }
 
 function useSave(functionId: string, said: { name: string; description: string }, onDone: () => void) {
-  const { t, program, site } = useOpenProgram();
+  const { t, program, shared, site } = useOpenProgram();
   const queries = useQueryClient();
   return useMutation({
-    mutationFn: () =>
-      api.post<LibraryFunction>(`/sites/${site.slug}/library`, {
+    mutationFn: async () => {
+      await shared.stored();
+      return api.post<LibraryFunction>(`/sites/${site.slug}/library`, {
         program: program.id,
         function: functionId,
         name: said.name.trim(),
         description: said.description.trim(),
-      }),
+      });
+    },
     onSuccess: (saved) => {
       void queries.invalidateQueries({ queryKey: ["library"] });
       say(t("save.done", { name: saved.name, version: saved.version }));

@@ -1,16 +1,16 @@
 /** The program that several people edit: Yjs, its server, its copy in the browser, undo and presence. */
-import * as decoding from "lib0/decoding";
 import { IndexeddbPersistence } from "y-indexeddb";
 import { WebsocketProvider } from "y-websocket";
 import * as Y from "yjs";
+import * as buffer from "lib0/buffer";
+import { api } from "@/api/client";
 import type { Edit } from "../edits/edits";
+import { SavedChanges } from "./savedChanges";
 import { CompiledForm } from "./compiledForm";
 import { writeEdit } from "./writer";
 import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
 import type { ProgramDocument } from "@/program/document/document";
 
-/** The server's own message: a number, and the state vector of what is in the database. */
-const MESSAGE_SAVED = 100;
 /** Under this name an entry of the undo list keeps its edits. */
 const EDITS = "edits";
 
@@ -18,8 +18,10 @@ export type Connection = "connecting" | "live" | "reconnecting" | "refused";
 
 export interface Saving {
   readonly connection: Connection;
-  /** Our own edits that the server has not yet called saved. */
-  readonly unsaved: boolean;
+  /** How many of our own edits the server has not yet called saved. */
+  readonly waiting: number;
+  /** How many messages with edits of ours it did not take, since we may only look. */
+  readonly notTaken: number;
   /** Everything is here: from the server, or from the browser's copy. */
   readonly loaded: boolean;
   readonly closedWith: number | null;
@@ -35,16 +37,21 @@ export class SharedProgram {
   readonly doc = new Y.Doc();
   readonly undo: Y.UndoManager;
   readonly provider: WebsocketProvider;
+  #provider: WebsocketProvider | null = null;
   readonly compiled: CompiledForm;
   readonly #copy: IndexeddbPersistence;
+  readonly #saved = new SavedChanges(() => this.#showSaved());
   readonly #origin = Symbol("this person");
   readonly #listeners = new Set<Listener>();
   readonly #savingListeners = new Set<Listener>();
   #document: ProgramDocument;
-  #saving: Saving = { connection: "connecting", unsaved: false, loaded: false, closedWith: null };
+  #saving: Saving = { connection: "connecting", waiting: 0, notTaken: 0, loaded: false, closedWith: null };
   #changed = new Map<string, Set<string>>();
 
-  constructor(program: string, serverUrl: string, readOnly: boolean) {
+  constructor(
+    private readonly program: string,
+    serverUrl: string,
+  ) {
     this.#document = readDocument(this.doc);
     const roots = ROOTS.map((name) => this.doc.getMap(name));
     this.undo = new Y.UndoManager(roots, {
@@ -54,10 +61,18 @@ export class SharedProgram {
     });
     ROOTS.forEach((name, index) => roots[index]?.observeDeep((events) => this.#note(name, events)));
     this.doc.on("afterTransaction", () => this.#publish());
-    this.doc.on("update", (_update, origin) => this.#noteUnsaved(origin));
+    this.doc.on("update", (_update, origin) => {
+      if (origin !== this.#copy && origin !== this.#provider) this.#saved.made(); // before it is sent
+    });
     this.#copy = new IndexeddbPersistence(`vipo-program-${program}`, this.doc);
     this.#copy.on("synced", () => this.#setSaving({ loaded: this.#saving.loaded || this.doc.store.clients.size > 0 }));
-    this.provider = new WebsocketProvider(serverUrl, program, this.doc, { disableBc: readOnly });
+    // Tabs do not hand edits to each other: each one's own are sent, counted and called saved by itself.
+    this.provider = new WebsocketProvider(serverUrl, program, this.doc, {
+      disableBc: true,
+      WebSocketPolyfill: this.#saved.Socket,
+    });
+    this.#provider = this.provider;
+    this.#saved.listen(this.provider.messageHandlers);
     this.compiled = new CompiledForm(this.provider);
     this.#listenToServer();
   }
@@ -103,13 +118,18 @@ export class SharedProgram {
 
   /** What the program itself puts right after a gesture: no entry of its own in the undo list. */
   adjust(edits: readonly Edit[]): void {
-    this.#setSaving({ unsaved: true });
     applyEditsToDoc(this.doc, edits);
   }
 
   /** What the gesture set that would be undone next. */
   lastEdits(): readonly Edit[] {
     return (this.undo.undoStack.at(-1)?.meta.get(EDITS) as readonly Edit[] | undefined) ?? [];
+  }
+
+  /** Wait until the database holds what is on this screen, also of others: before something is made of the program. */
+  async stored(): Promise<void> {
+    const seen = Y.encodeSnapshot(Y.snapshot(this.doc));
+    await api.post(`/programs/${this.program}/stored`, { seen: buffer.toBase64(seen) });
   }
 
   close(): void {
@@ -132,17 +152,14 @@ export class SharedProgram {
     for (const listener of this.#listeners) listener();
   }
 
-  #noteUnsaved(origin: unknown): void {
-    if (origin === this.#origin || origin === this.undo) this.#setSaving({ unsaved: true });
+  #showSaved(): void {
+    const { waiting, refused } = this.#saved;
+    if (waiting !== this.#saving.waiting || refused !== this.#saving.notTaken)
+      this.#setSaving({ waiting, notTaken: refused });
   }
 
   #listenToServer(): void {
     const { provider } = this;
-    provider.messageHandlers[MESSAGE_SAVED] = (_encoder, decoder) => {
-      decoding.readVarUint(decoder);
-      const saved = Y.decodeStateVector(decoding.readVarUint8Array(decoder));
-      if (this.#holds(saved)) this.#setSaving({ unsaved: false });
-    };
     provider.on("status", ({ status }) => {
       if (status === "connected") this.#setSaving({ connection: "live" });
       if (status === "disconnected" && this.#saving.connection !== "refused")
@@ -155,12 +172,6 @@ export class SharedProgram {
       if (event && event.code >= 4400 && event.code < 4500)
         this.#setSaving({ connection: "refused", closedWith: event.code });
     });
-  }
-
-  /** Whether everything that we know of is in the database. */
-  #holds(saved: Map<number, number>): boolean {
-    const known = Y.decodeStateVector(Y.encodeStateVector(this.doc));
-    return [...known].every(([client, clock]) => (saved.get(client) ?? 0) >= clock);
   }
 
   #setSaving(change: Partial<Saving>): void {

@@ -1,0 +1,1 @@
+"""What was called saved outlives the death of the process that said so."""
