@@ -72,6 +72,8 @@ class FloorTask:
     """When its run should be over, in seconds since 1970; 0: no deadline."""
     behind_since: float | None = None
     """Since when it has found no robot and others went first; None: not yet."""
+    holds: int = 0
+    """How many objects any robot must be able to hold at once when it is chosen; 0: one will do."""
     points_passed: int = 0
     """How many points of its route the robot has driven over, in their order."""
 
@@ -127,7 +129,7 @@ STORED_AS: Mapping[type, Mapping[str, str]] = {
 
 
 WRITTEN_WHERE_SET = frozenset(
-    {"where", "said", "priority", "due", "behind_since", "points_passed", "route_of", "route_at"}
+    {"where", "said", "holds", "priority", "due", "behind_since", "points_passed", "route_of", "route_at"}
 )
 """Parts that are written only where they say something, so that the version before reads all other states."""
 
