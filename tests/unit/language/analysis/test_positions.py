@@ -75,6 +75,7 @@ LEAVE_AWAY = ("drop", BOOTH)
         ([AT_SHELF, ("while", {"condition": HOT}, {"body": [AWAY, ("break",)]}), TAKE], ["s4"]),
         ([AT_SHELF, ("while", {"condition": HOT}, {"body": [AWAY, ("continue",), AT_SHELF]}), TAKE], ["s5"]),
         ([AT_SHELF, ("while", {"condition": HOT}, {"body": [AT_SHELF, ("break",)]}), TAKE], []),
+        ([AWAY, ("for_each", LISTED, {"body": [AT_SHELF]}), TAKE], ["s3"]),
         ([AT_SHELF, ("limit", {"duration": 9}, {"body": [AWAY]}), LEAVE_AWAY], []),
         ([AT_SHELF, ("end",), TAKE, LEAVE], ["s2"]),
         ([("while", {"condition": True}, {"body": [AT_SHELF]}), TAKE, LEAVE], ["s2"]),
