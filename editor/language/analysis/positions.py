@@ -32,6 +32,12 @@ _RELIED_ON = "relied_on"
 """What is noted of a step that relies on its role's robot standing where it does at the beginning."""
 
 
+class Beginning(PlaceRef):
+    """The device where a role's robot stands from the beginning; equal to no place that it has gone to."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
 class Positions(PairwiseDomain[Standing]):
     """The domain of positions; `from_script` is True for a parsed script, which says every move."""
@@ -53,7 +59,10 @@ class Positions(PairwiseDomain[Standing]):
 
     def either(self, first: Standing, second: Standing) -> Standing:
         """Return what holds after one path or the other."""
-        return first if first is second else {r: place for r, place in first.items() if second.get(r) == place}
+        if first is second:
+            return first
+        agreed = ((role, _agreed(place, second.get(role))) for role, place in first.items())
+        return {role: place for role, place in agreed if place is not None}
 
     def disturb(self, place: Place, known: Standing, effects: Effects) -> Standing:
         """Return where those robots stand that stay, at places that no variable gives that may have been set."""
@@ -93,8 +102,11 @@ class Positions(PairwiseDomain[Standing]):
         here = known.get(node.role)
         if self.from_script and here is None:
             self.unplaced.append(node)
+        begins = here.__class__ is Beginning
+        if begins and here is not None:
+            here = PlaceRef(device=here.device)
         if here is not None and (self.from_script or here == node.at):
-            if here.device is not None and here == self.initial.get(node.role):
+            if begins:
                 place.report(node, _RELIED_ON, node.role)
         elif not self.from_script:
             place.instead[id(node)] = (n.Move(node.role, node.at, node.route, node.step, added=True), node)
@@ -122,6 +134,14 @@ class Positions(PairwiseDomain[Standing]):
         n.Ask: _set,
         n.Call: _call,
     }
+
+
+def _agreed(first: PlaceRef, second: PlaceRef | None) -> PlaceRef | None:
+    """Return where a robot stands on either path; where one of them relies on the beginning, both do."""
+    if second is None or first == second:
+        return None if second is None else first
+    either = Beginning in {first.__class__, second.__class__} and first.device is not None
+    return Beginning(device=first.device) if either and first.device == second.device else None
 
 
 def _set_by(effects: Effects) -> Names:
@@ -155,7 +175,7 @@ def place_loads(tree: Tree, standing_at: Mapping[str, str]) -> tuple[Tree, tuple
 
 
 def _at_devices(begins: Mapping[str, str | None]) -> Standing:
-    return {role: PlaceRef(device=device) for role, device in begins.items() if device is not None}
+    return {role: Beginning(device=device) for role, device in begins.items() if device is not None}
 
 
 def _rewritten(tree: Tree, domain: Positions, memo: Memo | None = None) -> Tree:

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from editor.language import compile_document
+from editor.language import compile_document, parse_script
 from editor.language.compiler import EditedProgram
 from tests.kit.demo_site import factory, with_device
 
@@ -178,6 +178,18 @@ def test_a_role_says_where_its_robot_must_stand_only_where_the_program_relies_on
     assert begins(LEAVE_AWAY, TAKE) is None
     assert begins(("repeat", {"times": 2}, {"body": [TAKE]})) is None
     assert begins(("if", {"condition": HOT}, {"then": [TAKE]})) == SHELF
+    assert begins(AT_SHELF, TAKE) is None
+    assert begins(AWAY, AT_SHELF, TAKE) is None
+    assert begins(("if", {"condition": HOT}, {"then": [AT_SHELF]}), TAKE) == SHELF
+    assert begins(("if", {"condition": HOT}, {"else": [AT_SHELF]}), TAKE) == SHELF
+    assert begins(("if", {"condition": HOT}, {"then": [AT_SHELF], "else": [AT_SHELF]}), TAKE) is None
+
+
+@pytest.mark.parametrize("program", [[AWAY, TAKE], [("end",), TAKE], [AT_SHELF, TAKE], [TAKE, LEAVE_AWAY, TAKE]])
+def test_a_script_relies_on_the_beginning_where_the_drawing_does(program: Block) -> None:
+    site = with_device("robot01", standing_at=SHELF)
+    found = compile_document(document(program, robot={"name": "robot", "device": "robot01"}), site)
+    assert parse_script(found.script, site).tree == found.tree
 
 
 def test_after_an_edit_as_many_moves_are_put_in_as_into_the_whole() -> None:
