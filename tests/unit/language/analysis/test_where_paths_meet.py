@@ -68,3 +68,21 @@ def test_each_loop_is_followed_as_far_as_any_however_many_stand_before_it() -> N
     loops = "for _ in range(100):\n    self.n = self.n + 1\n" * 60
     assert told(f"self.n = 0\n{loops}self.notify(f'{{6 / (self.n - 6000)}}')") == ["divided_by_zero"]
     assert told(f"self.n = 0\n{loops}self.notify(f'{{6 / (self.n - 5999)}}')") == []
+
+
+def test_where_a_condition_does_not_hold_its_opposite_does() -> None:
+    asked = "self.n = self.ask('How many?', type='number', minimum=0, maximum=3)"
+    assert told(f"{asked}\n{SHARE}") == ["may_divide_by_zero"]
+    assert told(f"{asked}\nif not self.n == 0:\n    {SHARE}") == []
+    assert told(f"{asked}\nif not self.n > 0:\n    {SHARE}") == ["divided_by_zero"]
+
+
+def test_a_value_that_the_program_itself_gives_back_goes_nowhere() -> None:
+    assert told(f"self.n = 2\nif {HOT}:\n    return self.n\n{SHARE}") == ["return_outside_function"]
+
+
+def test_a_function_that_calls_itself_behind_a_loop_is_followed() -> None:
+    loop = "for m in [self.mixer, self.mixer_2]:\n        m.operate('mixPaint', {'time': 3})"
+    again = "def again(self):\n    {}\n    {}self.again()"
+    assert told("self.again()", again.format(loop, f"if {HOT}:\n        ")) == []
+    assert told("self.again()", again.format(loop, "")) == ["calls_itself"]
