@@ -89,8 +89,11 @@ checks-page: setup-dev
 bench: setup-dev
 	$(BIN)/python -m bench
 
+mutation: OF ?= language
+mutation: MUTANTS ?= 150
+mutation: SEED ?= 0
 mutation: setup-dev var/mutation/bin/cosmic-ray
-	$(BIN)/python scripts/mutation.py
+	$(BIN)/python scripts/mutation.py --of $(OF) --mutants $(MUTANTS) --seed $(SEED)
 
 var/mutation/bin/cosmic-ray:
 	@echo "Installing the mutation tester into an environment of its own"

@@ -153,8 +153,9 @@ def to_floor(run: AskingRun, action: r.Ask | r.Cancel | r.Finished) -> ToFloor:
             where = expression_to_json(role.where) or {}
             wants = role.device or ""
             return m.TaskAsked(
-                run.id, task, order, wants, role.can, run.name, run.zones, where, role.said, run.priority, run.due
-            )
+                run.id, task, order, wants, role.can, run.name, run.zones, where, role.said, run.priority, run.due,
+                role.holds,
+            )  # fmt: skip
         case r.Cancel(task=task):
             return m.TaskCancelled(run.id, task)
         case r.Finished():

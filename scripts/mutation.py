@@ -1,6 +1,6 @@
 """Change the language in some small places, one at a time, and count how often its tests notice.
 
-python scripts/mutation.py [--mutants 150] [--seed 0] [--cosmic-ray var/mutation/bin/cosmic-ray]
+python scripts/mutation.py [--of analysis] [--mutants 150] [--seed 0] [--cosmic-ray var/mutation/bin/cosmic-ray]
 
 Works on a copy of the tree. See docs/language/testing.md.
 """
@@ -29,7 +29,7 @@ TEXTS = ("en", "de", "syntax_errors_de", "refusals_de")
 """Modules of sentences."""
 CONFIGURATION = """[cosmic-ray]
 module-path = "{package}"
-timeout = 300.0
+timeout = {timeout}
 excluded-modules = []
 test-command = "{tests}"
 
@@ -41,12 +41,19 @@ RESULTS = (
     "select test_outcome, module_path, operator_name, start_pos_row, diff"
     " from work_results join mutation_specs using (job_id) order by module_path, start_pos_row"
 )
-TESTS = (
-    "-m pytest -q -x -c /dev/null --rootdir . --noconftest -W error"
-    " -p no:cacheprovider -p no:django -p no:asyncio -p no:anyio -p no:playwright"
-    " tests/unit/language --ignore tests/unit/language/test_examples.py"
+PYTEST = (
+    "-m pytest -q -x --assert=plain -c /dev/null --rootdir . --noconftest -W error --ds tests.settings"
+    " -p no:cacheprovider -p no:asyncio -p no:anyio -p no:playwright -p no:schemathesis -p no:xdist "
 )
-"""The tests of the language need neither Django nor a server, which would take longer to begin than most of them."""
+"""The tests of the language need no server, which would take longer to begin than most of them."""
+LANGUAGE = "tests/unit/language"
+QUICK = ("checks", "analysis", "test_cases.py", "test_incremental.py", "test_catches.py", "test_lists.py",
+         "test_edges.py", "test_robot_methods.py", "test_robot_readings.py", "parsing/test_script.py")  # fmt: skip
+PARTS = {
+    "language": (PACKAGE, f"{LANGUAGE} --ignore {LANGUAGE}/test_examples.py", 300.0),
+    "analysis": (f"{PACKAGE}/analysis", " ".join(f"{LANGUAGE}/{name}" for name in QUICK), 150.0),
+}
+"""What is changed, the tests that judge it, and the seconds after which a change counts as noticed."""
 Span = tuple[tuple[int, int], tuple[int, int]]
 
 
@@ -140,16 +147,17 @@ def copy_tree(folder: Path) -> None:
             shutil.copy(source, folder / name)
 
 
-def check_unchanged(folder: Path) -> None:
+def check_unchanged(folder: Path, tests: str) -> None:
     """Leave where the tests fail without any mutant: each would seem to be noticed."""
     # the interpreter and the tests of this project
-    if subprocess.run([sys.executable, *TESTS.split()], cwd=folder, check=False).returncode:  # noqa: S603
+    if subprocess.run([sys.executable, *tests.split()], cwd=folder, check=False).returncode:  # noqa: S603
         sys.exit("The tests fail on the copy of the tree as it is; mend that first, or add to COPIED what they need.")
 
 
 def main() -> None:
     """Make the mutants, test a sample of them, report."""
     parser = argparse.ArgumentParser(description="Mutation testing of editor/language.")
+    parser.add_argument("--of", choices=sorted(PARTS), default="language")
     parser.add_argument("--mutants", type=int, default=150)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--cosmic-ray", default=str(ROOT / "var" / "mutation" / "bin" / "cosmic-ray"))
@@ -157,8 +165,12 @@ def main() -> None:
     with tempfile.TemporaryDirectory(prefix="vipo-mutation-") as name:
         folder = Path(name)
         copy_tree(folder)
-        check_unchanged(folder)
-        (folder / "mutation.toml").write_text(CONFIGURATION.format(package=PACKAGE, tests=f"{sys.executable} {TESTS}"))
+        package, tests, timeout = PARTS[options.of]
+        check_unchanged(folder, PYTEST + tests)
+        configuration = CONFIGURATION.format(
+            package=package, tests=f"{sys.executable} {PYTEST}{tests}", timeout=timeout
+        )
+        (folder / "mutation.toml").write_text(configuration)
         session = folder / "mutation.sqlite"
         for command in ("init", "exec"):
             # the command line's own tool, with a session of our own

@@ -20,7 +20,7 @@ from editor.language.tree.nodes import COMPOSITES, Block, blocks_of
 from editor.language.tree.nodes import Move as MoveNode
 from editor.language.tree.numbering import number_steps, numbers_in_script
 from editor.language.tree.program import Tree
-from editor.language.tree.robots import with_crew, with_roles_of_robots
+from editor.language.tree.robots import with_crew, with_holds, with_roles_of_robots
 from editor.language.tree.zones import zone_names
 
 
@@ -58,6 +58,8 @@ class Look:
     tree: Tree
     found: list[tuple[Problem, int]]
     """The problems, each with the identity of its node."""
+    holds: Mapping[str, int]
+    """Role → how many objects its robot may have to hold at once, where that is more than one."""
     printed: Memo | None
 
     def diagnostics(self) -> tuple[Diagnostic, ...]:
@@ -75,7 +77,7 @@ class Look:
         faulty = any(diagnostic.severity == "error" for diagnostic in diagnostics)
         plan = None
         if with_plan and not faulty:
-            plan = compile_tree(tree, self.surroundings, script.line_of)
+            plan = compile_tree(with_holds(tree, self.holds), self.surroundings, script.line_of)
         outline = self.reading.outline
         drafts = outline.with_inner((*outline.drafts, *outline.unknown))
         order = (*numbers, *drafts)
@@ -93,8 +95,8 @@ def look_at(document: object, surroundings: Surroundings, memos: Memos | None = 
     tree = with_roles_of_robots(reading.tree, surroundings)
     tree = add_moves(tree, standing_places(surroundings), memos.positions if memos else None)
     surroundings = with_crew(surroundings, tree.roles)
-    found = check(reading, tree, surroundings, document, memos)
-    return Look(document, surroundings, reading, tree, found, memos.printed if memos else None)
+    found, holds = check(reading, tree, surroundings, document, memos)
+    return Look(document, surroundings, reading, tree, found, holds, memos.printed if memos else None)
 
 
 def _added_moves(tree: Tree) -> tuple[str, ...]:

@@ -121,19 +121,23 @@ def _await_robot(turn: Turn, task: FloorTask) -> None:
 
 
 def _has_able_robot(turn: Turn, task: FloorTask) -> bool:
-    if any(_is_able(turn.layout.devices.get(robot), task.can) for robot in turn.robots):
+    if any(_is_able(turn.layout.devices.get(robot), task) for robot in turn.robots):
         return True
     needed = " and ".join(task.can) or "drive"
+    needed += f" and hold {task.holds} objects at once" if task.holds else ""
     turn.finish(task, "refused", f"No robot of this site can {needed}. Approve one that can, or change the role.")
     return False
 
 
-def _is_able(device: Description | None, can: tuple[str, ...]) -> bool:
-    return device is not None and all(device.method(name) for name in can)
+def _is_able(device: Description | None, task: FloorTask) -> bool:
+    """Tell whether a robot can do all that its role asks; one that does not say how much it holds may hold enough."""
+    if device is None or 0 < device.capacity < task.holds:
+        return False
+    return all(device.method(name) for name in task.can)
 
 
 def _cost(turn: Turn, task: FloorTask, robot: Robot) -> float:
-    if not _is_able(turn.layout.devices.get(robot.id), task.can) or not _fits(turn, task, robot):
+    if not _is_able(turn.layout.devices.get(robot.id), task) or not _fits(turn, task, robot):
         return UNABLE
     try:
         if task.order.kind == "cover":

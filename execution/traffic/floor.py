@@ -193,7 +193,7 @@ def _take_task(turn: Turn, event: m.TaskAsked) -> None:
     turn.next_seq += 1
     task = FloorTask(event.run, event.task, turn.next_seq, event.order, event.wants, event.can, event.run_name)
     turn.tasks[event.run, event.task] = replace(
-        task, where=event.where, said=event.said, priority=event.priority, due=event.due
+        task, where=event.where, said=event.said, holds=event.holds, priority=event.priority, due=event.due
     )
     turn.names[event.run] = event.run_name
     if event.zones:

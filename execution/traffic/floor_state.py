@@ -73,6 +73,8 @@ class FloorTask:
     """When its run should be over, in seconds since 1970; 0: no deadline."""
     behind_since: float | None = None
     """Since when it has found no robot and others went first; None: not yet."""
+    holds: int = 0
+    """How many objects any robot must be able to hold at once when it is chosen; 0: one will do."""
     points_passed: int = 0
     """How many points of its route, or of its lanes, the robot has driven over, in their order."""
     lanes: tuple[Lane, ...] = ()
@@ -161,6 +163,7 @@ WRITTEN_WHERE_SET = frozenset(
     {
         "where",
         "said",
+        "holds",
         "priority",
         "due",
         "behind_since",

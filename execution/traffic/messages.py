@@ -56,7 +56,8 @@ class TaskAsked:
     """A run asks for a task. `wants` names the device of the role, or `can` what its robot must be able to do.
 
     `where` is the condition that must hold of any robot when it is chosen, as plans keep it in JSON (empty: none), and
-    `said` the same in words. `priority` of the run is -1, 0 or 1, `due` its deadline in seconds since 1970 (0: none).
+    `said` the same in words; `holds` is how many objects it must be able to hold at once (0: one will do). `priority`
+    of the run is -1, 0 or 1, `due` its deadline in seconds since 1970 (0: none).
     """
 
     run: str
@@ -70,6 +71,7 @@ class TaskAsked:
     said: str = ""
     priority: int = 0
     due: float = 0.0
+    holds: int = 0
 
 
 @dataclass(frozen=True, slots=True)

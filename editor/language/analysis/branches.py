@@ -71,7 +71,7 @@ def _after_race(
         others = together(own for index, own in enumerate(effects) if index not in winners)
         rows = zip(walk.domains, over, walk.passed or (), strict=True)
         found.append([domain.interrupted(walk, one, others, passed) for domain, one, passed in rows])
-    return walk.meet(states, found, together(effects))
+    return walk.meet(states, found, *node.branches)
 
 
 def _branches(

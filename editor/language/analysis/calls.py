@@ -18,7 +18,7 @@ def follow_function(walk: Walk, function: Function, states: States) -> States | 
     end = walk.block(function.body, walk.copy(states))
     if end is not None and not walk.silent:
         walk.falls_off.add(function.method)
-    over = walk.meet(states, [*walk.frame.returns, end], walk.effects.of(function.body))
+    over = walk.meet(states, [*walk.frame.returns, end], function.body)
     walk.frame = outside
     return over
 
@@ -67,7 +67,7 @@ def _followed(
 ) -> tuple[States | None, bool, list[str]]:  # fmt: skip
     ended, failures = walk.ended, len(walk.failures)
     walk.running[key] = walk.ways_out()
-    with walk.again():
+    with walk.again:
         rows = zip(walk.domains, states, strict=True)
         begin = [domain.enter(walk, known, node, function) for domain, known in rows]
         over = follow_function(walk, function, begin)

@@ -52,6 +52,8 @@ class Place(Protocol):
     """Variables that something beside the path may set at any time, with what is known of them then."""
     put: dict[str, Known] | None
     """The variables of the program that were set, with all that they were set to, where that is wanted."""
+    instead: dict[int, n.Block]
+    """What a domain that rewrites the tree puts in the place of steps, by their identity."""
 
     def report(
         self, node: n.Node, code: str, field_name: str, args: TextArguments | None = None, fix: Fix | None = None

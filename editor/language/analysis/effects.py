@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Function, Tree
 from editor.language.tree.traversal import callees_first, functions_in_circles
-from editor.language.tree.variables import local_variables, program_variables, read_by, set_by
+from editor.language.tree.variables import SETTERS, local_variables, program_variables, read_by, set_by
 
 Names = frozenset[str]
 NO_NAMES: Names = frozenset()
@@ -47,6 +47,8 @@ class Effects:
 
 
 NOTHING = Effects()
+_IDLE = frozenset(n.NODES.values()) - n.COMPOSITES - {*n.OF_ROBOTS, n.Call, *SETTERS}
+"""Steps that change nothing of all that."""
 
 
 def together(effects: Iterable[Effects]) -> Effects:
@@ -101,7 +103,9 @@ class EffectTable:
             return NOTHING
         found = self._blocks.get(id(block))
         if found is None:
-            found = self._blocks[id(block)] = together(self.of_node(node) for node in block)
+            found = self._blocks[id(block)] = together(
+                self.of_node(node) for node in block if node.__class__ not in _IDLE
+            )
         return found
 
     def of_node(self, node: n.Node) -> Effects:

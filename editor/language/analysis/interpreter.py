@@ -53,10 +53,10 @@ def _if(walk: Walk, node: n.If, states: States) -> States | None:
     always = walk.truth(node, states)
     if always is not None:
         return walk.block(node.then if always else node.otherwise, states)
-    with walk.unsure():
+    with walk.unsure:
         then = walk.block(node.then, walk.assume(walk.copy(states), node, holds=True))
         otherwise = walk.block(node.otherwise, walk.assume(walk.copy(states), node, holds=False))
-    return walk.meet(states, (then, otherwise), walk.changes(node.then, node.otherwise))
+    return walk.meet(states, (then, otherwise), node.then, node.otherwise)
 
 
 # loops
@@ -64,19 +64,18 @@ def _if(walk: Walk, node: n.If, states: States) -> States | None:
 
 def _while(walk: Walk, node: n.While, states: States) -> States | None:
     """Follow a loop as long as its condition is known to hold, then as one of which nobody knows."""
-    exits, now, effects = list[States](), walk.copy(states), walk.effects.of(node.body)
-    leaves = _leaves(walk)
-    with walk.again():
+    exits, now, leaves = list[States](), walk.copy(states), _leaves(walk)
+    with walk.again:
         for _ in range(MOST_COUNTED if walk.values is not None else 0):
             holds = walk.truth(node, now)
             if holds is False:
-                return walk.meet(states, [now, *exits], effects)
+                return walk.meet(states, [now, *exits], node.body)
             if holds is None or walk.left < 0:
                 break
             begun = walk.copy(now)
             after = _round(walk, node, now, exits)
             if after is None or after == begun:
-                return _left_by(walk, node, walk.meet(states, exits, effects), exits, leaves)
+                return _left_by(walk, node, walk.meet(states, exits, node.body), exits, leaves)
             now = after
             walk.read(node, now)
         over = _uncounted(walk, node, states, now, exits, goes_round=False)
@@ -104,7 +103,7 @@ def _left_by(
 
 def _repeat(walk: Walk, node: n.Repeat, states: States) -> States | None:
     least, most = walk.count(node, states)
-    with walk.again():
+    with walk.again:
         if least == most and least <= MOST_COUNTED and walk.domains:
             return _counted(walk, node, [None] * least, states)
         return _uncounted(walk, node, states, walk.copy(states), [], goes_round=least > 0)
@@ -112,7 +111,7 @@ def _repeat(walk: Walk, node: n.Repeat, states: States) -> States | None:
 
 def _for_each(walk: Walk, node: n.ForEach, states: States) -> States | None:
     least, most = walk.length(node, states)
-    with walk.again():
+    with walk.again:
         if not walk.domains or least < most or most > MOST_COUNTED:
             return _uncounted(walk, node, states, walk.copy(states), [], goes_round=least > 0)
         return _counted(walk, node, node.items if node.over is None else [node.over] * most, states)
@@ -130,7 +129,7 @@ def _counted(walk: Walk, node: n.Repeat | n.ForEach, items: Sequence[Any], state
         now = _round(walk, node, now, exits, () if item is None else (item,), Range(number, number))
         if now is None or (item is None and now == begun):
             break  # the rounds that are left bring nothing new
-    return walk.meet(states, [*exits, now], walk.effects.of(node.body))
+    return walk.meet(states, [*exits, now], node.body)
 
 
 def _uncounted(
@@ -141,9 +140,9 @@ def _uncounted(
     What is known in the first round alone is told of that: of a loop in another's first round only of all rounds.
     """
     items = node.items if isinstance(node, n.ForEach) else ()
-    with walk.unsure():
+    with walk.unsure:
         entry = _settled(walk, node, walk.copy(now))
-        if entry != now and not walk.silent and not walk.first:
+        if entry != now and not (walk.silent or walk.first or walk.rewrites):
             walk.first = True
             _round(walk, node, walk.assume(walk.copy(now), node, holds=True), [], items)
             walk.first = False
@@ -152,8 +151,8 @@ def _uncounted(
     ends: list[States | None] = [*exits]
     if not (isinstance(node, n.While) and node.condition == _TRUE):
         ends.append(None if after is None else walk.assume(after, node, holds=False))
-        ends.append(None if goes_round else walk.assume(entry, node, holds=False))
-    return walk.meet(before, ends, walk.effects.of(node.body))
+        ends.append(None if goes_round else walk.assume(now, node, holds=False))
+    return walk.meet(before, ends, node.body)
 
 
 def _settled(walk: Walk, node: Loop, entry: States) -> States:
@@ -162,6 +161,8 @@ def _settled(walk: Walk, node: Loop, entry: States) -> States:
     effects = walk.effects.of(node.body)
     if effects is NOTHING:
         return entry
+    if walk.rewrites:
+        return walk.disturb(entry, effects)
     with walk.silently():
         for _ in range(MOST_SILENT):
             if walk.left < 0:
@@ -198,7 +199,7 @@ def _round(
     frame.loops = outside
     exits.extend(frame.breaks.pop())
     early = frame.continues.pop()
-    return walk.meet(begun, [*early, after], walk.effects.of(node.body)) if early else after
+    return walk.meet(begun, [*early, after], node.body) if early else after
 
 
 # failures, and what happens at once
@@ -214,16 +215,19 @@ def _try(walk: Walk, node: n.Try, states: States) -> States | None:
             kind for kind in walk.failures[failures:] if not any(each.takes(kind) for each in node.handlers)
         ]
         begun = walk.disturb(states, walk.effects.of(node.body))
-        with walk.unsure():
+        with walk.unsure:
             caught = [walk.block(block, walk.copy(begun)) for block in node.catches]
-        after = walk.meet(states, (after, *caught), walk.changes(node.body, *node.catches))
+        after = walk.meet(states, (after, *caught), node.body, *node.catches)
     if not node.final:
         return after
-    with walk.unsure():
+    with walk.unsure:
         ended = walk.block(node.final, walk.disturb(states, walk.changes(node.body, *node.catches)))
     _exits_through(walk, node, marks, ended)
     if ended is None or after is None:
         return None
+    if walk.rewrites:  # what it does to what the end of the body knows is as if it had been done beside
+        effects, rows = walk.effects.of(node.final), zip(walk.domains, after, ended, strict=True)
+        return [domain.join(walk, known, [(end, effects)]) for domain, known, end in rows]
     walk.finals += 1
     with walk.silently(silent=walk.finals > DEEPEST_FINAL):
         end = walk.block(node.final, after)

@@ -38,6 +38,8 @@ ANY: Final = Count(0, None)
 Carried = Mapping[tuple[str, str], Count]
 """(role, object) → how many; what is not in it is not carried."""
 _EVERYTHING = "*"
+HOLDS: Final = "holds"
+"""What is noted of a pick after which a role's robot may hold more than one object: no problem, but what is needed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +141,9 @@ class Loads(PairwiseDomain[Carried]):
             return _forget(known, frozenset({node.role}))
         if capacity and all_ is not None and all_ + most > capacity and (node.role, _EVERYTHING) not in known:
             self._tell(place, node, "may_carry_too_much", {"capacity": capacity})
+        holds = int(min(least + most if all_ is None else all_ + most, capacity))
+        if holds > 1:
+            place.report(node, HOLDS, str(holds), {"role": node.role})
         before = _count(known, (node.role, thing))
         most_after = None if before.most is None else min(before.most + most, capacity or inf)
         least_after = min(before.least + fewest, capacity or before.least + fewest)

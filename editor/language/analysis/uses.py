@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from editor.language.analysis.memo import Memo
-from editor.language.expressions.values import roles_in
+from editor.language.expressions.nodes import Located, Variable
+from editor.language.expressions.values import parts_of
 from editor.language.tree import nodes as n
 from editor.language.tree.program import Tree
-from editor.language.tree.variables import read_in, set_by, worked_out
+from editor.language.tree.variables import set_by, worked_out
 
 
 @dataclass(slots=True)
@@ -56,9 +57,17 @@ def _of_step(node: n.Node, memo: Memo | None) -> Uses:
     if not name and not values:
         return inner
     uses = Uses() if inner is _NOTHING else inner
-    if reads := read_in(values):
+    reads: dict[str, str] = {}
+    asks: dict[str, str] = {}
+    for field_name, value in values:
+        for part in parts_of(value):
+            if isinstance(part, Variable):
+                reads.setdefault(part.name, field_name)
+            elif isinstance(part, Located) and part.role is not None:
+                asks[part.role] = field_name
+    if reads:
         uses.reads[id(node)] = reads
-    if asks := {role: each for each, value in values for role in roles_in(value)}:
+    if asks:
         uses.asks[id(node)] = asks
     if name:
         uses.sets.add(name)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from operator import is_
 from typing import Any, Protocol
 
-from editor.language.analysis.domain import Domain, Frame, Place, States, Transfer
-from editor.language.analysis.effects import Effects, EffectTable, together
+from editor.language.analysis.domain import Domain, Frame, PairwiseDomain, Place, States, Transfer
+from editor.language.analysis.effects import NOTHING, Effects, EffectTable, together
 from editor.language.analysis.memo import Memo
 from editor.language.expressions.nodes import Constant
 from editor.language.expressions.ranges import Known
@@ -54,6 +55,47 @@ class _Found:
     found: dict[tuple[str, int, str], Problem]
 
 
+@dataclass(frozen=True, slots=True)
+class _Rewritten:
+    """What stands in the place of a step that holds others, if it is something else, and what was found in it."""
+
+    after: States | None
+    instead: n.Block | None
+    found: dict[tuple[str, int, str], Problem]
+
+
+@dataclass(slots=True)
+class _Unsure:
+    """Within, nobody knows whether the path is taken. (Entered at every branch, so it is made once.)"""
+
+    walk: Walk
+
+    def __enter__(self) -> None:
+        self.walk.undecided += 1
+
+    def __exit__(self, *_: object) -> None:
+        self.walk.undecided -= 1
+
+
+@dataclass(slots=True)
+class _Again:
+    """Within, steps are followed more than once; how often is bounded for all of it."""
+
+    walk: Walk
+    _nested: int = 0
+    _left_in_all: int = 0
+
+    def __enter__(self) -> None:
+        if not self._nested:
+            self.walk.left = min(MOST_STEPS_AGAIN, self._left_in_all)
+        self._nested += 1
+
+    def __exit__(self, *_: object) -> None:
+        self._nested -= 1
+        if not self._nested:
+            self._left_in_all -= MOST_STEPS_AGAIN - max(self.walk.left, 0)
+
+
 @dataclass(slots=True)
 class Walk:
     """One walk over one tree; what it found stands in `found`, `visited` and the sets after them."""
@@ -72,6 +114,12 @@ class Walk:
     """Function → whether it ever comes back, where functions shall not be followed."""
     memo: Memo | None = None
     """What was found at the last look."""
+    rewrites: bool = False
+    """Whether a domain puts something else in the place of steps, which must be right whenever they are come to: each
+    is followed just once then, also where no path leads, and neither conditions nor rounds are decided.
+    """
+    instead: dict[int, n.Block] = field(default_factory=dict)
+    """What stands in the place of a step, by its identity, where that is something else."""
     states: States = field(default_factory=list)
     """What is known at the step that is being looked at."""
     frame: Frame = field(default_factory=lambda: Frame(""))
@@ -113,8 +161,11 @@ class Walk:
     failures: list[str] = field(default_factory=list)
     """The kinds of failures that the text itself brings about, and that no Try has caught since."""
     left: int = MOST_STEPS_AGAIN
-    _left_in_all: int = 0
-    _nested: int = 0
+    unsure: _Unsure = field(init=False)
+    again: _Again = field(init=False)
+    _copying: list[tuple[int, Domain[Any]]] = field(init=False)
+    """The domains whose knowledge is changed in place, and where it is."""
+    _meets_by_effects: bool = field(init=False)
     _transfers: dict[type[n.Node], list[tuple[int, Domain[Any], Transfer]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -122,8 +173,14 @@ class Walk:
         for index, domain in enumerate(self.domains):
             for kind, transfer in domain.transfers.items():
                 self._transfers.setdefault(kind, []).append((index, domain, transfer))
+        self._copying = [pair for pair in enumerate(self.domains) if type(pair[1]).copy is not Domain.copy]
+        self._meets_by_effects = not all(isinstance(domain, PairwiseDomain) for domain in self.domains)
+        self.unsure, self.again = _Unsure(self), _Again(self)
+        if self.rewrites:
+            return
         blocks = (self.tree.body, *(f.body for f in self.tree.functions), *(e.body for e in self.tree.events))
-        self._left_in_all = 20_000 + MOST_FOR_EACH_STEP * sum(len(self.tree.walked(block)) for block in blocks)
+        steps = sum(len(self.tree.walked(block)) for block in blocks)
+        self.again = _Again(self, _left_in_all=20_000 + MOST_FOR_EACH_STEP * steps)
 
     def report(
         self, node: n.Node, code: str, field_name: str, args: TextArguments | None = None, fix: Fix | None = None
@@ -134,8 +191,9 @@ class Walk:
 
     def block(self, block: n.Block, states: States) -> States | None:
         """Return what is known after a block, None where its end is never reached; `states` is used up."""
-        telling, readers = not self.silent, self.readers
+        telling, readers = not (self.silent or self.rewrites), self.readers
         memo = self.memo if telling and self.frame.function is None else None
+        leads_on = True
         for node in block:
             if telling:
                 self.visited.add(id(node))
@@ -147,14 +205,18 @@ class Walk:
                 if node.__class__ in self._transfers:
                     self.transfer(node, states)
                 continue
-            if memo is None or node.__class__ not in n.COMPOSITES:
+            if self.rewrites and node.__class__ in n.COMPOSITES:
+                after = self._rewrite(node, states)
+            elif memo is None or node.__class__ not in n.COMPOSITES:
                 after = follow(self, node, states)
             else:
                 after = self._remembered(memo, node, states)
             if after is None:
-                return None
+                if not self.rewrites:
+                    return None
+                leads_on, after = False, self.somewhere()
             states = after
-        return states
+        return states if leads_on else None
 
     def _remembered(self, memo: Memo, node: n.Node, states: States) -> States | None:
         """Follow a step that holds others; what depends on nothing but what is known before it is remembered."""
@@ -183,6 +245,37 @@ class Walk:
         if exits == self._exits() and not self.effects.of_node(node).calls and not self.finals:
             memo.put(node, known, (self.limited > 0, self.first, given))
         return known
+
+    def rewritten(self, block: n.Block) -> n.Block:
+        """Return a block with what stands in the place of its steps; the same where that is nothing else."""
+        instead, nodes = self.instead, list[n.Node]()
+        for node in block if instead else ():
+            other = instead.get(id(node))
+            if other is None:
+                nodes.append(node)
+            else:
+                nodes += other
+        return block if not instead or all(map(is_, nodes, block)) else tuple(nodes)
+
+    def _rewrite(self, node: n.Node, states: States) -> States | None:
+        """Follow a step that holds others, and put it in its own place with what stands in theirs."""
+        known: _Rewritten | None = None if self.memo is None else self.memo.get(node, states)
+        if known is None:
+            memo, outside = self.memo, self.found
+            given, exits = (self.copy(states), self._exits()) if memo is not None else (states, None)
+            self.found = {}
+            after = self.follow[node.__class__](self, node, states)
+            before = n.blocks_of(node)
+            blocks = tuple(map(self.rewritten, before))
+            other = None if all(map(is_, before, blocks)) else (n.with_blocks(node, blocks),)
+            known, self.found = _Rewritten(after, other, self.found), outside
+            if memo is not None and exits == self._exits() and not self.effects.of_node(node).calls:
+                memo.put(node, known, given)
+        if known.found:
+            self.found.update(known.found)
+        if known.instead is not None:
+            self.instead[id(node)] = known.instead
+        return None if known.after is None else self.copy(known.after)
 
     def _exits(self) -> tuple[tuple[int, ...], int, int]:
         return tuple(map(len, self.frame.exits())), self.ended, len(self.failures)
@@ -224,13 +317,17 @@ class Walk:
 
     def copy(self, states: States) -> States:
         """Return what is known for another path."""
-        return [domain.copy(known) for domain, known in zip(self.domains, states, strict=True)]
+        copied = states.copy()
+        for index, domain in self._copying:
+            copied[index] = domain.copy(states[index])
+        return copied
 
-    def meet(self, before: States, ends: Sequence[States | None], effects: Effects) -> States | None:
-        """Return what holds where paths meet that began at `before`; one that leads nowhere has no say."""
+    def meet(self, before: States, ends: Sequence[States | None], *blocks: n.Block) -> States | None:
+        """Return what holds where paths through these blocks meet; one that leads nowhere has no say."""
         alive = [end for end in ends if end is not None]
         if not alive:
             return None
+        effects = self.changes(*blocks) if self._meets_by_effects else NOTHING
         return [
             domain.meet(self, before[index], [end[index] for end in alive], effects)
             for index, domain in enumerate(self.domains)
@@ -251,13 +348,15 @@ class Walk:
 
     def truth(self, node: n.If | n.While, states: States) -> bool | None:
         """Tell whether a step's condition holds here, None where that depends on the run."""
+        if self.rewrites:
+            return None
         if isinstance(node.condition, Constant):
             return node.condition.value if isinstance(node.condition.value, bool) else None
         return None if self.values is None else self.values.truth(self, states[0], node)
 
     def count(self, node: n.Repeat, states: States) -> tuple[int, int | None]:
         """Return how often a counted loop goes round, at least and at most."""
-        times = node.times.value if isinstance(node.times, Constant) else None
+        times = node.times.value if isinstance(node.times, Constant) and not self.rewrites else None
         if is_number(times):
             return (max(0, int(times)),) * 2
         return (0, None) if self.values is None else self.values.count(self, states[0], node)
@@ -266,7 +365,7 @@ class Walk:
         """Return how many items a loop goes through, at least and at most."""
         if self.values is not None:
             return self.values.length(self, states[0], node)
-        return (len(node.items),) * 2 if node.over is None else (0, MOST_ITEMS)
+        return (len(node.items),) * 2 if node.over is None and not self.rewrites else (0, MOST_ITEMS)
 
     def assume(self, states: States, node: n.Node, *, holds: bool) -> States:
         """Return what is known where a step's condition holds, or does not; `states` is used up."""
@@ -275,26 +374,8 @@ class Walk:
         return states
 
     @contextmanager
-    def unsure(self) -> Iterator[None]:
-        """Within, nobody knows whether the path is taken."""
-        self.undecided += 1
-        yield
-        self.undecided -= 1
-
-    @contextmanager
     def silently(self, *, silent: bool = True) -> Iterator[None]:
         """Within, nothing is told."""
         before, self.silent = self.silent, self.silent or silent
         yield
         self.silent = before
-
-    @contextmanager
-    def again(self) -> Iterator[None]:
-        """Within, steps are followed more than once; how often is bounded for all of it."""
-        if not self._nested:
-            self.left = min(MOST_STEPS_AGAIN, self._left_in_all)
-        self._nested += 1
-        yield
-        self._nested -= 1
-        if not self._nested:
-            self._left_in_all -= MOST_STEPS_AGAIN - max(self.left, 0)

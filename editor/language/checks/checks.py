@@ -8,7 +8,7 @@ from typing import cast
 
 from editor.language.analysis.memo import Memos
 from editor.language.checks.bodies import Body, find_bodies
-from editor.language.checks.context import Context
+from editor.language.checks.context import Checked, Context
 from editor.language.checks.covers import check_cover, check_covers
 from editor.language.checks.devices import (
     check_floor,
@@ -65,8 +65,8 @@ def check(
     surroundings: Surroundings,
     document: object = None,
     memos: Memos | None = None,
-) -> list[tuple[Problem, int]]:
-    """Return the problems of a program, each with the identity of its node (0: none); the order is always the same.
+) -> Checked:
+    """Return the problems of a program, always in the same order, and what the paths through it ask of robots.
 
     `tree` is the reading's tree with the moves that were put in, `document` what was read; `memos` have what was
     found at the last look.
@@ -94,7 +94,7 @@ def check(
     check_floor(context, document)
     check_covers(context)
     _check_left_over(context, reading)
-    return context.found
+    return Checked(context.found, context.holds)
 
 
 def _check_steps(context: Context, bodies: list[Body]) -> None:

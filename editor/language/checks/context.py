@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from editor.language.analysis.memo import Memos
 from editor.language.expressions import nodes as e
@@ -19,6 +20,14 @@ from editor.language.tree.variables import set_by
 from vipo_device.protocol.description import Description
 
 _NUMBER_AT_THE_END = re.compile(r"[\s_-]*\d+$")
+
+
+class Checked(NamedTuple):
+    """What the checks found: problems, each with the identity of its node (0: none), and what roles need."""
+
+    found: list[tuple[Problem, int]]
+    holds: Mapping[str, int]
+    """Role → how many objects its robot may have to hold at once, where that is more than one."""
 
 
 @dataclass(slots=True)
@@ -46,6 +55,8 @@ class Context:
     """What was found at the last look."""
     params: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
     """The parameters of each step as the document has them."""
+    holds: dict[str, int] = field(default_factory=dict)
+    """How many objects a role's robot may have to hold at once, where that is more than one; found along the paths."""
     stations: dict[tuple[str, str], tuple[e.Point | None, ...]] = field(default_factory=dict)
     """Where each robot of a role would stand to serve a device, as far as it was asked for."""
     _changing: frozenset[str] | None = None

@@ -11,7 +11,7 @@ from editor.language.analysis.crew import Crew
 from editor.language.analysis.domain import Domain
 from editor.language.analysis.effects import EffectTable, together
 from editor.language.analysis.interpreter import FOLLOW, interpret
-from editor.language.analysis.loads import Loads
+from editor.language.analysis.loads import HOLDS, Loads
 from editor.language.analysis.taken import Takers
 from editor.language.analysis.uses import uses_of
 from editor.language.analysis.variables import SET, UNSET, Variables
@@ -28,6 +28,7 @@ from editor.language.tree.nodes import blocks_of
 from editor.language.tree.program import Function, Tree
 from editor.language.tree.traversal import callees_first, functions_in_circles
 from editor.language.tree.variables import SETTERS
+from vipo_device.protocol.description import Description
 
 _MEASURED = frozenset({"now", "distance", "nearest"})
 _MILDER: Mapping[str, str] = {
@@ -112,6 +113,8 @@ def check_paths(context: Context, bodies: Iterable[Body], checks: Checks) -> Non
         types = [(body.name, body.types) for body in bodies]
         walk.memo.begin((dict(walk.volatile), tree.parameters, types, robots, what_programs_see(context.surroundings)))
     interpret(walk)
+    _take_holds(context, walk)
+    _tell_of_small_robots(context, walk, variables)
     sure = {(code, node) for code, node, _ in walk.found}
     milder = {(mild, node) for code, node in sure for mild in (_MILDER.get(code),) if mild}
     context.found.extend((p, node) for (code, node, _), p in walk.found.items() if (code, node) not in milder)
@@ -121,10 +124,37 @@ def check_paths(context: Context, bodies: Iterable[Body], checks: Checks) -> Non
         _check_results(context, walk)
 
 
+def _take_holds(context: Context, walk: Walk) -> None:
+    """Take what roles must hold out of what was found."""
+    for key in [key for key in walk.found if key[0] == HOLDS]:
+        role = str(walk.found.pop(key).args["role"])
+        context.holds[role] = max(context.holds.get(role, 0), int(key[2]))
+
+
+def _tell_of_small_robots(context: Context, walk: Walk, variables: Variables) -> None:
+    """Follow the crew once more where a robot is too small for what its role holds, which is known only now."""
+    roles = [role for name, role in context.roles.items() if role.device is None and name in context.holds]
+    if all(_is_large_enough(context, role.name, robot) for role in roles for robot in context.robots(role.name)):
+        return
+    for crew in _crew(context, walk.effects):
+        again = Walk(context.tree, [variables, crew], walk.effects, FOLLOW, variables, volatile=walk.volatile)
+        interpret(again)
+        walk.found.update(again.found)
+
+
+def _is_large_enough(context: Context, role: str, robot: Description) -> bool:
+    """Tell whether a robot holds what its role needs; one that does not say how much may hold enough."""
+    return not 0 < robot.capacity < context.holds.get(role, 0) or context.roles[role].device is not None
+
+
 def _crew(context: Context, effects: EffectTable) -> Iterator[Crew]:
     if len({context.robot_key(role) for role in context.roles}) > 1:
         beside = together(effects.of(event.body) for event in context.tree.events).released
-        yield Crew(lambda role: (context.robot_key(role), [robot.id for robot in context.robots(role)]), beside)
+        yield Crew(lambda role: (context.robot_key(role), _robots(context, role)), beside)
+
+
+def _robots(context: Context, role: str) -> list[str]:
+    return [robot.id for robot in context.robots(role) if _is_large_enough(context, role, robot)]
 
 
 def _takers(

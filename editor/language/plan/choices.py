@@ -19,7 +19,7 @@ from editor.language.tree.program import Role
 def binding_of(role: Role, surroundings: Surroundings) -> RoleBinding:
     """Return how a role finds its robot; the plan knows it by its id in the document."""
     key = role.id or role.name
-    binding = RoleBinding(key, role.device, role.can)
+    binding = RoleBinding(key, role.device, role.can, holds=role.holds)
     if role.where is None:
         return binding
     checker = TypeChecker(surroundings, {}, [])

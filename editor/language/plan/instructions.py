@@ -259,6 +259,7 @@ class RoleBinding:
     """How a role finds its robot: a given device, or any that can do all of these methods.
 
     `where` must hold of any robot when it is chosen, a condition on the readings of its role; `said` is it in words.
+    `holds` is how many objects it must be able to hold at once; 0: one will do.
     """
 
     role: str
@@ -266,6 +267,7 @@ class RoleBinding:
     can: tuple[str, ...] = ()
     where: Expression | None = None
     said: str = ""
+    holds: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -53,12 +53,16 @@ def plan_from_json(body: Mapping[str, Any]) -> p.Plan:
 
 def _role_to_json(role: p.RoleBinding) -> dict[str, Any]:
     body: dict[str, Any] = {"device": role.device, "can": list(role.can)}
-    return body if role.where is None else {**body, "where": expression_to_json(role.where), "said": role.said}
+    if role.where is not None:
+        body |= {"where": expression_to_json(role.where), "said": role.said}
+    return {**body, "holds": role.holds} if role.holds else body
 
 
 def _role_from_json(name: str, body: Mapping[str, Any]) -> p.RoleBinding:
     where = _maybe(body.get("where"))
-    return p.RoleBinding(name, body["device"], tuple(body["can"]), where, str(body.get("said", "")))
+    return p.RoleBinding(
+        name, body["device"], tuple(body["can"]), where, str(body.get("said", "")), int(body.get("holds", 0))
+    )
 
 
 def expression_to_json(expression: e.Expression | None) -> Any:

@@ -347,6 +347,9 @@ def _of_try(node: Any) -> tuple[Block, ...]:
     return (node.body, *node.catches, node.final)
 
 
+_BRANCHES: Final[Mapping[type[Node], tuple[str, ...]]] = {
+    NODES[name]: tuple(attribute for _, attribute in construct.branches) for name, (construct, _) in FORMS.items()
+}
 _BLOCKS: Final[Mapping[type[Node], Callable[[Node], tuple[Block, ...]]]] = {
     NODES[name]: attrgetter("branches")
     if construct.names_branches
@@ -372,10 +375,8 @@ def with_blocks(node: Node, blocks: tuple[Block, ...]) -> Node:
         body, *caught, final = blocks
         handlers = tuple(replace(each, block=block) for each, block in zip(node.handlers, caught, strict=True))
         return replace(node, body=body, handlers=handlers, final=final)
-    construct, _ = FORMS[node.__class__.__name__]
-    names = (attribute for _, attribute in construct.branches)
     whole: Any = node
-    return cast("Node", replace(whole, **dict(zip(names, blocks, strict=True))))
+    return cast("Node", replace(whole, **dict(zip(_BRANCHES[node.__class__], blocks, strict=True))))
 
 
 def walk(block: Block) -> list[Node]:

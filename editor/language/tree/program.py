@@ -59,6 +59,8 @@ class Role:
     at: str | None = None
     id: str = field(default="", compare=False)
     where: Expression | None = None
+    holds: int = field(default=0, compare=False)
+    """How many objects any robot must be able to hold at once; 0: one will do."""
     looks_elsewhere: bool = field(default=False, compare=False)
     """Its condition spoke of something else than the robot itself, and is left out."""
 

@@ -142,6 +142,14 @@ def with_crew(surroundings: Surroundings, roles: Sequence[Role]) -> Surroundings
     return replace(surroundings, crew=Candidates(roles, surroundings))
 
 
+def with_holds(tree: Tree, holds: Mapping[str, int]) -> Tree:
+    """Return the tree whose roles for any robot say how many objects that one must be able to hold."""
+    if not any(role.device is None and role.name in holds for role in tree.roles):
+        return tree
+    roles = (replace(r, holds=holds.get(r.name, 0)) if r.device is None else r for r in tree.roles)
+    return replace(tree, roles=tuple(roles))
+
+
 def with_roles_of_robots(tree: Tree, surroundings: Surroundings) -> Tree:
     """Return the tree in which every Operate of a robot is done by a role; one that is bound to the robot already."""
     bodies = (tree.body, *(f.body for f in tree.functions), *(event.body for event in tree.events))

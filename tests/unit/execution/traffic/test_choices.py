@@ -1,6 +1,7 @@
 """Robots that are chosen by what they report: who gets the role, who waits, and what is kept of it."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -23,10 +24,10 @@ CHARGED = Operation(">", (BATTERY, Constant(30)))
 GOAL = "paintMachine01"
 
 
-def ask(run, task=1, where=CHARGED, said="battery > 30 %"):
+def ask(run, task=1, where=CHARGED, said="battery > 30 %", holds=0):
     """Return what the floor is told when a run asks for its robot, as the database keeps it between them."""
     order = TaskOrder("move", Target(GOAL), "robot")
-    asking = AskingRun(run, f"run {run}", {"robot": RoleBinding("robot", None, CAN, where, said)}, ())
+    asking = AskingRun(run, f"run {run}", {"robot": RoleBinding("robot", None, CAN, where, said, holds)}, ())
     stored = json.dumps(protocol.to_json(to_floor(asking, r.Ask(task, order))))
     return protocol.floor_message_from_json(json.loads(stored))
 
@@ -122,4 +123,48 @@ def test_a_task_without_a_condition_is_kept_and_told_as_before_and_read_by_the_v
     jobs = floor.to_json(world.state)["jobs"]
     assert [{"where", "said"} & job.keys() for job in jobs] == [set(), {"where", "said"}]
     assert jobs[1]["where"] == expression_to_json(CHARGED)
+    assert floor.from_json(json.loads(json.dumps(floor.to_json(world.state)))).tasks == world.state.tasks
+
+
+def sized(**capacity):
+    """Return the factory whose robots hold so many objects each."""
+    devices = {
+        name: replace(device, capacity=capacity.get(name, device.capacity)) for name, device in LAYOUT.devices.items()
+    }
+    return replace(LAYOUT, devices=devices)
+
+
+def test_a_robot_that_holds_less_than_its_role_needs_does_not_get_it_however_near_it_is():
+    near = {"robot01": (18.0, -5.0)}
+    world = PretendFloor(sized(robot01=1, robot02=3, robot03=1), near)
+    world.tell(ask("a", where=None, said="", holds=3), ask("b", where=None, said=""))
+    assert world.state.roles == {"a/robot": "robot02", "b/robot": "robot01"}
+    world.tell(ask("c", where=None, said="", holds=2))
+    assert ("c/robot" in world.state.roles, world.waits[-1].reason.code) == (False, "no_free_robot")
+    world.state = floor.from_json(json.loads(json.dumps(floor.to_json(world.state))))
+    world.tell(m.RunOver("a"))
+    assert world.state.roles == {"b/robot": "robot01", "c/robot": "robot02"}
+
+
+def test_a_robot_that_does_not_say_how_much_it_holds_may_have_the_role():
+    world = PretendFloor(sized(robot01=1, robot02=0, robot03=1))
+    world.tell(ask("a", where=None, said="", holds=3))
+    assert world.state.roles == {"a/robot": "robot02"}
+
+
+def test_a_role_that_no_robot_is_large_enough_for_is_refused():
+    world = PretendFloor(sized(robot01=1, robot02=2, robot03=1))
+    world.tell(ask("a", where=None, said="", holds=3))
+    why = (
+        "No robot of this site can move and pick and drop and hold 3 objects at once. "
+        "Approve one that can, or change the role."
+    )
+    assert (world.over["a", 1], world.state.roles) == (("refused", why), {})
+
+
+def test_how_much_a_role_needs_is_written_only_where_that_is_more_than_one():
+    world = PretendFloor(sized(robot01=1, robot02=1, robot03=3))
+    world.tell(m.DeviceOffline("robot03"), ask("a", where=None, said=""), ask("b", where=None, said="", holds=3))
+    jobs = floor.to_json(world.state)["jobs"]
+    assert [job.get("holds") for job in jobs] == [None, 3]
     assert floor.from_json(json.loads(json.dumps(floor.to_json(world.state)))).tasks == world.state.tasks

@@ -56,6 +56,7 @@ def codes(program: list[Any], functions: dict[str, list[Any]] | None = None) -> 
         ([["repeat", {"times": 2}, {"body": ["a", "b"]}], "c", "d"], ["too_few_robots"]),
         ([["while", {"condition": HOT}, {"body": ["a", "b"]}], "c", "d"], []),
         ([["try", {}, {"body": ["a", "b"], "catch": ["c"]}], "d"], []),
+        (["a", "b", ["try", {}, {"body": [["wait", {"duration": 5}, {}]], "catch": ["c", "d"]}]], ["too_few_robots"]),
         (["a", "b", "c", "-a", "d"], []),
         (["a", "b", "c", "-a", "d", "a"], ["too_few_robots"]),
         (["a", "b", "c", ["if", {"condition": HOT}, {"then": ["-a"]}], "d"], []),

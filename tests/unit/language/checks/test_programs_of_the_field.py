@@ -34,7 +34,14 @@ KNOWN_FALSE: dict[str, tuple[list[str], str]] = {
     "hospital/found-flag": (["may_be_unset"], SAME_CONDITION),
     "hospital/gather-if-any": (["may_drop_nothing"], "That a variable counts what is carried is not known."),
 }
-"""Programs that are right and of which something is told: the codes, and why they are told."""
+"""Programs that are right and of which something is told: the codes, and why they are told.
+
+All four are warnings, and a run goes on. To know that a condition has the same outcome again, what holds after either
+outcome would have to be kept apart all along the path behind the first If, and every step there followed once for each
+of them: twice as many with each such condition, in loops and calls, too, while the steps followed are bounded. To know
+that `held` counts what is carried, a domain would have to relate variables to loads; a range for each of the two does
+not say that they are equal. Both cost more than they would spare.
+"""
 
 
 def name_of(file: Path) -> str:
