@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Final
 
 from editor.language.constructs.table import FORMS
@@ -54,13 +54,8 @@ def set_in(block: n.Block, sets: Mapping[str, frozenset[str]]) -> frozenset[str]
 
 def read_by(node: n.Node) -> dict[str, str]:
     """Return the names that a step itself reads, each with the field where it does."""
-    return read_in(worked_out(node))
-
-
-def read_in(values: Iterable[tuple[str, Expression]]) -> dict[str, str]:
-    """Return the names that values read, each with the first field where one does."""
     found: dict[str, str] = {}
-    for field, expression in values:
+    for field, expression in worked_out(node):
         for part in parts_of(expression):
             if isinstance(part, Variable):
                 found.setdefault(part.name, field)
