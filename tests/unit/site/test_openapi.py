@@ -68,6 +68,7 @@ def test_every_answer_has_a_shape(described):
         ("delete", "/api/programs/{program}", "204"),
         ("put", "/api/programs/{program}/document", "204"),
         ("put", "/api/programs/{program}/script", "204"),
+        ("post", "/api/programs/{program}/stored", "204"),
         ("patch", "/api/sites/{slug}/things/{thing}", "204"),
         ("delete", "/api/sites/{slug}/tokens/{token_id}", "204"),
     ]
