@@ -81,6 +81,11 @@ class Ledger:
             self._add(origin, number, change, now_s)
         self._advance()
 
+    def misses(self, origin: str, number: int) -> bool:
+        """Tell whether changes of a process are missing before its change of a number."""
+        heard = self._heard.get(origin)
+        return origin != self._mine and heard is not None and number > heard + 1
+
     def hear_all(self, entries: Iterable[Entry], now_s: float) -> None:
         """Take in entries of which the document already has what they change."""
         for entry in entries:

@@ -250,10 +250,16 @@ class Room:
     def _hear_change(self, entry: Entry, now_s: float) -> None:
         self.form.hear_update(entry)
         number, change = decode_change(entry.note.data)
+        is_missed = self.ledger.misses(entry.origin, number)
         self.ledger.hear(entry.id, entry.origin, number, change, now_s)
-        if entry.origin != self.origin:
-            for each in self.document.apply(change.update):
-                self._spread(each)
+        if entry.origin == self.origin:
+            return
+        is_hole = _leaves_a_hole(change.update, yjs_encoding.decode_state_vector(self.document.state()))
+        if is_missed or is_hole:  # the stream was emptied: what is missing is asked for, and looked for in the rows
+            self.ledger.doubt("", now_s)
+            self.say_state()
+        for each in () if is_hole else self.document.apply(change.update):
+            self._spread(each)
 
     def _hear_missing(self, entry: Entry, now_s: float) -> None:
         """Take what another process found missing here; whether the database has it is not known."""

@@ -289,9 +289,9 @@ class TwoProcesses:
                 while source.to_publish:
                     note = source.to_publish.popleft()
                     if not lose:
-                        self._deliver(origin, note)
+                        self.deliver(origin, note)
 
-    def _deliver(self, origin: str, note: Note) -> None:
+    def deliver(self, origin: str, note: Note) -> None:
         self.number += 1
         for name, target in self.rooms.items():
             if name != origin:
@@ -349,3 +349,23 @@ def test_a_lost_deletion_is_found_by_its_hash() -> None:
     b.say_state()
     both.carry()
     assert a.document.to_json()["steps"] == b.document.to_json()["steps"] == {}
+
+
+def test_a_change_before_which_one_was_lost_waits_until_it_has_been_asked_for() -> None:
+    both = TwoProcesses()
+    a, b = both.pair()
+    ada, bob = Client(a), Client(b, number=2)
+    ada.read()
+    bob.read()
+    ada.send(yjs_protocol.encode_update(ada.edit("s0", 1)))
+    both.carry()
+    ada.send(yjs_protocol.encode_update(ada.edit("s1", 1)))
+    a.to_publish.clear()
+    ada.send(yjs_protocol.encode_update(ada.edit("s2", 1)))
+    both.deliver("a", a.to_publish.popleft())
+    assert list(b.document.to_json()["steps"]) == ["s0"]
+    assert b.ledger.doubts == 1
+    both.carry()
+    bob.read()
+    assert sorted(bob.steps()) == ["s0", "s1", "s2"]
+    assert a.document.digest() == b.document.digest()

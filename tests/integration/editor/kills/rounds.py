@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import psycopg
+import redis
 
 from editor.documents.shared_document import SharedDocument
 from tests.integration.editor.node_clients import MODULES, NodeClients
@@ -25,6 +26,8 @@ from tests.kit.web import Web
 
 AT_ONCE = 5
 ALIKE_WITHIN_S = 20.0
+EMPTIED = 0.25
+"""How often Redis loses all it has shortly before the kill."""
 LONGEST_S = 0.8
 """How long people draw before the kill at most: several times as long as changes wait for their rows."""
 
@@ -75,6 +78,10 @@ def _kill_once(pair: Pair, count: int, dice: random.Random, judged: Judged) -> N
                 people.tell("open", name=name, program=program, session=session, port=web.port)
         people.tell("draw", everyMs=dice.choice([10, 30, 80]))
         time.sleep(dice.random() * LONGEST_S)
+        if dice.random() < EMPTIED:
+            with redis.Redis.from_url(pair.redis.url) as connection:
+                connection.flushall()
+            time.sleep(dice.random() * LONGEST_S / 4)
         victim.kill()
         people.tell("stop")
         kept = people.tell("acknowledged")["people"]
