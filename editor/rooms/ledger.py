@@ -86,6 +86,11 @@ class Ledger:
         heard = self._heard.get(origin)
         return origin != self._mine and heard is not None and number > heard + 1
 
+    def pass_over(self, entry: str, origin: str, number: int) -> None:
+        """Take in that a change was told which nothing can be made of yet: alone it is never written here."""
+        self._heard[origin] = number
+        self._entries.append((entry, _DATABASE, self.last_doubt))
+
     def hear_all(self, entries: Iterable[Entry], now_s: float) -> None:
         """Take in entries of which the document already has what they change."""
         for entry in entries:

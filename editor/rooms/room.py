@@ -250,15 +250,18 @@ class Room:
     def _hear_change(self, entry: Entry, now_s: float) -> None:
         self.form.hear_update(entry)
         number, change = decode_change(entry.note.data)
-        is_missed = self.ledger.misses(entry.origin, number)
-        self.ledger.hear(entry.id, entry.origin, number, change, now_s)
         if entry.origin == self.origin:
+            self.ledger.hear(entry.id, entry.origin, number, change, now_s)
             return
         is_hole = _leaves_a_hole(change.update, yjs_encoding.decode_state_vector(self.document.state()))
-        if is_missed or is_hole:  # the stream was emptied: what is missing is asked for, and looked for in the rows
-            self.ledger.doubt("", now_s)
+        if is_hole or self.ledger.misses(entry.origin, number):
+            self.ledger.doubt("", now_s)  # the stream was emptied: what is missing is asked for, and looked for in rows
             self.say_state()
-        for each in () if is_hole else self.document.apply(change.update):
+        if is_hole:
+            self.ledger.pass_over(entry.id, entry.origin, number)
+            return
+        self.ledger.hear(entry.id, entry.origin, number, change, now_s)
+        for each in self.document.apply(change.update):
             self._spread(each)
 
     def _hear_missing(self, entry: Entry, now_s: float) -> None:
