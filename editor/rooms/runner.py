@@ -296,11 +296,11 @@ async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Ca
     """
     stored = await in_database(load_document)(program_id)
     tail, after = await _read_tail(stream, program_id, stored.stored_to)
-    document, migrated = await asyncio.to_thread(_open_document, stored, tail)
+    document, tail, is_changed = await asyncio.to_thread(_open_document, stored, tail)
     room = Room(program_id, stored.site, origin, document)
     room.ledger.know_rows(range(1, stored.seq + 1))
     room.ledger.hear_all(tail, time.monotonic())
-    if migrated:
+    if is_changed:
         room.ledger.doubt("", time.monotonic())
     room.ledger.stored_to = room.ledger.stored_to or stored.stored_to
     opened = OpenRoom(room, stream, after, stored, on_end)
@@ -318,10 +318,19 @@ async def _read_tail(stream: RoomStream, program_id: str, stored_to: str) -> tup
     return tail, after
 
 
-def _open_document(stored: Stored, tail: list[Entry]) -> tuple[SharedDocument, bool]:
-    """Return the document, and whether it had to be brought to today's format."""
-    document = stored.open(updates_of(tail))
-    return document, document.migrate()
+def _open_document(stored: Stored, tail: list[Entry]) -> tuple[SharedDocument, list[Entry], bool]:
+    """Return the document, the entries that are in it, and whether it is another than these and the rows say.
+
+    What is left of a stream that was emptied may be of no use: who was there before tells what is lacking then.
+    Raises DocumentHole, BadUpdate, BadFrame.
+    """
+    try:
+        document = stored.open(updates_of(tail))
+    except DocumentHole:
+        document = stored.open()
+        document.migrate()
+        return document, [], True
+    return document, tail, document.migrate()
 
 
 def _differences(here: bytes, stored: Stored) -> tuple[bytes, bytes]:

@@ -22,6 +22,8 @@ from redis.exceptions import TimeoutError as RedisTimeout
 
 Kind = Literal["update", "awareness", "saved", "state", "lacking", "full", "compiled", "keep"]
 BEGINNING = "0"
+FORMAT = 2
+"""Of the notes. Processes of another version are not heard; what they save is found in the rows."""
 KEPT_ENTRIES = 10_000
 KEPT_SECONDS = 3600
 _READ_AT_ONCE = 500
@@ -195,7 +197,7 @@ def is_after(entry: str, other: str) -> bool:
 
 
 def _key(room: str) -> str:
-    return f"vipo:room:{room}"
+    return f"vipo:room:{FORMAT}:{room}"
 
 
 def _text(value: bytes | str) -> str:
