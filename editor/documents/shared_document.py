@@ -15,7 +15,7 @@ from typing import Any
 from pycrdt import Array, Doc, Map, Text, TransactionEvent, merge_updates
 
 from editor.documents.knowledge import Knowledge, read_deletions
-from editor.documents.yjs_encoding import BadFrame, Reader, decode_state_vector, is_within
+from editor.documents.yjs_encoding import BadFrame, Reader, decode_state_vector, first_of_update, is_within
 from editor.documents.yjs_updates import MOST_CLIENTS_OF_ALL, check_update
 from editor.language.document.format_migrations import FIRST_FORMAT, FORMAT, format_of, migrate
 from vipo_device.protocol.texts import cleaned, cleaned_json, find_unfit, normal
@@ -35,6 +35,10 @@ class BadUpdate(ValueError):
     """The bytes are not a Yjs update, or do not fit this document; the document is as it was."""
 
 
+class UpdateHole(BadUpdate):
+    """Something is missing on which the update builds; pycrdt would pass over that and say nothing."""
+
+
 class SharedDocument:
     """One Yjs document. Not to be used from two threads at once."""
 
@@ -50,8 +54,33 @@ class SharedDocument:
         self._deepest = 0
         self._document = self._restored()
 
+    def apply_whole(self, update: bytes, said: Knowledge) -> list[bytes]:
+        """Apply an update unless something is missing on which it builds; `said` is how far it goes.
+
+        Returns what it changed. Raises UpdateHole, which leaves the document as it was, and BadUpdate.
+        """
+        clocks, first = decode_state_vector(self.state()), first_of_update(update)
+        if first is not None and first[1] > clocks.get(first[0], 0):
+            raise UpdateHole("It begins after what is known of its client.")
+        deleted = Knowledge({}, said.deletions).ends()
+        if not is_within(
+            deleted.items(), {client: max(clocks.get(client, 0), said.clocks.get(client, 0)) for client in deleted}
+        ):
+            raise UpdateHole("It deletes what is not known.")
+        changes = self._apply(update)
+        if not is_within(said.clocks.items(), decode_state_vector(self.state())):
+            self._document = self._restored()
+            raise UpdateHole("It builds on what is not known.")
+        self._note(changes)
+        return changes
+
     def apply(self, update: bytes) -> list[bytes]:
         """Apply an update; returns what it changed, as the document itself says. Raises BadUpdate."""
+        changes = self._apply(update)
+        self._note(changes)
+        return changes
+
+    def _apply(self, update: bytes) -> list[bytes]:
         self._events.clear()
         self._deepest = 0
         try:
@@ -64,7 +93,6 @@ class SharedDocument:
             raise BadUpdate("Parts of it stand too deep in each other.")
         changes = [event for event in self._events if event != EMPTY_UPDATE]
         self._events.clear()
-        self._note(changes)
         return changes
 
     def _note(self, changes: list[bytes]) -> None:
@@ -122,7 +150,7 @@ class SharedDocument:
         The updates were checked when they came (`check_update`). pycrdt passes over holes and says nothing.
         """
         clocks = decode_state_vector(self.state())
-        return not all(is_within(_read(update).ends().items(), clocks) for update in updates)
+        return not all(is_within(read_update(update).ends().items(), clocks) for update in updates)
 
     def step_count(self) -> int:
         """Return the number of steps, drafts included."""
@@ -227,14 +255,15 @@ def _set_all(shared: Any, wanted: Mapping[str, Any]) -> None:
 
 def clients_of(update: bytes) -> Collection[int]:
     """Return the Yjs clients whose changes an update brings."""
-    return _read(update).clocks.keys()
+    return read_update(update).clocks.keys()
 
 
-def _read(update: bytes) -> Knowledge:
+def read_update(update: bytes) -> Knowledge:
+    """Return how far a checked update goes; nothing of one that was written when other bounds held."""
     try:
         return check_update(update, {root.encode() for root in ROOTS}, MOST_CLIENTS_OF_ALL)
     except BadFrame:
-        return Knowledge({}, {})  # written when other bounds held
+        return Knowledge({}, {})
 
 
 def merge(updates: Iterable[bytes]) -> bytes:

@@ -151,9 +151,9 @@ class Member:
         if not self._bytes.spend(size + 64, now_s):
             raise Close(Close.ABUSE, "This connection sends more than 1 MiB a second. Close other copies of the page.")
 
-    def spend_frame(self, now_s: float) -> None:
-        """Count a frame that asks for work. Raises Close."""
-        if not self._frames.spend(1, now_s):
+    def spend_frame(self, now_s: float, cost: float = 1) -> None:
+        """Count a frame that asks for work, of so many frames' cost. Raises Close."""
+        if not self._frames.spend(cost, now_s):
             raise Close(Close.ABUSE, "This connection sends more than 60 messages a second.")
 
     def note_stored(self, place: int) -> bool:

@@ -6,12 +6,22 @@ from collections import deque
 from collections.abc import Callable, Iterable
 
 from editor.documents import yjs_encoding
-from editor.documents.shared_document import EMPTY_UPDATE, ROOTS, BadUpdate, SharedDocument, merge
+from editor.documents.knowledge import Knowledge
+from editor.documents.shared_document import (
+    EMPTY_UPDATE,
+    ROOTS,
+    BadUpdate,
+    SharedDocument,
+    UpdateHole,
+    merge,
+    read_update,
+)
 from editor.documents.store import Change
 from editor.documents.yjs_updates import MOST_CLIENTS, MOST_CLIENTS_OF_ALL, check_update
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
 from editor.rooms.compiled_form import CompiledForm
+from editor.rooms.form_frames import post_form, spread_form
 from editor.rooms.ledger import Ledger, decode_change, decode_stored, encode_change, encode_stored
 from editor.rooms.member import MIB, Close, Member
 from editor.rooms.stream import Entry, Note
@@ -21,6 +31,8 @@ MOST_READERS, MOST_WRITERS = 50, 50
 MOST_OF_PERSON = 10
 MOST_DOCUMENT_BYTES = 8 * MIB
 MOST_STEPS = 5000
+COST_OF_A_HOLE = 50
+"""A message that builds on what is not known may cost building the document anew."""
 MOST_CLIENTS_EVER = 20_000
 """Who have ever changed a document: each page that was opened and drawn in is one."""
 _ROOTS = frozenset(root.encode() for root in ROOTS)
@@ -107,28 +119,7 @@ class Room:
             self.touched = True
             self.wake()
         elif self.form.now["revision"] != revision:
-            frame = self._whole_form()
-            member.spend_bytes(len(frame), now_s)
-            self._post_form(member, frame)
-
-    def _whole_form(self) -> bytes:
-        return yjs_protocol.encode_compiled(self.form.now)
-
-    def _post_form(self, member: Member, frame: bytes) -> None:
-        if self.form.now is not None:
-            member.shown = self.form.now["revision"]
-            member.post(frame)
-
-    def _spread_form(self) -> None:
-        """Send who looks at the compiled form what is another in it."""
-        change, whole = self.form.change or {}, b""
-        frame = yjs_protocol.encode_compiled(change) if "base" in change else b""
-        for member in self.members:
-            if member.shown is not None and member.shown == change.get("base"):
-                self._post_form(member, frame)
-            elif member.shown is not None:
-                whole = whole or self._whole_form()
-                self._post_form(member, whole)
+            member.spend_bytes(post_form(self.form, member), now_s)
 
     def _receive_awareness(self, member: Member, message: yjs_protocol.Awareness, now_s: float) -> None:
         if self.board.speaks_for_itself(member, message.entries):
@@ -185,23 +176,22 @@ class Room:
             if not member.is_sure():
                 raise Close(Close.COME_AGAIN, INTERRUPTED)
             said = check_update(update, _ROOTS, most_clients)
-            clocks = yjs_encoding.decode_state_vector(self.document.state())
-            if _leaves_a_hole(update, clocks):
+            self._check_size(update, said)
+            try:
+                self._apply(member, update, said, now_s)
+            except UpdateHole:
                 for later in updates[number:]:
                     member.hold(later)
+                member.spend_frame(now_s, COST_OF_A_HOLE)
                 member.synced = False
                 member.ask_for_state(self.document.state())
                 return
-            if len(clocks) >= MOST_CLIENTS_EVER and not said.clocks.keys() <= clocks.keys():
-                raise Close(Close.TOO_LARGE, TOO_MANY_PAGES)
-            self._check_size(update)
-            self._apply(member, update, now_s)
         member.unsaved.append((member.frames, self.ledger.place))
         self._tell_saved([member])
 
-    def _apply(self, member: Member, update: bytes, now_s: float) -> None:
+    def _apply(self, member: Member, update: bytes, said: Knowledge, now_s: float) -> None:
         steps = self.document.step_count()
-        for change in self.document.apply(update):
+        for change in self.document.apply_whole(update, said):
             waiting = self.ledger.add(Change(member.person.id, change), now_s)
             self.to_publish.append(encode_change(waiting.number, waiting.change))
             self._spread(change, member)
@@ -209,7 +199,10 @@ class Room:
         if steps < self.document.step_count() > MOST_STEPS:
             raise Close(Close.TOO_LARGE, TOO_LARGE)
 
-    def _check_size(self, update: bytes) -> None:
+    def _check_size(self, update: bytes, said: Knowledge) -> None:
+        clocks = yjs_encoding.decode_state_vector(self.document.state())
+        if len(clocks) >= MOST_CLIENTS_EVER and not said.clocks.keys() <= clocks.keys():
+            raise Close(Close.TOO_LARGE, TOO_MANY_PAGES)
         self._bytes += len(update)
         if self._bytes > MOST_DOCUMENT_BYTES:
             self._bytes = len(self.document.encode()) + len(update)
@@ -253,16 +246,23 @@ class Room:
         if entry.origin == self.origin:
             self.ledger.hear(entry.id, entry.origin, number, change, now_s)
             return
-        is_hole = _leaves_a_hole(change.update, yjs_encoding.decode_state_vector(self.document.state()))
-        if is_hole or self.ledger.misses(entry.origin, number):
-            self.ledger.doubt("", now_s)  # the stream was emptied: what is missing is asked for, and looked for in rows
-            self.say_state()
-        if is_hole:
+        is_missed = self.ledger.misses(entry.origin, number)
+        try:
+            changes = self.document.apply_whole(change.update, read_update(change.update))
+        except UpdateHole:
+            self._miss(now_s)
             self.ledger.pass_over(entry.id, entry.origin, number)
             return
+        if is_missed:
+            self._miss(now_s)
         self.ledger.hear(entry.id, entry.origin, number, change, now_s)
-        for each in self.document.apply(change.update):
+        for each in changes:
             self._spread(each)
+
+    def _miss(self, now_s: float) -> None:
+        """Ask for what is missing, and look for it in the rows: the stream was emptied."""
+        self.ledger.doubt("", now_s)
+        self.say_state()
 
     def _hear_missing(self, entry: Entry, now_s: float) -> None:
         """Take what another process found missing here; whether the database has it is not known."""
@@ -278,7 +278,7 @@ class Room:
         """Take in a check; check here when one's own edits are not in it, or one's own check did not hold."""
         holds = self.form.hear(entry)
         if holds:
-            self._spread_form()
+            spread_form(self.form, self.members)
         is_wanted = entry.origin == self.origin or any(member.shown is not None for member in self.members)
         if self.origin in self.form.not_shown() or (not holds and is_wanted):
             self.touched = True
@@ -389,9 +389,3 @@ class Room:
 
 def _nobody() -> None:
     """Nobody waits yet."""
-
-
-def _leaves_a_hole(update: bytes, clocks: dict[int, int]) -> bool:
-    """Tell whether a change begins after what is known of its client: Yjs would wait for the rest, pycrdt not."""
-    first = yjs_encoding.first_of_update(update)
-    return first is not None and first[1] > clocks.get(first[0], 0)
