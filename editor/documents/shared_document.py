@@ -47,11 +47,17 @@ class SharedDocument:
         self._steps: dict[str, Any] = {}
         """The steps in their plain form, but for those that changed since it was asked for last."""
         self._changed: set[str] = set()
+        self._count: int | None = None
+        self._clocks: dict[int, int] | None = None
+        """Of each client, or None while they are to be read again: who drew here in years may be thousands."""
         self._deepest = 0
         self._document = self._restored()
 
-    def apply(self, update: bytes) -> list[bytes]:
-        """Apply an update; returns what it changed, as the document itself says. Raises BadUpdate."""
+    def apply(self, update: bytes, said: Knowledge | None = None) -> list[bytes]:
+        """Apply an update; returns what it changed, as the document itself says. Raises BadUpdate.
+
+        `said` is what `check_update` told of it, where it was asked already.
+        """
         self._events.clear()
         self._deepest = 0
         try:
@@ -65,7 +71,22 @@ class SharedDocument:
         changes = [event for event in self._events if event != EMPTY_UPDATE]
         self._events.clear()
         self._note(changes)
+        self._count_on(said if said and changes == [update] else None, changes)
         return changes
+
+    def _count_on(self, said: Knowledge | None, changes: list[bytes]) -> None:
+        """Bring the clocks up to what has been applied."""
+        for known in [said] if said else [_read(change) for change in changes]:
+            if self._clocks is not None and known.clocks.keys() | known.deletions.keys():
+                self._clocks |= {c: max(end, self._clocks.get(c, 0)) for c, end in known.clocks.items()}
+            else:
+                self._clocks = None
+
+    def clocks(self) -> Mapping[int, int]:
+        """Return the number of each client's changes; not to be changed."""
+        if self._clocks is None:
+            self._clocks = decode_state_vector(self.state())
+        return self._clocks
 
     def _note(self, changes: list[bytes]) -> None:
         """Keep what is needed to build the document again, should a later update fail half-way."""
@@ -81,7 +102,7 @@ class SharedDocument:
             raise BadUpdate(str(error)) from error
         document.observe(self._on_change)
         steps = document.get("steps", type=Map)
-        self._steps, self._changed = {}, set(steps.keys())
+        self._steps, self._changed, self._count, self._clocks = {}, set(steps.keys()), None, None
         others = [document.get(name, type=Map) for name in _CONTENT if name != "steps"]
         watched = [(root, root.observe_deep(self._note_depth)) for root in others]
         self._watching = steps, steps.observe_deep(self._on_steps), watched  # it ends with the last reference to it
@@ -97,6 +118,8 @@ class SharedDocument:
         self._note_depth(events)
         for event in events:
             self._changed.update(event.path[:1] or event.keys)
+            if not event.path:
+                self._count = None
 
     def encode(self, state: bytes | None = None) -> bytes:
         """Return the document as one update: all of it, or what a peer in that state lacks. Raises BadUpdate."""
@@ -126,7 +149,9 @@ class SharedDocument:
 
     def step_count(self) -> int:
         """Return the number of steps, drafts included."""
-        return len(self._document.get("steps", type=Map))
+        if self._count is None:
+            self._count = len(self._document.get("steps", type=Map))
+        return self._count
 
     def to_json(self) -> dict[str, Any]:
         """Return the plain form (docs/shapes/document.md); not to be changed in place.
