@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import importlib
 import json
+import os
 import sys
+
+import django
 
 NAMES = (
     "language",
@@ -21,6 +24,9 @@ NAMES = (
 
 
 def main() -> None:
+    os.environ["DJANGO_SETTINGS_MODULE"] = "tests.settings"
+    django.setup()  # what starts the servers imports models; they themselves are told their own settings
+    del os.environ["DJANGO_SETTINGS_MODULE"]
     chosen = sys.argv[1:] or NAMES
     for name in chosen:
         if name not in NAMES:

@@ -16,7 +16,7 @@ REPEATS = 60
 
 def measure_blockly(count: int) -> Iterator[dict[str, object]]:
     """Let Blockly print as many statement blocks; where it cannot be had, say so."""
-    missing = _what_is_missing()
+    missing = what_is_missing("blockly")
     if missing:
         yield {"what": "Blockly prints Python", "skipped": missing}
         return
@@ -26,12 +26,12 @@ def measure_blockly(count: int) -> Iterator[dict[str, object]]:
     yield figure("Blockly prints Python", said["ms"], "ms", **more)
 
 
-def _what_is_missing() -> str:
-    """Install Blockly where it is not yet; return what keeps it from being there."""
+def what_is_missing(peer: str) -> str:
+    """Install the peers where this one is not yet; return what keeps it from being there."""
     if shutil.which("node") is None or shutil.which("npm") is None:
         return "Node and npm are not installed."
-    if (PEERS / "node_modules" / "blockly").exists():
+    if (PEERS / "node_modules" / peer).exists():
         return ""
     command = ["npm", "ci", "--no-audit", "--no-fund", "--loglevel=error"]
     done = subprocess.run(command, check=False, cwd=PEERS, capture_output=True, text=True)
-    return "" if done.returncode == 0 else f"npm could not install it: {done.stderr.strip()[-200:]}"
+    return "" if done.returncode == 0 else f"npm could not install {peer}: {done.stderr.strip()[-200:]}"

@@ -6,7 +6,7 @@ A state vector alone does not tell of deletions, which advance no clock. Yjs cal
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from editor.documents.yjs_encoding import BadFrame, Reader, decode_state_vector, is_within
 
@@ -17,10 +17,12 @@ Ranges = tuple[tuple[int, int], ...]
 
 @dataclass(frozen=True, slots=True)
 class Knowledge:
-    """What somebody knows: the clock of each client, and the deleted clocks of each client."""
+    """What somebody knows, or an update tells: the clock of each client, and the deleted clocks of each client."""
 
     clocks: Mapping[int, int]
     deletions: Mapping[int, Ranges]
+    begins: Mapping[int, int] = field(default_factory=dict)
+    """Of an update: the clock from which on it has all of each client up to `clocks`."""
 
     def covers(self, other: Knowledge) -> bool:
         """Tell whether everything that the other knows is known here, too."""

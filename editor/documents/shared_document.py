@@ -15,7 +15,7 @@ from typing import Any
 from pycrdt import Array, Doc, Map, Text, TransactionEvent, merge_updates
 
 from editor.documents.knowledge import Knowledge, read_deletions
-from editor.documents.yjs_encoding import BadFrame, Reader, decode_state_vector, first_of_update, is_within
+from editor.documents.yjs_encoding import BadFrame, Reader, decode_state_vector, is_within
 from editor.documents.yjs_updates import MOST_CLIENTS_OF_ALL, check_update
 from editor.language.document.format_migrations import FIRST_FORMAT, FORMAT, format_of, migrate
 from vipo_device.protocol.texts import cleaned, cleaned_json, find_unfit, normal
@@ -51,6 +51,9 @@ class SharedDocument:
         self._steps: dict[str, Any] = {}
         """The steps in their plain form, but for those that changed since it was asked for last."""
         self._changed: set[str] = set()
+        self._count: int | None = None
+        self._clocks: dict[int, int] | None = None
+        """Of each client, or None while they are to be read again: who drew here in years may be thousands."""
         self._deepest = 0
         self._document = self._restored()
 
@@ -59,25 +62,27 @@ class SharedDocument:
 
         Returns what it changed. Raises UpdateHole, which leaves the document as it was, and BadUpdate.
         """
-        clocks, first = decode_state_vector(self.state()), first_of_update(update)
-        if first is not None and first[1] > clocks.get(first[0], 0):
+        clocks = self.clocks()
+        if not is_within(said.begins.items(), clocks):
             raise UpdateHole("It begins after what is known of its client.")
-        deleted = Knowledge({}, said.deletions).ends()
-        if not is_within(
-            deleted.items(), {client: max(clocks.get(client, 0), said.clocks.get(client, 0)) for client in deleted}
-        ):
+        known = {client: max(clocks.get(client, 0), said.clocks.get(client, 0)) for client in said.deletions}
+        if not is_within(Knowledge({}, said.deletions).ends().items(), known):
             raise UpdateHole("It deletes what is not known.")
         changes = self._apply(update)
-        if not is_within(said.clocks.items(), decode_state_vector(self.state())):
-            self._document = self._restored()
-            raise UpdateHole("It builds on what is not known.")
+        if changes != [update]:
+            self._clocks = None
+            if not is_within(said.clocks.items(), self.clocks()):
+                self._document = self._restored()
+                raise UpdateHole("It builds on what is not known.")
         self._note(changes)
+        self._count_on(said, changes, update)
         return changes
 
     def apply(self, update: bytes) -> list[bytes]:
         """Apply an update; returns what it changed, as the document itself says. Raises BadUpdate."""
         changes = self._apply(update)
         self._note(changes)
+        self._clocks = None
         return changes
 
     def _apply(self, update: bytes) -> list[bytes]:
@@ -95,6 +100,17 @@ class SharedDocument:
         self._events.clear()
         return changes
 
+    def _count_on(self, said: Knowledge, changes: list[bytes], update: bytes) -> None:
+        """Bring the clocks up to an update that has been applied as it was."""
+        if self._clocks is not None and changes == [update]:
+            self._clocks |= {client: max(end, self._clocks.get(client, 0)) for client, end in said.clocks.items()}
+
+    def clocks(self) -> Mapping[int, int]:
+        """Return the number of each client's changes; not to be changed."""
+        if self._clocks is None:
+            self._clocks = decode_state_vector(self.state())
+        return self._clocks
+
     def _note(self, changes: list[bytes]) -> None:
         """Keep what is needed to build the document again, should a later update fail half-way."""
         self._log.extend(changes)
@@ -109,7 +125,7 @@ class SharedDocument:
             raise BadUpdate(str(error)) from error
         document.observe(self._on_change)
         steps = document.get("steps", type=Map)
-        self._steps, self._changed = {}, set(steps.keys())
+        self._steps, self._changed, self._count, self._clocks = {}, set(steps.keys()), None, None
         others = [document.get(name, type=Map) for name in _CONTENT if name != "steps"]
         watched = [(root, root.observe_deep(self._note_depth)) for root in others]
         self._watching = steps, steps.observe_deep(self._on_steps), watched  # it ends with the last reference to it
@@ -125,6 +141,8 @@ class SharedDocument:
         self._note_depth(events)
         for event in events:
             self._changed.update(event.path[:1] or event.keys)
+            if not event.path:
+                self._count = None
 
     def encode(self, state: bytes | None = None) -> bytes:
         """Return the document as one update: all of it, or what a peer in that state lacks. Raises BadUpdate."""
@@ -154,7 +172,9 @@ class SharedDocument:
 
     def step_count(self) -> int:
         """Return the number of steps, drafts included."""
-        return len(self._document.get("steps", type=Map))
+        if self._count is None:
+            self._count = len(self._document.get("steps", type=Map))
+        return self._count
 
     def to_json(self) -> dict[str, Any]:
         """Return the plain form (docs/shapes/document.md); not to be changed in place.

@@ -5,7 +5,7 @@ A state vector says how far somebody knows a document: for each client the clock
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 MOST_INTEGER_BYTES = 8
 _MOST_INTEGER = 2**53 - 1
@@ -59,6 +59,10 @@ class Reader:
             raise BadFrame("The message ends before it should.")
         self._at += 1
         return self._data[self._at - 1]
+
+    def peek(self) -> int:
+        """Return the next byte, 0 at the end, and stay before it."""
+        return self._data[self._at] if self._at < len(self._data) else 0
 
     def skip(self, length: int) -> int:
         """Pass over so many bytes; return where they begin."""
@@ -115,18 +119,9 @@ def encode_state_vector(clocks: dict[int, int]) -> bytes:
     return encode_integer(len(clocks)) + pairs
 
 
-def is_within(lesser: Iterable[tuple[int, int]], greater: dict[int, int]) -> bool:
+def is_within(lesser: Iterable[tuple[int, int]], greater: Mapping[int, int]) -> bool:
     """Tell whether a state vector's clocks are all known to another one."""
     return all(greater.get(client, 0) >= clock for client, clock in lesser)
-
-
-def first_of_update(update: bytes) -> tuple[int, int] | None:
-    """Return (client, clock) where an update of a single client begins; None when it has none or several."""
-    reader = Reader(update)
-    if reader.integer() != 1:
-        return None
-    reader.integer()
-    return reader.integer(), reader.integer()
 
 
 def encode_integer(value: int) -> bytes:

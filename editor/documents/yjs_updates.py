@@ -21,7 +21,7 @@ DEEPEST = 100
 """How deep a value may be nested, as in every JSON body."""
 MOST_NESTED = 16
 """How deep shared maps, arrays and texts may stand in each other; a program's stand in four."""
-_SKIPPED, _GONE = 10, 0
+KIND, _SKIPPED, _GONE = 0x1F, 10, 0
 _HAS_ORIGIN, _HAS_RIGHT_ORIGIN, _HAS_KEY = 0x80, 0x40, 0x20
 _SHARED_TYPES = frozenset({0, 1, 2})
 """Array, map and text."""
@@ -54,10 +54,15 @@ def check_update(update: bytes, roots: Collection[bytes], most_clients: int = MO
     reader = UpdateReader(update)
     depths: dict[Place, int] = {}
     ends: dict[int, int] = {}
+    begins: dict[int, int] = {}
     for _ in range(reader.count(most_clients)):
         number, client, clock = reader.count(), reader.integer(), reader.integer()
+        begins[client] = max(clock, begins.get(client, 0))
         for _ in range(number):
+            is_skipped = reader.peek() & KIND == _SKIPPED
             clock = _checked(clock + _read_change(reader, (client, clock), depths, roots))
+            if is_skipped:
+                begins[client] = clock
         ends[client] = max(clock, ends.get(client, 0))
     deletions: dict[int, Ranges] = {}
     for _ in range(reader.count()):  # a client that comes back sends all deletions there ever were, of everybody
@@ -65,7 +70,7 @@ def check_update(update: bytes, roots: Collection[bytes], most_clients: int = MO
         pairs = [(reader.integer(), reader.integer()) for _ in range(reader.count())]
         deletions[client] = joined_ranges((first, _checked(first + length)) for first, length in pairs)
     reader.end()
-    return Knowledge(ends, deletions)
+    return Knowledge(ends, deletions, begins)
 
 
 def _checked(clock: int) -> int:
@@ -77,7 +82,7 @@ def _checked(clock: int) -> int:
 def _read_change(reader: UpdateReader, place: Place, depths: dict[Place, int], roots: Collection[bytes]) -> int:
     """Read one change and return how many clocks it takes."""
     info = reader.byte()
-    kind = info & 0x1F
+    kind = info & KIND
     if kind in (_GONE, _SKIPPED):
         return reader.integer()
     depth = _read_parent(reader, info, depths, roots)

@@ -23,6 +23,11 @@ class AwarenessBoard:
         self._changed_here: set[int] = set()
         self._changed_elsewhere: set[int] = set()
 
+    @property
+    def has_news(self) -> bool:
+        """Whether something has changed since `take_changes` was called."""
+        return bool(self._changed_here or self._changed_elsewhere)
+
     def speaks_for_itself(self, member: Member, entries: tuple[AwarenessEntry, ...]) -> bool:
         """Tell whether a message has anything of the sender's own: clients also repeat what they hear of others."""
         return any(self._may_speak(member, entry) for entry in entries)

@@ -13,8 +13,16 @@ KIB, MIB = 1024, 1024 * 1024
 FRAMES_PER_S, BURST_FRAMES = 60.0, 600.0
 BYTES_PER_S, BURST_BYTES = float(MIB), 12.0 * MIB
 MOST_HELD_FRAMES, MOST_HELD_BYTES = 1000, 4 * MIB
+AWARENESS_PER_S, BURST_AWARENESS = 90.0, 3000.0
+"""Clients also repeat whatever others show, 30 times a second, and after a pause all that waited for them."""
 MOST_UNREAD_BYTES = 24 * MIB
+"""Of what it asked for itself."""
+MOST_BEHIND_BYTES = 3 * MIB
+"""Of what all are told."""
+LEAST_BYTES = 2 * KIB
+"""As so many a smaller frame is counted: a thousand of them are work, too."""
 PROBE_EVERY_BYTES = 256 * KIB
+MOST_SILENT_BEATS = 6
 
 
 class Close(Exception):
@@ -98,6 +106,8 @@ class Member:
         """Whether the connection wants to be told."""
         self.unsaved: deque[tuple[int, int]] = deque()
         """Numbers of messages with the room's place up to which they are saved."""
+        self.behind: bytes | None = None
+        """Up to where it was told of the document, while it has not read that and is told nothing more."""
         self.outbox: deque[bytes] = deque()
         self.closing: Close | None = None
         self._wake = wake
@@ -107,7 +117,9 @@ class Member:
         self._since_probe = 0
         self._probes: deque[int] = deque()
         self._frames = Budget(FRAMES_PER_S, BURST_FRAMES)
+        self._awareness = Budget(AWARENESS_PER_S, BURST_AWARENESS)
         self._bytes = Budget(BYTES_PER_S, BURST_BYTES)
+        self._silent_beats = 0
         self.sent_since_beat = False
 
     def post(self, frame: bytes) -> None:
@@ -116,8 +128,9 @@ class Member:
             return
         self.outbox.append(frame)
         self.sent_since_beat = True
-        self._unread += len(frame)
-        self._since_probe += len(frame)
+        size = max(len(frame), LEAST_BYTES)
+        self._unread += size
+        self._since_probe += size
         if self._unread > MOST_UNREAD_BYTES:
             self.close(Close(Close.COME_AGAIN, "The connection did not keep up with the changes. It begins anew."))
             return
@@ -137,12 +150,32 @@ class Member:
         self.post(yjs_protocol.encode_step_1(state))
 
     @property
+    def is_full(self) -> bool:
+        """Whether it is to be told nothing more until it has read."""
+        return self._unread > MOST_BEHIND_BYTES
+
+    @property
+    def has_caught_up(self) -> bool:
+        """Whether it was behind and has now read all."""
+        return self.behind is not None and not self._probes
+
+    def beat(self) -> None:
+        """Send something if nothing was sent; let one that was behind and has not answered for a minute come again."""
+        if self.behind is None and not self.sent_since_beat:
+            self.post(yjs_protocol.encode_awareness(()))
+        self.sent_since_beat = False
+        self._silent_beats += self.behind is not None
+        if self._silent_beats >= MOST_SILENT_BEATS:
+            self.close(Close(Close.COME_AGAIN, "The connection did not keep up with the changes. It begins anew."))
+
+    @property
     def probe_is_due(self) -> bool:
         """Whether so much has been sent that the client should be asked to answer."""
         return self._since_probe > PROBE_EVERY_BYTES and len(self._probes) < 32
 
     def note_answer(self) -> None:
         """Count what the oldest question's answer says has been read."""
+        self._silent_beats = 0
         if self._probes:
             self._unread = max(0, self._unread - self._probes.popleft())
 
@@ -155,6 +188,11 @@ class Member:
         """Count a frame that asks for work, of so many frames' cost. Raises Close."""
         if not self._frames.spend(cost, now_s):
             raise Close(Close.ABUSE, "This connection sends more than 60 messages a second.")
+
+    def spend_awareness(self, now_s: float) -> None:
+        """Count a frame about who is here, of itself or repeated. Raises Close."""
+        if not self._awareness.spend(1, now_s):
+            raise Close(Close.ABUSE, "This connection tells more than 90 times a second who is here.")
 
     def note_stored(self, place: int) -> bool:
         """Take in the place up to which the room's changes are in the database; tell whether that saves messages."""

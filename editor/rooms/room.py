@@ -24,9 +24,10 @@ from editor.rooms.compiled_form import CompiledForm
 from editor.rooms.form_frames import post_form, spread_form
 from editor.rooms.ledger import Ledger, decode_change, decode_stored, encode_change, encode_stored
 from editor.rooms.member import MIB, Close, Member
+from editor.rooms.spreading import Spreading
 from editor.rooms.stream import Entry, Note
 
-MOST_READERS, MOST_WRITERS = 50, 50
+MOST_READERS, MOST_WRITERS = 300, 50
 """Apart, so that whoever may only look never keeps out who may draw."""
 MOST_OF_PERSON = 10
 MOST_DOCUMENT_BYTES = 8 * MIB
@@ -62,7 +63,7 @@ class Room:
         self.form = CompiledForm(origin)
         self.must_keep = False
         """Whether somebody waits until everything is in the database."""
-        self._fresh: list[tuple[Member | None, bytes]] = []
+        self._spreading = Spreading(self.members, lambda: self.document.state())
         self._bytes = len(document.encode())
         self.wake: Callable[[], None] = _nobody
 
@@ -88,8 +89,12 @@ class Room:
             self.wake()
 
     def receive(self, member: Member, frame: bytes, now_s: float) -> None:
-        """Act on a client's frame. Raises Close."""
+        """Act on a client's frame, which is counted first. Raises Close."""
         member.spend_bytes(len(frame), now_s)
+        if frame[:1] == bytes((yjs_protocol.AWARENESS,)):
+            member.spend_awareness(now_s)
+        else:
+            member.spend_frame(now_s)
         try:
             message = yjs_protocol.decode_frame(frame)
         except yjs_encoding.FrameTooLarge as error:
@@ -99,7 +104,6 @@ class Room:
         if isinstance(message, yjs_protocol.Awareness):
             self._receive_awareness(member, message, now_s)
             return
-        member.spend_frame(now_s)
         if isinstance(message, yjs_protocol.QueryCompiled):
             self._show_form(member, message.revision, now_s)
             return
@@ -119,10 +123,10 @@ class Room:
             self.touched = True
             self.wake()
         elif self.form.now["revision"] != revision:
-            member.spend_bytes(post_form(self.form, member), now_s)
+            member.spend_bytes(post_form(self.form, member, self._spreading), now_s)
 
     def _receive_awareness(self, member: Member, message: yjs_protocol.Awareness, now_s: float) -> None:
-        if self.board.speaks_for_itself(member, message.entries):
+        if not message.entries or self.board.speaks_for_itself(member, message.entries):
             member.spend_frame(now_s)
             self.board.take(member, message.entries)
             self.wake()
@@ -153,6 +157,8 @@ class Room:
     def _receive_step_2(self, member: Member, update: bytes, now_s: float) -> None:
         member.frames += 1
         member.note_answer()
+        if member.has_caught_up:
+            self._catch_up(member)
         member.synced = True
         held = member.take_held()
         if member.can_write:
@@ -161,9 +167,17 @@ class Room:
         else:
             self._refuse(member, update, MOST_CLIENTS_OF_ALL)
 
+    def _catch_up(self, member: Member) -> None:
+        """Tell a connection that was behind what it was not told meanwhile."""
+        state, member.behind = member.behind, None
+        self._spreading.tell(member, yjs_protocol.encode_update(self.document.encode(state)))
+        self._spreading.tell(member, yjs_protocol.encode_awareness(self.board.everybody()))
+        if member.shown is not None and self.form.now is not None and self.form.now["revision"] != member.shown:
+            post_form(self.form, member, self._spreading)
+
     def _refuse(self, member: Member, update: bytes, most_clients: int) -> None:
         """Take no change of who may only look; say so, if it would have changed something."""
-        if not self.document.knowledge().covers(check_update(update, _ROOTS, most_clients)):
+        if update != EMPTY_UPDATE and not self.document.knowledge().covers(check_update(update, _ROOTS, most_clients)):
             member.refused += 1
             if member.shows_saved:
                 member.post(yjs_protocol.encode_saved(member.saved, member.refused))
@@ -200,7 +214,7 @@ class Room:
             raise Close(Close.TOO_LARGE, TOO_LARGE)
 
     def _check_size(self, update: bytes, said: Knowledge) -> None:
-        clocks = yjs_encoding.decode_state_vector(self.document.state())
+        clocks = self.document.clocks()
         if len(clocks) >= MOST_CLIENTS_EVER and not said.clocks.keys() <= clocks.keys():
             raise Close(Close.TOO_LARGE, TOO_MANY_PAGES)
         self._bytes += len(update)
@@ -211,19 +225,12 @@ class Room:
             raise Close(Close.TOO_LARGE, TOO_LARGE)
 
     def _spread(self, change: bytes, sender: Member | None = None) -> None:
-        self._fresh.append((sender, change))
+        self._spreading.add(change, sender)
         self.wake()
 
     def spread(self) -> None:
-        """Send what has changed since the last call, to each connection as one frame, its own changes apart."""
-        fresh, self._fresh = self._fresh, []
-        senders = {sender for sender, _ in fresh}
-        everything = yjs_protocol.encode_update(merge(change for _, change in fresh)) if fresh else b""
-        for member in self.members if fresh else ():
-            if member not in senders:
-                member.post(everything)
-            elif others := [change for sender, change in fresh if sender is not member]:
-                member.post(yjs_protocol.encode_update(merge(others)))
+        """Send what has changed since the last call."""
+        self._spreading.send()
 
     def hear(self, entry: Entry, now_s: float = 0.0) -> None:
         """Take what a process has to say; of this one's own, only what holds for all from its entry on."""
@@ -278,7 +285,7 @@ class Room:
         """Take in a check; check here when one's own edits are not in it, or one's own check did not hold."""
         holds = self.form.hear(entry)
         if holds:
-            spread_form(self.form, self.members)
+            spread_form(self.form, self.members, self._spreading)
         is_wanted = entry.origin == self.origin or any(member.shown is not None for member in self.members)
         if self.origin in self.form.not_shown() or (not holds and is_wanted):
             self.touched = True
@@ -362,8 +369,9 @@ class Room:
             if member.note_stored(stored) and member.shows_saved:
                 member.post(yjs_protocol.encode_saved(member.saved, member.refused))
 
-    def spread_awareness(self) -> None:
-        """Send what has changed on the board since the last call."""
+    def spread_awareness(self) -> int:
+        """Send what has changed on the board since the last call; return how many bytes went out."""
+        sent = 0
         here, elsewhere = self.board.take_changes()
         if here:
             self.to_publish.append(Note("awareness", yjs_protocol.encode_entries(here)))
@@ -372,14 +380,15 @@ class Room:
             for member in self.members:
                 entries = [e for e in (*here, *elsewhere) if e.client not in member.clients]
                 if entries:
-                    member.post(yjs_protocol.encode_awareness(entries))
+                    frame = yjs_protocol.encode_awareness(entries)
+                    self._spreading.tell(member, frame)
+                    sent += len(frame)
+        return sent
 
     def beat(self) -> None:
         """Send something to those to whom nothing was sent: y-websocket gives up after 30 s of silence."""
         for member in self.members:
-            if not member.sent_since_beat:
-                member.post(yjs_protocol.encode_awareness(()))
-            member.sent_since_beat = False
+            member.beat()
 
     def close_all(self, close: Close) -> None:
         """Send everybody away."""

@@ -40,7 +40,7 @@ ADOPT_EVERY_S = 0.5
 LOOK_FOR_ROWS_S = 3.0
 LOST_FOR_S = 20.0
 """So long a room goes on by itself while the other processes cannot be reached."""
-AWARENESS_EVERY_S = 0.033
+AWARENESS_EVERY_S, AWARENESS_BYTES_PER_S = 0.033, 8_000_000
 COMPARE_EVERY_S = 30.0
 BEAT_EVERY_S = 10.0
 SILENT_AFTER_S = 75.0
@@ -76,8 +76,10 @@ class OpenRoom:
 
     def wake(self) -> None:
         """Have the tasks look at the queues."""
-        for event in self._events.values():
-            event.set()
+        waits = {"keep": self.room.must_keep, "awareness": self.room.board.has_news}
+        for name, event in self._events.items():
+            if waits.get(name, True):
+                event.set()
         self.checks.wake()
 
     def start(self) -> None:
@@ -167,7 +169,8 @@ class OpenRoom:
             self._note_lost(error, "publish")
 
     async def _spread_awareness(self) -> None:
-        self.room.spread_awareness()
+        """Tell who shows what; the more it is, the seldomer, so that nobody makes endless work for all others."""
+        await asyncio.sleep(self.room.spread_awareness() / AWARENESS_BYTES_PER_S)
 
     async def _read(self) -> None:
         while not self._ended:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from contextlib import suppress
+from typing import Any
 
 from channels.generic.websocket import AsyncWebsocketConsumer
 from django.db import Error
@@ -25,6 +26,13 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
     seat: Seat | None = None
     hub: Hub
     _sender: asyncio.Task[None] | None = None
+
+    async def dispatch(self, message: dict[str, Any]) -> None:
+        """Act on a message; a frame uses no database, so it does not wait on a thread until connections are closed."""
+        if message["type"] == "websocket.receive":
+            await self.websocket_receive(message)
+        else:
+            await super().dispatch(message)
 
     async def connect(self) -> None:
         """Accept, see who it is, and enter the room."""

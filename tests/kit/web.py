@@ -85,10 +85,20 @@ def prepare(folder: Path, extra: dict[str, str]) -> dict[str, Any]:
     """Make what is in the database, and the database itself where it is SQLite's."""
     if "VIPO_DATABASE_URL" not in extra:
         copy_migrated(folder / "vipo.sqlite3")
+    prepared: dict[str, Any] = _ask(folder, extra, "prepare")
+    return prepared
+
+
+def make_people(folder: Path, extra: dict[str, str], role: str, count: int) -> list[str]:
+    """Make so many more people of the first site; return their sessions."""
+    sessions: list[str] = _ask(folder, extra, "people", role, str(count))
+    return sessions
+
+
+def _ask(folder: Path, extra: dict[str, str], *arguments: str) -> Any:
     made = subprocess.run(
-        [sys.executable, "-m", "tests.kit.web_process", "prepare"],
+        [sys.executable, "-m", "tests.kit.web_process", *arguments],
         cwd=ROOT, env=environment(folder, extra), capture_output=True, text=True,
     )  # fmt: skip
     assert made.returncode == 0, made.stderr
-    prepared: dict[str, Any] = json.loads(made.stdout)
-    return prepared
+    return json.loads(made.stdout)

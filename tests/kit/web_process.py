@@ -1,6 +1,7 @@
 """The real ASGI application in Daphne, as the product starts it, and the site that its tests have.
 
 -m tests.kit.web_process prepare      makes two sites and people in a migrated database, prints them as JSON
+-m tests.kit.web_process people ROLE COUNT      makes so many more people of the first site, prints their sessions
 -m tests.kit.web_process PORT         serves
 """
 
@@ -50,6 +51,10 @@ def prepare() -> dict[str, Any]:
     return {"sessions": sessions, "program": str(editor.create_program(site="hall", name="Shared").id)}
 
 
+def make_people(role: str, count: int) -> list[str]:
+    return [make_person(f"{role}{number}", "hall", role) for number in range(count)]
+
+
 def serve(port: str) -> None:
     from vipo_site.asgi import application
 
@@ -68,5 +73,8 @@ if __name__ == "__main__":
     if sys.argv[1] == "prepare":
         django.setup()
         sys.stdout.write(json.dumps(prepare()))
+    elif sys.argv[1] == "people":
+        django.setup()
+        sys.stdout.write(json.dumps(make_people(sys.argv[2], int(sys.argv[3]))))
     else:
         serve(sys.argv[1])

@@ -97,7 +97,7 @@ def test_readers_never_keep_writers_out() -> None:
     here = room()
     for number in range(MOST_READERS):
         Client(here, person(number), can_write=False, number=number + 1)
-    with pytest.raises(Close, match="50 people are in this program already"):
+    with pytest.raises(Close, match="300 people are in this program already"):
         Client(here, person(99), can_write=False, number=99)
     Client(here, person(100), number=100)
     assert len(here.members) == MOST_READERS + 1

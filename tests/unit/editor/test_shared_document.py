@@ -16,6 +16,8 @@ from editor.documents.shared_document import (
     encode_document,
     merge,
 )
+from editor.documents.yjs_encoding import decode_state_vector
+from editor.documents.yjs_updates import check_update
 
 PLAIN: dict[str, Any] = {
     "format": 1,
@@ -174,3 +176,44 @@ def test_steps_that_are_not_shared_piece_by_piece_climb_whole() -> None:
         "plain": {"kind": "wait", "params": {"duration": 1}},
         "half": {"kind": "wait", "params": {"duration": 2}},
     }
+
+
+@pytest.mark.parametrize("tell", [True, False])
+def test_the_clocks_are_those_of_the_state_vector_after_every_change(tell: bool) -> None:
+    clients: list[Doc[Any]] = [Doc(client_id=number) for number in range(1, 5)]
+    document, chance = SharedDocument(), random.Random(7)
+    for number in range(200):
+        client = chance.choice(clients)
+        client.apply_update(document.encode())
+        before, steps = client.get_state(), client.get("steps", type=Map)
+        if (name := f"s{chance.randrange(9)}") in steps and chance.random() < 0.3:
+            del steps[name]
+        else:
+            steps[name] = Map({"pos": [number, 0]})
+        update = client.get_update(before)
+        document.apply(update, check_update(update, {b"steps"}) if tell else None)
+        assert document.clocks() == decode_state_vector(document.state())
+        assert document.step_count() == len(document.to_json()["steps"]) == len(steps)
+
+
+def test_the_clocks_stop_at_a_hole() -> None:
+    client: Doc[Any] = Doc(client_id=1)
+    document = SharedDocument()
+    document.clocks()
+    parts = []
+    for number in range(3):
+        before = client.get_state()
+        client.get("steps", type=Map)["s1"] = Map({"pos": [number, 0]})
+        parts.append(client.get_update(before))
+    document.apply(parts[0])
+    document.apply(parts[2])
+    assert document.clocks() == decode_state_vector(document.state())
+
+
+def test_the_clocks_are_right_after_an_update_that_was_undone() -> None:
+    document = SharedDocument([encode_document({**empty_document(), "steps": {"s1": {"kind": "wait"}}})])
+    before = dict(document.clocks())
+    with pytest.raises(BadUpdate):
+        document.apply(b"\x05\xff\xff\xff\x0f")
+    assert document.clocks() == decode_state_vector(document.state()) == before
+    assert document.step_count() == 1

@@ -1,0 +1,141 @@
+"""Many people in one room: real y-websocket clients against our server, `@y/websocket-server` and Hocuspocus.
+
+Compression is off on all. The peers keep nothing and check nothing; ours stores and compiles meanwhile. Beside each
+time stands how long the server was at work, since the machine's pace swings, and how long the clients were, which
+share the machine with it.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Any
+
+from bench.blockly import what_is_missing
+from bench.figures import figure, share
+from bench.rooms.servers import AUTHORS, VIEWERS, Server, ours, peer
+from tests.integration.editor.node_clients import MODULES
+from tests.kit.servers import find_program
+
+Json = dict[str, Any]
+SECONDS, JOINS, SAVES, FLOODS = 4, 10, 40, 10
+READERS, LARGE = 300, 4_900
+"""Of the 5,000 steps that there may be, some are left for those who draw."""
+
+
+def measure() -> Iterator[dict[str, object]]:
+    with tempfile.TemporaryDirectory() as name:
+        for count in (1, 2):
+            folder = Path(name) / str(count)
+            folder.mkdir()
+            yield from _measure_server(ours(folder, count))
+    missing = what_is_missing("@hocuspocus/server")
+    for each in ("y-websocket", "hocuspocus"):
+        if missing:
+            yield {"what": f"{each}, the same", "skipped": missing}
+        else:
+            yield from _measure_server(peer(each))
+
+
+def _measure_server(running: AbstractContextManager[Server]) -> Iterator[dict[str, object]]:
+    with running as server:
+        yield from _editors(server)
+        yield from _readers(server)
+        yield from _joins(server)
+        yield from _large(server)
+        if server.webs:
+            yield from _saves(server)
+            yield from _flood(server)
+            yield from _opening(server)
+
+
+def _editors(server: Server) -> Iterator[dict[str, object]]:
+    seen = _clients(server, "together", writers=30, readers=0, perSecond=10, seconds=SECONDS)
+    yield from _delays(server, "30 editors x 10/s", seen)
+
+
+def _readers(server: Server) -> Iterator[dict[str, object]]:
+    seen = _clients(server, "together", writers=1, readers=READERS, perSecond=20, seconds=SECONDS)
+    yield from _delays(server, f"{READERS} readers x 20/s", seen)
+
+
+def _large(server: Server) -> Iterator[dict[str, object]]:
+    """Ten pages, of which ours have the site's socket open, and ask for the compiled form."""
+    seen = _clients(
+        server, "together", writers=10, readers=0, perSecond=4, seconds=SECONDS, steps=LARGE, pages=bool(server.webs)
+    )
+    what = "10 editors x 4/s on 5,000 steps"
+    yield from _delays(server, what, seen)
+    if server.webs:
+        more = {"server": server.name, "of_the_site": round(seen["site_bytes"])}
+        yield figure(f"{what}: compiled form and site to each page for an edit", seen["page_bytes"], "bytes", **more)
+
+
+def _delays(server: Server, what: str, seen: Json) -> Iterator[dict[str, object]]:
+    delays, more = seen["delays_ms"], {"server": server.name, "server_cpu_s": seen["cpu_s"], "seconds": SECONDS,
+                                       "clients_cpu_s": round(seen["clients_cpu_s"], 2)}  # fmt: skip
+    yield figure(
+        f"{what}: updates that arrived", len(delays) / seen["wanted"], "share",
+        server=server.name, alike=seen["alike"], joined=seen["joined"], clients=seen["clients"],
+    )  # fmt: skip
+    yield figure(f"{what}: from an edit to another's screen, p50", share(delays, 0.5), "ms", **more)
+    yield figure(f"{what}: from an edit to another's screen, p99", share(delays, 0.99), "ms", **more)
+
+
+def _joins(server: Server) -> Iterator[dict[str, object]]:
+    seen = _clients(server, "joining", steps=2000, rounds=JOINS)
+    more = {"server": server.name, "server_cpu_s": seen["cpu_s"], "joins": JOINS}
+    yield figure("join of 2,000 steps, p50", share(seen["took_ms"], 0.5), "ms", **more)
+
+
+def _saves(server: Server) -> Iterator[dict[str, object]]:
+    seen = _clients(server, "saving", rounds=SAVES)
+    for name, quantile in (("p50", 0.5), ("p95", 0.95)):
+        yield figure(f"from an edit to saved, {name}", share(seen["took_ms"], quantile), "ms", server=server.name)
+
+
+def _flood(server: Server) -> Iterator[dict[str, object]]:
+    before = server.memory_mb()
+    seen = _clients(server, "flood", rounds=FLOODS)
+    more = {"server": server.name, "before": round(before), "closed_with": sorted(set(seen["codes"]))}
+    yield figure("memory after a flood", server.memory_mb(), "MB", **more)
+
+
+def _opening(server: Server) -> Iterator[dict[str, object]]:
+    """In a process that has not seen the program yet."""
+    room, other, web = server.new_room("large"), server.new_room("small"), server.webs[0]
+    _clients(server, "only", room, steps=LARGE)
+    web.kill()
+    web.start()
+    server.ports = [web.port]
+    seen = _clients(server, "opening", room, other=other, steps=LARGE)
+    more = {"server": server.name, "quiet_ms": round(seen["before_ms"], 1), "joined_ms": round(seen["joined_ms"], 1)}
+    yield figure("opening 5,000 steps: the loop answers nobody for", seen["blocked_ms"], "ms", **more)
+
+
+def _clients(server: Server, mode: str, room: str = "", **more: Any) -> Json:
+    """Let the clients do their part; return what they saw, and how long the server was at work meanwhile."""
+    writers, readers = more.get("writers", 1), more.get("readers", 0)
+    viewers = server.people[AUTHORS:]
+    sessions = server.people[:writers] + [viewers[number % VIEWERS] for number in range(readers) if viewers]
+    config = {
+        "mode": mode, "server": server.name, "ports": server.ports, "path": server.path, "site": "/ws/site/hall",
+        "room": room or server.new_room(f"{mode} {more}"[:80]), "sessions": sessions, **more,
+    }  # fmt: skip
+    command = [find_program("node"), str(Path(__file__).with_name("clients.mjs")), str(MODULES), json.dumps(config)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        at = {}
+        said: Any = None
+        for line in process.stdout:
+            said = json.loads(line)
+            if isinstance(said, str):
+                at[said] = server.cpu_s()
+    if process.returncode:
+        raise RuntimeError(f"{server.name}, {mode}: {server.webs[0].story()[-3000:] if server.webs else ''}")
+    seen: Json = said
+    return {**seen, "cpu_s": round(at["end"] - at["begin"], 2) if at else 0.0}
