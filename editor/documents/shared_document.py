@@ -28,6 +28,7 @@ DEEPEST = 32
 _LOG_LIMIT_BYTES = 1024 * 1024
 _LOG_LIMIT_ENTRIES = 2000
 _SHARED = (Array, Map, Text)
+_MERGED_AT_ONCE, _HASH_DIGITS = 50, 48
 _SAFE_INTEGER = 2**53
 
 
@@ -54,6 +55,10 @@ class SharedDocument:
         self._count: int | None = None
         self._clocks: dict[int, int] | None = None
         """Of each client, or None while they are to be read again: who drew here in years may be thousands."""
+        self._hashes: dict[str, int] = {}
+        self._sum = 0
+        """The sum of the steps' hashes."""
+        self._unhashed: set[str] = set()
         self._deepest = 0
         self._document = self._restored()
 
@@ -126,6 +131,7 @@ class SharedDocument:
         document.observe(self._on_change)
         steps = document.get("steps", type=Map)
         self._steps, self._changed, self._count, self._clocks = {}, set(steps.keys()), None, None
+        self._hashes, self._sum, self._unhashed = {}, 0, set(steps.keys())
         others = [document.get(name, type=Map) for name in _CONTENT if name != "steps"]
         watched = [(root, root.observe_deep(self._note_depth)) for root in others]
         self._watching = steps, steps.observe_deep(self._on_steps), watched  # it ends with the last reference to it
@@ -140,7 +146,9 @@ class SharedDocument:
     def _on_steps(self, events: list[Any]) -> None:
         self._note_depth(events)
         for event in events:
-            self._changed.update(event.path[:1] or event.keys)
+            names = event.path[:1] or event.keys
+            self._changed.update(names)
+            self._unhashed.update(names)
             if not event.path:
                 self._count = None
 
@@ -182,7 +190,7 @@ class SharedDocument:
         What no text may hold is read as if it were not there; what is named so is not read.
         A step that has not changed since the last call is the same object.
         """
-        plain = {name: _plain(self._document.get(name, type=Map).to_py() or {}) for name in ROOTS if name != "steps"}
+        plain = self._plain_others()
         meta = plain.pop("meta")
         start = {"format": meta.get("format", FIRST_FORMAT), "start_pos": meta.get("start_pos")}
         return {**start, "steps": self._plain_steps(), **plain}
@@ -191,12 +199,14 @@ class SharedDocument:
         shared = self._document.get("steps", type=Map)
         for name in tuple(self._changed):
             if name in shared and not find_unfit(name):
-                value = shared[name]
-                self._steps[name] = _plain(value.to_py() if isinstance(value, _SHARED) else value)
+                self._steps[name] = _plain_step(shared[name])
             else:
                 self._steps.pop(name, None)
         self._changed.clear()
         return dict(self._steps)
+
+    def _plain_others(self) -> dict[str, Any]:
+        return {name: _plain(self._document.get(name, type=Map).to_py() or {}) for name in ROOTS if name != "steps"}
 
     def migrate(self) -> bool:
         """Bring the content to today's format, by the same update whoever does it; tell whether there was a need.
@@ -236,8 +246,29 @@ class SharedDocument:
         self.apply(copy.get_update(self.state()))
 
     def digest(self) -> str:
-        """Return a hash of the content: two documents that hold the same have the same."""
-        return digest_of(self.to_json())
+        """Return a hash of the content: two documents that hold the same have the same.
+
+        Only steps that have changed since the last call are gone through.
+        """
+        shared = self._document.get("steps", type=Map)
+        for name in self._unhashed:
+            is_there = name in shared and not find_unfit(name)
+            new = _hash_of(name, _plain_step(shared[name])) if is_there else 0
+            self._sum += new - self._hashes.pop(name, 0)
+            if new:
+                self._hashes[name] = new
+        self._unhashed.clear()
+        return digest_of({**self._plain_others(), "steps": f"{self._sum:x}"})
+
+    def hashes(self) -> dict[str, int]:
+        """Return the hashes of the steps, which `know_hashes` of a document of the same content takes."""
+        self.digest()
+        return self._hashes
+
+    def know_hashes(self, hashes: dict[str, int]) -> None:
+        """Take over the hashes of the steps, so that they are not worked out again."""
+        self._hashes, self._sum = hashes, sum(hashes.values())
+        self._unhashed.clear()
 
 
 def _document_with(update: bytes, client_id: int | None = None) -> Doc[Any]:
@@ -246,6 +277,14 @@ def _document_with(update: bytes, client_id: int | None = None) -> Doc[Any]:
         document.get(name, type=Map)
     document.apply_update(update)
     return document
+
+
+def _plain_step(value: Any) -> Any:
+    return _plain(value.to_py() if isinstance(value, _SHARED) else value)
+
+
+def _hash_of(name: str, step: Any) -> int:
+    return int(digest_of({name: step})[:_HASH_DIGITS], 16)
 
 
 def _client_id(digest: str, state: bytes) -> int:
@@ -292,9 +331,15 @@ def merge(updates: Iterable[bytes]) -> bytes:
     if not parts:
         return EMPTY_UPDATE
     try:
-        return merge_updates(*parts) if len(parts) > 1 else parts[0]
+        while len(parts) > 1:  # few at a time: thousands at once take ten times as long, and hold all threads up
+            parts = [_merged(parts[at : at + _MERGED_AT_ONCE]) for at in range(0, len(parts), _MERGED_AT_ONCE)]
     except ValueError as error:
         raise BadUpdate(str(error)) from error
+    return parts[0]
+
+
+def _merged(updates: list[bytes]) -> bytes:
+    return merge_updates(*updates) if len(updates) > 1 else updates[0]
 
 
 def digest_of(document: Mapping[str, Any]) -> str:

@@ -36,10 +36,15 @@ class Stored:
     compacted: int
     stored_to: str
 
+    @property
+    def appended(self) -> tuple[bytes, ...]:
+        """The updates after the snapshot."""
+        return self.updates[self.compacted > 0 :]
+
     def open(self, more: Iterable[bytes] = ()) -> SharedDocument:
         """Return the document, with further updates. Raises DocumentHole."""
         document = SharedDocument([*self.updates, *more])
-        if document.has_hole([*self.updates[self.compacted > 0 :], *more]):
+        if document.has_hole([*self.appended, *more]):
             raise DocumentHole(
                 "A part of this program is missing in the database. `vipo mend-program` shows what is left."
             )

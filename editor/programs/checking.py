@@ -13,6 +13,7 @@ from editor.language import Compiled, compiled_to_json
 from editor.language.compiler import EditedProgram
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
+from editor.programs.shown import Shown
 from registry import services as registry
 from registry.floorplan.plan import FloorPlan, machine_beside
 from vipo_device.protocol.description import Description, Pose
@@ -109,11 +110,24 @@ def check_document(document: Mapping[str, Any], around: Around, edited: EditedPr
     return Checked(document, compiled, revision, around.fingerprint)
 
 
-def store_check(program_id: str, checked: Checked) -> None:
-    """Store what lists show of a program."""
-    _store(program_id, checked.document, checked.compiled, checked.against)
-    if program := Program.objects.select_related("site").filter(pk=program_id).first():
-        _store_uses(program, checked.document)
+def store_shown(program_id: str, shown: Shown, against: str) -> bool:
+    """Store what lists show of a program that was checked `against` that; tell whether they show something else."""
+    rows = Program.objects.filter(pk=program_id)
+    before = rows.values_list("kinds", "devices", "errors", "warnings").first()
+    after = (list(shown.kinds), list(shown.devices), shown.errors, shown.warnings)
+    kinds, devices, errors, warnings = after
+    rows.update(kinds=kinds, devices=devices, errors=errors, warnings=warnings, checked_against=against)
+    if program := rows.select_related("site").first():
+        _store_uses(program, shown.sources)
+    return before is not None and before != after
+
+
+def store_failure(program_id: str, against: str) -> bool:
+    """Store that a program could not be checked, which lists show as an error; tell whether that is new to them."""
+    rows = Program.objects.filter(pk=program_id)
+    before = rows.values_list("errors", "warnings").first()
+    rows.update(errors=1, warnings=0, checked_against=against)
+    return before is not None and before != (1, 0)
 
 
 def fingerprint_of(surroundings: Surroundings) -> str:
@@ -136,41 +150,9 @@ def _without_pose(description: Description) -> Description:
     return replace(description, pose=Pose(0, 0)) if description.kind == "robot" else description
 
 
-def _store(program_id: str, document: Mapping[str, Any], compiled: Compiled, fingerprint: str) -> None:
-    severities = [diagnostic.severity for diagnostic in compiled.diagnostics]
-    kinds = sorted({str(step["kind"]) for step in document["steps"].values() if isinstance(step.get("kind"), str)})
-    Program.objects.filter(pk=program_id).update(
-        kinds=kinds,
-        devices=sorted(devices_in(document)),
-        errors=severities.count("error"),
-        warnings=severities.count("warning"),
-        checked_against=fingerprint,
-    )
-
-
-def devices_in(document: Mapping[str, Any]) -> frozenset[str]:
-    """Return the ids of the devices that a document names, wherever they stand."""
-    named: list[Any] = []
-    waiting: list[Any] = [document.get(name) for name in ("steps", "roles", "parameters", "functions")]
-    for value in waiting:  # grows while it is gone through
-        if isinstance(value, dict):
-            if "device" in value:
-                named.append(value["device"])
-            if "property" in value and isinstance(value["property"], list):
-                named += value["property"][:1]
-            waiting += [each for each in value.values() if isinstance(each, _HOLD_MORE)]
-        elif isinstance(value, list):
-            waiting += [each for each in value if isinstance(each, _HOLD_MORE)]
-    return frozenset(name for name in named if isinstance(name, str))
-
-
-_HOLD_MORE = (dict, list)
-"""What of plain JSON something else can stand in."""
-
-
-def _store_uses(program: Program, document: Mapping[str, Any]) -> None:
+def _store_uses(program: Program, sources: Iterable[str]) -> None:
     """Store which library functions the program holds."""
-    wanted = set(_sources(document))
+    wanted = set(sources)
     known = {str(pk) for pk in program.library_uses.values_list("function_id", flat=True)}
     if wanted == known:
         return
@@ -178,12 +160,6 @@ def _store_uses(program: Program, document: Mapping[str, Any]) -> None:
     ids = [str(pk) for pk in LibraryFunction.objects.filter(site=program.site).values_list("pk", flat=True)]
     added = [LibraryUse(function_id=pk, program=program) for pk in ids if pk in wanted - known]
     LibraryUse.objects.bulk_create(added, ignore_conflicts=True)
-
-
-def _sources(document: Mapping[str, Any]) -> list[str]:
-    functions = document.get("functions", {}).values()
-    sources = [f.get("source") for f in functions if isinstance(f, dict)]
-    return [str(s["library"]) for s in sources if isinstance(s, dict) and "library" in s]
 
 
 class DeviceWatch:

@@ -32,8 +32,9 @@ from editor.programs.checking import (
     fingerprint_of,
     new_revision,
     read_around,
-    store_check,
+    store_shown,
 )
+from editor.programs.shown import shown_of
 from editor.programs.views import ProgramView, VersionView, view_author
 from registry import services as registry
 from registry.services import FIRST, Listed, Part, publish
@@ -104,7 +105,7 @@ def get_compiled(*, program_id: UUID | str) -> dict[str, object]:
 
 def _check(program_id: str, document: Mapping[str, Any]) -> Checked:
     checked = check_document(document, read_around(program_id), EditedProgram())
-    store_check(program_id, checked)
+    store_shown(program_id, shown_of(checked.document, checked.compiled), checked.against)
     return checked
 
 

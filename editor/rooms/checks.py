@@ -1,4 +1,4 @@
-"""A room's checks: after an edit, and after what is around the program has changed, off the event loop."""
+"""A room's checks: after an edit, and after what is around the program has changed, in a child process."""
 
 from __future__ import annotations
 
@@ -7,26 +7,41 @@ import logging
 import math
 import time
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from django.db import DatabaseError
 
+from editor.compiling.compilers import CheckFailed, Compilers
+from editor.compiling.failures import failed_form
+from editor.compiling.feeding import Wanted
 from editor.errors import NoSuchProgram
-from editor.language.compiler import EditedProgram
-from editor.programs.checking import Around, Checked, check_document, read_around, store_check
+from editor.programs.checking import Around, new_revision, read_around, store_failure, store_shown
+from editor.programs.shown import Shown
 from editor.rooms.compiled_form import encode_check
 from editor.rooms.room import Room
 from editor.rooms.threads import in_database
+from registry import services as registry
 
 log = logging.getLogger(__name__)
 STORE_EVERY_S = 0.1
 AROUND_KEPT_S = 1.0
-REST_OF_CHECKS = 4.0
-"""So many times as long as a check took the next one waits."""
+REST_OF_CHECKS = 3.0
+"""So many times as long as its process computed for a check the next one waits."""
 REST_S = 0.03
+FAILED_REST_S = 2.0
 LEFT_TO_OTHERS_S = 2.0
 """What another process should have checked by then is checked here."""
 RETRY_AFTER_S = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Checked:
+    """A check of this process that is to be stored; nothing is `shown` of one that failed."""
+
+    revision: int
+    shown: Shown | None
+    against: str
 
 
 class Checks:
@@ -35,6 +50,7 @@ class Checks:
     def __init__(
         self,
         room: Room,
+        compilers: Compilers,
         *,
         heard_to: Callable[[], str],
         others: Callable[[], Mapping[str, float]],
@@ -45,10 +61,11 @@ class Checks:
         self._heard_to = heard_to
         self._others = others
         self._publish = publish
-        self._edited = EditedProgram()
+        self._compilers = compilers
         self._surroundings_at = math.inf
-        self._checked: Checked | None = None
+        self._checked: _Checked | None = None
         self._around: Around | None = None
+        self._last_around: Around | None = None
         self._around_at = -math.inf
         self._news = 0
         """How often it was heard that what is around the program has changed."""
@@ -75,46 +92,61 @@ class Checks:
             await self._due.wait()
             self._due.clear()
             if self.room.touched:
-                began = time.monotonic()
-                await self.check()
-                await asyncio.sleep(max(REST_S, REST_OF_CHECKS * (time.monotonic() - began)))
+                took_s = await self.check()
+                await asyncio.sleep(max(REST_S, REST_OF_CHECKS * took_s))
 
-    async def check(self) -> None:
-        """Check the document on a thread, and tell all processes what was found."""
+    async def check(self) -> float:
+        """Have the document checked, and tell all processes what was found; return for how long that was computed."""
         room = self.room
         try:
             around = await self._read_around()
-            room.touched = False
-            document, after = room.document.to_json(), self._heard_to()
-            checked = await asyncio.to_thread(check_document, document, around, self._edited)
-            said = await asyncio.to_thread(room.form.change_to, checked.form)
+            said, shown, after, took_s = await self._look(around)
         except (DatabaseError, NoSuchProgram) as error:
             log.warning("Program %s was not checked: %s", room.program, error)
             room.touched = isinstance(error, DatabaseError)  # then it is tried again a little later
-            return
-        except Exception:  # the edge of the room: a fault in the checks must not end those of later edits
-            log.exception("Program %s was not checked; the next edit is looked at from the beginning.", room.program)
-            self._edited = EditedProgram()
-            return
-        room.to_publish.append(encode_check(said, after=after, more=room.touched, against=checked.against))
+            return 0.0
+        room.to_publish.append(encode_check(said, after=after, more=room.touched, against=around.fingerprint))
         await self._publish()
-        self._checked = checked
+        self._checked = _Checked(said["revision"], shown, around.fingerprint)
         self._found.set()
+        return took_s
+
+    async def _look(self, around: Around) -> tuple[Mapping[str, Any], Shown | None, str, float]:
+        """Return what is to be said of the form, what lists show, up to which entry had been heard, and the time."""
+        room, after = self.room, self._heard_to()
+
+        def begin() -> None:
+            nonlocal after
+            room.touched, after = False, self._heard_to()
+
+        wanted = Wanted(
+            program=room.program,
+            document=lambda: room.document,
+            surroundings=around.surroundings,
+            revision=lambda: room.form.revision,
+            forms=room.form.way_from,
+        )
+        try:
+            found = await self._compilers.check(wanted, begin)
+        except CheckFailed as error:
+            return failed_form(room.form.now, new_revision(), error.code), None, after, FAILED_REST_S
+        return found.said, found.shown, after, found.took_s
 
     async def _read_around(self) -> Around:
         """Return what is around the program: as it was read last, for a second and while nothing is heard of it."""
         around, began, news = self._around, time.monotonic(), self._news
         if around is None or began - self._around_at > AROUND_KEPT_S:
-            around = await in_database(read_around)(self.room.program)
+            around = await in_database(_read_unless_same)(self.room.program, self._last_around)
+            self._last_around = around
             self._around, self._around_at = around if news == self._news else None, began
         return around
 
     async def store(self) -> None:
         """Store what lists show, if this process made the last check; others may hold the program's row meanwhile."""
-        (checked, self._checked), now = (self._checked, None), self.room.form.now
-        if checked is not None and (now is None or now["revision"] <= checked.revision):
+        (checked, self._checked), now = (self._checked, None), self.room.form.revision
+        if checked is not None and (now is None or now <= checked.revision):
             try:
-                await in_database(store_check)(self.room.program, checked)
+                await in_database(_store)(self.room.program, self.room.site, checked)
             except DatabaseError as error:
                 log.warning("What lists show of program %s was not stored: %s", self.room.program, error)
                 self._checked = self._checked or checked
@@ -152,3 +184,21 @@ class Checks:
             return
         if around.fingerprint != self.room.form.against:
             self.room.touched = True
+
+
+def _read_unless_same(program_id: str, last: Around | None) -> Around:
+    """Return what is around a program: the same object as the last one, if it is the same. Raises NoSuchProgram."""
+    around = read_around(program_id)
+    return last if last is not None and last == around else around
+
+
+def _store(program_id: str, site: str, checked: _Checked) -> None:
+    """Store what lists show, and tell the site if they show something else."""
+    if checked.shown is None:
+        is_news, counts = store_failure(program_id, checked.against), (1, 0)
+    else:
+        is_news = store_shown(program_id, checked.shown, checked.against)
+        counts = checked.shown.errors, checked.shown.warnings
+    if is_news:
+        told = {"program": program_id, "revision": checked.revision, "errors": counts[0], "warnings": counts[1]}
+        registry.publish(site, {"type": "checked", **told})

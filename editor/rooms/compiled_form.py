@@ -8,12 +8,16 @@ that begins from another form than the last one is dropped by all, and its write
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections import deque
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from editor.programs.compiled_patch import apply_patch, make_patch
 from editor.rooms.stream import BEGINNING, Entry, Note, is_after
+
+_RECENT = 20
+"""So many changes are kept for a child process that knows the form of some checks ago."""
 
 
 def encode_check(said: Mapping[str, Any], *, after: str, more: bool, against: str) -> Note:
@@ -36,23 +40,37 @@ class _Shown:
 
 
 class CompiledForm:
-    """What a process, which is `mine` in the stream, knows of the compiled form."""
+    """What a process knows of the compiled form."""
 
-    def __init__(self, mine: str) -> None:
-        self._mine = mine
+    def __init__(self) -> None:
+        """Know nothing yet."""
         self.now: Mapping[str, Any] | None = None
         self.change: Mapping[str, Any] | None = None
         """What made the form of the one before, if there was one."""
         self.against = ""
         """The fingerprint of the surroundings that were checked against."""
-        self._waiting: Mapping[str, Any] = {}
+        self._recent: deque[Mapping[str, Any]] = deque(maxlen=_RECENT)
         self._updates: dict[str, str] = {}
         self._shown = _Shown()
 
-    def change_to(self, form: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Return what to say of a form that this process found: a patch of the present one, or all of it."""
-        before, self._waiting = self.now, form
-        return form if before is None else make_patch(before, form)
+    @property
+    def revision(self) -> int | None:
+        """The number of the present form."""
+        return None if self.now is None else int(self.now["revision"])
+
+    def way_from(self, known: Collection[int]) -> Sequence[Mapping[str, Any]]:
+        """Return what leads to the present form from one of these revisions: patches, or all of it."""
+        if self.now is None:
+            return ()
+        way: list[Mapping[str, Any]] = []
+        revision = self.revision
+        for change in reversed(self._recent):
+            if revision in known:
+                return way[::-1]
+            if change["revision"] == revision and "base" in change:
+                way.append(change)
+                revision = change["base"]
+        return way[::-1] if revision in known else (self.now,)
 
     def hear_update(self, entry: Entry) -> None:
         """Take in that a process has changed the document."""
@@ -66,11 +84,9 @@ class CompiledForm:
         if base is not None and (self.now is None or self.now["revision"] != base):
             return False
         before = self.now
-        if entry.origin == self._mine and self._waiting.get("revision") == form["revision"]:
-            self.now = self._waiting
-        else:
-            self.now = form if base is None or before is None else apply_patch(before, form)
+        self.now = form if base is None or before is None else apply_patch(before, form)
         self.change = form if base is not None or before is None else make_patch(before, form)
+        self._recent.append(self.change)
         self.against = told["against"]
         self._shown = _Shown(entry.origin, entry.id, told["after"], told["more"])
         return True

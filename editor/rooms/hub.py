@@ -16,6 +16,7 @@ from django.conf import settings
 from django.contrib.auth import get_user_model
 from django.db import DatabaseError
 
+from editor.compiling.compilers import Compilers
 from editor.documents.shared_document import BadUpdate
 from editor.documents.store import flush_before_reading
 from editor.errors import DocumentHole, NoSuchProgram
@@ -23,7 +24,7 @@ from editor.models import Program
 from editor.programs.checking import DeviceWatch
 from editor.rooms.member import Close, Member, Person
 from editor.rooms.room import INTERRUPTED, Room
-from editor.rooms.runner import OpenRoom, open_room
+from editor.rooms.runner import OpenRoom, Shared, open_room
 from editor.rooms.stream import Note, RoomStream, StreamLost, make_stream
 from editor.rooms.threads import in_database
 from registry import services as registry
@@ -44,6 +45,7 @@ class Hub:
     def __init__(self, stream: RoomStream) -> None:
         self.loop = asyncio.get_running_loop()
         self.stream = stream
+        self._shared = Shared(stream, Compilers())
         self._open: dict[str, OpenRoom] = {}
         self._ending: dict[str, asyncio.Task[None]] = {}
         self._locks: defaultdict[str, asyncio.Lock] = defaultdict(asyncio.Lock)
@@ -83,7 +85,7 @@ class Hub:
     async def _open_room(self, program_id: str) -> OpenRoom:
         if program_id in self._ending:
             await asyncio.wait([self._ending[program_id]], timeout=END_LIMIT_S)  # its last rows are read by the next
-        opened = await open_room(program_id, uuid.uuid4().hex, self.stream, self._drop)
+        opened = await open_room(program_id, uuid.uuid4().hex, self._shared, self._drop)
         self._open[program_id] = opened
         return opened
 
@@ -128,6 +130,7 @@ class Hub:
         for each in opened:
             each.room.close_all(Close(Close.COME_AGAIN, INTERRUPTED))
         await asyncio.gather(*(each.stop() for each in opened), *self._ending.values(), return_exceptions=True)
+        await self._shared.compilers.close()
         await self.stream.close()
 
     def _start(self, act: Callable[..., Coroutine[Any, Any, None]], *args: Any) -> asyncio.Task[None]:

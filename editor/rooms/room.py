@@ -60,7 +60,7 @@ class Room:
         self.to_publish: deque[Note] = deque()
         self.touched = False
         """Whether the document is to be checked by this process."""
-        self.form = CompiledForm(origin)
+        self.form = CompiledForm()
         self.must_keep = False
         """Whether somebody waits until everything is in the database."""
         self._spreading = Spreading(self.members, lambda: self.document.state())

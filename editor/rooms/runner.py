@@ -7,11 +7,14 @@ import logging
 import time
 from collections.abc import Awaitable, Callable, Coroutine
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
 from django.db import DatabaseError
 from django.utils import timezone
 
+from editor.compiling.compilers import Compilers
+from editor.compiling.workbench import Opened, Opening
 from editor.documents.shared_document import BadUpdate, SharedDocument
 from editor.documents.store import (
     COMPACT_AFTER_ROWS,
@@ -45,19 +48,30 @@ COMPARE_EVERY_S = 30.0
 BEAT_EVERY_S = 10.0
 SILENT_AFTER_S = 75.0
 RETRY_AFTER_S = 1.0
+HEARD_AT_ONCE = 200
+LARGE_BYTES = 50_000
 
 
 _EVENTS = ("spread", "save", "keep", "publish", "awareness")
+
+
+@dataclass(frozen=True, slots=True)
+class Shared:
+    """What the rooms of a process have in common: the stream to the other processes, and who checks."""
+
+    stream: RoomStream
+    compilers: Compilers
 
 
 class OpenRoom:
     """The tasks around one room. `on_end` is called once when it must be opened anew."""
 
     def __init__(
-        self, room: Room, stream: RoomStream, after: str, stored: Stored, on_end: Callable[[OpenRoom], None]
+        self, room: Room, shared: Shared, after: str, stored: Stored, on_end: Callable[[OpenRoom], None]
     ) -> None:
         self.room = room
-        self._stream = stream
+        self._stream = shared.stream
+        self._compilers = shared.compilers
         self._after = after
         self._compacted = stored.compacted
         self._compared_place = 0
@@ -70,7 +84,11 @@ class OpenRoom:
         self._events = {name: asyncio.Event() for name in _EVENTS}
         self._tasks: list[asyncio.Task[None]] = []
         self.checks = Checks(
-            room, heard_to=lambda: self._after, others=lambda: self._heard_at, publish=self._publish_if_possible
+            room,
+            shared.compilers,
+            heard_to=lambda: self._after,
+            others=lambda: self._heard_at,
+            publish=self._publish_if_possible,
         )
         room.wake = self.wake
 
@@ -112,6 +130,7 @@ class OpenRoom:
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
+        self._compilers.forget(self.room.program)
 
     async def _when(self, name: str, pause_s: float, act: Callable[[], Awaitable[None]]) -> None:
         """Act a little after each wake-up, so that what comes in a burst goes in one batch."""
@@ -292,21 +311,24 @@ class OpenRoom:
             log.warning("Program %s was not compacted: %s", self.room.program, error)
 
 
-async def open_room(program_id: str, origin: str, stream: RoomStream, on_end: Callable[[OpenRoom], None]) -> OpenRoom:
+async def open_room(program_id: str, origin: str, shared: Shared, on_end: Callable[[OpenRoom], None]) -> OpenRoom:
     """Load a program's document: the snapshot, the rows after it, what the stream has beyond them; in today's format.
 
     `origin` names this process and this opening. Raises NoSuchProgram, StreamLost, BadUpdate, DocumentHole.
     """
     stored = await in_database(load_document)(program_id)
-    tail, after = await _read_tail(stream, program_id, stored.stored_to)
-    document, tail, is_changed = await asyncio.to_thread(_open_document, stored, tail)
+    shared.compilers.prepare(program_id)
+    tail, after = await _read_tail(shared.stream, program_id, stored.stored_to)
+    document, tail, is_changed = await _open_document(stored, tail, shared.compilers)
     room = Room(program_id, stored.site, origin, document)
     room.ledger.know_rows(range(1, stored.seq + 1))
-    room.ledger.hear_all(tail, time.monotonic())
+    for at in range(0, len(tail), HEARD_AT_ONCE):
+        room.ledger.hear_all(tail[at : at + HEARD_AT_ONCE], time.monotonic())
+        await asyncio.sleep(0)  # others are served meanwhile
     if is_changed:
         room.ledger.doubt("", time.monotonic())
     room.ledger.stored_to = room.ledger.stored_to or stored.stored_to
-    opened = OpenRoom(room, stream, after, stored, on_end)
+    opened = OpenRoom(room, shared, after, stored, on_end)
     opened.start()
     return opened
 
@@ -321,19 +343,37 @@ async def _read_tail(stream: RoomStream, program_id: str, stored_to: str) -> tup
     return tail, after
 
 
-def _open_document(stored: Stored, tail: list[Entry]) -> tuple[SharedDocument, list[Entry], bool]:
+async def _open_document(
+    stored: Stored, tail: list[Entry], compilers: Compilers
+) -> tuple[SharedDocument, list[Entry], bool]:
     """Return the document, the entries that are in it, and whether it is another than these and the rows say.
 
-    What is left of a stream that was emptied may be of no use: who was there before tells what is lacking then.
-    Raises DocumentHole, BadUpdate, BadFrame.
+    A large one is put together in a process beside, if there is one: that computes for a second and holds pycrdt's
+    lock, which stops the event loop also from a thread. Raises DocumentHole, BadUpdate, BadFrame.
     """
+    updates = updates_of(tail)
+    if sum(map(len, (*stored.updates, *updates))) > LARGE_BYTES:
+        opened = await compilers.open(Opening((*stored.updates, *updates), (*stored.appended, *updates)))
+        if opened is not None and not opened.has_hole:
+            return await asyncio.to_thread(_prepared, opened), tail, opened.migrated
+    return await asyncio.to_thread(_open_here, stored, tail)
+
+
+def _prepared(opened: Opened) -> SharedDocument:
+    document = SharedDocument([opened.update])
+    document.know_hashes(opened.hashes)
+    return document
+
+
+def _open_here(stored: Stored, tail: list[Entry]) -> tuple[SharedDocument, list[Entry], bool]:
+    """Put it together on a thread. What is left of a stream that was emptied may be of no use: others tell the rest."""
     try:
-        document = stored.open(updates_of(tail))
+        document, is_changed = stored.open(updates_of(tail)), False
     except DocumentHole:
-        document = stored.open()
-        document.migrate()
-        return document, [], True
-    return document, tail, document.migrate()
+        document, tail, is_changed = stored.open(), [], True
+    is_changed |= document.migrate()
+    document.digest()  # so that the steps' hashes are there when the room tells the others, on the event loop
+    return document, tail, is_changed
 
 
 def _differences(here: bytes, stored: Stored) -> tuple[bytes, bytes]:

@@ -248,6 +248,10 @@ class FloorPlan:
         self._traffic: dict[float, tuple[Ground, Lattice]] = {}
         self._covers: dict[object, str] = {}
 
+    def __reduce__(self) -> tuple[type[FloorPlan], tuple[Grid, tuple[Description, ...]]]:
+        """Be sent to another process as what it was made of; what follows from that is worked out there."""
+        return FloorPlan, (self.grid, self._devices)
+
     def is_inside(self, x_m: float, y_m: float) -> bool:
         """Tell whether the point lies on the map."""
         return self.grid.cell_of(x_m, y_m) is not None

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from editor.documents.yjs_encoding import encode_integer
+from editor.programs.compiled_patch import make_patch
 from editor.rooms import yjs_protocol
 from editor.rooms.compiled_form import CompiledForm, encode_check
 from editor.rooms.member import Close
@@ -31,6 +32,11 @@ def form_of(edits: set[str], revision: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def change_to(here: CompiledForm, form: dict[str, Any]) -> dict[str, Any]:
+    """Return what a check says that found this form."""
+    return form if here.now is None else make_patch(here.now, form)
+
+
 @dataclass
 class Process:
     """A process that edits, checks and hears, one thing at a time, in whatever order chance has it."""
@@ -45,7 +51,7 @@ class Process:
     looking: tuple[set[str], str] | None = None
 
     def __post_init__(self) -> None:
-        self.form = CompiledForm(self.name)
+        self.form = CompiledForm()
 
     @property
     def after(self) -> str:
@@ -63,7 +69,7 @@ class Process:
     def tell(self, clock: int) -> None:
         if self.looking is not None:
             (edits, after), self.looking = self.looking, None
-            said = self.form.change_to(form_of(edits, clock))
+            said = change_to(self.form, form_of(edits, clock))
             self.queue.append(encode_check(said, after=after, more=self.touched, against=""))
 
     def publish(self, _clock: int) -> None:
@@ -125,7 +131,7 @@ def told(client: Client) -> list[dict[str, Any]]:
 
 def check(here: Room, form: dict[str, Any], entry: str) -> None:
     """Let a room's own check be heard from the stream."""
-    note = encode_check(here.form.change_to(form), after=BEGINNING, more=False, against="")
+    note = encode_check(change_to(here.form, form), after=BEGINNING, more=False, against="")
     here.hear(Entry(entry, here.origin, note))
 
 
@@ -155,7 +161,7 @@ def test_who_comes_back_with_the_present_form_is_told_nothing_and_with_another_a
 def test_a_process_without_a_form_whose_people_look_checks_when_it_hears_only_of_changes() -> None:
     here, late = room("here"), room("late")
     check(here, form_of({"x"}, 1), "1")
-    note = encode_check(here.form.change_to(form_of({"y"}, 2)), after=BEGINNING, more=False, against="")
+    note = encode_check(change_to(here.form, form_of({"y"}, 2)), after=BEGINNING, more=False, against="")
     late.hear(Entry("2", "here", note))
     assert (late.form.now, late.touched) == (None, False)
     client = Client(late)

@@ -1,0 +1,142 @@
+"""`python -m bench.rooms_inside <steps> <tail>`: a room of a large program, opened and edited in this process.
+
+Prints how long its event loop stood still at longest, and what an edit costs it and the child processes that check.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import sys
+import time
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+Json = dict[str, Any]
+EDITS = 20
+EDIT_EVERY_S = 0.25
+EDITORS = 10
+
+
+class Stalls:
+    """The longest time that the event loop did not come back from a sleep of a millisecond."""
+
+    longest_ms = 0.0
+
+    async def watch(self) -> None:
+        while True:
+            began = time.perf_counter()
+            await asyncio.sleep(0.001)
+            self.longest_ms = max(self.longest_ms, (time.perf_counter() - began) * 1000 - 1)
+
+
+@asynccontextmanager
+async def _stalls() -> AsyncIterator[Stalls]:
+    stalls = Stalls()
+    watching = asyncio.create_task(stalls.watch())
+    try:
+        yield stalls
+    finally:
+        watching.cancel()
+
+
+async def measure(steps: int, tail: int) -> Json:
+    """Open a program of so many steps that has so many entries in its stream; then ten people edit it, ten look on."""
+    from asgiref.sync import sync_to_async
+    from django.contrib.auth import get_user_model
+
+    from bench.compiled_frames import _steps
+    from editor import services as editor
+    from editor.documents.shared_document import SharedDocument, empty_document
+    from editor.documents.store import load_document
+    from editor.rooms.hub import hub_of_this_loop
+    from editor.rooms.member import Member, Person
+
+    document = {**empty_document(), "steps": _steps(steps)}
+    made = await sync_to_async(editor.create_program)(site="hall", name=f"{steps} steps", document=document)
+    program, hub = str(made.id), hub_of_this_loop()
+    shared = SharedDocument((await sync_to_async(load_document)(program)).updates)
+    await _fill(hub.stream, program, shared, tail)
+    author: int = (await sync_to_async(get_user_model().objects.get)(display_name="Ada author")).pk
+    members = [Member(Person(author, "A", "A"), can_write=True, wake=lambda: None) for _ in range(EDITORS)]
+    async with _stalls() as opening:
+        began = time.perf_counter()
+        room = await hub.enter(program, members[0])
+        opened_ms = (time.perf_counter() - began) * 1000
+        for member in members[1:]:
+            await hub.enter(program, member)
+        for member in members:
+            member.synced, member.shown = True, 0
+        room.touched = True
+        room.wake()
+        while room.form.now is None:  # noqa: ASYNC110 - as whoever looks on waits
+            await asyncio.sleep(0.01)
+        await asyncio.sleep(1)
+    edited = await _edit(hub, room, members, shared)
+    await hub.close()
+    return {"opened_ms": opened_ms, "opening_stall_ms": opening.longest_ms, **edited}
+
+
+async def _fill(stream: Any, program: str, shared: Any, tail: int) -> None:
+    from editor.documents.store import Change
+    from editor.rooms.ledger import encode_change
+
+    steps = shared._document["steps"]
+    for number in range(1, tail + 1):
+        before = shared.state()
+        step = f"s{number % len(steps)}"
+        steps[step]["pos"] = [float(number), 0.0]
+        await stream.append(program, "dead", [encode_change(number, Change(None, shared.encode(before)))])
+
+
+async def _edit(hub: Any, room: Any, members: list[Any], shared: Any) -> Json:
+    from editor.rooms import yjs_protocol
+
+    compilers = getattr(getattr(hub, "_shared", None), "compilers", None)
+    pids = compilers.pids if compilers else []
+    steps = shared._document["steps"]
+    from pycrdt import Map
+
+    busy_s, children_ms, frames = time.process_time(), _cpu_ms(pids), 0
+    async with _stalls() as stalls:
+        making_s = 0.0
+        for number in range(EDITS * EDITORS):
+            began = time.process_time()
+            before = shared.state()
+            place = [f"s{number * 7 // 10 * 10}", "body", f"zz{number}"]
+            steps[f"new{number}"] = Map({"kind": "wait", "place": place, "params": Map({"duration": 5})})
+            frame = yjs_protocol.encode_update(shared.encode(before))
+            making_s += time.process_time() - began
+            member = members[number % EDITORS]
+            room.receive(member, frame, time.monotonic())
+            for each in members:
+                frames += len(each.outbox)
+                each.outbox.clear()
+                each._unread = 0
+            await asyncio.sleep(EDIT_EVERY_S / EDITORS)
+        await asyncio.sleep(1)
+    count = EDITS * EDITORS
+    return {
+        "edit_stall_ms": stalls.longest_ms,
+        "cpu_ms": (time.process_time() - busy_s - making_s) * 1000 / count,
+        "children_cpu_ms": (_cpu_ms(compilers.pids if compilers else []) - children_ms) / count,
+    }
+
+
+def _cpu_ms(pids: list[int]) -> float:
+    ticks = 0
+    for pid in pids:
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+        ticks += int(fields[11]) + int(fields[12])
+    return ticks * 1000 / os.sysconf("SC_CLK_TCK")
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "tests.settings")
+    import django
+
+    django.setup()
+    sys.stdout.write(json.dumps(asyncio.run(measure(int(sys.argv[1]), int(sys.argv[2])))))

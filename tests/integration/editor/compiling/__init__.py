@@ -1,0 +1,1 @@
+"""Programs checked in child processes."""
