@@ -11,6 +11,8 @@ from typing import Any
 from editor.errors import NoSuchProgram
 from editor.language import Compiled, compiled_to_json
 from editor.language.compiler import EditedProgram
+from editor.language.document.outline import kind_of
+from editor.language.reading.well_formed import well_formed, well_formed_function
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
 from registry import services as registry
@@ -41,7 +43,8 @@ def _library(site: str) -> dict[str, LibraryFacts]:
     versions: dict[str, dict[int, tuple[tuple[str, str], ...]]] = {}
     for function, name, number, parameters in rows:
         names[str(function)] = name
-        given = tuple((str(item.get("name")), str(item.get("type", ""))) for item in parameters or ())
+        listed = well_formed_function({"parameters": parameters}).get("parameters") or ()
+        given = tuple((str(item.get("name", "")), str(item.get("type", ""))) for item in listed)
         versions.setdefault(str(function), {})[number] = given
     return {function: LibraryFacts(name, versions[function]) for function, name in names.items()}
 
@@ -111,9 +114,10 @@ def check_document(document: Mapping[str, Any], around: Around, edited: EditedPr
 
 def store_check(program_id: str, checked: Checked) -> None:
     """Store what lists show of a program."""
-    _store(program_id, checked.document, checked.compiled, checked.against)
+    document = well_formed(checked.document)
+    _store(program_id, document, checked.compiled, checked.against)
     if program := Program.objects.select_related("site").filter(pk=program_id).first():
-        _store_uses(program, checked.document)
+        _store_uses(program, document)
 
 
 def fingerprint_of(surroundings: Surroundings) -> str:
@@ -138,7 +142,7 @@ def _without_pose(description: Description) -> Description:
 
 def _store(program_id: str, document: Mapping[str, Any], compiled: Compiled, fingerprint: str) -> None:
     severities = [diagnostic.severity for diagnostic in compiled.diagnostics]
-    kinds = sorted({str(step["kind"]) for step in document["steps"].values() if isinstance(step.get("kind"), str)})
+    kinds = sorted({kind for step in document["steps"].values() if (kind := kind_of(step))})
     Program.objects.filter(pk=program_id).update(
         kinds=kinds,
         devices=sorted(devices_in(document)),
@@ -181,9 +185,8 @@ def _store_uses(program: Program, document: Mapping[str, Any]) -> None:
 
 
 def _sources(document: Mapping[str, Any]) -> list[str]:
-    functions = document.get("functions", {}).values()
-    sources = [f.get("source") for f in functions if isinstance(f, dict)]
-    return [str(s["library"]) for s in sources if isinstance(s, dict) and "library" in s]
+    sources = (function.get("source") for function in document["functions"].values())
+    return [source["library"] for source in sources if source is not None]
 
 
 class DeviceWatch:
