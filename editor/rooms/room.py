@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterable
 
 from editor.documents import yjs_encoding
+from editor.documents.knowledge import Knowledge
 from editor.documents.shared_document import EMPTY_UPDATE, ROOTS, BadUpdate, SharedDocument, merge
 from editor.documents.store import Change
 from editor.documents.yjs_updates import MOST_CLIENTS, MOST_CLIENTS_OF_ALL, check_update
@@ -152,11 +153,11 @@ class Room:
     def _receive_update(self, member: Member, update: bytes, now_s: float) -> None:
         member.frames += 1
         if not member.can_write:
-            self._refuse(member, update, MOST_CLIENTS)
+            self._refuse(member, update, MOST_CLIENTS, now_s)
         elif member.synced:
             self._change(member, [update], MOST_CLIENTS, now_s)
         else:
-            check_update(update, _ROOTS, MOST_CLIENTS)
+            self._check(member, update, MOST_CLIENTS, now_s)
             member.hold(update)
 
     def _receive_step_2(self, member: Member, update: bytes, now_s: float) -> None:
@@ -168,11 +169,15 @@ class Room:
             self._change(member, [update], MOST_CLIENTS_OF_ALL, now_s)
             self._change(member, held, MOST_CLIENTS, now_s)
         else:
-            self._refuse(member, update, MOST_CLIENTS_OF_ALL)
+            self._refuse(member, update, MOST_CLIENTS_OF_ALL, now_s)
 
-    def _refuse(self, member: Member, update: bytes, most_clients: int) -> None:
+    def _check(self, member: Member, update: bytes, most_clients: int, now_s: float) -> Knowledge:
+        """Read an update before the document does, at the cost of who sent it. Raises BadFrame, Close."""
+        return check_update(update, _ROOTS, most_clients, lambda parts: member.allowance.spend_parts(parts, now_s))
+
+    def _refuse(self, member: Member, update: bytes, most_clients: int, now_s: float) -> None:
         """Take no change of who may only look; say so, if it would have changed something."""
-        if not self.document.knowledge().covers(check_update(update, _ROOTS, most_clients)):
+        if not self.document.knowledge().covers(self._check(member, update, most_clients, now_s)):
             member.refused += 1
             if member.shows_saved:
                 member.post(yjs_protocol.encode_saved(member.saved, member.refused))
@@ -184,7 +189,7 @@ class Room:
                 continue
             if not member.is_sure():
                 raise Close(Close.COME_AGAIN, INTERRUPTED)
-            said = check_update(update, _ROOTS, most_clients)
+            said = self._check(member, update, most_clients, now_s)
             clocks = yjs_encoding.decode_state_vector(self.document.state())
             if _leaves_a_hole(update, clocks):
                 for later in updates[number:]:

@@ -84,6 +84,8 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
         try:
             self.room.receive(self.member, bytes_data, time.monotonic())
         except Close as close:
+            if close.code == Close.ABUSE:
+                self.member.allowance.note_abuse(time.monotonic())
             self.member.close(close)
 
     async def _send_all(self, member: Member) -> None:
