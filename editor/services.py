@@ -1,5 +1,6 @@
 """What the other apps may ask of the editor; everything else in this app is its own affair."""
 
+from editor.documents.mending import Mending, mend_program, restore_rows, show_mending
 from editor.documents.store import get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram
 from editor.programs.checking import build_surroundings
@@ -30,6 +31,7 @@ __all__ = [
     "EditorError",
     "ExpressionView",
     "LibraryView",
+    "Mending",
     "NoSuchProgram",
     "ProgramView",
     "VersionView",
@@ -47,11 +49,14 @@ __all__ = [
     "get_version",
     "list_programs",
     "list_versions",
+    "mend_program",
     "pin_version",
     "print_expression",
     "read_expression",
     "rename_program",
+    "restore_rows",
     "save_function",
     "search_library",
     "seed_programs",
+    "show_mending",
 ]

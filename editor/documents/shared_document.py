@@ -18,6 +18,7 @@ from editor.documents.knowledge import Knowledge, read_deletions
 from editor.documents.yjs_encoding import BadFrame, Reader, decode_state_vector, is_within
 from editor.documents.yjs_updates import MOST_CLIENTS_OF_ALL, check_update
 from editor.language.document.format_migrations import FIRST_FORMAT, FORMAT, format_of, migrate
+from editor.language.reading.well_formed import well_formed
 from vipo_device.protocol.texts import cleaned, cleaned_json, find_unfit, normal
 
 ROOTS = ("meta", "steps", "functions", "roles", "parameters", "zones")
@@ -229,7 +230,7 @@ class SharedDocument:
 
     def change_to(self, wanted: Mapping[str, Any]) -> None:
         """Become what a plain document says, by no more changes than that takes, so that other edits merge."""
-        before, copy = self.to_json(), _document_with(self.encode())
+        before, wanted, copy = self.to_json(), well_formed(wanted), _document_with(self.encode())
         with copy.transaction():
             meta, steps = copy.get("meta", type=Map), copy.get("steps", type=Map)
             _set_all(meta, {**meta.to_py(), "format": FORMAT, "start_pos": wanted.get("start_pos")})
@@ -237,8 +238,8 @@ class SharedDocument:
                 del steps[name]
             for name, step in wanted["steps"].items():
                 known = before["steps"].get(name)
-                if known is None or {**known, "params": 0} != {**step, "params": 0}:
-                    steps[name] = Map({**step, "params": Map(dict(step.get("params", {})))})
+                if not isinstance(known, Mapping) or {**known, "params": 0} != {**step, "params": 0}:
+                    steps[name] = Map({**step, "params": Map(dict(step["params"]))})
                 elif known != step:
                     _rewrite(steps, name, step)
             for root in _CONTENT[1:]:
@@ -362,16 +363,16 @@ def migrate_document(plain: Mapping[str, Any]) -> dict[str, Any]:
 
 def encode_document(plain: Mapping[str, Any]) -> bytes:
     """Return a plain document as the first update of a shared one."""
-    document: Doc[Any] = Doc()
+    plain, document = well_formed(plain), Doc[Any]()
     roots = {name: document.get(name, type=Map) for name in ROOTS}
     with document.transaction():
         roots["meta"]["format"] = plain.get("format", FORMAT)
         if plain.get("start_pos") is not None:
             roots["meta"]["start_pos"] = plain["start_pos"]
-        for step, body in plain.get("steps", {}).items():
-            roots["steps"][step] = Map({**body, "params": Map(dict(body.get("params", {})))})
+        for step, body in plain["steps"].items():
+            roots["steps"][step] = Map({**body, "params": Map(dict(body["params"]))})
         for name in _CONTENT[1:]:
-            for key, value in plain.get(name, {}).items():
+            for key, value in plain[name].items():
                 roots[name][key] = value
     return document.get_update()
 

@@ -11,11 +11,14 @@ from uuid import UUID
 
 from django.db import transaction
 
-from editor.documents.shared_document import SharedDocument, clients_of, merge
+from editor.documents.shared_document import BadUpdate, SharedDocument, clients_of, merge
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot
 
 COMPACT_AFTER_ROWS = 500
+_MISSING = "A part of this program is missing in the database."
+_UNREADABLE = "A part of this program in the database cannot be read."
+_MENDED = "`vipo mend-program` shows what is left."
 
 
 class SnapshotDiffers(RuntimeError):
@@ -43,11 +46,12 @@ class Stored:
 
     def open(self, more: Iterable[bytes] = ()) -> SharedDocument:
         """Return the document, with further updates. Raises DocumentHole."""
-        document = SharedDocument([*self.updates, *more])
+        try:
+            document = SharedDocument([*self.updates, *more])
+        except BadUpdate as error:
+            raise DocumentHole(f"{_UNREADABLE} {_MENDED}") from error
         if document.has_hole([*self.appended, *more]):
-            raise DocumentHole(
-                "A part of this program is missing in the database. `vipo mend-program` shows what is left."
-            )
+            raise DocumentHole(f"{_MISSING} {_MENDED}")
         return document
 
 
@@ -140,7 +144,7 @@ def compact_document(program_id: str) -> None:
         stored = load_document(program_id)
         document = stored.open()
         written, _ = Snapshot.objects.update_or_create(
-            program=program, seq=stored.seq, defaults={"data": document.encode(), "authors": _authors(program)}
+            program=program, seq=stored.seq, defaults={"data": document.encode(), "authors": authors_of(program)}
         )
         written.refresh_from_db()
         copy = SharedDocument([bytes(written.data)])
@@ -150,7 +154,7 @@ def compact_document(program_id: str) -> None:
         program.snapshots.filter(seq__lt=stored.seq).delete()
 
 
-def _authors(program: Program) -> dict[str, int]:
+def authors_of(program: Program) -> dict[str, int]:
     """Return whose each Yjs client is: from the last snapshot and the rows."""
     snapshot = program.snapshots.order_by("-seq").first()
     authors: dict[str, int] = dict(snapshot.authors) if snapshot else {}

@@ -46,10 +46,16 @@ class UpdateReader(Reader):
         return number
 
 
-def check_update(update: bytes, roots: Collection[bytes], most_clients: int = MOST_CLIENTS) -> Knowledge:
+def check_update(
+    update: bytes,
+    roots: Collection[bytes],
+    most_clients: int = MOST_CLIENTS,
+    spend: Callable[[int], None] | None = None,
+) -> Knowledge:
     """Return how far an update goes: the clock until which it has each client's changes, and what it deletes.
 
-    Raises BadFrame unless it is well-formed, of these roots and within the bounds.
+    `spend` is told of how many parts it is. Raises BadFrame unless it is well-formed, of these roots and within the
+    bounds, and what `spend` raises.
     """
     reader = UpdateReader(update)
     depths: dict[Place, int] = {}
@@ -70,6 +76,8 @@ def check_update(update: bytes, roots: Collection[bytes], most_clients: int = MO
         pairs = [(reader.integer(), reader.integer()) for _ in range(reader.count())]
         deletions[client] = joined_ranges((first, _checked(first + length)) for first, length in pairs)
     reader.end()
+    if spend is not None:
+        spend(reader.parts)
     return Knowledge(ends, deletions, begins)
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from editor.errors import NoSuchProgram
 from editor.language import Compiled, compiled_to_json
 from editor.language.compiler import EditedProgram
+from editor.language.reading.well_formed import well_formed_function
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
 from editor.programs.shown import Shown
@@ -42,7 +43,8 @@ def _library(site: str) -> dict[str, LibraryFacts]:
     versions: dict[str, dict[int, tuple[tuple[str, str], ...]]] = {}
     for function, name, number, parameters in rows:
         names[str(function)] = name
-        given = tuple((str(item.get("name")), str(item.get("type", ""))) for item in parameters or ())
+        listed = well_formed_function({"parameters": parameters}).get("parameters") or ()
+        given = tuple((str(item.get("name", "")), str(item.get("type", ""))) for item in listed)
         versions.setdefault(str(function), {})[number] = given
     return {function: LibraryFacts(name, versions[function]) for function, name in names.items()}
 

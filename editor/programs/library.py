@@ -14,6 +14,7 @@ from editor.documents.store import get_document
 from editor.errors import BadRequest, NoSuchProgram
 from editor.language import compile_document
 from editor.language.document.format_migrations import FORMAT
+from editor.language.reading.well_formed import well_formed, well_formed_function
 from editor.models import LibraryFunction, LibraryVersion, Program
 from editor.programs.checking import build_surroundings
 from editor.programs.views import LibraryView, view_author
@@ -29,6 +30,7 @@ def cut_out_function(document: Mapping[str, Any], function: str) -> dict[str, An
     {function: {name, parameters, …}, id, functions: {id: …} of those called, steps: {id: …}, format}.
     Raises BadRequest.
     """
+    document = well_formed(document)
     functions = document["functions"]
     if function not in functions:
         raise BadRequest("The program has no such function. It may have been deleted; reload the page.")
@@ -40,7 +42,7 @@ def cut_out_function(document: Mapping[str, Any], function: str) -> dict[str, An
                 continue
             steps[step] = body
             left.append(step)
-            called = body.get("params", {}).get("function") if body.get("kind") == "call" else None
+            called = body["params"].get("function") if body["kind"] == "call" else None
             if isinstance(called, str) and called in functions and called not in wanted:
                 wanted.append(called)
                 left.append(called)
@@ -50,7 +52,7 @@ def cut_out_function(document: Mapping[str, Any], function: str) -> dict[str, An
 
 def _parent_of(step: Mapping[str, Any]) -> str | None:
     place = step.get("place")
-    return place[0] if isinstance(place, list) and place and isinstance(place[0], str) else None
+    return place[0] if place else None
 
 
 def save_function(
@@ -126,6 +128,8 @@ def _version(row: LibraryFunction, number: int) -> LibraryVersion:
 
 def _view(row: LibraryFunction, version: LibraryVersion) -> LibraryView:
     used_in: int = getattr(row, "used_in", 0)
+    definition = migrate_document(version.definition)
+    definition["function"] = well_formed_function(definition.get("function"))  # saved when less was looked at
     return LibraryView(
         id=row.pk,
         site=row.site.slug,
@@ -133,9 +137,9 @@ def _view(row: LibraryFunction, version: LibraryVersion) -> LibraryView:
         description=row.description,
         version=version.number,
         author=view_author(version.author),
-        parameters=tuple(version.definition["function"].get("parameters") or ()),
+        parameters=tuple(definition["function"].get("parameters") or ()),
         used_in=used_in,
         updated_at=row.updated_at,
         script=version.script,
-        definition=migrate_document(version.definition),
+        definition=definition,
     )

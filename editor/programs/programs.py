@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,7 @@ from editor.documents.shared_document import (
     migrate_document,
 )
 from editor.documents.store import get_document
-from editor.errors import BadRequest, NoSuchProgram
+from editor.errors import BadRequest, DocumentHole, NoSuchProgram
 from editor.language import Compiled, Surroundings, compile_document, compiled_to_json
 from editor.language.compiler import EditedProgram
 from editor.models import Program, Snapshot, Version
@@ -48,7 +49,7 @@ _GONE = "There is no such program. It may have been deleted."
 def list_programs(*, site: str, part: Part = FIRST, words: str = "") -> Listed[ProgramView]:
     """Return a site's programs whose names have these words, the last edited first.
 
-    Counts that the site's devices have outdated are renewed. Raises BadMark.
+    Counts that the site's devices have outdated are renewed, but for programs that cannot be read. Raises BadMark.
     """
     rows = Program.objects.filter(site__slug=site).select_related("site", "edited_by")
     for word in words.split()[:10]:
@@ -56,7 +57,8 @@ def list_programs(*, site: str, part: Part = FIRST, words: str = "") -> Listed[P
     current = fingerprint_of(build_surroundings(site=site))
     stale = rows.exclude(checked_against=current).order_by("-edited_at")
     for program in stale.values_list("pk", flat=True)[:MOST_CHECKED_AT_ONCE]:
-        get_compiled(program_id=program)
+        with suppress(DocumentHole, NoSuchProgram):  # then its counts stay as they were
+            get_compiled(program_id=program)
     return registry.take_part(rows=rows, by="-edited_at", part=part, view=_view)
 
 

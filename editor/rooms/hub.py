@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import math
+import time
 import uuid
 import weakref
 from collections import defaultdict
@@ -22,8 +24,9 @@ from editor.documents.store import flush_before_reading
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import Program
 from editor.programs.checking import DeviceWatch
-from editor.rooms.member import Close, Member, Person
-from editor.rooms.room import INTERRUPTED, Room
+from editor.rooms.member import Allowance, Close, Member, Person
+from editor.rooms.refusals import INTERRUPTED
+from editor.rooms.room import Room
 from editor.rooms.runner import OpenRoom, Shared, open_room
 from editor.rooms.stream import Note, RoomStream, StreamLost, make_stream
 from editor.rooms.threads import in_database
@@ -53,19 +56,33 @@ class Hub:
         self._watches: defaultdict[str, DeviceWatch] = defaultdict(DeviceWatch)
         self._stop_listening: Callable[[], None] | None = None
         self._is_closed = False
+        self._allowances: dict[int, Allowance] = {}
         self._places = Places(in_all=MOST_CONNECTIONS, of_site=MOST_CONNECTIONS, of_person=MOST_OF_PERSON)
 
     async def enter(self, program_id: str, member: Member) -> Room:
         """Let a connection into a program's room, opening it if it is not open. Raises Close."""
         if self._is_closed:
             raise Close(Close.COME_AGAIN, INTERRUPTED)
+        self._hold_off(member)
         if not self._places.take(Claim(member.person.id)):
             raise Close(Close.ABUSE, f"You have {MOST_OF_PERSON} programs open. Close other copies of the page.")
+        member.allowance.connections += 1
         try:
             return await self._let_in(program_id, member)
         except BaseException:
+            member.allowance.connections -= 1
             self._places.give_back(Claim(member.person.id))
             raise
+
+    def _hold_off(self, member: Member) -> None:
+        """Give a connection what its person has left; keep them out for a while after abuse. Raises Close."""
+        now_s = time.monotonic()
+        self._allowances = {person: each for person, each in self._allowances.items() if not each.is_like_new(now_s)}
+        member.allowance = self._allowances.setdefault(member.person.id, member.allowance)
+        if wait_s := math.ceil(member.allowance.held_off_s(now_s)):
+            raise Close(
+                Close.ABUSE, f"A page of yours has sent too much. Close the others, and try again in {wait_s} s."
+            )
 
     async def _let_in(self, program_id: str, member: Member) -> Room:
         async with self._locks[program_id]:
@@ -92,6 +109,7 @@ class Hub:
     def leave(self, room: Room, member: Member) -> None:
         """Let a connection go; a room that stays empty is closed."""
         room.leave(member)
+        member.allowance.connections -= 1
         self._places.give_back(Claim(member.person.id))
         if not room.members:
             self.loop.call_later(CLOSE_EMPTY_AFTER_S, self._start, self._close_if_empty, room)

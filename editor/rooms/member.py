@@ -15,6 +15,9 @@ BYTES_PER_S, BURST_BYTES = float(MIB), 12.0 * MIB
 MOST_HELD_FRAMES, MOST_HELD_BYTES = 1000, 4 * MIB
 AWARENESS_PER_S, BURST_AWARENESS = 90.0, 3000.0
 """Clients also repeat whatever others show, 30 times a second, and after a pause all that waited for them."""
+PARTS_PER_S, BURST_PARTS = 20_000.0, 500_000.0
+"""Of changes, values and deletions: each is read and kept in about ten microseconds, on the event loop."""
+HELD_OFF_S, MOST_HELD_OFF_S, FORGIVEN_AFTER_S = 10.0, 300.0, 900.0
 MOST_UNREAD_BYTES = 24 * MIB
 """Of what it asked for itself."""
 MOST_BEHIND_BYTES = 3 * MIB
@@ -81,6 +84,42 @@ class Budget:
         self.left -= amount
         return self.left >= 0
 
+    def is_full(self, now_s: float) -> bool:
+        """Tell whether nothing is missing in the bucket."""
+        return self.at is None or self.left + (now_s - self.at) * self.per_s >= self.burst
+
+
+class Allowance:
+    """What a person may cost over all connections, and for how long nobody is let in under their name after abuse."""
+
+    def __init__(self) -> None:
+        self._parts = Budget(PARTS_PER_S, BURST_PARTS)
+        self.connections = 0
+        """How many are open."""
+        self._abuses = 0
+        self._abused_at = 0.0
+
+    def spend_parts(self, parts: int, now_s: float) -> None:
+        """Count of how many parts the updates are that are read. Raises Close."""
+        if not self._parts.spend(parts, now_s):
+            raise Close(Close.ABUSE, "You send more changes than a program has. Close other copies of the page.")
+
+    def note_abuse(self, now_s: float) -> None:
+        """Take in that a connection was closed for abuse."""
+        self._abuses = self._abuses + 1 if now_s - self._abused_at < FORGIVEN_AFTER_S else 1
+        self._abused_at = now_s
+
+    def held_off_s(self, now_s: float) -> float:
+        """Return for how long no new connection is let in: the longer, the more often in a row."""
+        if not self._abuses:
+            return 0.0
+        return max(0.0, self._abused_at + min(HELD_OFF_S * (1 << min(self._abuses - 1, 10)), MOST_HELD_OFF_S) - now_s)
+
+    def is_like_new(self, now_s: float) -> bool:
+        """Tell whether there is nothing to remember of the person."""
+        is_forgiven = not self._abuses or now_s - self._abused_at >= FORGIVEN_AFTER_S
+        return not self.connections and is_forgiven and self._parts.is_full(now_s)
+
 
 class Member:
     """A connection; frames for it are queued here and sent by its socket."""
@@ -110,6 +149,8 @@ class Member:
         """Up to where it was told of the document, while it has not read that and is told nothing more."""
         self.outbox: deque[bytes] = deque()
         self.closing: Close | None = None
+        self.allowance = Allowance()
+        """The person's, once the connection is let in."""
         self._wake = wake
         self._held: list[bytes] = []
         self._held_bytes = 0

@@ -24,6 +24,7 @@ from editor.rooms.compiled_form import CompiledForm
 from editor.rooms.form_frames import post_form, spread_form
 from editor.rooms.ledger import Ledger, decode_change, decode_stored, encode_change, encode_stored
 from editor.rooms.member import MIB, Close, Member
+from editor.rooms.refusals import INTERRUPTED, TOO_LARGE, TOO_MANY_PAGES
 from editor.rooms.spreading import Spreading
 from editor.rooms.stream import Entry, Note
 
@@ -37,9 +38,6 @@ COST_OF_A_HOLE = 50
 MOST_CLIENTS_EVER = 20_000
 """Who have ever changed a document: each page that was opened and drawn in is one."""
 _ROOTS = frozenset(root.encode() for root in ROOTS)
-INTERRUPTED = "The program could not be reached just now. What was typed stays in the browser and follows."
-TOO_LARGE = "The program is full: it may have 8 MiB and 5,000 steps. Remove steps, or make a second program of a part."
-TOO_MANY_PAGES = "This program has been changed from 20,000 pages, which is all that it keeps. Copy it and go on there."
 
 
 class Room:
@@ -147,11 +145,11 @@ class Room:
     def _receive_update(self, member: Member, update: bytes, now_s: float) -> None:
         member.frames += 1
         if not member.can_write:
-            self._refuse(member, update, MOST_CLIENTS)
+            self._refuse(member, update, MOST_CLIENTS, now_s)
         elif member.synced:
             self._change(member, [update], MOST_CLIENTS, now_s)
         else:
-            check_update(update, _ROOTS, MOST_CLIENTS)
+            self._check(member, update, MOST_CLIENTS, now_s)
             member.hold(update)
 
     def _receive_step_2(self, member: Member, update: bytes, now_s: float) -> None:
@@ -165,7 +163,7 @@ class Room:
             self._change(member, [update], MOST_CLIENTS_OF_ALL, now_s)
             self._change(member, held, MOST_CLIENTS, now_s)
         else:
-            self._refuse(member, update, MOST_CLIENTS_OF_ALL)
+            self._refuse(member, update, MOST_CLIENTS_OF_ALL, now_s)
 
     def _catch_up(self, member: Member) -> None:
         """Tell a connection that was behind what it was not told meanwhile."""
@@ -175,9 +173,15 @@ class Room:
         if member.shown is not None and self.form.now is not None and self.form.now["revision"] != member.shown:
             post_form(self.form, member, self._spreading)
 
-    def _refuse(self, member: Member, update: bytes, most_clients: int) -> None:
+    def _check(self, member: Member, update: bytes, most_clients: int, now_s: float) -> Knowledge:
+        """Read an update before the document does, at the cost of who sent it. Raises BadFrame, Close."""
+        return check_update(update, _ROOTS, most_clients, lambda parts: member.allowance.spend_parts(parts, now_s))
+
+    def _refuse(self, member: Member, update: bytes, most_clients: int, now_s: float) -> None:
         """Take no change of who may only look; say so, if it would have changed something."""
-        if update != EMPTY_UPDATE and not self.document.knowledge().covers(check_update(update, _ROOTS, most_clients)):
+        if update != EMPTY_UPDATE and not self.document.knowledge().covers(
+            self._check(member, update, most_clients, now_s)
+        ):
             member.refused += 1
             if member.shows_saved:
                 member.post(yjs_protocol.encode_saved(member.saved, member.refused))
@@ -189,7 +193,7 @@ class Room:
                 continue
             if not member.is_sure():
                 raise Close(Close.COME_AGAIN, INTERRUPTED)
-            said = check_update(update, _ROOTS, most_clients)
+            said = self._check(member, update, most_clients, now_s)
             self._check_size(update, said)
             try:
                 self._apply(member, update, said, now_s)

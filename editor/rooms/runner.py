@@ -31,7 +31,8 @@ from editor.errors import DocumentHole, NoSuchProgram
 from editor.rooms.checks import Checks
 from editor.rooms.ledger import last_numbers, updates_of
 from editor.rooms.member import Close
-from editor.rooms.room import INTERRUPTED, Room
+from editor.rooms.refusals import INTERRUPTED
+from editor.rooms.room import Room
 from editor.rooms.stream import Entry, RoomStream, StreamLost
 from editor.rooms.threads import in_database
 

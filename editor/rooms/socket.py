@@ -13,7 +13,8 @@ from django.db import Error
 from editor.rooms import yjs_protocol
 from editor.rooms.hub import Hub, Permission, find_permission, hub_of_this_loop, review
 from editor.rooms.member import Close, Member
-from editor.rooms.room import INTERRUPTED, Room
+from editor.rooms.refusals import INTERRUPTED
+from editor.rooms.room import Room
 from editor.rooms.threads import in_database
 from registry.services import Seat, session_of_socket, watch_of_this_loop
 
@@ -92,6 +93,8 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
         try:
             self.room.receive(self.member, bytes_data, time.monotonic())
         except Close as close:
+            if close.code == Close.ABUSE:
+                self.member.allowance.note_abuse(time.monotonic())
             self.member.close(close)
 
     async def _send_all(self, member: Member) -> None:

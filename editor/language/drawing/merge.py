@@ -139,10 +139,10 @@ def _function(function: Function, former: Function | None, raw: Plain, known: Na
     if former is None or former.method != function.method:
         changed["name"] = function.name or function.method
     if former is None or repr(former.parameters) != repr(function.parameters):
-        by_name = {mapping(item).get("name"): mapping(item) for item in _list(raw.get("parameters"))}
+        by_name = {_text(mapping(item).get("name")): mapping(item) for item in _list(raw.get("parameters"))}
         old = {p.name: p for p in former.parameters} if former else {}
         changed["parameters"] = [
-            _parameter(p, old.get(p.name), by_name.get(known.get(p.name), {})) for p in function.parameters
+            _parameter(p, old.get(p.name), by_name.get(known.get(p.name, ""), {})) for p in function.parameters
         ]
     result = (function.result_type, function.result_unit)
     if former is None or (former.result_type, former.result_unit) != result:

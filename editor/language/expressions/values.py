@@ -35,6 +35,8 @@ _SCALARS: Final = (str, bool, float, int)
 _LISTS: Final = (list, tuple)
 DEEPEST_EXPRESSION = 24
 LARGEST = 1e15
+FURTHEST_M = 1e5
+"""No site is as large; browsers that draw further away run out of memory."""
 MOST_ITEMS = 1000
 """A list has at most so many items."""
 
@@ -250,11 +252,15 @@ def read_place(value: object, names: Names) -> PlaceRef:
 
 
 def read_point(value: object) -> Point | None:
-    """Return a point in metres, or None when the value is none."""
+    """Return a point in metres, or None when the value is none, or beyond every site."""
     if not isinstance(value, _LISTS) or len(value) != 2:
         return None
     x, y = plain(value[0]), plain(value[1])
-    return (x, y) if is_number(x) and is_number(y) else None
+    return (x, y) if _is_near(x) and _is_near(y) else None
+
+
+def _is_near(value: object) -> TypeGuard[int | float]:
+    return is_number(value) and -FURTHEST_M <= value <= FURTHEST_M
 
 
 def write_value(expression: Expression | None) -> object:

@@ -42,6 +42,8 @@ TEXTS_DE: Final[Mapping[str, str]] = {
     "unknown_parameter": "Hier gibt es keinen Wert mit dem Namen {parameter}. Wählen oder schreiben Sie einen anderen.",
     "unknown_role": "Dieses Programm hat keinen Roboter mit dem Namen {role}. Wählen Sie einen anderen.",
     "unknown_kind": "Diese Art von Schritt kennt diese Version von VIPO nicht. Löschen Sie ihn.",
+    "odd_shape": "{part} hat nicht die nötige Form und fehlt beim Lesen. Geben Sie es neu ein oder entfernen Sie es.",
+    "odd_position": "Der Start hat keine lesbare Position. Ziehen Sie ihn dorthin, wo er hingehört.",
     "newer_format": "Dieses Programm stammt aus einem neueren VIPO. Aktualisieren Sie dieses, um es auszuführen.",
     # it cannot ever work
     "pending_device": "{device} wartet auf Zulassung. Ein Administrator kann es im Register zulassen.",
@@ -275,6 +277,7 @@ FIX_TEXTS_DE: Final[Mapping[str, str]] = {
     "all_branches": "Auf alle Zweige warten",
     "own_robot": "Zweig {value} bekommt einen eigenen Roboter",
     "use_version": "Version {value} nehmen",
+    "take_out": "Unlesbares herausnehmen",
     "make_end": "Stattdessen das Programm beenden",
 }
 

@@ -43,6 +43,8 @@ TEXTS: Final[Mapping[str, Text]] = {
     "unknown_parameter": ("error", "There is no value called {parameter} here. Choose or enter another."),
     "unknown_role": ("error", "This program has no robot called {role}. Choose another."),
     "unknown_kind": ("error", "This step is of a kind that this version of VIPO does not know. Delete it."),
+    "odd_shape": ("error", "{part} has not its shape, so it is read without that. Enter it anew, or take it out."),
+    "odd_position": ("warning", "The start has no position that can be read. Move it to where it belongs."),
     "newer_format": ("error", "This program was made with a newer VIPO. Update this one to run it."),
     # it cannot ever work
     "pending_device": ("error", "{device} waits for approval. An admin can approve it in the registry."),
@@ -297,6 +299,7 @@ FIX_TEXTS: Final[Mapping[str, str]] = {
     "all_branches": "Wait for all branches",
     "own_robot": "Give branch {value} a robot of its own",
     "use_version": "Use version {value}",
+    "take_out": "Take out what cannot be read",
     "make_end": "End the program instead",
 }
 

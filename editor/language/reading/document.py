@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 from editor.language.analysis.memo import ReadMemo
 from editor.language.document.format_migrations import FORMAT, format_of
-from editor.language.document.outline import EVENTS, PROGRAM, Outline, make_outline, mapping
+from editor.language.document.outline import EVENTS, PROGRAM, Outline, make_outline
 from editor.language.expressions.names import RESERVED_ATTRIBUTES, attribute_name, local_name
 from editor.language.expressions.values import Names
-from editor.language.messages.diagnostics import Problem
+from editor.language.messages.diagnostics import Fix, Problem
 from editor.language.reading.names import (
     by_id,
     read_arguments,
@@ -21,6 +21,7 @@ from editor.language.reading.names import (
 )
 from editor.language.reading.reader import Reader
 from editor.language.reading.steps import READERS
+from editor.language.reading.well_formed import START, Odd, well_formed_parts
 from editor.language.tree.nodes import Event
 from editor.language.tree.program import Function, Tree
 from editor.language.tree.traversal import in_reading_order
@@ -41,7 +42,7 @@ def read_document(document: object, memo: ReadMemo | None = None) -> ReadDocumen
 
     `memo` has the steps as they were read last, and has them as they are read now.
     """
-    whole = mapping(document)
+    whole, odd = well_formed_parts(document)
     outline = make_outline(whole) if memo is None else memo.last.look(whole)
     parameters, names = read_parameters(by_id(whole.get("parameters")).items())
     taken = {*RESERVED_ATTRIBUTES, *names.values()}
@@ -66,7 +67,15 @@ def read_document(document: object, memo: ReadMemo | None = None) -> ReadDocumen
     tree = in_reading_order(Tree(body, tuple(finished), tuple(roles.values()), parameters, events, read_zones(whole)))
     if format_of(document) > FORMAT:
         reader.problems.append(Problem("newer_format", "", "format", {"format": format_of(document)}))
+    reader.problems.extend(map(_problem_of, odd))
     return ReadDocument(tree, outline, tuple(reader.problems))
+
+
+def _problem_of(odd: Odd) -> Problem:
+    if odd.root == START:
+        return Problem("odd_position", "", START)
+    fix = Fix("take_out", "", "part", {"root": odd.root, "part": odd.part}) if odd.part else None
+    return Problem("odd_shape", "", odd.path, {"part": odd.path}, fix)
 
 
 def _read_events(reader: Reader) -> tuple[Event, ...]:

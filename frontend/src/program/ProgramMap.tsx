@@ -9,6 +9,7 @@ import { MapStage } from "./canvas/MapStage";
 import type { OtherPerson, StepState } from "./canvas/StepChip";
 import { useScene } from "./canvas/useScene";
 import type { Compiled, ProgramDocument } from "./document/document";
+import { wellFormed } from "./document/wellFormed";
 import { chipLabel } from "./scene/announcements";
 import { Zones } from "./canvas/Zones";
 import type { SiteDevice } from "./surroundings";
@@ -37,10 +38,11 @@ const NOBODY: ReadonlyMap<string, OtherPerson> = new Map();
 
 export function ProgramMap(props: ProgramMapProps) {
   const { plan, devices, statuses, selected = null, onSelect } = props;
+  const document = useMemo(() => wellFormed(props.document), [props.document]);
   const { scene, t, surroundings } = useScene({
     site: props.site,
     mapVersion: plan?.version,
-    document: props.document,
+    document,
     compiled: props.compiled,
     devices,
     places: plan?.places,
@@ -53,11 +55,11 @@ export function ProgramMap(props: ProgramMapProps) {
       lightOf: () => null,
       captionOf: () => null,
       noteOf: () => null,
-      labelOf: (chip) => chipLabel(chip, { document: props.document, surroundings, t }),
+      labelOf: (chip) => chipLabel(chip, { document, surroundings, t }),
       startLabel: t("start"),
       editable: false,
     }),
-    [selected, statuses, props.document, surroundings, t],
+    [selected, statuses, document, surroundings, t],
   );
   return (
     <MapStage
@@ -70,7 +72,7 @@ export function ProgramMap(props: ProgramMapProps) {
       insets={props.insets ?? NO_INSETS}
       label={t("map_label")}
       mode="pan"
-      under={<Zones document={props.document} t={t} />}
+      under={<Zones document={document} t={t} />}
       onStep={(step) => onSelect?.(step)}
       onDevice={(device) => props.onSelectDevice?.(device)}
       onFloor={() => onSelect?.(null)}

@@ -5,6 +5,7 @@ import type { MapPlace } from "@/map/floor/floor";
 import { toPixels, type Box } from "@/map/plane/projection";
 import type { PixelPoint } from "@/map/plane/paths";
 import type { Place, ProgramDocument } from "./document/document";
+import { isPoint } from "./document/wellFormed";
 
 export interface MethodParameter {
   readonly name: string;
@@ -76,8 +77,8 @@ export function spotOf(
     if (!found) return null;
     return { name: found.name, at: toPixels([found.x, found.y]), box: null, place: place as Place };
   }
-  if ("point" in place && Array.isArray(place.point)) {
-    const [x, y] = place.point as [number, number];
+  if ("point" in place && isPoint(place.point)) {
+    const [x, y] = place.point;
     return { name: `${x}, ${y}`, at: toPixels([x, y]), box: null, place: place as Place };
   }
   return null;

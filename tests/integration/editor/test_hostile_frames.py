@@ -105,7 +105,7 @@ async def test_noise_instead_of_a_change_harms_nobody(web: Web) -> None:
 
 async def test_changes_that_never_follow_a_step_2_are_held_and_then_refused(web: Web) -> None:
     program = web.new_program()
-    async with join(web, "author", program) as socket:
+    async with join(web, "admin", program) as socket:
         for number in range(500):
             await socket.send(yjs_protocol.encode_update(step(f"s{number}")))
         await socket.send(yjs_protocol.encode_step_1(b"\x00"))
@@ -119,11 +119,41 @@ async def test_changes_that_never_follow_a_step_2_are_held_and_then_refused(web:
         assert await closing in {4400, 4429}
 
 
-async def test_a_flood_closes_with_4429(web: Web) -> None:
-    async with join(web) as socket:
-        for _ in range(2000):
-            await socket.send(b"\x03")
-        assert await code_of_close(socket) == 4429
+async def test_a_flood_closes_with_4429_and_who_comes_back_at_once_is_held_off(web: Web) -> None:
+    async with join(web, "author") as honest:
+        async with join(web, "admin") as socket:
+            with suppress(ConnectionClosed):
+                for _ in range(2000):
+                    await socket.send(b"\x03")
+            assert await code_of_close(socket) == 4429
+        for _ in range(3):
+            async with join(web, "admin") as again:
+                refusal = await read_until(again, b"\x02")
+                assert b"try again in" in refusal
+                assert await code_of_close(again) == 4429
+        await honest.send(yjs_protocol.encode_step_1(b"\x00"))
+        await read_until(honest, b"\x00\x01")
+    async with join(web, "viewer") as other:
+        await read_until(other, b"\x00\x00")
+
+
+async def test_a_connection_that_goes_on_after_its_close_is_cut(web: Web) -> None:
+    reader, writer = await asyncio.open_connection("127.0.0.1", web.port)
+    key = "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n"
+    told = "".join(f"{name}: {value}\r\n" for name, value in web.headers("operator").items())
+    path = web.socket_url().split(str(web.port), 1)[1]
+    head = f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{web.port}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+    writer.write(f"{head}{key}{told}\r\n".encode())
+    assert b" 101 " in await reader.readline()
+    masked = b"\x82\x82" + bytes(4) + b"\x63\x00"
+    with suppress(ConnectionError):
+        async with asyncio.timeout(8):
+            while not reader.at_eof():
+                writer.write(masked)
+                await writer.drain()
+                with suppress(TimeoutError):
+                    await asyncio.wait_for(reader.read(65536), 0.1)
+    writer.close()
 
 
 async def test_nobody_speaks_for_another_client(web: Web) -> None:

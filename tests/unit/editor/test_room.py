@@ -8,9 +8,10 @@ import pytest
 from pycrdt import Map
 
 from editor.documents import yjs_encoding
+from editor.documents.yjs_encoding import encode_integer
 from editor.rooms import yjs_protocol
 from editor.rooms.ledger import last_numbers
-from editor.rooms.member import FRAMES_PER_S, Close, Member, Person
+from editor.rooms.member import FRAMES_PER_S, Allowance, Close, Member, Person
 from editor.rooms.room import MOST_OF_PERSON, MOST_READERS, MOST_WRITERS, Room
 from editor.rooms.stream import Entry, Note
 from tests.unit.editor.people import Client, nobody, room
@@ -369,3 +370,39 @@ def test_a_change_before_which_one_was_lost_waits_until_it_has_been_asked_for() 
     bob.read()
     assert sorted(bob.steps()) == ["s0", "s1", "s2"]
     assert a.document.digest() == b.document.digest()
+
+
+def test_what_a_person_may_cost_is_counted_over_all_connections() -> None:
+    allowance = Allowance()
+    allowance.spend_parts(400_000, 0.0)
+    allowance.spend_parts(100_000, 1.0)
+    with pytest.raises(Close, match="more changes than a program has") as refused:
+        allowance.spend_parts(100_000, 2.0)
+    assert refused.value.code == Close.ABUSE
+    allowance.spend_parts(100_000, 30.0)
+
+
+def test_who_is_closed_for_abuse_again_and_again_is_held_off_longer_and_then_forgiven() -> None:
+    allowance = Allowance()
+    assert allowance.held_off_s(0.0) == 0.0
+    held = []
+    for _ in range(7):
+        allowance.note_abuse(100.0)
+        held.append(allowance.held_off_s(100.0))
+    assert held == [10, 20, 40, 80, 160, 300, 300]
+    assert (allowance.held_off_s(399.0), allowance.held_off_s(400.0)) == (1.0, 0.0)
+    assert (allowance.is_like_new(999.0), allowance.is_like_new(1000.0)) == (False, True)
+    allowance.note_abuse(1100.0)
+    assert allowance.held_off_s(1100.0) == 10
+
+
+@pytest.mark.parametrize("can_write", [True, False])
+def test_an_update_is_paid_for_by_who_sent_it(can_write: bool) -> None:
+    client = Client(room(), can_write=can_write)
+    client.read()
+    gone = b"\x00\x01\x07" + encode_integer(200_000) + b"\x00\x01" * 200_000
+    client.send(yjs_protocol.encode_update(gone))
+    client.send(yjs_protocol.encode_update(gone))
+    with pytest.raises(Close, match="more changes than a program has"):
+        client.send(yjs_protocol.encode_update(gone))
+    Client(client.room, Person(2, "Bob", "B")).send(yjs_protocol.encode_update(gone))

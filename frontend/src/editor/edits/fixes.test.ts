@@ -70,6 +70,15 @@ test("a remedy for a step that is gone changes nothing", () => {
   expect(fixEdits(EMPTY_DOCUMENT, { step: "gone", field: "quantity", value: 1 }, fresh)).toEqual([]);
 });
 
+test("what could not be read of a role is taken out, and what could is kept", () => {
+  const document = { ...EMPTY_DOCUMENT, roles: { arm: { name: "Arm", can: ["pick"] } } };
+  const edits = fixEdits(document, { step: "", field: "part", value: { root: "roles", part: "arm" } }, fresh);
+  expect(edits).toEqual([{ do: "set_role", id: "arm", value: { name: "Arm", can: ["pick"] } }]);
+  expect(fixEdits(EMPTY_DOCUMENT, { step: "", field: "part", value: { root: "roles", part: "arm" } }, fresh)).toEqual(
+    [],
+  );
+});
+
 test("a version of the library is told apart from other remedies", () => {
   const value = { function: "f", library: "lib", version: 3 };
   expect(versionOf({ step: "s", field: "source.version", value })).toEqual(value);

@@ -1,5 +1,6 @@
 /** A problem's remedy as edits of the document. */
 import { type Diagnostic, type Fix, type ProgramDocument, type Words } from "@/program/document/document";
+import type { RecordName } from "@/program/document/wellFormed";
 import { withDescendants } from "@/program/document/tree";
 import { DEFAULT_ROLE, givenToRole, roleOfStep } from "@/program/operation";
 import type { Edit } from "./edits";
@@ -25,6 +26,7 @@ const REMEDIES: Readonly<Record<string, Remedy>> = {
 
 /** `field` is one of the above, else a parameter's name, or `args.name` inside one. */
 export function fixEdits(document: ProgramDocument, fix: Change, fresh: Fresh): readonly Edit[] {
+  if (fix.field === "part") return writtenAsRead(document, fix);
   if (!document.steps[fix.step]) return [];
   return (REMEDIES[fix.field] ?? changedParameter)(document, fix, fresh);
 }
@@ -35,6 +37,20 @@ export function versionOf(fix: Change): { function: string; library: string; ver
   const { function: id, library, version } = fix.value as Record<string, unknown>;
   const whole = typeof id === "string" && typeof library === "string" && typeof version === "number";
   return whole ? { function: id, library, version } : null;
+}
+
+const SETTING = {
+  functions: "set_function",
+  roles: "set_role",
+  parameters: "set_parameter",
+  zones: "set_zone",
+} as const satisfies Record<RecordName, Edit["do"]>;
+
+/** What could not be read of a function, role, parameter or zone is gone once it is written as it was read. */
+function writtenAsRead(document: ProgramDocument, fix: Change): readonly Edit[] {
+  const { root, part } = fix.value as { root: RecordName; part: string };
+  const value = document[root]?.[part];
+  return value ? [{ do: SETTING[root], id: part, value } as Edit] : [];
 }
 
 function changedParameter(document: ProgramDocument, { step: id, field, value }: Change): readonly Edit[] {

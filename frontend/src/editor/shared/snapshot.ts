@@ -1,16 +1,14 @@
 /** The shared Yjs document as plain frozen JSON; only what changed is read anew. */
 import * as Y from "yjs";
-import { EMPTY_DOCUMENT, type ProgramDocument, type Step } from "@/program/document/document";
-
-const RECORDS = ["functions", "roles", "parameters", "zones"] as const;
+import type { ProgramDocument, Step } from "@/program/document/document";
+import { readMeta, readRecords, readStep, RECORDS, wellFormed } from "@/program/document/wellFormed";
 
 export const ROOTS = ["meta", "steps", ...RECORDS] as const;
 
 /** The whole document as it is. */
 export function readDocument(doc: Y.Doc): ProgramDocument {
-  const steps = Object.fromEntries([...doc.getMap("steps")].map(([id, value]) => [id, readStep(value)]));
-  const records = Object.fromEntries(RECORDS.map((name) => [name, doc.getMap(name).toJSON()]));
-  return { ...EMPTY_DOCUMENT, ...readMeta(doc), ...records, steps };
+  const roots = Object.fromEntries(["steps", ...RECORDS].map((name) => [name, doc.getMap(name).toJSON()]));
+  return wellFormed({ ...readSharedMeta(doc), ...roots });
 }
 
 /** The document after a transaction that changed only the roots and steps named. */
@@ -20,8 +18,9 @@ export function rereadDocument(
   changed: ReadonlyMap<string, ReadonlySet<string>>,
 ): ProgramDocument {
   let next: ProgramDocument = { ...previous };
-  if (changed.has("meta")) next = { ...next, ...readMeta(doc) };
-  for (const name of RECORDS) if (changed.has(name)) next = { ...next, [name]: doc.getMap(name).toJSON() };
+  if (changed.has("meta")) next = { ...next, ...readSharedMeta(doc) };
+  for (const name of RECORDS)
+    if (changed.has(name)) next = { ...next, [name]: readRecords(name, doc.getMap(name).toJSON()) };
   const ids = changed.get("steps");
   return ids ? { ...next, steps: rereadSteps(doc, previous.steps, ids) } : next;
 }
@@ -30,7 +29,7 @@ function rereadSteps(doc: Y.Doc, previous: ProgramDocument["steps"], ids: Readon
   const steps = new Map(Object.entries(previous));
   const shared = doc.getMap("steps");
   for (const id of ids) {
-    if (shared.has(id)) steps.set(id, readStep(shared.get(id)));
+    if (shared.has(id)) steps.set(id, readSharedStep(shared.get(id)));
     else steps.delete(id);
   }
   return Object.fromEntries(steps);
@@ -48,31 +47,12 @@ export function changedBy(root: string, events: readonly Y.YEvent<Y.AbstractType
   return ids;
 }
 
-function readMeta(doc: Y.Doc): Pick<ProgramDocument, "format" | "start_pos"> {
+function readSharedMeta(doc: Y.Doc): Pick<ProgramDocument, "format" | "start_pos"> {
   const meta = doc.getMap("meta");
-  const [format, start] = [meta.get("format"), meta.get("start_pos")];
-  return {
-    format: typeof format === "number" ? format : EMPTY_DOCUMENT.format,
-    start_pos: isPoint(start) ? start : null,
-  };
+  return readMeta(meta.get("format"), meta.get("start_pos"));
 }
 
 /** Whatever another client wrote, what comes out has the shape of a step. */
-function readStep(value: unknown): Step {
-  const raw: unknown = value instanceof Y.Map ? value.toJSON() : value;
-  const { kind, place, pos, params } = (typeof raw === "object" && raw ? raw : {}) as Record<string, unknown>;
-  return {
-    kind: typeof kind === "string" ? kind : "",
-    place: isPlace(place) ? place : null,
-    pos: isPoint(pos) ? pos : null,
-    params: typeof params === "object" && params && !Array.isArray(params) ? (params as Step["params"]) : {},
-  };
-}
-
-function isPoint(value: unknown): value is [number, number] {
-  return Array.isArray(value) && value.length === 2 && value.every((each) => Number.isFinite(each));
-}
-
-function isPlace(value: unknown): value is [string, string, string] {
-  return Array.isArray(value) && value.length === 3 && value.every((each) => typeof each === "string");
+function readSharedStep(value: unknown): Step {
+  return readStep(value instanceof Y.AbstractType ? value.toJSON() : value);
 }

@@ -5,6 +5,7 @@ import { isRobot } from "@/map/devices/device";
 import { type PixelPoint, simplified } from "@/map/plane/paths";
 import { type Point, toMetres } from "@/map/plane/projection";
 import { ancestors, type ProgramTree } from "../document/tree";
+import { isPoint } from "../document/wellFormed";
 import { operatedRole } from "../operation";
 import { type Spot, spotOf, type Surroundings } from "../surroundings";
 import { Standing } from "./standing";
@@ -109,8 +110,7 @@ export function endsOfWay(key: string): { from: Place; to: Place } {
 export function drawnRoute(step: Step | undefined): readonly Position[] | null {
   const route = step?.params.route;
   if (!Array.isArray(route) || route.length === 0) return null;
-  const sound = route.every((point) => Array.isArray(point) && point.length === 2 && point.every(Number.isFinite));
-  return sound ? (route as Position[]) : null;
+  return route.every(isPoint) ? route : null;
 }
 
 /** The bends of a path as it is planned; the middle of a straight one, so that there is one to drag. */

@@ -170,7 +170,7 @@ export const UNIT_CHOICES: readonly { readonly value: string; readonly label: st
 );
 
 export function unitText(unit: string | null | undefined): string {
-  if (!unit) return "";
+  if (!unit || typeof unit !== "string") return ""; // whatever a value of the document brought
   return UNITS[unit] ?? ALSO[unit] ?? UNITS[unit.toUpperCase()] ?? unit;
 }
 
