@@ -8,6 +8,7 @@ const encoding = require("lib0/encoding");
 const decoding = require("lib0/decoding");
 const WebSocket = require("ws");
 const config = JSON.parse(process.argv[3]);
+process.setMaxListeners(0);
 const SAVED = 100, COMPILED = 101;
 const rest = (ms) => new Promise((done) => setTimeout(done, ms));
 const say = (value) => new Promise((done) => process.stdout.write(JSON.stringify(value) + "\n", done));
@@ -53,7 +54,10 @@ function open({ index = 0, room = config.room, asks = [], seen = () => {} }) {
       super(url, protocols, { headers: config.sessions.length ? headers : {}, perMessageDeflate: false });
       client.socket = this;
       this.on("open", () => asks.forEach((frame) => super.send(frame)));
-      this.on("message", (data) => seen(data[0], data));
+      this.on("message", (data) => {
+        const bytes = new Uint8Array(data);
+        seen(bytes[0], bytes);
+      });
     }
     send(data) {
       const bytes = new Uint8Array(data);
@@ -194,7 +198,7 @@ async function saving() {
   let saved = 0;
   const client = open({ asks: [Uint8Array.of(SAVED)], seen: (kind, data) => {
     if (kind !== SAVED) return;
-    const decoder = decoding.createDecoder(new Uint8Array(data));
+    const decoder = decoding.createDecoder(data);
     decoding.readVarUint(decoder);
     saved = decoding.readVarUint(decoder);
   } });

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import os
 import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from bench.blockly import PEERS
+from tests.kit.files import ROOT
 from tests.kit.served import served_without_broker
 from tests.kit.servers import answers, find_program, free_port, run_postgres, run_redis
 from tests.kit.waiting import wait_for
-from tests.kit.web import Web, make_people, prepare
+from tests.kit.web import Web, environment, make_people, prepare
 
 AUTHORS, VIEWERS = 30, 60
 
@@ -57,6 +59,8 @@ def ours(folder: Path, count: int) -> Iterator[Server]:
             postgres, redis = stack.enter_context(run_postgres(folder)), stack.enter_context(run_redis(folder))
             told = served_without_broker(folder, postgres.url, redis.url)
             extra = {name: value for name, value in told.items() if name.startswith("VIPO_")}
+            migrate = [sys.executable, "manage.py", "migrate", "--verbosity", "0"]
+            subprocess.run(migrate, check=True, cwd=ROOT, env=environment(folder, extra))
         made = prepare(folder, extra)
         people = make_people(folder, extra, "author", AUTHORS) + make_people(folder, extra, "viewer", VIEWERS)
         webs = [Web(folder, **made, extra=extra) for _ in range(count)]

@@ -39,7 +39,7 @@ from editor.rooms.threads import in_database
 log = logging.getLogger(__name__)
 SAVE_EVERY_S = 0.25
 PUBLISH_EVERY_S = 0.01
-SPREAD_EVERY_S = 0.01
+SPREAD_EVERY_S, SPREAD_AT_LEAST_EVERY_S = 0.01, 0.2
 ADOPT_EVERY_S = 0.5
 LOOK_FOR_ROWS_S = 3.0
 LOST_FOR_S = 20.0
@@ -145,12 +145,16 @@ class OpenRoom:
                 self._note_lost(error, name)
 
     async def _spread_often(self) -> None:
-        """Send changes on at once; those that follow each other go together."""
+        """Send changes on at once; those that follow each other go together, the more the longer sending took."""
         while True:
             await self._events["spread"].wait()
             self._events["spread"].clear()
+            began = time.monotonic()
             self.room.spread()
             await asyncio.sleep(SPREAD_EVERY_S)
+            took = time.monotonic() - began
+            if took > 2 * SPREAD_EVERY_S:
+                await asyncio.sleep(min(took, SPREAD_AT_LEAST_EVERY_S))
 
     def _note_lost(self, error: StreamLost, name: str) -> None:
         """Go on for a while without the other processes, who are told later; then end."""
