@@ -17,7 +17,7 @@ from django.core.management import call_command  # noqa: E402
 from django.urls import path, re_path  # noqa: E402
 from servestatic import ServeStaticASGI  # noqa: E402
 
-from editor.rooms.socket import ProgramSocket  # noqa: E402
+from editor.rooms.socket import ProgramSocket, close_hub  # noqa: E402
 from registry.api.site_socket import SiteSocket  # noqa: E402
 from vipo_site.http.ending import keep_rooms_at_end  # noqa: E402
 from vipo_site.http.entrance import BehindProxies, OwnPagesOnly  # noqa: E402
@@ -35,7 +35,7 @@ if not settings.VIPO_DEMO:
     # Nobody signs in with a password of the demo after the demo, also where nobody ran `manage.py prepare`.
     call_command("end_demo")
 
-keep_rooms_at_end()
+keep_rooms_at_end(close_hub)
 routes = ProtocolTypeRouter(
     {
         "http": http,

@@ -12,6 +12,7 @@ from django.db import Error
 
 from editor.rooms import yjs_protocol
 from editor.rooms.hub import Hub, Permission, find_permission, hub_of_this_loop, review
+from editor.rooms.hub import close_hub as close_hub
 from editor.rooms.member import Close, Member
 from editor.rooms.refusals import INTERRUPTED
 from editor.rooms.room import Room
