@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import subprocess
+import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -18,7 +20,7 @@ from editor.documents.shared_document import SharedDocument, empty_document
 from editor.documents.yjs_encoding import encode_integer
 from editor.programs.compiled_patch import apply_patch
 from editor.rooms import yjs_protocol
-from tests.kit.web import Web, prepare
+from tests.kit.web import Web, environment, prepare
 
 Json = dict[str, Any]
 EDITS = 30
@@ -36,6 +38,24 @@ def measure() -> Iterator[dict[str, object]]:
                 yield from _figures(asyncio.run(_edit(web, count)), count)
         finally:
             web.kill()
+        for steps, tail in ((1000, 0), (4700, 0), (4700, 8000)):
+            yield from _figures_inside(folder, steps, tail)
+
+
+def _figures_inside(folder: Path, steps: int, tail: int) -> Iterator[dict[str, object]]:
+    """Yield figures of a room in a process of its own: ten people edit it four times a second and look on."""
+    command = [sys.executable, "-m", "bench.rooms_inside", str(steps), str(tail)]
+    done = subprocess.run(command, env=environment(folder, {}), capture_output=True, text=True, check=True)
+    seen: Json = json.loads(done.stdout)
+    for name, what in (
+        ("opening_stall_ms", "opening: the loop stood still at longest"),
+        ("opening_stall_computed_ms", "opening: what the process computed in such a time at most"),
+        ("edit_stall_ms", "ten editors: the loop stood still at longest"),
+        ("edit_stall_computed_ms", "ten editors: what the process computed in such a time at most"),
+        ("cpu_ms", "ten editors: the web process's processor time for an edit"),
+        ("children_cpu_ms", "ten editors: the child processes' processor time for an edit"),
+    ):
+        yield figure(what, seen[name], "ms", steps=steps, tail=tail)
 
 
 def _figures(seen: Json, steps: int) -> Iterator[dict[str, object]]:

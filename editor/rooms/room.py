@@ -7,15 +7,7 @@ from collections.abc import Callable, Iterable
 
 from editor.documents import yjs_encoding
 from editor.documents.knowledge import Knowledge
-from editor.documents.shared_document import (
-    EMPTY_UPDATE,
-    ROOTS,
-    BadUpdate,
-    SharedDocument,
-    UpdateHole,
-    merge,
-    read_update,
-)
+from editor.documents.shared_document import EMPTY_UPDATE, ROOTS, BadUpdate, SharedDocument, UpdateHole, read_update
 from editor.documents.store import Change
 from editor.documents.yjs_updates import MOST_CLIENTS, MOST_CLIENTS_OF_ALL, check_update
 from editor.rooms import yjs_protocol
@@ -279,7 +271,7 @@ class Room:
         """Take what another process found missing here; whether the database has it is not known."""
         changes = [entry.note.data] if entry.note.kind == "full" else self.document.apply(entry.note.data)
         if entry.note.kind == "full":
-            self._rebuild(entry.note.data)
+            self._rebuild([entry.note.data])
         for change in changes:
             self._spread(change)
         if changes:
@@ -335,17 +327,17 @@ class Room:
             self.to_publish.append(Note("full", self.document.encode()))
         self.wake()
 
-    def _rebuild(self, update: bytes) -> None:
+    def _rebuild(self, updates: list[bytes]) -> None:
         """Build the document anew from all that is known, which mends whatever came in a wrong order."""
-        self.document = SharedDocument([self.document.encode(), update])
+        self.document = SharedDocument([self.document.encode(), *updates])
         self.touched = True
 
     def take_over(self, updates: list[bytes], now_s: float = 0.0) -> None:
         """Take in what the database holds, in any order: after a gap. Raises BadUpdate."""
         self.form.forget()
-        update = merge(updates)
-        self._rebuild(update)
-        self._spread(update)
+        self._rebuild(updates)
+        for update in updates:
+            self._spread(update)
         self.ledger.doubt("", now_s)
 
     def note_stored(self, numbers: dict[str, int], rows: range) -> None:

@@ -356,7 +356,7 @@ async def _open_document(
     A large one is put together in a process beside, if there is one: that computes for a second and holds pycrdt's
     lock, which stops the event loop also from a thread. Raises DocumentHole, BadUpdate, BadFrame.
     """
-    updates = updates_of(tail)
+    updates = await asyncio.to_thread(updates_of, tail)
     if sum(map(len, (*stored.updates, *updates))) > LARGE_BYTES:
         opened = await compilers.open(Opening((*stored.updates, *updates), (*stored.appended, *updates)))
         if opened is not None and not opened.has_hole:

@@ -6,6 +6,7 @@ import type {
   Alert,
   ArmedProgram,
   Device,
+  Program,
   Question,
   Rehearsal,
   Run,
@@ -16,7 +17,7 @@ import type {
 } from "@/api/types";
 import { applyAlert } from "./alerts";
 import { LiveCaches } from "./caches";
-import { applyChanges, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
+import { applyChanges, applyChecked, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
 import type { DeviceChange, LiveMessage } from "./messages";
 import { recordDevice } from "./readings";
 import { useLiveStore } from "./store";
@@ -77,6 +78,8 @@ export class SiteFeed {
         return;
       case "programs":
         return this.#caches.refresh(keys.programs(this.slug));
+      case "checked":
+        return this.#caches.write<Program[]>(keys.programs(this.slug), (programs) => applyChecked(programs, message));
     }
   }
 

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { Question, Device, RunEvent, RunSummary } from "@/api/types";
-import { applyChanges, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
+import { applyChanges, applyChecked, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
 
 const mixer = { id: "mixer", name: "Paint Mixer", status: "idle", doing: "", carrying: {} } as unknown as Device;
 const robot = { id: "robot", name: "TurtleBot", status: "busy", doing: "", carrying: { box: 1 } } as unknown as Device;
@@ -67,4 +67,16 @@ test("a question takes its place by its time and is replaced when it is answered
     "answered",
     "open",
   ]);
+});
+
+test("a check changes the counts of its program in the list and nothing else", () => {
+  const programs = [
+    { id: "a", name: "Paint", errors: 0, warnings: 2 },
+    { id: "b", name: "Carry", errors: 0, warnings: 0 },
+  ];
+  expect(applyChecked(programs, { program: "a", revision: 7, errors: 3, warnings: 1 })).toEqual([
+    { id: "a", name: "Paint", errors: 3, warnings: 1 },
+    programs[1],
+  ]);
+  expect(applyChecked(programs, { program: "gone", revision: 7, errors: 3, warnings: 1 })).toEqual(programs);
 });

@@ -47,7 +47,25 @@ export type LiveMessage =
   | { type: "rehearsal"; id: string; status: RehearsalStatus; progress: number }
   | ({ type: "stop" } & SiteStop)
   | { type: "traffic"; robots: Record<string, RobotTraffic> }
-  | { type: "programs" };
+  | { type: "programs" }
+  | ({ type: "checked" } & CheckedProgram);
+
+/** What lists show of a program that was checked. */
+export interface CheckedProgram {
+  program: string;
+  revision: number;
+  errors: number;
+  warnings: number;
+}
+
+/** The list of programs with the counts of one that was checked. */
+export function applyChecked<P extends { id: string; errors: number; warnings: number }>(
+  programs: readonly P[],
+  checked: CheckedProgram,
+): P[] {
+  const { program, errors, warnings } = checked;
+  return programs.map((each) => (each.id === program ? { ...each, errors, warnings } : each));
+}
 
 /** Changes that people must see at once; the rest (poses, readings) may be gathered. */
 const URGENT: readonly (keyof Device)[] = ["status", "doing", "activity", "lifecycle", "carrying", "name", "done"];

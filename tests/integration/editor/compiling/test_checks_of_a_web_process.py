@@ -1,0 +1,55 @@
+"""A web process and those in which it checks: what the site hears, and what is shown when one is killed."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+from pathlib import Path
+from typing import Any
+
+from websockets.asyncio.client import connect
+
+from tests.integration.editor.test_compiled_in_two_processes import add, looking
+from tests.kit.web import Web
+
+
+def children_of(pid: int) -> list[int]:
+    """Return the processes that check for a web process."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields, command = stat.read_text().rpartition(")")[2].split(), (stat.parent / "cmdline").read_bytes()
+        except OSError:
+            continue
+        if int(fields[1]) == pid and fields[0] != "Z" and b"editor.compiling.child_process" in command:
+            found.append(int(stat.parent.name))
+    return found
+
+
+async def test_the_site_hears_a_small_notice_of_other_counts_and_not_the_form(web: Web) -> None:
+    program = web.new_program()
+    url = f"ws://127.0.0.1:{web.port}/ws/site/hall"
+    async with connect(url, additional_headers=web.headers("viewer")) as site, looking(web, program) as ada:
+        await add(ada, "a")
+        await ada.sees("a")
+        async with asyncio.timeout(30):
+            told: dict[str, Any] = {}
+            while (told.get("type"), told.get("program")) != ("checked", program):
+                told = json.loads(await site.recv())
+    revision = told.pop("revision")
+    assert told == {"type": "checked", "program": program, "errors": 0, "warnings": 0}
+    assert revision == ada.form["revision"]
+
+
+async def test_edits_are_shown_though_the_processes_that_check_are_killed_and_they_stay_few(web: Web) -> None:
+    assert web.process is not None
+    program, names = web.new_program(), [f"s{number}" for number in range(6)]
+    async with looking(web, program) as ada:
+        for number, name in enumerate(names):
+            await add(ada, name)
+            await ada.sees(*names[: number + 1])
+            assert 1 <= len(children_of(web.process.pid)) <= 5
+            for pid in children_of(web.process.pid):
+                os.kill(pid, signal.SIGKILL)
