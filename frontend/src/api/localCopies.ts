@@ -37,8 +37,8 @@ export async function isKept(database: string): Promise<boolean> {
 export async function listCopies(): Promise<readonly KeptCopy[]> {
   const found: KeptCopy[] = [];
   for (const { name = "" } of await indexedDB.databases()) {
-    const parts = /^vipo-copy-(\d+)-(.+)$/.exec(name);
-    if (parts) found.push({ database: name, person: parts[1]!, program: parts[2]!, waiting: await countWaiting(name) });
+    const [, person, program] = /^vipo-copy-(\d+)-(.+)$/.exec(name) ?? [];
+    if (person && program) found.push({ database: name, person, program, waiting: await countWaiting(name) });
   }
   return found;
 }

@@ -6,7 +6,13 @@ const at = (path: string) => new URL(path, "https://vipo.example");
 test("what the editor needs to open is kept, and nothing else", () => {
   const needed = ["/api/me", "/api/sites/a", "/api/sites/a/devices", "/api/sites/a/map", "/api/sites/a/map/cells"];
   expect(needed.filter((path) => !isNeeded(at(path)))).toEqual([]);
-  const other = ["/api/sites", "/api/sites/a/devices?lifecycle=retired", "/api/runs/1", "/api/me/sessions", "/api/library"];
+  const other = [
+    "/api/sites",
+    "/api/sites/a/devices?lifecycle=retired",
+    "/api/runs/1",
+    "/api/me/sessions",
+    "/api/library",
+  ];
   expect(other.filter((path) => isNeeded(at(path)))).toEqual([]);
 });
 

@@ -2,6 +2,8 @@
 import { isNeeded, ME } from "./kept";
 
 const LOOK_MS = 30 * 60 * 1000;
+/** An answer that was under way when the worker came is on the list only when it is there. */
+const READ_AGAIN_MS = [0, 2000, 8000];
 const listeners = new Set<() => void>();
 let old = false;
 
@@ -55,10 +57,22 @@ export function entryOf(page: string): string | null {
   return /<script type="module"[^>]* src="(\/assets\/[^"]+)"/.exec(page)?.[1] ?? null;
 }
 
-/** What this page has read before the first worker was there to keep it is read once more, through the worker. */
+/** What this page has read past the first worker, before it was there to keep it, is read once more through it. */
 async function readAgain(): Promise<void> {
-  const read = performance.getEntriesByType("resource").map(({ name }) => new URL(name));
-  const needed = new Set(read.filter((url) => url.origin === location.origin && isNeeded(url)).map(({ href }) => href));
   await fetch(ME).catch(() => null); // whose answers they are is known first
-  await Promise.all([...needed].map((href) => fetch(href).catch(() => null)));
+  const done = new Set<string>();
+  for (const wait of READ_AGAIN_MS) {
+    await new Promise((ready) => setTimeout(ready, wait));
+    const past = performance
+      .getEntriesByType("resource")
+      .filter((entry) => entry instanceof PerformanceResourceTiming && entry.workerStart === 0);
+    const needed = past
+      .map(({ name }) => new URL(name))
+      .filter((url) => url.origin === location.origin && isNeeded(url));
+    const missing = needed.map(({ href }) => href).filter((href) => !done.has(href));
+    for (const href of new Set(missing)) {
+      done.add(href);
+      await fetch(href).catch(() => null);
+    }
+  }
 }

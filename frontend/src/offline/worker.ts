@@ -49,14 +49,14 @@ async function answer(request: Request, url: URL): Promise<Response> {
     await keep(url.pathname, told, asked);
     return told;
   }
-  const kept = await (await caches.open(ANSWERS)).match(url.pathname);
+  const kept = await look(url.pathname);
   if (kept && isFresh(kept, Date.now())) return kept;
   return told ?? Response.error();
 }
 
 async function keep(path: string, told: Response, asked: number): Promise<void> {
   if (told.status === 401) return forget();
-  if (told.status === 403 || told.status === 404) return void (await (await caches.open(ANSWERS)).delete(path));
+  if (told.status === 403 || told.status === 404) return remove(path);
   if (told.status !== 200) return;
   const known = await keptPerson();
   if (path === ME) {
@@ -70,14 +70,23 @@ async function keep(path: string, told: Response, asked: number): Promise<void> 
 
 /** Whose answers are kept; null while there are none: the first that is kept says who it is. */
 async function keptPerson(): Promise<number | null> {
-  const kept = await (await caches.open(ANSWERS)).match(ME);
+  const kept = await look(ME);
   return kept ? personOf(kept) : null;
+}
+
+/** To look for something makes no cache anew. */
+function look(path: string): Promise<Response | undefined> {
+  return caches.match(path, { cacheName: ANSWERS });
 }
 
 async function changePerson(request: Request): Promise<Response> {
   const told = await fetch(request);
   if (told.ok) await forget();
   return told;
+}
+
+async function remove(path: string): Promise<void> {
+  if (await look(path)) await (await caches.open(ANSWERS)).delete(path);
 }
 
 async function forget(): Promise<void> {

@@ -68,7 +68,7 @@ export function SignOutQuestion({ signOut }: { signOut: SigningOut }) {
           <Button variant="default" onClick={signOut.stay} data-autofocus>
             {t("shell.signOut.stay")}
           </Button>
-          <Button color="red" loading={signOut.isPending} onClick={signOut.signOut}>
+          <Button color="red.9" loading={signOut.isPending} onClick={signOut.signOut}>
             {t("shell.signOut.anyway")}
           </Button>
         </div>

@@ -59,11 +59,12 @@ function ScriptText({ session }: { session: ScriptSession }) {
   );
 }
 
-/** Without a connection nobody compiles: what is shown is from before one's last changes, or missing. */
+/** Nobody compiles what the server does not have: what is shown is from before one's last changes, or missing. */
 function useBehind(): boolean {
   const { shared, compiled } = useOpenProgram();
-  const { connection, waiting } = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
-  return connection !== "live" && connection !== "connecting" && (waiting > 0 || compiled === null);
+  const { connection, waiting, notTaken } = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
+  if (connection === "live" || connection === "connecting") return notTaken > 0;
+  return waiting > 0 || compiled === null;
 }
 
 function ScriptStrip({ state, session, id }: { state: ScriptState; session: ScriptSession; id: string }) {

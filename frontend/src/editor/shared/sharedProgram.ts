@@ -222,6 +222,7 @@ export class SharedProgram {
     provider.on("connection-close", (event) => {
       if (event && event.code >= 4400 && event.code < 4500)
         this.#setSaving({ connection: "refused", closedWith: event.code });
+      else this.#setSaving({ connection: "reconnecting" }); // also when there never was a connection
     });
   }
 
