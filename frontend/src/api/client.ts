@@ -39,8 +39,9 @@ function csrfToken(): string {
   return cookie ? decodeURIComponent(cookie.slice("csrftoken=".length)) : token;
 }
 
-async function send(method: string, path: string, body?: BodyInit, type?: string): Promise<Response> {
+async function send(method: string, path: string, body?: BodyInit, type?: string, tag?: string): Promise<Response> {
   const headers = new Headers({ Accept: "application/json" });
+  if (tag) headers.set("If-Match", tag);
   if (type) headers.set("Content-Type", type);
   if (method !== "GET") headers.set("X-CSRFToken", csrfToken());
   let response: Response;
@@ -92,12 +93,19 @@ async function receiveAll<T>(path: string): Promise<T[]> {
   return all;
 }
 
+/** Put something in the place of what is there, if nobody changes that meanwhile. */
+async function replace(path: string, body: unknown): Promise<void> {
+  const known = await send("GET", path);
+  await send("PUT", path, JSON.stringify(body), "application/json", known.headers.get("ETag") ?? "");
+}
+
 /** Paths begin after `/api`. Every call throws ApiProblem on a refusal. */
 export const api = {
   get: <T>(path: string) => sendJson<T>("GET", path),
   all: receiveAll,
   post: <T = void>(path: string, body?: unknown) => sendJson<T>("POST", path, body),
   patch: <T = void>(path: string, body: unknown) => sendJson<T>("PATCH", path, body),
+  replace,
   delete: <T = void>(path: string) => sendJson<T>("DELETE", path),
   upload: async <T>(path: string, form: FormData) => receive<T>(await send("POST", path, form)),
   text: async (path: string) => (await send("GET", path)).text(),

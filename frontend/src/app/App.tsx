@@ -8,7 +8,9 @@ import { RouterProvider } from "react-router-dom";
 import { makeQueryClient } from "@/api/queries";
 import { makeTheme, variablesResolver } from "@/design/theme";
 import { makeRouter } from "./router";
+import { NewVersion } from "./NewVersion";
 import { useTheme } from "@/shell/theme";
+import { useKeepOnlyOwn } from "@/shell/waitingCopies";
 
 // Outside of the tree: state of a tree that suspends before its first commit is thrown away.
 const queries = makeQueryClient();
@@ -24,8 +26,15 @@ export function App() {
     <QueryClientProvider client={queries}>
       <MantineProvider theme={theme} cssVariablesResolver={variablesResolver} forceColorScheme={scheme}>
         <Notifications position="bottom-right" />
+        <KeepOnlyOwn />
+        <NewVersion />
         <RouterProvider router={router} />
       </MantineProvider>
     </QueryClientProvider>
   );
+}
+
+function KeepOnlyOwn() {
+  useKeepOnlyOwn();
+  return null;
 }

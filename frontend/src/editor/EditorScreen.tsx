@@ -1,5 +1,5 @@
 /** The editor: a program drawn on its map, by several people at once. */
-import { useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
+import { useCallback, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import { useTranslation } from "react-i18next";
 import { useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
@@ -29,7 +29,9 @@ export function EditorScreen() {
   const me = useMe();
   useSiteLive(slug);
   const canEdit = site.data?.role === "author" || site.data?.role === "admin";
-  const shared = useShared(id, site.data !== undefined, canEdit);
+  const user = me.data?.user ?? null;
+  const [shared, openAnew] = useShared(id, site.data ? user?.id : undefined, canEdit);
+  useComeAgain(shared);
   const failed = missing(program, site, devices);
   if (failed)
     return <Failed error={failed} again={() => void [program, site, devices].map((read) => read.refetch())} />;
@@ -41,7 +43,8 @@ export function EditorScreen() {
       devices={devices.data}
       shared={shared}
       canEdit={canEdit}
-      user={me.data?.user ?? null}
+      user={user}
+      openAnew={openAnew}
     />
   );
 }
@@ -54,20 +57,53 @@ function Failed({ error, again }: { error: Error; again: () => void }) {
   );
 }
 
-/** The shared document for as long as this program is on the screen. */
-function useShared(id: string | undefined, ready: boolean, canEdit: boolean): SharedProgram | null {
+/** The shared document for as long as this program is on the screen, and a way to begin with it anew. */
+function useShared(
+  id: string | undefined,
+  person: number | undefined,
+  canEdit: boolean,
+): [SharedProgram | null, () => void] {
   const [shared, setShared] = useState<SharedProgram | null>(null);
+  const [round, setRound] = useState(0);
+  const openAnew = useCallback(() => setRound((before) => before + 1), []);
   useEffect(() => {
-    if (!id || !ready) return;
+    if (!id || person === undefined) return;
     resetUi();
-    const opened = new SharedProgram(id, socketAddress());
+    const opened = new SharedProgram(id, socketAddress(), String(person));
     setShared(opened);
     return () => {
       setShared(null);
       opened.close();
     };
-  }, [id, ready, canEdit]);
-  return shared;
+  }, [id, person, canEdit, round]);
+  return [shared, openAnew];
+}
+
+const SIGNED_OUT = 4401;
+/** So long the answer that brings a new password's key may take. */
+const NEW_KEY_MS = 500;
+
+/** Whoever is still signed in when the server ends a connection for its session, with a new password say, comes again. */
+function useComeAgain(shared: SharedProgram | null): void {
+  const { refetch } = useMe();
+  useEffect(() => {
+    if (!shared) return;
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    const look = () => {
+      if (shared.getSaving().closedWith !== SIGNED_OUT || timer !== undefined) return;
+      timer = setTimeout(() => {
+        timer = undefined;
+        void refetch().then(({ data }) => {
+          if (data?.user && shared.getSaving().closedWith === SIGNED_OUT) shared.connectAgain();
+        });
+      }, NEW_KEY_MS);
+    };
+    const stop = shared.subscribeSaving(look);
+    return () => {
+      stop();
+      clearTimeout(timer);
+    };
+  }, [shared, refetch]);
 }
 
 /** y-websocket puts the program's id behind it. */
@@ -89,9 +125,10 @@ interface LoadedProps {
   shared: SharedProgram;
   canEdit: boolean;
   user: User | null;
+  openAnew: () => void;
 }
 
-function Loaded({ program, site, devices: live, shared, canEdit, user }: LoadedProps) {
+function Loaded({ program, site, devices: live, shared, canEdit, user, openAnew }: LoadedProps) {
   const map = useSiteMap(site.has_map ? site.slug : undefined);
   const compiled = useSyncExternalStore(shared.compiled.subscribe, shared.compiled.get);
   const document = useSyncExternalStore(shared.subscribe, shared.getDocument);
@@ -131,8 +168,9 @@ function Loaded({ program, site, devices: live, shared, canEdit, user }: LoadedP
       apply: (edits: readonly Edit[]) => {
         if (canEdit) shared.apply(edits);
       },
+      openAnew,
     };
-  }, [program, site, plan, devices, shared, document, compiled, parts, people, canEdit, language]);
+  }, [program, site, plan, devices, shared, document, compiled, parts, people, canEdit, language, openAnew]);
   return (
     <ProgramContext value={open}>
       <EditorWorkspace />

@@ -11,6 +11,7 @@ import { Inspector } from "./inspector/Inspector";
 import { Drawer } from "./parts/Drawer";
 import { EditorTop } from "./parts/EditorTop";
 import { FunctionDialog } from "./parts/FunctionDialog";
+import { NotTaken } from "./parts/NotTaken";
 import { LibraryDialog } from "./parts/LibraryDialog";
 import { EmptyProgram, HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
 import { RunDialog } from "./parts/RunDialog";
@@ -56,6 +57,7 @@ export function EditorWorkspace() {
         <EmptyProgram />
         <HelpSentence />
         <Toast />
+        <NotTaken />
         <ProgramButton small={small} shown={inspector} />
         {inspector ? <Inspector /> : null}
         <ZoneForm />

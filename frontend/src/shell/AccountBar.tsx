@@ -1,16 +1,15 @@
 /** Who is signed in, what they may do here, and how the screen looks to them. */
 import { Menu } from "@mantine/core";
-import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { Check, KeyRound, Languages, LogOut, Monitor, Moon, Sun, UserRound, type LucideIcon } from "lucide-react";
 import { useTranslation } from "react-i18next";
-import { Link, useNavigate } from "react-router-dom";
-import { api } from "@/api/client";
+import { Link } from "react-router-dom";
 import { useMe } from "@/api/queries";
 import type { Role, User } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { IconButton } from "@/design/IconButton";
 import { chooseLanguage, LANGUAGES } from "@/i18n";
 import styles from "./sidebar.module.css";
+import { SignOutQuestion, useSignOut } from "./SignOut";
 import { chooseTheme, useTheme, useThemeChoice, type ThemeChoice } from "./theme";
 
 const THEMES: readonly [ThemeChoice, LucideIcon][] = [
@@ -46,59 +45,50 @@ function ThemeMenu() {
   );
 }
 
-function useSignOut() {
-  const queries = useQueryClient();
-  const navigate = useNavigate();
-  return useMutation({
-    mutationFn: () => api.post("/sign-out"),
-    onSettled: async () => {
-      await navigate("/sign-in");
-      queries.clear();
-    },
-  });
-}
-
 function AccountMenu({ user, role, slug }: { user: User; role: Role | undefined; slug: string | undefined }) {
   const { t, i18n } = useTranslation();
-  const signOut = useSignOut();
+  const signOut = useSignOut("/sign-out");
   return (
-    <Menu width={220} position="top-start">
-      <Menu.Target>
-        <button type="button" className={styles.account}>
-          <Avatar name={user.name} initials={user.initials} size={26} />
-          <span className={styles.switchText}>
-            <strong>{user.name}</strong>
-            <small>{role ? t(`shell.role.${role}`) : user.email}</small>
-          </span>
-          <span className="visually-hidden">{t("shell.account.menu")}</span>
-        </button>
-      </Menu.Target>
-      <Menu.Dropdown>
-        <Menu.Label>{user.email}</Menu.Label>
-        {LANGUAGES.map((language) => (
-          <Menu.Item
-            key={language}
-            leftSection={<Languages size={15} />}
-            rightSection={i18n.language === language ? <Check size={15} /> : null}
-            onClick={() => chooseLanguage(language)}
-          >
-            {t(`shell.language.${language}`)}
+    <>
+      <SignOutQuestion signOut={signOut} />
+      <Menu width={220} position="top-start">
+        <Menu.Target>
+          <button type="button" className={styles.account}>
+            <Avatar name={user.name} initials={user.initials} size={26} />
+            <span className={styles.switchText}>
+              <strong>{user.name}</strong>
+              <small>{role ? t(`shell.role.${role}`) : user.email}</small>
+            </span>
+            <span className="visually-hidden">{t("shell.account.menu")}</span>
+          </button>
+        </Menu.Target>
+        <Menu.Dropdown>
+          <Menu.Label>{user.email}</Menu.Label>
+          {LANGUAGES.map((language) => (
+            <Menu.Item
+              key={language}
+              leftSection={<Languages size={15} />}
+              rightSection={i18n.language === language ? <Check size={15} /> : null}
+              onClick={() => chooseLanguage(language)}
+            >
+              {t(`shell.language.${language}`)}
+            </Menu.Item>
+          ))}
+          <Menu.Divider />
+          <Menu.Item component={Link} to="/account" leftSection={<UserRound size={15} />}>
+            {t("shell.account.settings")}
           </Menu.Item>
-        ))}
-        <Menu.Divider />
-        <Menu.Item component={Link} to="/account" leftSection={<UserRound size={15} />}>
-          {t("shell.account.settings")}
-        </Menu.Item>
-        {slug ? (
-          <Menu.Item component={Link} to={`/sites/${slug}/tokens`} leftSection={<KeyRound size={15} />}>
-            {t("tokens.menu")}
+          {slug ? (
+            <Menu.Item component={Link} to={`/sites/${slug}/tokens`} leftSection={<KeyRound size={15} />}>
+              {t("tokens.menu")}
+            </Menu.Item>
+          ) : null}
+          <Menu.Item leftSection={<LogOut size={15} />} onClick={signOut.ask}>
+            {t("shell.account.signOut")}
           </Menu.Item>
-        ) : null}
-        <Menu.Item leftSection={<LogOut size={15} />} onClick={() => signOut.mutate()}>
-          {t("shell.account.signOut")}
-        </Menu.Item>
-      </Menu.Dropdown>
-    </Menu>
+        </Menu.Dropdown>
+      </Menu>
+    </>
   );
 }
 

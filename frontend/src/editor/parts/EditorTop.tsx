@@ -1,21 +1,20 @@
 /** The editor's top bar: where we are, what is saved, who is here, what can be done. */
 import { Button } from "@mantine/core";
-import type { Translate } from "@/program/words/stepWords";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
-import { Box, CircleAlert, Cloud, CloudOff, Play, Redo2, TriangleAlert, Undo2 } from "lucide-react";
-import { useEffect, useState, useSyncExternalStore } from "react";
+import { Box, CircleAlert, Play, Redo2, TriangleAlert, Undo2 } from "lucide-react";
+import { useEffect, useState } from "react";
 import { useNavigate } from "react-router-dom";
 import { api } from "@/api/client";
 import { keys } from "@/api/queries";
 import type { Program, Rehearsal } from "@/api/types";
+import { problemText } from "@/shell/LoadProblem";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { Avatar } from "@/design/Avatar";
-import { Chip } from "@/design/Chip";
 import { IconButton } from "@/design/IconButton";
 import { undoLast } from "../state/actions";
 import { FollowButton } from "../gestures/FollowButton";
 import { Arm } from "./RunDialog";
-import type { Saving } from "../shared/sharedProgram";
+import { SavedChip } from "./SavedChip";
 import { useOpenProgram } from "../state/context";
 import { say, select, showTab, useUi } from "../state/ui";
 import classes from "./top.module.css";
@@ -75,25 +74,6 @@ function ProgramName() {
       }}
     />
   );
-}
-
-function SavedChip() {
-  const { shared, t, canEdit } = useOpenProgram();
-  const saving = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
-  if (!canEdit) return <Chip tone="plain">{t("read_only")}</Chip>;
-  if (saving.connection === "refused") return <Chip tone="error">{t("saved.refused")}</Chip>;
-  const away = saving.connection !== "live";
-  return (
-    <Chip tone={away ? "note" : "plain"}>
-      {away ? <CloudOff size={14} aria-hidden="true" /> : <Cloud size={14} aria-hidden="true" />}
-      <span aria-live="polite">{savedWords(saving, t)}</span>
-    </Chip>
-  );
-}
-
-function savedWords({ connection, waiting }: Saving, t: Translate): string {
-  if (connection !== "live") return waiting > 0 ? t("saved.waiting", { count: waiting }) : t("saved.away");
-  return t(waiting > 0 ? "saved.saving" : "saved.saved");
 }
 
 function UndoButtons() {
@@ -206,7 +186,7 @@ function SimulateButton() {
       return api.post<Rehearsal>(`/programs/${program.id}/rehearsals`, {});
     },
     onSuccess: (rehearsal) => void navigate(`/programs/${program.id}/simulate/${rehearsal.id}`),
-    onError: (error) => say(error.message),
+    onError: (error) => say(problemText(error, error.message)),
   });
   return (
     <Button

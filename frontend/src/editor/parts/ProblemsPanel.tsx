@@ -13,16 +13,17 @@ import { say, select, useUi } from "../state/ui";
 import classes from "./drawer.module.css";
 
 export function ProblemsPanel({ titled = false }: { titled?: boolean }) {
-  const { diagnostics } = useOpenProgram();
+  const { diagnostics, compiled, t: editor } = useOpenProgram();
   const { t } = useTranslation();
+  const unchecked = compiled === null;
   const errors = diagnostics.filter((each) => each.severity === "error");
   const warnings = diagnostics.filter((each) => each.severity === "warning");
   return (
     <div className={classes.problems} data-titled={titled || undefined}>
       {diagnostics.length === 0 ? (
         <p className={classes.nothing}>
-          <CircleCheck size={20} aria-hidden="true" />
-          {t("problems.none")}
+          {unchecked ? null : <CircleCheck size={20} aria-hidden="true" />}
+          {unchecked ? editor("problems_unchecked") : t("problems.none")}
         </p>
       ) : null}
       <Group title={t("problems.errors", { count: errors.length })} problems={errors} />

@@ -14,8 +14,10 @@ import classes from "./drawer.module.css";
 export function ScriptPanel() {
   const { compiled, t } = useOpenProgram();
   const session = useScriptSession();
+  const behind = useBehind();
   const ready = compiled?.script && session;
-  return ready ? <ScriptText session={session} /> : <p className={classes.nothing}>{t("script.none")}</p>;
+  if (!ready) return <p className={classes.nothing}>{t(behind ? "script.behind" : "script.none")}</p>;
+  return <ScriptText session={session} />;
 }
 
 function ScriptText({ session }: { session: ScriptSession }) {
@@ -57,14 +59,24 @@ function ScriptText({ session }: { session: ScriptSession }) {
   );
 }
 
+/** Nobody compiles what the server does not have: what is shown is from before one's last changes, or missing. */
+function useBehind(): boolean {
+  const { shared, compiled } = useOpenProgram();
+  const { connection, waiting, notTaken } = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
+  if (connection === "live" || connection === "connecting") return notTaken > 0;
+  return waiting > 0 || compiled === null;
+}
+
 function ScriptStrip({ state, session, id }: { state: ScriptState; session: ScriptSession; id: string }) {
   const { t } = useOpenProgram();
   const { problems, conflicts, failed } = state;
   const [first] = problems;
   const [met] = conflicts;
   const invalid = first !== undefined || failed !== null;
+  const behind = useBehind();
   return (
-    <div role="status" id={id} className={classes.scriptStrip} data-shown={invalid || met ? true : undefined}>
+    <div role="status" id={id} className={classes.scriptStrip} data-shown={invalid || met || behind ? true : undefined}>
+      {behind ? <p>{t("script.behind")}</p> : null}
       {invalid ? (
         <p>
           <strong>{t("script.invalid")}</strong> {failed ?? (first ? inWords(first) : "")}

@@ -3,7 +3,7 @@ import { afterEach, expect, test } from "vitest";
 import { WebSocket as NodeSocket, WebSocketServer } from "ws";
 import { WebsocketProvider } from "y-websocket";
 import * as Y from "yjs";
-import { SavedChanges } from "./savedChanges";
+import { MOMENT_MS, SavedChanges } from "./savedChanges";
 
 const servers: WebSocketServer[] = [];
 const providers: WebsocketProvider[] = [];
@@ -85,4 +85,28 @@ test("messages that were not taken are counted", async () => {
   edit("a");
   server.save(1, 1);
   await expect.poll(() => saved.refused).toBe(1);
+});
+
+test("what pages before made waits for the first answer of the new connection", async () => {
+  const server = serve();
+  const { saved, provider } = join(server.url);
+  saved.madeBefore(3);
+  expect([saved.waiting, saved.late]).toEqual([3, true]);
+  await expect.poll(() => provider.synced).toBe(true);
+  await expect.poll(() => server.seen.frames).toBe(1);
+  expect(saved.stored).toBe(0);
+  server.save(1);
+  await expect.poll(() => [saved.waiting, saved.stored, saved.late]).toEqual([0, 3, false]);
+});
+
+test("a change is late only when it has waited for a moment, and one that was not taken keeps waiting", async () => {
+  const server = serve();
+  const { saved, provider, edit } = join(server.url);
+  await expect.poll(() => provider.synced).toBe(true);
+  edit("a");
+  expect(saved.late).toBe(false);
+  await expect.poll(() => saved.late, { timeout: MOMENT_MS * 3 }).toBe(true);
+  server.save(2, 1);
+  await expect.poll(() => saved.refused).toBe(1);
+  expect(saved.waiting).toBe(1);
 });

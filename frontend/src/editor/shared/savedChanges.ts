@@ -12,11 +12,17 @@ const SYNC_STEP_1 = 0;
 
 type Messages = WebsocketProvider["messageHandlers"];
 
+/** Waiting is worth a word only after this time: the server stores what comes every quarter of a second. */
+export const MOMENT_MS = 1000;
+
 export class SavedChanges {
   /** What y-websocket shall connect with: it sees what is sent. */
   readonly Socket: typeof WebSocket;
   #made = 0;
   #stored = 0;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  /** When each change that waits was made, the oldest first. */
+  #since: number[] = [];
   #refused = 0;
   #frames = 0;
   #marks: { frame: number; made: number }[] = [];
@@ -43,6 +49,17 @@ export class SavedChanges {
     return this.#made - this.#stored;
   }
 
+  /** How many are known to be stored, of pages before this one, too. */
+  get stored(): number {
+    return this.#stored;
+  }
+
+  /** Something of one's own has waited longer than a moment. */
+  get late(): boolean {
+    const [oldest] = this.#since;
+    return oldest !== undefined && Date.now() - oldest >= MOMENT_MS;
+  }
+
   /** How many messages of this connection the server did not take, since whoever sends them may only look. */
   get refused(): number {
     return this.#refused;
@@ -51,16 +68,45 @@ export class SavedChanges {
   /** Count a change of one's own; before it is sent. */
   made(): void {
     this.#made += 1;
+    this.#since.push(Date.now());
+    this.#watch();
     this.changed();
+  }
+
+  /** Count what pages before this one have made and did not hear about; before the first connection. */
+  madeBefore(count: number): void {
+    this.#made += count;
+    this.#since.unshift(...Array.from({ length: count }, () => 0));
+    this.changed();
+  }
+
+  close(): void {
+    clearTimeout(this.#timer);
   }
 
   listen(handlers: Messages): void {
     handlers[MESSAGE_SAVED] = (_encoder, decoder) => {
       const stored = decoding.readVarUint(decoder);
       this.#refused = decoding.readVarUint(decoder);
-      while (this.#marks[0] && this.#marks[0].frame <= stored) this.#stored = this.#marks.shift()?.made ?? 0;
+      // What was not taken is not stored, though its message is done with.
+      if (this.#refused === 0) this.#store(stored);
       this.changed();
     };
+  }
+
+  #store(frames: number): void {
+    const before = this.#stored;
+    while (this.#marks[0] && this.#marks[0].frame <= frames) this.#stored = this.#marks.shift()?.made ?? 0;
+    this.#since.splice(0, this.#stored - before);
+    this.#watch();
+  }
+
+  /** Say so when the oldest change has waited for a moment. */
+  #watch(): void {
+    clearTimeout(this.#timer);
+    const [oldest] = this.#since;
+    const wait = (oldest ?? 0) + MOMENT_MS - Date.now();
+    if (oldest !== undefined && wait > 0) this.#timer = setTimeout(() => this.changed(), wait);
   }
 
   #begin(): void {

@@ -1,5 +1,4 @@
 /** The program that several people edit: Yjs, its server, its copy in the browser, undo and presence. */
-import { IndexeddbPersistence } from "y-indexeddb";
 import { WebsocketProvider } from "y-websocket";
 import * as Y from "yjs";
 import * as buffer from "lib0/buffer";
@@ -7,6 +6,7 @@ import { api } from "@/api/client";
 import type { Edit } from "../edits/edits";
 import { SavedChanges } from "./savedChanges";
 import { CompiledForm } from "./compiledForm";
+import { LocalCopy, TAKEN_OVER } from "./localCopy";
 import { writeEdit } from "./writer";
 import { changedBy, readDocument, rereadDocument, ROOTS } from "./snapshot";
 import type { ProgramDocument } from "@/program/document/document";
@@ -20,6 +20,8 @@ export interface Saving {
   readonly connection: Connection;
   /** How many of our own edits the server has not yet called saved. */
   readonly waiting: number;
+  /** Something of it has waited for longer than a moment. */
+  readonly late: boolean;
   /** How many messages with edits of ours it did not take, since we may only look. */
   readonly notTaken: number;
   /** Everything is here: from the server, or from the browser's copy. */
@@ -32,6 +34,15 @@ const MOST_REMOVED = 40;
 
 type Listener = () => void;
 
+const START: Saving = {
+  connection: "connecting",
+  waiting: 0,
+  late: false,
+  notTaken: 0,
+  loaded: false,
+  closedWith: null,
+};
+
 /** One open program. Call `close` when its screen goes. */
 export class SharedProgram {
   readonly doc = new Y.Doc();
@@ -39,18 +50,21 @@ export class SharedProgram {
   readonly provider: WebsocketProvider;
   #provider: WebsocketProvider | null = null;
   readonly compiled: CompiledForm;
-  readonly #copy: IndexeddbPersistence;
+  readonly #copy: LocalCopy;
   readonly #saved = new SavedChanges(() => this.#showSaved());
+  #earlier = 0;
+  #closed = false;
   readonly #origin = Symbol("this person");
   readonly #listeners = new Set<Listener>();
   readonly #savingListeners = new Set<Listener>();
   #document: ProgramDocument;
-  #saving: Saving = { connection: "connecting", waiting: 0, notTaken: 0, loaded: false, closedWith: null };
+  #saving: Saving = START;
   #changed = new Map<string, Set<string>>();
 
   constructor(
     private readonly program: string,
     serverUrl: string,
+    person: string,
   ) {
     this.#document = readDocument(this.doc);
     const roots = ROOTS.map((name) => this.doc.getMap(name));
@@ -62,12 +76,13 @@ export class SharedProgram {
     ROOTS.forEach((name, index) => roots[index]?.observeDeep((events) => this.#note(name, events)));
     this.doc.on("afterTransaction", () => this.#publish());
     this.doc.on("update", (_update, origin) => {
-      if (origin !== this.#copy && origin !== this.#provider) this.#saved.made(); // before it is sent
+      const others: readonly unknown[] = [this.#copy.origin, this.#provider, TAKEN_OVER];
+      if (!others.includes(origin)) this.#saved.made(); // before it is sent
     });
-    this.#copy = new IndexeddbPersistence(`vipo-program-${program}`, this.doc);
-    this.#copy.on("synced", () => this.#setSaving({ loaded: this.#saving.loaded || this.doc.store.clients.size > 0 }));
+    this.#copy = new LocalCopy(person, program, this.doc);
     // Tabs do not hand edits to each other: each one's own are sent, counted and called saved by itself.
     this.provider = new WebsocketProvider(serverUrl, program, this.doc, {
+      connect: false,
       disableBc: true,
       WebSocketPolyfill: this.#saved.Socket,
     });
@@ -75,6 +90,7 @@ export class SharedProgram {
     this.#saved.listen(this.provider.messageHandlers);
     this.compiled = new CompiledForm(this.provider);
     this.#listenToServer();
+    void this.#open();
   }
 
   /** Hear which steps others remove, while the document is still the one before; one's own are named to the others. */
@@ -132,11 +148,35 @@ export class SharedProgram {
     await api.post(`/programs/${this.program}/stored`, { seen: buffer.toBase64(seen) });
   }
 
+  /** Try again after a refusal that may have passed. */
+  connectAgain(): void {
+    this.#setSaving({ connection: "connecting", closedWith: null });
+    this.provider.connect();
+  }
+
+  /** Give up what waits: the copy in this browser goes. The program is to be opened anew after this. */
+  async discard(): Promise<void> {
+    this.provider.disconnect();
+    await this.#copy.remove();
+  }
+
   close(): void {
+    this.#closed = true;
+    this.#saved.close();
     this.provider.destroy();
     this.undo.destroy();
-    void this.#copy.destroy();
+    void this.#copy.close();
     this.doc.destroy();
+  }
+
+  /** Connect once the copy is here: the first answer to the server has all that waits, and counts for it. */
+  async #open(): Promise<void> {
+    const earlier = await this.#copy.open();
+    if (this.#closed) return;
+    this.#earlier = earlier;
+    this.#saved.madeBefore(earlier);
+    this.#setSaving({ loaded: this.#saving.loaded || this.doc.store.clients.size > 0 });
+    this.provider.connect();
   }
 
   #note(root: string, events: readonly Y.YEvent<Y.AbstractType<unknown>>[]): void {
@@ -153,9 +193,20 @@ export class SharedProgram {
   }
 
   #showSaved(): void {
-    const { waiting, refused } = this.#saved;
-    if (waiting !== this.#saving.waiting || refused !== this.#saving.notTaken)
-      this.#setSaving({ waiting, notTaken: refused });
+    const { waiting, late, refused } = this.#saved;
+    const before = this.#saving;
+    if (waiting === before.waiting && late === before.late && refused === before.notTaken) return;
+    if (waiting !== before.waiting) this.#keepCount(waiting);
+    this.#setSaving({ waiting, late, notTaken: refused });
+  }
+
+  /** Beside the copy stands what this page made; what pages before it made stands there until all of it is saved. */
+  #keepCount(waiting: number): void {
+    if (this.#earlier > 0 && this.#saved.stored > 0) {
+      this.#earlier = 0;
+      void this.#copy.settle();
+    }
+    this.#copy.keep(waiting - this.#earlier);
   }
 
   #listenToServer(): void {
@@ -171,6 +222,7 @@ export class SharedProgram {
     provider.on("connection-close", (event) => {
       if (event && event.code >= 4400 && event.code < 4500)
         this.#setSaving({ connection: "refused", closedWith: event.code });
+      else this.#setSaving({ connection: "reconnecting" }); // also when there never was a connection
     });
   }
 

@@ -28,6 +28,8 @@ export interface OpenProgram {
   readonly canEdit: boolean;
   readonly canRun: boolean;
   readonly apply: (edits: readonly Edit[]) => void;
+  /** Begin with the program anew, as the server has it. */
+  readonly openAnew: () => void;
 }
 
 export const ProgramContext = createContext<OpenProgram | null>(null);

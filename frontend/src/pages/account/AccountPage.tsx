@@ -4,13 +4,13 @@ import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { Check, CircleAlert, LogOut } from "lucide-react";
 import { useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
-import { useNavigate } from "react-router-dom";
 import { api, ApiProblem, rememberCsrf } from "@/api/client";
 import { keys, useMe } from "@/api/queries";
 import type { Me, User } from "@/api/types";
 import { Panel } from "@/design/Panel";
 import { problemText } from "@/shell/LoadProblem";
 import { PageShell } from "@/shell/PageShell";
+import { SignOutQuestion, useSignOut } from "@/shell/SignOut";
 import styles from "./account.module.css";
 import { SessionList } from "./SessionList";
 
@@ -104,26 +104,18 @@ function PasswordForm({ user }: { user: User }) {
 
 function Sessions() {
   const { t } = useTranslation();
-  const queries = useQueryClient();
-  const navigate = useNavigate();
-  const end = useMutation({
-    mutationFn: () => api.post("/me/sign-out-everywhere"),
-    onSuccess: async () => {
-      await navigate("/sign-in");
-      queries.clear();
-    },
-  });
+  const end = useSignOut("/me/sign-out-everywhere");
   return (
     <Panel className={styles.card}>
       <div className={styles.form}>
+        <SignOutQuestion signOut={end} />
         <SessionList ending={end.isPending || end.isSuccess} />
         <p>{t("pages.account.everywhereText")}</p>
-        {end.isError ? <Told error={end.error} done={false} /> : null}
         <Button
           variant="default"
           leftSection={<LogOut size={16} aria-hidden="true" />}
           loading={end.isPending}
-          onClick={() => end.mutate()}
+          onClick={end.ask}
         >
           {t("pages.account.everywhere")}
         </Button>

@@ -12,6 +12,7 @@ import type { Me } from "@/api/types";
 import { Avatar } from "@/design/Avatar";
 import { Logo } from "@/design/Logo";
 import { Panel } from "@/design/Panel";
+import { useWaitingCount } from "@/shell/waitingCopies";
 import styles from "./SignInPage.module.css";
 
 interface Credentials {
@@ -62,6 +63,7 @@ function SignInForm({ me }: { me: Me }) {
   const { t } = useTranslation();
   const [who, setWho] = useState<Credentials>({ email: "", password: "" });
   const signIn = useSignIn();
+  const waiting = useWaitingCount();
   const submit = (event: FormEvent) => {
     event.preventDefault();
     signIn.mutate(who);
@@ -79,6 +81,7 @@ function SignInForm({ me }: { me: Me }) {
           <p>{t("pages.signIn.text")}</p>
         </div>
       </div>
+      {waiting > 0 ? <p role="status">{t("shell.waiting.signedOut", { count: waiting })}</p> : null}
       <form className={styles.form} onSubmit={submit}>
         <TextInput
           label={t("pages.signIn.email")}

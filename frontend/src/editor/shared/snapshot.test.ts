@@ -1,13 +1,13 @@
 /** The cases are the server's own: browsers must read the same of them, and draw whatever is left. */
 import { expect, test } from "vitest";
 import * as Y from "yjs";
-import { readDocument } from "@/editor/shared/snapshot";
+import { readDocument } from "./snapshot";
 import cases from "../../../../tests/cases/odd_documents.json";
-import { buildScene } from "../scene/scene";
-import { surroundingsOf } from "../surroundings";
-import { chipText, plainText } from "../words/stepWords";
-import type { ProgramDocument } from "./document";
-import { RECORDS, wellFormed } from "./wellFormed";
+import { buildScene } from "@/program/scene/scene";
+import { surroundingsOf } from "@/program/surroundings";
+import { chipText, plainText } from "@/program/words/stepWords";
+import type { ProgramDocument } from "@/program/document/document";
+import { RECORDS, wellFormed } from "@/program/document/wellFormed";
 
 type Json = Readonly<Record<string, unknown>>;
 interface Case {

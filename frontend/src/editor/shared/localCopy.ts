@@ -1,0 +1,86 @@
+/** A person's copy of a program in this browser, and how many changes in it the server has not called saved. */
+import * as idb from "lib0/indexeddb";
+import { IndexeddbPersistence } from "y-indexeddb";
+import * as Y from "yjs";
+import { COUNTS, copyOf, isKept, oldCopyOf } from "@/api/localCopies";
+
+/** A browser that gives nothing back within this time is worked in without a copy. */
+const PATIENCE_MS = 3000;
+/** What comes out of a copy of before, which belonged to nobody, is kept in this one, and no change of one's own. */
+export const TAKEN_OVER = Symbol("taken over");
+
+export class LocalCopy {
+  /** Whose changes are not one's own: they are in the copy. */
+  readonly origin: unknown;
+  readonly #persistence: IndexeddbPersistence;
+  /** Each page counts its own: several of one person may be open. */
+  readonly #page = crypto.randomUUID();
+  #before = new Map<string, number>();
+
+  constructor(
+    person: string,
+    private readonly program: string,
+    private readonly doc: Y.Doc,
+  ) {
+    this.#persistence = new IndexeddbPersistence(copyOf(person, program), doc);
+    this.origin = this.#persistence;
+  }
+
+  /** Read the copy into the document; returns how many changes of pages before wait in it. */
+  async open(): Promise<number> {
+    const read = this.#read().catch(() => 0);
+    return Promise.race([read, new Promise<number>((done) => setTimeout(() => done(0), PATIENCE_MS))]);
+  }
+
+  async #read(): Promise<number> {
+    // Counted first: what another page adds between the two is not called saved too early.
+    for (const [page, count] of await this.#counts()) this.#before.set(page, count);
+    await this.#persistence.whenSynced;
+    await takeOver(this.program, this.doc);
+    return [...this.#before.values()].reduce((sum, count) => sum + count, 0);
+  }
+
+  /** Keep how many changes of this page wait. */
+  keep(waiting: number): void {
+    const { persistence, page } = { persistence: this.#persistence, page: this.#page };
+    void (waiting > 0 ? persistence.set(page, waiting) : persistence.del(page)).catch(() => {});
+  }
+
+  /** What pages before this one had made is saved; a page that has made more since still counts its own. */
+  async settle(): Promise<void> {
+    const before = this.#before;
+    if (before.size === 0) return;
+    this.#before = new Map();
+    for (const [page, count] of await this.#counts()) if (before.get(page) === count) await this.#persistence.del(page);
+  }
+
+  /** Remove the copy; the document itself stays as it is. */
+  async remove(): Promise<void> {
+    await this.#persistence.destroy();
+    await idb.deleteDB(this.#persistence.name);
+  }
+
+  async close(): Promise<void> {
+    await this.#persistence.destroy();
+  }
+
+  async #counts(): Promise<readonly (readonly [string, number])[]> {
+    const db = await this.#persistence._db;
+    const [store] = idb.transact(db, [COUNTS], "readonly");
+    const kept: { k: unknown; v: unknown }[] = store ? await idb.getAllKeysValues(store) : [];
+    return kept.map(({ k, v }) => [String(k), Number(v)] as const);
+  }
+}
+
+/** Once: what a copy of before holds becomes part of the document, then that copy goes. */
+async function takeOver(program: string, doc: Y.Doc): Promise<void> {
+  const name = oldCopyOf(program);
+  if (!(await isKept(name))) return;
+  const old = new Y.Doc();
+  const persistence = new IndexeddbPersistence(name, old);
+  await persistence.whenSynced;
+  Y.applyUpdate(doc, Y.encodeStateAsUpdate(old), TAKEN_OVER);
+  await persistence.destroy();
+  old.destroy();
+  await idb.deleteDB(name);
+}

@@ -1,0 +1,240 @@
+"""What a browser keeps of programs: drawn on without the server, sent when it is back, gone with signing out."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.e2e.conftest import SignIn, sign_in_by_form
+from tests.e2e.screens import ask, chip, click_floor, draw_task, make_program, saved
+from tests.kit.demo import Demo, running_demo
+from tests.kit.files import ROOT
+from tests.kit.waiting import wait_for
+
+pytestmark = pytest.mark.browser
+
+DATABASES = "async () => (await indexedDB.databases()).map((each) => each.name)"
+CACHES = "async () => (await caches.keys()).filter((name) => name === 'vipo-answers')"
+WORKS = "async () => (await navigator.serviceWorker.ready).active?.state === 'activated'"
+KEEPS = "async (path) => (await (await caches.open('vipo-answers')).match(path)) !== undefined"
+
+
+def come_ready(page: Page) -> None:
+    """Wait until the service worker can open this program without the server."""
+    wait_for("the service worker", lambda: page.evaluate(WORKS), 30)
+    program = page.url.rsplit("/", 1)[1]
+    for path in ("/api/me", f"/api/programs/{program}", "/api/sites/painting-factory/map/cells"):
+        wait_for(f"the worker to keep {path}", lambda path=path: page.evaluate(KEEPS, path), 30)
+
+
+def draw_move(page: Page, x: float, y: float) -> None:
+    page.keyboard.press("Escape")
+    page.keyboard.press("m")
+    click_floor(page, x, y)
+    page.keyboard.press("Escape")
+
+
+def waiting(page: Page, count: int) -> None:
+    words = "Offline: one change waits here" if count == 1 else f"Offline: {count} changes wait here"
+    expect(page.get_by_role("banner").get_by_text(words)).to_be_visible()
+
+
+def draw_offline(page: Page) -> None:
+    """Open the program anew without a network, and draw one step; sockets that are open do not notice a cut."""
+    page.context.set_offline(True)
+    page.reload()
+    expect(chip(page, "")).not_to_have_count(0)
+    draw_move(page, 0.4, 0.3)
+    waiting(page, 1)
+
+
+def give_role(demo: Demo, role: str) -> None:
+    """Give the demo's author another role at all sites."""
+    find = f"Membership.objects.filter(user__email={demo.account('author').email!r})"
+    code = f"from registry.models import Membership; {find}.update(role={role!r})"
+    environment = {**os.environ, "VIPO_STATE_DIR": str(demo.state)}
+    environment.pop("DJANGO_SETTINGS_MODULE", None)
+    command = [sys.executable, "manage.py", "shell", "--verbosity", "0", "-c", code]
+    subprocess.run(command, cwd=ROOT, env=environment, check=True)
+
+
+def sign_in_anew(chromium: Browser, demo: Demo, role: str) -> Page:
+    """A browser with a session of its own, which may be ended."""
+    context = chromium.new_context(locale="en-GB", storage_state=sign_in_by_form(chromium, demo, role))
+    page = context.new_page()
+    page.goto(demo.url)
+    return page
+
+
+def sign_out(page: Page) -> None:
+    page.get_by_role("button", name="Account").click()
+    page.get_by_role("menuitem", name="Sign out").click()
+
+
+def steps_on_server(page: Page) -> int:
+    return len(ask(page, f"/api/programs/{page.url.rsplit('/', 1)[1]}/document")["steps"])
+
+
+def test_a_program_opens_without_a_server_and_what_is_drawn_is_sent_later(sign_in: SignIn, faults: list[str]) -> None:
+    page = sign_in("author")
+    make_program(page, "Drawn in a tunnel")
+    draw_task(page)
+    saved(page)
+    come_ready(page)
+    before = steps_on_server(page)
+    page.context.set_offline(True)
+    page.reload()
+    expect(chip(page, "")).not_to_have_count(0)
+    expect(page.get_by_role("banner").get_by_text("Connecting again")).to_be_visible()
+    draw_move(page, 0.4, 0.3)
+    waiting(page, 1)
+    page.reload()
+    waiting(page, 1)
+    page.context.set_offline(False)
+    saved(page)
+    assert steps_on_server(page) == before + 1
+    page.reload()
+    saved(page)
+    faults.clear()  # a browser complains of each call that gets no answer
+
+
+def test_a_killed_server_takes_nothing_along(chromium: Browser, tmp_path: Path) -> None:
+    with running_demo(tmp_path / "state") as demo:
+        context = chromium.new_context(locale="en-GB", storage_state=sign_in_by_form(chromium, demo, "author"))
+        page = context.new_page()
+        page.goto(demo.url)
+        make_program(page, "Drawn beside a dead server")
+        draw_task(page)
+        saved(page)
+        come_ready(page)
+        os.killpg(demo.process.pid, signal.SIGKILL)
+        demo.process.wait(20)
+        draw_move(page, 0.4, 0.3)
+        waiting(page, 1)
+        page.reload()
+        waiting(page, 1)
+        expect(page.get_by_text(re.compile("^Move to")).first).to_be_visible()
+        expect(page.get_by_text("The script and the checks do not know your last changes.")).to_be_visible()
+        expect(page.get_by_text("Not checked yet")).to_be_visible()
+        context.close()
+
+
+def test_what_a_viewer_had_drawn_is_shown_kept_and_sent_when_the_role_comes_back(
+    sign_in: SignIn, demo: Demo, faults: list[str]
+) -> None:
+    page = sign_in("author")
+    make_program(page, "Drawn without a right")
+    draw_task(page)
+    saved(page)
+    come_ready(page)
+    draw_offline(page)
+    try:
+        give_role(demo, "viewer")
+        page.context.set_offline(False)
+        expect(page.get_by_role("heading", name="One change of yours was not taken")).to_be_visible()
+        with page.expect_download() as download:
+            page.get_by_role("button", name="Download my version").click()
+        kept = json.loads(download.value.path().read_text())
+        assert sorted(step["kind"] for step in kept["steps"].values()) == ["move", "pick_and_drop"]
+        assert steps_on_server(page) == 1
+    finally:
+        give_role(demo, "author")
+    page.reload()
+    saved(page)
+    assert steps_on_server(page) == 2
+    faults.clear()
+
+
+def test_a_version_that_is_too_large_becomes_a_program_of_its_own(sign_in: SignIn, faults: list[str]) -> None:
+    page = sign_in("author")
+    make_program(page, "Too large")
+    draw_task(page)
+    saved(page)
+    come_ready(page)
+    draw_offline(page)
+    page.route_web_socket(re.compile("/ws/program/"), lambda socket: socket.close(code=4413, reason="too large"))
+    page.context.set_offline(False)
+    page.reload()
+    expect(page.get_by_role("heading", name="One change of yours was not taken")).to_be_visible()
+    expect(page.get_by_role("banner").get_by_text("One change is not saved")).to_be_visible()
+    page.get_by_role("button", name="Save my version as a copy").focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_label("Name of the program")).to_have_value("Too large (my version)")
+    assert steps_on_server(page) == 2
+    faults.clear()
+
+
+def test_signing_out_asks_and_then_leaves_nothing(chromium: Browser, demo: Demo) -> None:
+    page = sign_in_anew(chromium, demo, "author")
+    make_program(page, "Left behind")
+    draw_task(page)
+    saved(page)
+    come_ready(page)
+    draw_offline(page)
+    page.route_web_socket(re.compile("/ws/program/"), lambda socket: socket.close(code=4503, reason="not now"))
+    page.context.set_offline(False)
+    page.goto(demo.url)
+    sign_out(page)
+    question = page.get_by_role("dialog", name="Changes wait in this browser")
+    expect(question.get_by_role("link", name="Left behind")).to_be_visible()
+    expect(question).to_contain_text("Left behind: one change")
+    question.get_by_role("button", name="Sign out anyway").click()
+    page.wait_for_url(f"{demo.url}/sign-in")
+    wait_for("the copies to go", lambda: page.evaluate(DATABASES) == [], 20)
+    assert page.evaluate(KEEPS, "/api/me") is False
+    page.context.close()
+
+
+def test_the_next_person_at_a_browser_finds_nothing_of_the_one_before(chromium: Browser, demo: Demo) -> None:
+    page = sign_in_anew(chromium, demo, "author")
+    path = make_program(page, "Of the one before")
+    draw_task(page)
+    saved(page)
+    come_ready(page)
+    before = page.evaluate(DATABASES)
+    page.context.clear_cookies()  # a session that ended by itself
+    admin = demo.account("admin")
+    page.goto(f"{demo.url}/sign-in")
+    page.get_by_label("Email address").fill(admin.email)
+    page.get_by_label("Password", exact=True).fill(admin.password)
+    page.get_by_role("button", name="Sign in", exact=True).click()
+    page.wait_for_url(f"{demo.url}/")
+    page.goto(demo.url + path)
+    saved(page)
+    after = page.evaluate(DATABASES)
+    assert (len(before), len(after)) == (1, 1)
+    assert before != after
+    page.context.close()
+
+
+def test_each_of_two_tabs_counts_its_own(sign_in: SignIn, faults: list[str]) -> None:
+    page = sign_in("author")
+    make_program(page, "In two tabs")
+    draw_task(page)
+    saved(page)
+    come_ready(page)
+    other = page.context.new_page()
+    other.goto(page.url)
+    saved(other)
+    page.context.set_offline(True)
+    page.reload()
+    other.reload()
+    expect(chip(page, "")).not_to_have_count(0)
+    expect(chip(other, "")).not_to_have_count(0)
+    draw_move(page, 0.4, 0.3)
+    waiting(page, 1)
+    draw_move(other, 0.5, 0.3)
+    waiting(other, 1)
+    page.context.set_offline(False)
+    saved(page)
+    saved(other)
+    wait_for("both tabs' steps", lambda: steps_on_server(page) == 3, 20)
+    faults.clear()
