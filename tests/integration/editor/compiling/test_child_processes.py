@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -116,10 +116,18 @@ async def test_a_program_that_kills_its_process_each_time_is_said_to_break_off_a
 async def test_a_check_that_takes_too_long_is_ended_by_the_clock_and_told_so() -> None:
     large, small = Edited("large", 4900), Edited("small")
     async with running(lanes=1, check_s=0.1) as compilers:
-        await small.check(compilers)
+        await _check_in_time(small, compilers)
         with pytest.raises(CheckFailed, match="check_took_too_long"):
             await large.check(compilers)
-        assert _without_revision((await small.check(compilers)).said) == small.whole()
+        assert _without_revision((await _check_in_time(small, compilers)).said) == small.whole()
+
+
+async def _check_in_time(program: Edited, compilers: Compilers) -> Any:
+    """Check a small program, again where a busy machine took longer than this test allows."""
+    for _ in range(30):
+        with suppress(CheckFailed):
+            return await program.check(compilers)
+    raise AssertionError("Not even a small program was checked in time.")
 
 
 async def test_who_waits_behind_a_long_check_goes_on_before_it_has_ended() -> None:
