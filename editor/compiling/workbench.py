@@ -18,7 +18,7 @@ from editor.language.allocation import paused_collector
 from editor.language.compiler import EditedProgram
 from editor.language.site.surroundings import FloorFacts, Surroundings
 from editor.programs.compiled_patch import apply_patch, make_patch
-from editor.programs.shown import Shown, shown_of
+from editor.programs.summary import Summary, summary_of
 
 Form = Mapping[str, Any]
 
@@ -51,7 +51,7 @@ class Found:
     """What a check found: `said` is the form, or a patch of the one that the job named; `state` how far it looked."""
 
     said: Form
-    shown: Shown
+    summary: Summary
     state: bytes
     took_s: float
 
@@ -138,7 +138,7 @@ def _found(job: Job, known: _Known, floor: FloorFacts | None) -> Found:
     base = _base(job, known.forms)
     known.forms = (form,) if base is None else (base, form)
     said = form if base is None else make_patch(base, form)
-    return Found(said, shown_of(document, compiled), known.document.state(), time.process_time() - began_s)
+    return Found(said, summary_of(document, compiled), known.document.state(), time.process_time() - began_s)
 
 
 def _base(job: Job, forms: tuple[Form, ...]) -> Form | None:

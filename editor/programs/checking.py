@@ -14,7 +14,7 @@ from editor.language.compiler import EditedProgram
 from editor.language.reading.well_formed import well_formed_function
 from editor.language.site.surroundings import DeviceFacts, FloorFacts, LibraryFacts, PlaceFacts, Surroundings
 from editor.models import LibraryFunction, LibraryUse, LibraryVersion, Program
-from editor.programs.shown import Shown
+from editor.programs.summary import Summary
 from registry import services as registry
 from registry.floorplan.plan import FloorPlan, machine_beside
 from vipo_device.protocol.description import Description, Pose
@@ -112,15 +112,15 @@ def check_document(document: Mapping[str, Any], around: Around, edited: EditedPr
     return Checked(document, compiled, revision, around.fingerprint)
 
 
-def store_shown(program_id: str, shown: Shown, against: str) -> bool:
+def store_summary(program_id: str, summary: Summary, against: str) -> bool:
     """Store what lists show of a program that was checked `against` that; tell whether they show something else."""
     rows = Program.objects.filter(pk=program_id)
     before = rows.values_list("kinds", "devices", "errors", "warnings").first()
-    after = (list(shown.kinds), list(shown.devices), shown.errors, shown.warnings)
+    after = (list(summary.kinds), list(summary.devices), summary.errors, summary.warnings)
     kinds, devices, errors, warnings = after
     rows.update(kinds=kinds, devices=devices, errors=errors, warnings=warnings, checked_against=against)
     if program := rows.select_related("site").first():
-        _store_uses(program, shown.sources)
+        _store_uses(program, summary.sources)
     return before is not None and before != after
 
 

@@ -33,9 +33,9 @@ from editor.programs.checking import (
     fingerprint_of,
     new_revision,
     read_around,
-    store_shown,
+    store_summary,
 )
-from editor.programs.shown import shown_of
+from editor.programs.summary import summary_of
 from editor.programs.views import ProgramView, VersionView, view_author
 from registry import services as registry
 from registry.services import FIRST, Listed, Part, publish
@@ -107,7 +107,7 @@ def get_compiled(*, program_id: UUID | str) -> dict[str, object]:
 
 def _check(program_id: str, document: Mapping[str, Any]) -> Checked:
     checked = check_document(document, read_around(program_id), EditedProgram())
-    store_shown(program_id, shown_of(checked.document, checked.compiled), checked.against)
+    store_summary(program_id, summary_of(checked.document, checked.compiled), checked.against)
     return checked
 
 

@@ -16,8 +16,8 @@ from editor.compiling.compilers import CheckFailed, Compilers
 from editor.compiling.failures import failed_form
 from editor.compiling.feeding import Wanted
 from editor.errors import NoSuchProgram
-from editor.programs.checking import Around, new_revision, read_around, store_failure, store_shown
-from editor.programs.shown import Shown
+from editor.programs.checking import Around, new_revision, read_around, store_failure, store_summary
+from editor.programs.summary import Summary
 from editor.rooms.compiled_form import encode_check
 from editor.rooms.room import Room
 from editor.rooms.threads import in_database
@@ -37,10 +37,10 @@ RETRY_AFTER_S = 1.0
 
 @dataclass(frozen=True, slots=True)
 class _Checked:
-    """A check of this process that is to be stored; nothing is `shown` of one that failed."""
+    """A check of this process that is to be stored; nothing is `summary` of one that failed."""
 
     revision: int
-    shown: Shown | None
+    summary: Summary | None
     against: str
 
 
@@ -100,18 +100,18 @@ class Checks:
         room = self.room
         try:
             around = await self._read_around()
-            said, shown, after, took_s = await self._look(around)
+            said, summary, after, took_s = await self._look(around)
         except (DatabaseError, NoSuchProgram) as error:
             log.warning("Program %s was not checked: %s", room.program, error)
             room.touched = isinstance(error, DatabaseError)  # then it is tried again a little later
             return 0.0
         room.to_publish.append(encode_check(said, after=after, more=room.touched, against=around.fingerprint))
         await self._publish()
-        self._checked = _Checked(said["revision"], shown, around.fingerprint)
+        self._checked = _Checked(said["revision"], summary, around.fingerprint)
         self._found.set()
         return took_s
 
-    async def _look(self, around: Around) -> tuple[Mapping[str, Any], Shown | None, str, float]:
+    async def _look(self, around: Around) -> tuple[Mapping[str, Any], Summary | None, str, float]:
         """Return what is to be said of the form, what lists show, up to which entry had been heard, and the time."""
         room, after = self.room, self._heard_to()
 
@@ -130,7 +130,7 @@ class Checks:
             found = await self._compilers.check(wanted, begin)
         except CheckFailed as error:
             return failed_form(room.form.now, new_revision(), error.code), None, after, FAILED_REST_S
-        return found.said, found.shown, after, found.took_s
+        return found.said, found.summary, after, found.took_s
 
     async def _read_around(self) -> Around:
         """Return what is around the program: as it was read last, for a second and while nothing is heard of it."""
@@ -194,11 +194,11 @@ def _read_unless_same(program_id: str, last: Around | None) -> Around:
 
 def _store(program_id: str, site: str, checked: _Checked) -> None:
     """Store what lists show, and tell the site if they show something else."""
-    if checked.shown is None:
+    if checked.summary is None:
         is_news, counts = store_failure(program_id, checked.against), (1, 0)
     else:
-        is_news = store_shown(program_id, checked.shown, checked.against)
-        counts = checked.shown.errors, checked.shown.warnings
+        is_news = store_summary(program_id, checked.summary, checked.against)
+        counts = checked.summary.errors, checked.summary.warnings
     if is_news:
         told = {"program": program_id, "revision": checked.revision, "errors": counts[0], "warnings": counts[1]}
         registry.publish(site, {"type": "checked", **told})

@@ -39,14 +39,17 @@ class NodeClients:
 
 @contextmanager
 def node_clients(web: Web, program: str) -> Iterator[NodeClients]:
+    with node_process(web, Path(__file__).with_name("node_client.mjs"), program=program) as clients:
+        yield clients
+
+
+@contextmanager
+def node_process(web: Web, script: Path, **config: Any) -> Iterator[NodeClients]:
+    """Run a script of clients that takes one command a line."""
     node = find_program("node")
     assert (MODULES / "node_modules" / "y-websocket").exists(), "Run `npm ci` in frontend/ first."
-    script = Path(__file__).with_name("node_client.mjs")
     process = subprocess.Popen(
-        [node, script, str(MODULES), json.dumps({"program": program})],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
+        [node, script, str(MODULES), json.dumps(config)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
     try:
         yield NodeClients(process, web)

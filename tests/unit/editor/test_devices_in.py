@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from editor.programs.shown import devices_in
+from editor.programs.summary import devices_in
 
 
 def test_devices_are_found_in_steps_conditions_roles_and_arguments() -> None:

@@ -15,7 +15,7 @@ from editor.compiling.workbench import Found, Workbench
 from editor.documents.shared_document import SharedDocument, empty_document, migrate_document
 from editor.language import compile_document, compiled_to_json
 from editor.language.site.surroundings import Surroundings
-from editor.programs.shown import shown_of
+from editor.programs.summary import summary_of
 from editor.rooms.compiled_form import CompiledForm, encode_check
 from editor.rooms.stream import BEGINNING, Entry
 from tests.unit.language.test_incremental import SITES, edited
@@ -40,7 +40,7 @@ class Process:
         self.sizes.append(len(frame))
         found: Found = self.bench.check(decode_body(frame[HEAD.size :]))
         self.feeding.take(wanted, document, job, found)
-        assert found.shown == shown_of(self.document.to_json(), compile_document(self.document.to_json(), site))
+        assert found.summary == summary_of(self.document.to_json(), compile_document(self.document.to_json(), site))
         return dict(found.said)
 
 

@@ -7,10 +7,8 @@ A round is one program with a person at each process; several are drawn at once,
 from __future__ import annotations
 
 import random
-import subprocess
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,10 +17,8 @@ import psycopg
 import redis
 
 from editor.documents.shared_document import SharedDocument
-from tests.integration.editor.node_clients import MODULES, NodeClients
+from tests.integration.editor.node_clients import NodeClients, node_process
 from tests.integration.editor.web_pairs import Pair
-from tests.kit.servers import find_program
-from tests.kit.web import Web
 
 AT_ONCE = 5
 ALIKE_WITHIN_S = 20.0
@@ -42,22 +38,6 @@ class Judged:
     examples: tuple[str, ...] = ()
 
 
-@contextmanager
-def _people(web: Web) -> Iterator[NodeClients]:
-    script = Path(__file__).with_name("kill_clients.mjs")
-    process = subprocess.Popen(
-        [find_program("node"), script, str(MODULES)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    )
-    try:
-        yield NodeClients(process, web)
-    finally:
-        assert process.stdin is not None
-        process.stdin.close()
-        process.wait(10)
-        assert process.stdout is not None
-        process.stdout.close()
-
-
 def play(pair: Pair, rounds: int, seed: int) -> Iterator[Judged]:
     """Play so many rounds; yields what is judged so far after each kill. Both processes run before and afterwards."""
     dice, judged = random.Random(seed), Judged()
@@ -70,7 +50,7 @@ def play(pair: Pair, rounds: int, seed: int) -> Iterator[Judged]:
 def _kill_once(pair: Pair, count: int, dice: random.Random, judged: Judged) -> None:
     victim, other = dice.sample([pair.one, pair.two], 2)
     programs = [other.new_program() for _ in range(count)]
-    with _people(other) as people:
+    with node_process(other, Path(__file__).with_name("kill_clients.mjs")) as people:
         for number, program in enumerate(programs):
             for web in (victim, other):
                 name = f"p{number}{'v' if web is victim else 'o'}"

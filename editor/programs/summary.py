@@ -1,4 +1,4 @@
-"""What lists show of a program, from its document and what the checks found. Pure."""
+"""The summary of a program that lists show, from its document and what the checks found. Pure."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from editor.language import Compiled
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class Summary:
     """What lists show: the kinds of its steps, the devices that it names, and how many errors and warnings it has.
 
     `sources` are the functions of the site's library that it has taken in.
@@ -23,11 +23,11 @@ class Shown:
     warnings: int
 
 
-def shown_of(document: Mapping[str, Any], compiled: Compiled) -> Shown:
+def summary_of(document: Mapping[str, Any], compiled: Compiled) -> Summary:
     """Return what lists show of a checked document."""
     severities = [diagnostic.severity for diagnostic in compiled.diagnostics]
     steps = [step for step in document["steps"].values() if isinstance(step, dict)]
-    return Shown(
+    return Summary(
         kinds=tuple(sorted({str(step["kind"]) for step in steps if isinstance(step.get("kind"), str)})),
         devices=tuple(sorted(devices_in(document))),
         sources=tuple(sorted(_sources(document))),
