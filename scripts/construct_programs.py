@@ -98,6 +98,11 @@ def _steps_of_robots() -> dict[str, Picture]:
             WEST,
             (2.0, -4.2),
         ),
+    }
+
+
+def _works_and_waits() -> dict[str, Picture]:
+    return {
         "operate": Picture(
             {"a": step("operate", 10.2, -12.5, device=OVEN_ID, method="curePaint", args={"time": 10})},
             OVEN,
@@ -124,18 +129,9 @@ def _steps_of_robots() -> dict[str, Picture]:
     }
 
 
-def _choices_and_loops() -> dict[str, Picture]:
-    ok = {"op": "==", "args": [{"property": ["curingOven01", "quality"]}, "ok"]}
+def _loops() -> dict[str, Picture]:
     mixers = [{"at": {"device": "paintMixer01"}}, {"at": {"device": "paintMixer02"}}]
     return {
-        "if": Picture(
-            {
-                "a": step("if", 4.1, -3.9, condition=ok),
-                "b": tell(2.4, -5.9, "a.then.1V", "Good"),
-                "c": tell(5.9, -5.9, "a.else.1V", "Look at it"),
-            },
-            HALL,
-        ),
         "while": Picture({"a": step("while", 3.0, -4.3, condition=HOT), "b": wait(3.0, -5.3, "a.body.1V")}),
         "repeat": Picture({"a": step("repeat", 3.0, -4.3, times=3), "b": wait(3.0, -5.3, "a.body.1V")}),
         "for_each": Picture(
@@ -164,6 +160,20 @@ def _choices_and_loops() -> dict[str, Picture]:
             },
             (0.2, -0.2, 10.2, -7.1),
             (1.6, -3.8),
+        ),
+    }
+
+
+def _choices_and_branches() -> dict[str, Picture]:
+    ok = {"op": "==", "args": [{"property": ["curingOven01", "quality"]}, "ok"]}
+    return {
+        "if": Picture(
+            {
+                "a": step("if", 4.1, -3.9, condition=ok),
+                "b": tell(2.4, -5.9, "a.then.1V", "Good"),
+                "c": tell(5.9, -5.9, "a.else.1V", "Look at it"),
+            },
+            HALL,
         ),
         "parallel": Picture(
             {
@@ -262,4 +272,11 @@ def _functions_and_events() -> dict[str, Picture]:
 
 def pictures() -> dict[str, Picture]:
     """Return what is pictured, by the name of its kind."""
-    return _steps_of_robots() | _choices_and_loops() | _words_with_people() | _functions_and_events()
+    return (
+        _steps_of_robots()
+        | _works_and_waits()
+        | _choices_and_branches()
+        | _loops()
+        | _words_with_people()
+        | _functions_and_events()
+    )

@@ -10,6 +10,7 @@ from editor.documents.shared_document import SharedDocument
 from editor.rooms import yjs_protocol
 from editor.rooms.member import Member, Person
 from editor.rooms.room import Room
+from editor.rooms.stream import Entry, Note
 
 
 def nobody() -> None:
@@ -66,3 +67,28 @@ class Client:
 def room(origin: str = "here") -> Room:
     """Return an empty room."""
     return Room("program", "hall", origin, SharedDocument())
+
+
+class TwoProcesses:
+    """Two rooms of the same program, joined by a stream that may lose things."""
+
+    def __init__(self) -> None:
+        self.rooms = {"a": room("a"), "b": room("b")}
+        self.number = 0
+
+    def carry(self, lose: bool = False) -> None:
+        for _ in range(10):
+            for origin, source in self.rooms.items():
+                while source.to_publish:
+                    note = source.to_publish.popleft()
+                    if not lose:
+                        self.deliver(origin, note)
+
+    def deliver(self, origin: str, note: Note) -> None:
+        self.number += 1
+        for name, target in self.rooms.items():
+            if name != origin:
+                target.hear(Entry(str(self.number), origin, note))
+
+    def pair(self) -> tuple[Room, Room]:
+        return self.rooms["a"], self.rooms["b"]
