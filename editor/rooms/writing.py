@@ -20,7 +20,7 @@ from django.utils import timezone
 
 from editor.documents.knowledge import decode_snapshot
 from editor.documents.shared_document import digest_of, migrate_document
-from editor.documents.store import Change, append_changes, get_document, load_document
+from editor.documents.store import Change, append_changes, get_document, last_row, load_document
 from editor.documents.yjs_encoding import BadFrame
 from editor.errors import BadRequest, EditorError, NotStored
 from editor.language import compile_document
@@ -154,7 +154,14 @@ def ensure_stored(*, program_id: UUID | str, seen: bytes) -> None:
     ends = time.monotonic() + STORED_WITHIN_S
     with suppress(StreamLost):
         tell_rooms(str(program_id), uuid.uuid4().hex, Note("keep", b""))
-    while not load_document(str(program_id)).open().knowledge().covers(wanted):
+    rows = -1
+    while True:
+        if (
+            now := last_row(str(program_id))
+        ) != rows:  # a large program is put together only when there is something new
+            if load_document(str(program_id)).open().knowledge().covers(wanted):
+                return
+            rows = now
         if time.monotonic() > ends:
             raise NotStored(_NOT_STORED)
         time.sleep(LOOK_AGAIN_S)
