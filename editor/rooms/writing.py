@@ -156,9 +156,8 @@ def ensure_stored(*, program_id: UUID | str, seen: bytes) -> None:
         tell_rooms(str(program_id), uuid.uuid4().hex, Note("keep", b""))
     rows = -1
     while True:
-        if (
-            now := last_row(str(program_id))
-        ) != rows:  # a large program is put together only when there is something new
+        now = last_row(str(program_id))
+        if now != rows:  # a large program is put together only when there is something new
             if load_document(str(program_id)).open().knowledge().covers(wanted):
                 return
             rows = now
