@@ -1,7 +1,8 @@
 """`python -m editor.compiling.child_process`: checks what its parent asks for, until the parent ends. No Django.
 
-Jobs come on standard input, what was found goes to standard output. While a check goes on a beat is sent now and then,
-which tells a long check from a frozen process.
+Jobs come on standard input, what was found goes to standard output. A beat is sent when a check begins, which tells a
+process that dies of it from one that was dead before; and now and then while it goes on, which tells a long check from
+a frozen process.
 """
 
 from __future__ import annotations
@@ -44,6 +45,7 @@ class Child:
         while True:
             job = self._jobs.get()
             self._busy.set()
+            self._write(BEAT)
             said = _answer(bench, job)
             self._busy.clear()
             self._write(encode_frame(said))

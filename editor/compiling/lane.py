@@ -199,20 +199,22 @@ async def _hear_ready(process: Process) -> None:
 
 
 async def _answer(process: Process, frame: bytes) -> Any:
-    """Send a frame and return the answer. Raises Lost."""
+    """Send a frame and return the answer. Raises Lost, and NotStarted if the process was dead before it began."""
     assert process.stdin is not None
     assert process.stdout is not None
+    has_begun = False
     try:
         process.stdin.write(frame)
         await process.stdin.drain()
         while True:
             (size,) = HEAD.unpack(await asyncio.wait_for(process.stdout.readexactly(HEAD.size), SILENT_S))
+            has_begun = True
             if size:
                 return decode_body(await asyncio.wait_for(process.stdout.readexactly(size), SILENT_S))
     except TimeoutError as error:
         raise Lost("The process says nothing any more.") from error
     except (OSError, asyncio.IncompleteReadError) as error:
-        raise Lost("The process has ended.") from error
+        raise (Lost if has_begun else NotStarted)("The process has ended.") from error
 
 
 def _resident_bytes(pid: int) -> int:

@@ -38,6 +38,7 @@ BODIES: dict[str, dict[str, Any]] = {
     "look_at_description": {"text": ""},
     "confirm_topic": {"topic": "a"},
     "withdraw_topic": {"topic": "a"},
+    "wait_until_stored": {"seen": ""},
     "save_function": {"program": "{program}", "function": "f", "name": "F"},
     "use_robot_map": {"device": "{device}", "version": 1, "replaces": 1},
     "restore_map": {"version": 1, "replaces": 1},

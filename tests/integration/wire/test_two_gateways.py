@@ -71,6 +71,7 @@ class Mixer:
 
     def __init__(self, bus: Bus, name: str) -> None:
         self.name, self.seq, self.done = name, 0, list[str]()
+        self.text = MIXER_TEXT.replace("paintMixer03", name)
         self.client: MqttClient = bus.client(name, KEY)
         self.client.subscribe(f"vipo/v1/dev/{name}/down/#", 1, self.hear)
         self.client.subscribe("vipo/v1/srv/status", 1, lambda _t, _p, retained: None if retained else self.introduce())
@@ -79,8 +80,11 @@ class Mixer:
         self.introduce()
 
     def introduce(self) -> None:
-        self.client.publish(self.up("desc"), MIXER_TEXT.replace("paintMixer03", self.name).encode(), retain=True)
+        self.describe()
         self.client.publish(self.up("presence"), b'{"s": "online", "boot": 1}', retain=True)
+
+    def describe(self) -> None:
+        self.client.publish(self.up("desc"), self.text.encode(), retain=True)
 
     def up(self, kind: str) -> str:
         return f"vipo/v1/dev/{self.name}/up/{kind}"
@@ -158,8 +162,8 @@ def test_the_death_of_one_gateway_loses_no_answer_and_no_description(
     assert bus.mosquitto is not None
     bus.mosquitto.kill()
     bus.mosquitto.start()
-    changed = MIXER_TEXT.replace("paintMixer03", NAMES[0]).replace(f'title "{NAMES[0]}"', 'title "Changed while away"')
-    mixers[0].client.publish(mixers[0].up("desc"), changed.encode(), retain=True)
+    mixers[0].text = mixers[0].text.replace(f'title "{NAMES[0]}"', 'title "Changed while away"')
+    mixers[0].describe()
     wait_for(
         "the description said around the broker's death",
         lambda: services.get_device(site=SITE, device_id=NAMES[0]).name == "Changed while away",
