@@ -48,6 +48,16 @@ def open_program(page: Page, name: str) -> None:
     expect(page.get_by_label("Name of the program")).to_have_value(name)
 
 
+def opened(page: Page) -> None:
+    """Wait until the program itself is here, from the server or from the browser's copy."""
+    expect(page.get_by_role("toolbar", name="Tools")).to_be_visible()
+
+
+def program_named(page: Page, name: str) -> str:
+    """The id of the painting factory's program of this name."""
+    return str(next(each["id"] for each in ask(page, f"{SITE}/programs") if each["name"] == name))
+
+
 def the_map(page: Page) -> Locator:
     return page.get_by_role("application", name=re.compile("on the map"))
 

@@ -14,7 +14,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.e2e.conftest import SignIn, sign_in_by_form
-from tests.e2e.screens import ask, chip, click_floor, draw_task, make_program, saved
+from tests.e2e.screens import ask, click_floor, draw_task, make_program, opened, program_named, saved, show_programs
 from tests.kit.demo import Demo, running_demo
 from tests.kit.files import ROOT
 from tests.kit.waiting import wait_for
@@ -51,7 +51,7 @@ def draw_offline(page: Page) -> None:
     """Open the program anew without a network, and draw one step; sockets that are open do not notice a cut."""
     page.context.set_offline(True)
     page.reload()
-    expect(chip(page, "")).not_to_have_count(0)
+    opened(page)
     draw_move(page, 0.4, 0.3)
     waiting(page, 1)
 
@@ -92,7 +92,7 @@ def test_a_program_opens_without_a_server_and_what_is_drawn_is_sent_later(sign_i
     before = steps_on_server(page)
     page.context.set_offline(True)
     page.reload()
-    expect(chip(page, "")).not_to_have_count(0)
+    opened(page)
     expect(page.get_by_role("banner").get_by_text("Connecting again")).to_be_visible()
     draw_move(page, 0.4, 0.3)
     waiting(page, 1)
@@ -175,6 +175,42 @@ def test_a_version_that_is_too_large_becomes_a_program_of_its_own(sign_in: SignI
     faults.clear()
 
 
+@pytest.mark.parametrize(
+    ("code", "words", "button"),
+    [
+        (4404, "This program cannot be opened", ""),
+        (4429, "Too much at once", "Connect again"),
+        (4503, "The server does not answer", ""),
+    ],
+)
+def test_a_program_that_did_not_come_is_not_shown_as_an_empty_one(
+    sign_in: SignIn, faults: list[str], code: int, words: str, button: str
+) -> None:
+    page = sign_in("author")
+    before = len(ask(page, f"/api/programs/{program_named(page, 'Paint order')}/document")["steps"])
+    refused = [True]
+    page.route_web_socket(
+        re.compile("/ws/program/"),
+        lambda socket: socket.close(code=code, reason="not now") if refused[0] else socket.connect_to_server(),
+    )
+    show_programs(page)
+    page.get_by_role("table").get_by_role("link", name="Paint order", exact=True).click()
+    expect(page.get_by_role("alert").get_by_role("heading", name=words)).to_be_visible()
+    expect(page.get_by_role("banner").get_by_text("Not opened")).to_be_visible()
+    expect(page.get_by_role("toolbar", name="Tools")).to_have_count(0)
+    page.keyboard.press("m")
+    click_floor(page, 0.4, 0.3)
+    refused[0] = False
+    if button:
+        page.get_by_role("button", name=button).click()
+    elif code == 4404:
+        page.reload()
+    saved(page)
+    expect(page.get_by_role("alert").get_by_role("heading", name=words)).to_have_count(0)
+    assert steps_on_server(page) == before
+    faults.clear()
+
+
 def test_signing_out_asks_and_then_leaves_nothing(chromium: Browser, demo: Demo) -> None:
     page = sign_in_anew(chromium, demo, "author")
     make_program(page, "Left behind")
@@ -230,8 +266,8 @@ def test_each_of_two_tabs_counts_its_own(sign_in: SignIn, faults: list[str]) -> 
     page.context.set_offline(True)
     page.reload()
     other.reload()
-    expect(chip(page, "")).not_to_have_count(0)
-    expect(chip(other, "")).not_to_have_count(0)
+    opened(page)
+    opened(other)
     draw_move(page, 0.4, 0.3)
     waiting(page, 1)
     draw_move(other, 0.5, 0.3)

@@ -8,7 +8,7 @@ const PREFIX = "vipo-copy-";
 /** Its entries: for each page that made changes, how many of them are not known to be saved. */
 export const COUNTS = "custom";
 /** The answers of the server that the service worker keeps (src/offline/worker.ts). */
-const ANSWERS = "vipo-answers";
+export const ANSWERS = "vipo-answers";
 
 export interface KeptCopy {
   readonly database: string;

@@ -134,6 +134,8 @@ function Loaded({ program, site, devices: live, shared, canEdit, user, openAnew 
   const document = useSyncExternalStore(shared.subscribe, shared.getDocument);
   const devices = useQuietDevices(live);
   const collapsed = useUi((ui) => ui.collapsed);
+  const { loaded } = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
+  const draws = canEdit && loaded;
   const plan = map.data ?? null;
   const parts = useScene({
     site: site.slug,
@@ -163,14 +165,15 @@ function Loaded({ program, site, devices: live, shared, canEdit, user, openAnew 
       speaker: { document, surroundings, t },
       t,
       people,
-      canEdit,
-      canRun: site.role !== "viewer",
+      loaded,
+      canEdit: draws,
+      canRun: loaded && site.role !== "viewer",
       apply: (edits: readonly Edit[]) => {
-        if (canEdit) shared.apply(edits);
+        if (draws) shared.apply(edits);
       },
       openAnew,
     };
-  }, [program, site, plan, devices, shared, document, compiled, parts, people, canEdit, language, openAnew]);
+  }, [program, site, plan, devices, shared, document, compiled, parts, people, loaded, draws, language, openAnew]);
   return (
     <ProgramContext value={open}>
       <EditorWorkspace />

@@ -12,6 +12,7 @@ import { Drawer } from "./parts/Drawer";
 import { EditorTop } from "./parts/EditorTop";
 import { FunctionDialog } from "./parts/FunctionDialog";
 import { NotTaken } from "./parts/NotTaken";
+import { Unopened } from "./parts/Unopened";
 import { LibraryDialog } from "./parts/LibraryDialog";
 import { EmptyProgram, HelpSentence, ProgramButton, Toast } from "./parts/Overlays";
 import { RunDialog } from "./parts/RunDialog";
@@ -37,7 +38,8 @@ export function EditorWorkspace() {
   const resting = useUi((ui) => ui.gesture.tool === "select");
   // The program itself is shown beside a resting hand only: while something is drawn the map needs the room.
   const wanted = useUi((ui) => (small && !selected ? ui.programSheet : ui.inspector));
-  const inspector = wanted && (selected || resting);
+  const { loaded } = useOpenProgram();
+  const inspector = loaded && wanted && (selected || resting);
   const insets = useMemo<Insets>(
     () =>
       small
@@ -53,16 +55,21 @@ export function EditorWorkspace() {
       <EditorTop />
       <main className={classes.floor} style={style} data-small={small || undefined}>
         <EditorMap insets={insets} fitInsets={fitInsets} small={small} />
-        <ToolRail />
-        <EmptyProgram />
-        <HelpSentence />
-        <Toast />
-        <NotTaken />
-        <ProgramButton small={small} shown={inspector} />
-        {inspector ? <Inspector /> : null}
-        <ZoneForm />
-        <StepMenu />
-        <Drawer small={small} />
+        <Unopened />
+        {loaded ? (
+          <>
+            <ToolRail />
+            <EmptyProgram />
+            <HelpSentence />
+            <Toast />
+            <NotTaken />
+            <ProgramButton small={small} shown={inspector} />
+            {inspector ? <Inspector /> : null}
+            <ZoneForm />
+            <StepMenu />
+            <Drawer small={small} />
+          </>
+        ) : null}
       </main>
       <RunDialog />
       <FunctionDialog />

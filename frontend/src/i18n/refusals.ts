@@ -8,8 +8,14 @@ export function refusalWords(code: string, args: Readonly<Record<string, unknown
   if (faults.length > 0) return faultsWords(faults);
   const key = `refusal.${code}.${String(args?.why)}`;
   const count = typeof args?.count === "number" ? args.count : undefined;
-  if (!args || !i18next.exists(key, { count })) return null;
+  if (!args || !i18next.exists(key, { count })) return plainWords(code);
   return i18next.t(key, { ...args, count, first: inLanguage(args.first) }).trim();
+}
+
+/** What is said of a refusal whatever it is made of. */
+function plainWords(code: string): string | null {
+  const key = `shell.refusal.${code}`;
+  return i18next.exists(key) ? i18next.t(key) : null;
 }
 
 /** A sentence that the server gives in each language. */

@@ -1,17 +1,15 @@
 /** In the place of what is not there yet, or could not be fetched. */
 import { Button, Loader } from "@mantine/core";
 import { CloudOff } from "lucide-react";
-import i18next from "i18next";
 import { useTranslation } from "react-i18next";
 import { Link } from "react-router-dom";
 import { ApiProblem } from "@/api/client";
 import { EmptyState } from "@/design/EmptyState";
 import styles from "./shell.module.css";
 
-/** The sentence of a refusal, or of anything else that went wrong; the server's own where we have no better words. */
+/** The sentence of a refusal, which is in the language of the screen where we have words for it; else the fallback. */
 export function problemText(error: unknown, fallback: string): string {
-  if (!(error instanceof ApiProblem)) return fallback;
-  return i18next.t(`shell.refusal.${error.code}`, { defaultValue: error.detail });
+  return error instanceof ApiProblem ? error.message : fallback;
 }
 
 /** In the place of what could not be fetched: what happened, and another try. */

@@ -1,5 +1,5 @@
 /** The keys of the gestures; they are heard before the lists and the map hear them. */
-import { useEffect } from "react";
+import { useLayoutEffect } from "react";
 import type { OpenProgram } from "../state/context";
 import { isTyping } from "../state/shortcuts";
 import { useUi } from "../state/ui";
@@ -20,7 +20,7 @@ export function nameOfKeys(event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaK
 const CLIPBOARD = ["Ctrl+C", "Ctrl+X", "Ctrl+V"];
 
 export function useGestureKeys(open: OpenProgram): void {
-  useEffect(() => {
+  useLayoutEffect(() => {
     const press = (event: KeyboardEvent) => {
       if (useUi.getState().dialog || isTyping(event.target)) return;
       const keys = nameOfKeys(event);

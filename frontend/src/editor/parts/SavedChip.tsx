@@ -8,8 +8,9 @@ import { useOpenProgram } from "../state/context";
 import classes from "./top.module.css";
 
 export function SavedChip() {
-  const { shared, t, canEdit } = useOpenProgram();
+  const { shared, t, loaded, canEdit } = useOpenProgram();
   const saving = useSyncExternalStore(shared.subscribeSaving, shared.getSaving);
+  if (!loaded) return <Chip tone="plain">{t("unopened.chip")}</Chip>;
   if (!canEdit) return <Chip tone="plain">{t("read_only")}</Chip>;
   const state = stateOf(saving);
   const away = state !== "live";

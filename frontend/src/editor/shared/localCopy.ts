@@ -4,8 +4,6 @@ import { IndexeddbPersistence } from "y-indexeddb";
 import * as Y from "yjs";
 import { COUNTS, copyOf, isKept, oldCopyOf } from "@/api/localCopies";
 
-/** A browser that gives nothing back within this time is worked in without a copy. */
-const PATIENCE_MS = 3000;
 /** What comes out of a copy of before, which belonged to nobody, is kept in this one, and no change of one's own. */
 export const TAKEN_OVER = Symbol("taken over");
 
@@ -27,9 +25,8 @@ export class LocalCopy {
   }
 
   /** Read the copy into the document; returns how many changes of pages before wait in it. */
-  async open(): Promise<number> {
-    const read = this.#read().catch(() => 0);
-    return Promise.race([read, new Promise<number>((done) => setTimeout(() => done(0), PATIENCE_MS))]);
+  open(): Promise<number> {
+    return this.#read().catch(() => 0);
   }
 
   async #read(): Promise<number> {

@@ -29,6 +29,9 @@ export interface Saving {
   readonly closedWith: number | null;
 }
 
+/** A browser that gives nothing back within this time is worked in without a copy until it comes. */
+const PATIENCE_MS = 3000;
+
 /** Of the steps that somebody removes at once, so many are named to the others. */
 const MOST_REMOVED = 40;
 
@@ -57,6 +60,7 @@ export class SharedProgram {
   readonly #origin = Symbol("this person");
   readonly #listeners = new Set<Listener>();
   readonly #savingListeners = new Set<Listener>();
+  readonly #nothing: ProgramDocument;
   #document: ProgramDocument;
   #saving: Saving = START;
   #changed = new Map<string, Set<string>>();
@@ -66,7 +70,7 @@ export class SharedProgram {
     serverUrl: string,
     person: string,
   ) {
-    this.#document = readDocument(this.doc);
+    this.#nothing = this.#document = readDocument(this.doc);
     const roots = ROOTS.map((name) => this.doc.getMap(name));
     this.undo = new Y.UndoManager(roots, {
       trackedOrigins: new Set([this.#origin]),
@@ -110,7 +114,8 @@ export class SharedProgram {
     return this.provider.awareness;
   }
 
-  readonly getDocument = (): ProgramDocument => this.#document;
+  /** Empty until all of it is here: half of a program is not shown. */
+  readonly getDocument = (): ProgramDocument => (this.#saving.loaded ? this.#document : this.#nothing);
   readonly getSaving = (): Saving => this.#saving;
 
   readonly subscribe = (listener: Listener): (() => void) => {
@@ -171,12 +176,28 @@ export class SharedProgram {
 
   /** Connect once the copy is here: the first answer to the server has all that waits, and counts for it. */
   async #open(): Promise<void> {
-    const earlier = await this.#copy.open();
+    const copy = this.#copy.open();
+    const late = new Promise<"late">((done) => setTimeout(() => done("late"), PATIENCE_MS));
+    const earlier = await Promise.race([copy, late]);
     if (this.#closed) return;
+    if (earlier === "late") void copy.then((count) => this.#takeLate(count));
+    else this.#take(earlier);
+    this.provider.connect();
+  }
+
+  #take(earlier: number): void {
     this.#earlier = earlier;
     this.#saved.madeBefore(earlier);
     this.#setSaving({ loaded: this.#saving.loaded || this.doc.store.clients.size > 0 });
-    this.provider.connect();
+  }
+
+  /** A copy that comes after the connection: what waits in it goes with the first answer of a new one. */
+  #takeLate(earlier: number): void {
+    if (this.#closed) return;
+    const connected = this.#saving.connection !== "refused";
+    if (connected) this.provider.disconnect();
+    this.#take(earlier);
+    if (connected) this.provider.connect();
   }
 
   #note(root: string, events: readonly Y.YEvent<Y.AbstractType<unknown>>[]): void {

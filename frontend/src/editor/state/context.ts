@@ -24,7 +24,9 @@ export interface OpenProgram {
   readonly speaker: Speaker;
   readonly t: Translate;
   readonly people: readonly Person[];
-  /** Viewers and operators look; authors and admins draw. */
+  /** The program is here, from the server or from this browser's copy; what is shown before is nobody's program. */
+  readonly loaded: boolean;
+  /** Viewers and operators look; authors and admins draw, once the program is here. */
   readonly canEdit: boolean;
   readonly canRun: boolean;
   readonly apply: (edits: readonly Edit[]) => void;

@@ -1,5 +1,5 @@
 /** The keys of the editor; single letters rest while a field has focus. */
-import { useEffect } from "react";
+import { useLayoutEffect } from "react";
 import { shiftStep } from "../edits/joints";
 import type { Position } from "@/program/document/document";
 import { undoLast, duplicateSelected, nudgeSelected, removeSelected } from "./actions";
@@ -12,7 +12,8 @@ import { say, select, showTab, useUi } from "./ui";
 
 export function useShortcuts(): void {
   const open = useOpenProgram();
-  useEffect(() => {
+  // Before the next key is heard: what is on the screen and what the keys mean change together.
+  useLayoutEffect(() => {
     const press = (event: KeyboardEvent) => {
       if (event.defaultPrevented || useUi.getState().dialog || isTyping(event.target)) return;
       const control = event.ctrlKey || event.metaKey;

@@ -1,5 +1,5 @@
 /** The zone tool: corner after corner, closed on the first one or with Enter. */
-import { useEffect } from "react";
+import { useLayoutEffect } from "react";
 import { FEWEST_CORNERS } from "@/program/canvas/Zones";
 import type { Position, Zone } from "@/program/document/document";
 import { makeId } from "../state/actions";
@@ -44,7 +44,7 @@ export function removeZone(open: OpenProgram, id: string): void {
 
 /** Z takes the tool; Enter closes, Backspace takes a corner back, Escape gives up; Delete removes a selected zone. */
 export function useZoneKeys(open: OpenProgram): void {
-  useEffect(() => {
+  useLayoutEffect(() => {
     const press = (event: KeyboardEvent) => {
       const busy = useUi.getState().dialog || isTyping(event.target) || event.ctrlKey || event.metaKey || event.altKey;
       if (busy || event.defaultPrevented || !open.canEdit || !zoneKey(open, event)) return;

@@ -36,3 +36,31 @@ test("a refusal is not asked for again by itself", async () => {
 function answer(ways: unknown): Response {
   return new Response(JSON.stringify(ways), { status: 200 });
 }
+
+test("without the server a way that was known before is drawn as it was, once the person is known", async () => {
+  const kept = new Map<string, Response>([["/api/me", new Response("{}")]]);
+  const cache = {
+    match: (path: string) => Promise.resolve(kept.get(path)?.clone()),
+    put: (path: string, response: Response) => Promise.resolve(kept.set(path, response)),
+  };
+  vi.stubGlobal("caches", { match: cache.match, open: () => Promise.resolve(cache) });
+  vi.stubGlobal("fetch", () => Promise.resolve(answer([WAY])));
+  await askFor("hall", 3, [KEY]);
+  await vi.waitFor(() => expect([...kept.keys()]).toContain("/kept/routes/hall/3"));
+  vi.resetModules();
+  const again = await import("./useRoutes");
+  vi.stubGlobal("fetch", () => Promise.reject(new TypeError("no network")));
+  expect(again.knownRoute("hall", 3, KEY)).toBeNull();
+  await again.askFor("hall", 3, [KEY]);
+  expect(again.knownRoute("hall", 3, KEY)).toEqual(WAY);
+  expect(again.knownRoute("hall", 4, KEY)).toBeNull();
+});
+
+test("after signing out no way is kept", async () => {
+  const open = vi.fn();
+  vi.stubGlobal("caches", { match: () => Promise.resolve(undefined), open });
+  vi.stubGlobal("fetch", () => Promise.resolve(answer([WAY])));
+  await askFor("hall", 5, [KEY]);
+  await vi.advanceTimersByTimeAsync(100);
+  expect(open).not.toHaveBeenCalled();
+});

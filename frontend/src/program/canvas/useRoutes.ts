@@ -2,6 +2,7 @@
 import { useEffect, useMemo, useSyncExternalStore } from "react";
 import { api, ApiProblem } from "@/api/client";
 import { endsOfWay, type RouteLookup } from "../scene/stepPaths";
+import { keepRoutes, keptRoutes } from "./keptRoutes";
 
 type Path = readonly (readonly [number, number])[];
 type Answer = { path: Path; length_m: number; seconds: number } | null;
@@ -58,14 +59,28 @@ export async function askFor(site: string, mapVersion: number | undefined, keys:
   for (const key of fresh) asked.add(prefix + key);
   try {
     const answers = await api.post<Answer[]>(`/sites/${site}/routes`, { pairs: fresh.map(endsOfWay) });
-    fresh.forEach((key, index) => known.set(prefix + key, answers[index] ?? null));
-    answered += 1;
-    for (const listener of listeners) listener();
+    const told = fresh.map((key, index) => [key, answers[index] ?? null] as const);
+    learn(prefix, told);
+    void keepRoutes(site, mapVersion, Object.fromEntries(told)).catch(() => {});
   } catch (error) {
-    if (isPassing(error)) setTimeout(() => void askFor(site, mapVersion, fresh), AGAIN_MS);
+    if (isPassing(error)) {
+      setTimeout(() => void askFor(site, mapVersion, fresh), AGAIN_MS);
+      const kept: Record<string, Answer> = await keptRoutes<Answer>(site, mapVersion).catch(() => ({}));
+      learn(
+        prefix,
+        fresh.flatMap((key) => (key in kept ? [[key, kept[key] ?? null] as const] : [])),
+      );
+    }
   } finally {
     for (const key of fresh) asked.delete(prefix + key);
   }
+}
+
+function learn(prefix: string, told: readonly (readonly [string, Answer])[]): void {
+  if (told.length === 0) return;
+  for (const [key, answer] of told) known.set(prefix + key, answer);
+  answered += 1;
+  for (const listener of listeners) listener();
 }
 
 /** Silence, or a server that is busy or broken; a refusal is an answer, and the straight sketch stays. */
