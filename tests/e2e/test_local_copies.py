@@ -163,7 +163,8 @@ def test_a_version_that_is_too_large_becomes_a_program_of_its_own(sign_in: SignI
     saved(page)
     come_ready(page)
     draw_offline(page)
-    page.route_web_socket(re.compile("/ws/program/"), lambda socket: socket.close(code=4413, reason="too large"))
+    program = page.url.rsplit("/", 1)[1]
+    page.route_web_socket(re.compile(program), lambda socket: socket.close(code=4413, reason="too large"))
     page.context.set_offline(False)
     page.reload()
     expect(page.get_by_role("heading", name="One change of yours was not taken")).to_be_visible()
