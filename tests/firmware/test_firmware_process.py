@@ -25,6 +25,7 @@ from tests.firmware.rig import (
     start_firmware,
 )
 from tests.kit.files import ROOT
+from tests.kit.mqtt import sends_at_once
 from tests.kit.servers import run_mosquitto
 from tests.kit.waiting import wait_for
 from vipo_device.descriptions.reader import canonical_hash, read
@@ -52,6 +53,10 @@ def mixer(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Running]:
             yield running
         finally:
             running.end()
+
+
+def test_it_sends_each_message_at_once(mixer: Running) -> None:
+    assert sends_at_once(mixer.process.pid, mixer.bus.device_port) == [True]
 
 
 def test_it_joins_mixes_and_answers(mixer: Running) -> None:
