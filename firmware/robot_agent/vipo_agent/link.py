@@ -11,7 +11,7 @@ from typing import Any, Callable
 import paho.mqtt.client as mqtt
 
 from vipo_agent.config import Config
-from vipo_agent.messages import Told, read_command, read_stop, write
+from vipo_agent.messages import Stop, Told, read_command, read_stop, write
 
 log = logging.getLogger("vipo_agent")
 KEEPALIVE_S = 15
@@ -26,7 +26,7 @@ class Link:
 
     def __init__(self, config: Config, boot: int) -> None:
         self.told: Callable[[Told], None] = _ignore
-        self.stopped: Callable[[bool], None] = _ignore
+        self.stopped: Callable[[Stop], None] = _ignore
         self.came_in: Callable[[], None] = lambda: None
         self._config, self._boot = config, boot
         self._server = b""
