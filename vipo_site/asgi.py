@@ -39,7 +39,7 @@ if not settings.VIPO_DEMO:
 keep_rooms_at_end(close_hub)
 if settings.SERVED:
     # Beside the gateways, a stop's second way to the devices; where all is one process it would be the same one.
-    open_publisher(settings.VIPO_MQTT)
+    open_publisher(mqtt=settings.VIPO_MQTT)
 routes = ProtocolTypeRouter(
     {
         "http": http,

@@ -22,8 +22,8 @@ from vipo_device.protocol import messages
 
 FIRST_RETRY_S = 2.0
 LAST_RETRY_S = 15.0
-CLAIM_HOLDS_S = 1.5
-"""So long nobody else is given a command that was claimed; who comes later to send it does not (`FIRST_RETRY_S`)."""
+CLAIM_HOLDS_S = 1.0
+"""Who comes later than that to send what was claimed does not: others are given it after `FIRST_RETRY_S`."""
 NEVER_AGAIN_S = 7 * 86_400.0
 """A device that knows only its done flag would carry out a command anew each time that it hears it."""
 UNANSWERED = (Command.Status.PENDING, Command.Status.SENT)

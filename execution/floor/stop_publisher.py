@@ -23,7 +23,7 @@ def stop_topic(site: str) -> str:
     return f"vipo/v1/site/{site}/stop"
 
 
-def open_publisher(mqtt: Mapping[str, Any]) -> None:
+def open_publisher(*, mqtt: Mapping[str, Any]) -> None:
     """Begin to connect, so that a stop finds the connection there; `mqtt` is the setting VIPO_MQTT."""
     global _client
     if _client is None:

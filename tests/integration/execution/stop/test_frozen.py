@@ -180,7 +180,7 @@ def test_a_command_that_was_claimed_before_a_stop_bears_an_older_fence(hall: Hal
 def test_the_web_process_tells_the_devices_of_a_stop_while_the_only_gateway_is_frozen(hall: Hall) -> None:
     hall.gateway.freeze()
     where = {"host": "127.0.0.1", "port": hall.broker.port, "username": "server", "password": WORD, "tls": False}
-    services.open_publisher(where)
+    services.open_publisher(mqtt=where)
     try:
         assert stop_publisher._client is not None
         assert stop_publisher._client.wait_connected(20)
