@@ -16,6 +16,7 @@ NAMES = (
     "rooms",
     "compiled_frames",
     "devices",
+    "round_trips",
     "steps",
     "firmware",
     "start",

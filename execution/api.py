@@ -99,11 +99,13 @@ def get_rehearsal(request: HttpRequest, rehearsal: UUID) -> dict[str, Any]:
 @router.post("/programs/{uuid:program}/runs", response={202: RunSummaryShape})
 def start_run(request: HttpRequest, program: UUID, body: StartRun | None = None) -> dict[str, Any]:
     """Start a run of a program as it is drawn now."""
-    _require_here(request, site_of_program(program_id=program), "operator", "program")
+    site = site_of_program(program_id=program)
+    _require_here(request, site, "operator", "program")
+    fence = services.get_stop(site=site).fence
     body = body or StartRun()
     prepared = prepare(program_id=program, user=request.user, parameters=body.parameters)
     terms = services.Terms(body.priority, body.not_before, body.deadline)
-    return run_to_json(services.start_run(prepared=prepared, by=_who(request), terms=terms))
+    return run_to_json(services.start_run(prepared=prepared, by=_who(request), terms=terms, fence=fence))
 
 
 @router.get("/sites/{slug:site}/runs", response=list[RunSummaryShape])
@@ -246,7 +248,9 @@ def arm_program(request: HttpRequest, program: UUID, body: ArmProgram) -> list[d
     site = site_of_program(program_id=program)
     _require_here(request, site, "operator", "program")
     if body.on:
-        services.arm_program(prepared=prepare(program_id=program, user=request.user, parameters={}), by=_who(request))
+        fence = services.get_stop(site=site).fence
+        prepared = prepare(program_id=program, user=request.user, parameters={})
+        services.arm_program(prepared=prepared, by=_who(request), fence=fence)
     else:
         services.disarm_program(program_id=program, site=site)
     return [armed_to_json(armed) for armed in services.list_armed(site=site)]

@@ -11,7 +11,7 @@ class Run(models.Model):
     """A program being carried out. It holds all it needs: the document, the plan and the machine's state.
 
     `not_before` is when it may begin, `deadline` when it should be over; `late` says that people were told that it is
-    not.
+    not. `fence` is the site's when somebody started it or resumed it last: with one from before a stop it stands still.
     """
 
     class Status(models.TextChoices):
@@ -58,6 +58,7 @@ class Run(models.Model):
     not_before = models.DateTimeField(null=True)
     deadline = models.DateTimeField(null=True)
     late = models.BooleanField(default=False)
+    fence = models.BigIntegerField(default=0)
     created_at = models.DateTimeField()
     started_at = models.DateTimeField(null=True)
     ended_at = models.DateTimeField(null=True)
@@ -113,7 +114,10 @@ class Timer(models.Model):
 
 
 class Command(models.Model):
-    """A command to a device: written with the state that decided it, sent until it is answered."""
+    """A command to a device: written with the state that decided it, sent until it is answered.
+
+    `site_fence` is the site's when a person gave it by hand, None otherwise.
+    """
 
     class Status(models.TextChoices):
         """The life of a command."""
@@ -144,6 +148,7 @@ class Command(models.Model):
     result = models.JSONField(default=dict)
     by = models.CharField(max_length=120, blank=True)
     fence = models.PositiveIntegerField(default=0)
+    site_fence = models.BigIntegerField(null=True)
     tries = models.PositiveIntegerField(default=0)
     ttl_s = models.FloatField(default=60.0)
     send_after = models.DateTimeField()
@@ -231,15 +236,32 @@ class Rehearsal(models.Model):
 
 
 class SiteStop(models.Model):
-    """The latched stop of a site."""
+    """The latched stop of a site.
+
+    `fence` is raised whenever it is pressed or reset, and told to devices with each command and each stop; `pressed` is
+    what it became when the stop was pressed last. It is changed by single statements outside of transactions, so that
+    no process that is frozen holds its row.
+    """
 
     site = models.OneToOneField("registry.Site", on_delete=models.CASCADE, related_name="stop_latch")
     active = models.BooleanField(default=False)
     by = models.CharField(max_length=120, blank=True)
     at = models.DateTimeField(null=True)
+    fence = models.BigIntegerField(default=0)
+    pressed = models.BigIntegerField(default=0)
 
     def __str__(self) -> str:
         return f"stop of {self.site_id}"
+
+
+class StopFollowed(models.Model):
+    """How far runs, floor and armed programs of a site have been told of its stop: up to which fence."""
+
+    site = models.OneToOneField("registry.Site", on_delete=models.CASCADE, related_name="stop_followed")
+    fence = models.BigIntegerField(default=0)
+
+    def __str__(self) -> str:
+        return f"stop of {self.site_id} followed to {self.fence}"
 
 
 class Question(models.Model):
@@ -282,6 +304,7 @@ class ArmedProgram(models.Model):
     prepared = models.JSONField(default=dict)
     truths = models.JSONField(default=dict)
     epoch = models.PositiveIntegerField(default=0)
+    fence = models.BigIntegerField(default=0)
     by = models.CharField(max_length=120)
     at = models.DateTimeField()
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from execution.commands.claim import OutgoingCommand, claim_commands, mark_commands_sent
+from execution.commands.claim import OutgoingCommand, claim_commands, mark_commands_sent, release_commands
 from execution.commands.invocations import action_to_json, find_action, invoke_action
 from execution.commands.manual_calls import call_method, cancel_call, expire_calls, get_call
 from execution.commands.outbox import record_ack, resend_commands
@@ -18,7 +18,8 @@ from execution.errors import (
 )
 from execution.floor.map_change import change_map
 from execution.floor.routes_for_drawing import plan_routes
-from execution.floor.stops import StopView, is_stopped, list_stops, press_stop, reset_stop
+from execution.floor.stop_publisher import close_publisher, open_publisher
+from execution.floor.stops import StopView, follow_stops, get_stop, is_stopped, list_stops, press_stop, reset_stop
 from execution.rehearsals.rehearsals import get_rehearsal, start_rehearsal
 from execution.runs.programs import Prepared
 from execution.runs.questions import answer_question, list_questions, site_of_question
@@ -79,12 +80,15 @@ __all__ = [
     "cancel_run",
     "change_map",
     "claim_commands",
+    "close_publisher",
     "disarm_program",
     "expire_calls",
     "find_action",
+    "follow_stops",
     "get_call",
     "get_rehearsal",
     "get_run",
+    "get_stop",
     "invoke_action",
     "is_stopped",
     "list_armed",
@@ -93,10 +97,12 @@ __all__ = [
     "list_runs",
     "list_stops",
     "mark_commands_sent",
+    "open_publisher",
     "pause_run",
     "plan_routes",
     "press_stop",
     "record_ack",
+    "release_commands",
     "resend_commands",
     "reset_stop",
     "resume_run",

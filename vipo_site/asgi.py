@@ -18,6 +18,7 @@ from django.urls import path, re_path  # noqa: E402
 from servestatic import ServeStaticASGI  # noqa: E402
 
 from editor.rooms.socket import ProgramSocket, close_hub  # noqa: E402
+from execution.services import open_publisher  # noqa: E402
 from registry.api.site_socket import SiteSocket  # noqa: E402
 from vipo_site.http.ending import keep_rooms_at_end  # noqa: E402
 from vipo_site.http.entrance import BehindProxies, OwnPagesOnly  # noqa: E402
@@ -36,6 +37,9 @@ if not settings.VIPO_DEMO:
     call_command("end_demo")
 
 keep_rooms_at_end(close_hub)
+if settings.SERVED:
+    # Beside the gateways, a stop's second way to the devices; where all is one process it would be the same one.
+    open_publisher(mqtt=settings.VIPO_MQTT)
 routes = ProtocolTypeRouter(
     {
         "http": http,

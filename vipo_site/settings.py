@@ -103,8 +103,16 @@ SESSION_COOKIE_HTTPONLY = True
 SESSION_COOKIE_SAMESITE = "Lax"
 
 
-FROZEN_AFTER_S = 15
+FROZEN_AFTER_S = float(os.environ.get("VIPO_DATABASE_IDLE_S", "15"))
 """PostgreSQL ends a transaction in which nothing has been asked for so long: a frozen process holds up nobody."""
+_LIMITS_S = {"web": (30, 10), "gateway": (15, 5), "worker": (60, 10), "ticker": (120, 10)}
+_STATEMENT_S, _LOCK_S = _LIMITS_S.get(VIPO_PROCESS, (60, 10) if VIPO_PROCESS else (0, 60))
+STATEMENT_LIMIT_S = float(os.environ.get("VIPO_DATABASE_STATEMENT_S", _STATEMENT_S))
+"""PostgreSQL ends a statement that takes so long, 0: none. A process without a name may be one that migrates."""
+LOCK_LIMIT_S = float(os.environ.get("VIPO_DATABASE_LOCK_S", _LOCK_S))
+"""And one that waits so long for what another holds."""
+SILENT_S = 30
+"""A connection whose other end does not answer for so long is given up by both ends."""
 
 
 def postgres(url: str) -> dict[str, object]:
@@ -118,7 +126,27 @@ def postgres(url: str) -> dict[str, object]:
         "HOST": parts.hostname or "",
         "PORT": str(parts.port or ""),
         "CONN_MAX_AGE": 0,
-        "OPTIONS": {"options": f"-c idle_in_transaction_session_timeout={FROZEN_AFTER_S}s"},
+        "OPTIONS": {
+            "options": " ".join(f"-c {name}={value}" for name, value in _session_limits().items()),
+            "connect_timeout": 10,
+            "keepalives_idle": SILENT_S // 3,
+            "keepalives_interval": SILENT_S // 6,
+            "keepalives_count": 4,
+            "tcp_user_timeout": SILENT_S * 1000,
+        },
+    }
+
+
+def _session_limits() -> dict[str, int]:
+    """Return what PostgreSQL is asked to hold to for each connection; times in ms, of keepalives in s."""
+    return {
+        "idle_in_transaction_session_timeout": round(FROZEN_AFTER_S * 1000),
+        "statement_timeout": round(STATEMENT_LIMIT_S * 1000),
+        "lock_timeout": round(LOCK_LIMIT_S * 1000),
+        "tcp_keepalives_idle": SILENT_S // 3,
+        "tcp_keepalives_interval": SILENT_S // 6,
+        "tcp_keepalives_count": 4,
+        "tcp_user_timeout": SILENT_S * 1000,
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import socket
 import sys
 import threading
 import time
@@ -32,6 +33,7 @@ def main() -> None:
     port, password, topic, counter = sys.argv[1:]
     client = paho.Client(CallbackAPIVersion.VERSION2, client_id="bare-loop")
     client.username_pw_set("server", password)
+    client.on_socket_open = lambda _c, _d, opened: opened.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     client.on_message = take
     client.on_connect = lambda *_: client.subscribe(topic, 1)
     client.on_subscribe = lambda *_: threading.Thread(target=tell, args=(Path(counter),), daemon=True).start()

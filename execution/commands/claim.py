@@ -8,19 +8,22 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from functools import reduce
-from typing import Any
+from typing import Any, NamedTuple
 from uuid import UUID
 
 import psycopg
 from django.db import connection
 
-from execution.models import Command
+from execution.clock import steady_s
+from execution.models import Command, Run
 from execution.traffic.messages import CONTROLS
 from registry import services as registry
 from vipo_device.protocol import messages
 
 FIRST_RETRY_S = 2.0
 LAST_RETRY_S = 15.0
+CLAIM_HOLDS_S = 1.0
+"""Who comes later than that to send what was claimed does not: others are given it after `FIRST_RETRY_S`."""
 NEVER_AGAIN_S = 7 * 86_400.0
 """A device that knows only its done flag would carry out a command anew each time that it hears it."""
 UNANSWERED = (Command.Status.PENDING, Command.Status.SENT)
@@ -41,8 +44,12 @@ WITH ready AS MATERIALIZED (
     SELECT <each ready>
 ), idless AS MATERIALIZED (
     SELECT <each idless>
+), held AS MATERIALIZED (
+    SELECT execution_run.id FROM execution_run JOIN execution_sitestop AS latch USING (site_id)
+    WHERE execution_run.status IN ({_words(Run.OPEN)}) AND execution_run.fence < latch.pressed
 ), waiting AS MATERIALIZED (
-    SELECT id, site_id, device, position, piece, tries, method, send_after, min(position) OVER lane AS oldest,
+    SELECT id, site_id, device, position, piece, tries, method, send_after, run, site_fence,
+        min(position) OVER lane AS oldest,
         min(CASE WHEN piece AND status IN ({_words(UNANSWERED)}) THEN position END) OVER lane AS unanswered_piece
     FROM execution_command
     WHERE status IN ({_words(Command.OPEN)}) AND (device IN (SELECT device FROM ready)) IS TRUE
@@ -51,6 +58,8 @@ WITH ready AS MATERIALIZED (
     SELECT id FROM waiting
     WHERE send_after <= %(now)s AND (method IN ({_words(CONTROLS)}) OR (
         site_id NOT IN (SELECT site_id FROM execution_sitestop WHERE active)
+        AND (run IN (SELECT id FROM held)) IS NOT TRUE
+        AND coalesce(site_fence >= (SELECT pressed FROM execution_sitestop WHERE site_id = waiting.site_id), true)
         AND NOT (piece AND position > coalesce(unanswered_piece, position))
         AND (tries > 0 OR position - oldest < {WINDOW} OR {WINDOW} > (
             SELECT count(*) FROM (
@@ -73,7 +82,8 @@ UPDATE execution_command SET tries = tries + 1, send_after = CASE
     WHEN tries = 0 THEN %(first)s WHEN tries = 1 THEN %(second)s WHEN tries = 2 THEN %(third)s
     ELSE %(last)s END
 FROM taken <hasty> WHERE id = taken_id
-RETURNING site_id, position, id, device, method, arguments, ttl_s
+RETURNING site_id, position, id, device, method, arguments, ttl_s, tries,
+    (SELECT fence FROM execution_sitestop AS latch WHERE latch.site_id = execution_command.site_id)
 """  # noqa: S608 - made of this product's own constants only
 _MARK = "UPDATE execution_command SET status = 'sent', sent_at = %s WHERE status = 'pending' AND id IN (<ids>)"
 _HASTE = """, haste AS MATERIALIZED (
@@ -107,13 +117,20 @@ _CLAIMS = {
 
 @dataclass(frozen=True, slots=True)
 class OutgoingCommand:
-    """A command as it goes out over MQTT."""
+    """A command as it goes out over MQTT; from `late_at_s` of `steady_s` on it must not, others may have it by then."""
 
     id: str
     device: str
     topic: str
     payload: bytes
     ttl_s: float
+    tries: int
+    late_at_s: float
+
+    @property
+    def is_late(self) -> bool:
+        """Tell whether the claim is over: this process slept, or was kept waiting."""
+        return steady_s() >= self.late_at_s
 
 
 def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
@@ -121,12 +138,14 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
 
     One whose sending is not confirmed by `mark_commands_sent`, or that no device answers, is given out again. What
     is meant for a device that does not take part is kept back. While a site is stopped only pause, resume and
-    cancel go out. A piece of path waits until the robot has accepted the piece before it: with a gateway that died
-    in between, it would otherwise cut the corner through a wall. Nothing new goes out while a command that is
-    `WINDOW` older is open: asked again, the device might have forgotten it.
+    cancel go out, and after that what belongs to a run once a person has resumed it. A piece of path waits until the
+    robot has accepted the piece before it: with a gateway that died in between, it would otherwise cut the corner
+    through a wall. Nothing new goes out while a command that is `WINDOW` older is open: asked again, the device might
+    have forgotten it.
     Taking is one statement; before it stand two short questions, and none where nothing is due.
     """
     now = datetime.now(UTC)
+    late_at_s = steady_s() + CLAIM_HOLDS_S
     with _preparing_cursor() as cursor:
         cursor.execute(_DUE, [connection.ops.adapt_datetimefield_value(now)])
         due = [device for (device,) in cursor.fetchall()]
@@ -138,7 +157,8 @@ def claim_commands(*, limit: int) -> tuple[OutgoingCommand, ...]:
         told = {"ready": json.dumps(ready), "idless": json.dumps(idless)}
         cursor.execute(_CLAIMS[connection.vendor], _parameters(now, limit) | told)
         rows = cursor.fetchall()
-    return tuple(_outgoing(facts.get(row[3]), *row[2:]) for row in sorted(rows, key=lambda row: row[:2]))
+    ordered = sorted(rows, key=lambda row: row[:2])
+    return tuple(_outgoing(facts.get(row[3]), late_at_s, _Claimed(*row[2:])) for row in ordered)
 
 
 @contextmanager
@@ -167,13 +187,32 @@ def _parameters(now: datetime, limit: int) -> dict[str, Any]:
     return {"limit": limit} | {name: when(now + timedelta(seconds=wait)) for name, wait in waits_s.items()}
 
 
-def _outgoing(
-    facts: registry.DeliveryFacts | None, key: UUID | str, device: str, method: str, arguments: str, ttl_s: float
-) -> OutgoingCommand:
-    legacy_topic = facts.topics.get(method) if facts else None
-    command = str(UUID(str(key)))  # SQLite keeps it without dashes
-    payload = messages.command_payload(command, json.loads(arguments), ttl_s)
-    return OutgoingCommand(command, device, legacy_topic or messages.down_topic(device, method), payload, ttl_s)
+class _Claimed(NamedTuple):
+    """A claimed row; SQLite keeps the id without dashes, and a site that was never stopped has no fence."""
+
+    id: UUID | str
+    device: str
+    method: str
+    arguments: str
+    ttl_s: float
+    tries: int
+    fence: int | None
+
+
+def _outgoing(facts: registry.DeliveryFacts | None, late_at_s: float, row: _Claimed) -> OutgoingCommand:
+    legacy_topic = facts.topics.get(row.method) if facts else None
+    command, topic = str(UUID(str(row.id))), legacy_topic or messages.down_topic(row.device, row.method)
+    payload = messages.command_payload(command, json.loads(row.arguments), row.ttl_s, row.fence or 0)
+    return OutgoingCommand(command, row.device, topic, payload, row.ttl_s, row.tries, late_at_s)
+
+
+def release_commands(*, commands: Iterable[OutgoingCommand]) -> int:
+    """Give back claims that came to nothing, to be made again at once; return how many nobody else has by now."""
+    now, count = datetime.now(UTC), 0
+    for command in commands:
+        mine = Command.objects.filter(id=command.id, tries=command.tries, status__in=UNANSWERED)
+        count += mine.update(send_after=now, tries=command.tries - 1)
+    return count
 
 
 def mark_commands_sent(*, ids: Iterable[str]) -> None:

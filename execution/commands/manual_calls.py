@@ -7,6 +7,7 @@ site's stop holds it, and it has a time limit.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from typing import Any
 from uuid import UUID, uuid4
@@ -16,7 +17,7 @@ from django.db.models import F
 
 from execution import mailbox
 from execution.errors import BadArguments, NotFound, NotPossibleNow
-from execution.floor.stops import is_stopped
+from execution.floor.stops import cancel_calls, get_stop, is_stopped
 from execution.models import Command, FloorState, Run
 from execution.traffic import floor
 from execution.traffic.messages import CONTROLS, CallCancelled, CallSent
@@ -41,6 +42,7 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
         NotPossibleNow: the site is stopped, the device is busy, held by a run, away, or not approved, or the method's
             topic is not confirmed.
     """
+    fence = get_stop(site=site).fence
     device = registry.get_device(site=site, device_id=device_id)
     if device.kind == "robot" and method == "move":
         raise NotPossibleNow(f"{device.name} {DRIVES}")
@@ -52,10 +54,11 @@ def call_method(*, site: str, device_id: str, method: str, arguments: Mapping[st
         present = registry.get_device(site=site, device_id=device_id)
         _check_free(row, present)
         _check_passage(row, present, method)
-        command = _write(row, device_id, method, given, by)
+        command = _write(row, _Order(device_id, method, given, by, fence))
         sent = CallSent(str(command.id), device_id, method, given, f"{command.by}, by hand")
         mailbox.post_to_floor(site, [(f"call:{command.id}", sent)])
         transaction.on_commit(lambda: registry.wake("gateway"))
+    cancel_calls(stop=get_stop(site=site))  # a stop that was pressed meanwhile has not seen this one
     return view_call(command)
 
 
@@ -118,18 +121,30 @@ def _open_commands(site: int, device_id: str) -> Any:
     return rows.exclude(method__in=CONTROLS).order_by("position")
 
 
-def _write(row: FloorState, device_id: str, method: str, arguments: Mapping[str, Any], by: str) -> Command:
+@dataclass(frozen=True, slots=True)
+class _Order:
+    """What a person tells a device, and the site's fence when they did."""
+
+    device: str
+    method: str
+    arguments: Mapping[str, Any]
+    by: str
+    fence: int
+
+
+def _write(row: FloorState, order: _Order) -> Command:
     now = datetime.now(UTC)
     FloorState.objects.filter(pk=row.pk).update(commands=F("commands") + 1)
     return Command.objects.create(
         id=uuid4(),
         site_id=row.site_id,
         position=row.commands,
-        device=device_id,
-        method=method,
-        arguments=dict(arguments),
-        by=by[:120],
+        device=order.device,
+        method=order.method,
+        arguments=dict(order.arguments),
+        by=order.by[:120],
         fence=row.epoch,
+        site_fence=order.fence,
         ttl_s=EXPIRY_S,
         send_after=now,
         created_at=now,

@@ -12,17 +12,18 @@ import logging
 import threading
 import time
 from collections import OrderedDict, deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any
 
 from django.db import DatabaseError, InterfaceError, connection
 
-from execution.commands.claim import claim_commands, mark_commands_sent
-from execution.floor.stops import list_stops
+from execution.commands.claim import OutgoingCommand, claim_commands, mark_commands_sent, release_commands
+from execution.fault_points import freeze_point
 from execution.gateway.dashboards import Dashboards
 from execution.gateway.ingest import ENROLMENT, Ingester
 from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, TokenBucket, new_bucket, with_others
+from execution.gateway.stops import Stops
 from registry import services as registry
 from registry.services import Outage
 from vipo_device.kit.pulse import Pulse
@@ -39,7 +40,6 @@ ENROLMENTS = "$share/gateway/vipo/v1/join/+/+"
 SERVER_STATUS = "vipo/v1/srv/status"
 WAKE_CHANNEL, STOPS_CHANNEL = "gateway", "stops"
 POLL_S = 0.1
-STOPS_EVERY_S = 1.0
 CLAIM_LIMIT = 100
 MOST_AT_ONCE = 200
 COUNT_EVERY_S = 2.0
@@ -63,14 +63,14 @@ class Gateway:
         self._ingester = Ingester(self._note, self.complaints.counts, self._outage)
         self._notes: deque[tuple[str, str, Mapping[str, Any]]] = deque(maxlen=1000)
         self._greeting_due = threading.Event()
-        self._stops: dict[str, bytes] = {}
-        self._stops_at = 0.0
+        self._stops = Stops(self._client)
         self._counted_at = 0.0
 
     def run_forever(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set."""
         self._client.subscribe_handled(EVERYTHING, 1, self._arrived)
         self._client.subscribe_handled(ENROLMENTS, 1, self._arrived)
+        self._stops.listen()
         self._client.on_connected(self._greeting_due.set)
         self._client.on_connected(self._dashboards.forget_broker)
         self._client.start()
@@ -174,39 +174,43 @@ class Gateway:
         """Publish what waits; True when there may be more."""
         if self._greeting_due.is_set():
             self._greet()
-        if registry.wait_wake(STOPS_CHANNEL, 0):
-            self._publish_stops()
+        if registry.wait_wake(STOPS_CHANNEL, 0) or self._stops.is_due():
+            self._stops.publish()
         commands = claim_commands(limit=CLAIM_LIMIT)
         self._outage.end()
-        for command in commands:
-            self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
-        if commands:
-            mark_commands_sent(ids=[command.id for command in commands])
-        if time.monotonic() - self._stops_at >= STOPS_EVERY_S:
-            self._publish_stops()
+        freeze_point("gateway_after_claim", armed=bool(commands))
+        self._publish(commands)
         return len(commands) == CLAIM_LIMIT
+
+    def _publish(self, commands: Sequence[OutgoingCommand]) -> None:
+        """Send what is claimed; what others may have by now is given back instead."""
+        sent: list[str] = []
+        late: list[OutgoingCommand] = []
+        for command in commands:
+            if command.is_late:
+                late.append(command)
+            else:
+                self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
+                sent.append(command.id)
+        if sent:
+            mark_commands_sent(ids=sent)
+        if late:
+            count = release_commands(commands=late)
+            log.warning(
+                "%d commands were claimed too long ago to be sent; %d of them are free again.", len(late), count
+            )
 
     def _greet(self) -> None:
         """Announce the server, upon which devices describe themselves anew; repeat the stops."""
         self._greeting_due.clear()
-        self._stops.clear()
         try:
-            self._publish_stops()
+            self._stops.publish(all_of_them=True)
         except (DatabaseError, InterfaceError):
             self._greeting_due.set()
             raise
         birth = {"s": "online", "at": datetime.now(UTC).isoformat(timespec="milliseconds")}
         self._client.publish(SERVER_STATUS, json.dumps(birth).encode(), retain=True)
         _reconcile_accounts()
-
-    def _publish_stops(self) -> None:
-        for stop in list_stops():
-            body = {"active": stop.active, "at": stop.at.isoformat() if stop.at else None}
-            payload = json.dumps(body).encode()
-            if self._stops.get(stop.site) != payload:
-                self._client.publish(f"vipo/v1/site/{stop.site}/stop", payload, retain=True)
-                self._stops[stop.site] = payload
-        self._stops_at = time.monotonic()
 
 
 def note_complaint(device: str, reason: str, facts: Mapping[str, Any] | None = None) -> None:

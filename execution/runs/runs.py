@@ -12,7 +12,7 @@ from django.db.models import Max
 
 from execution import mailbox
 from execution.errors import NotFound, NotPossibleNow
-from execution.floor.stops import is_stopped
+from execution.floor.stops import get_stop, hold_if_stopped
 from execution.floor_protocol import ResumeAsked, ToRun
 from execution.machine.messages import CancelAsked, PauseAsked
 from execution.models import Run, RunEvent
@@ -22,18 +22,38 @@ from execution.views import PRIORITIES, RunEventView, RunView, WholeRunView, run
 from registry import services as registry
 
 EVENTS_AT_ONCE = 1000
+STOPPED = "The site is stopped. Reset the stop, then resume the run."
 
 
-def start_run(*, prepared: Prepared, by: str, entry: int = 0, terms: Terms = USUAL) -> RunView:
+def start_run(
+    *, prepared: Prepared, by: str, entry: int = 0, terms: Terms = USUAL, fence: int | None = None
+) -> RunView:
     """Start a run of a program that was checked; a worker takes it from here. `entry` is where it begins.
+
+    `fence` is the site's when it was decided that the run shall begin, if that was earlier: a stop that was pressed
+    since then pauses it, also one that was reset again.
 
     Raises:
         BadTerms: it may begin or should be over at a time that makes no sense.
         NotPossibleNow: the site is stopped.
     """
-    if is_stopped(site=prepared.site):
+    stop = get_stop(site=prepared.site)
+    if stop.active:
         raise NotPossibleNow("The site is stopped. Reset the stop before you start a run.", {"why": "stopped"})
-    return _announce(prepared, _create_numbered(prepared, by, entry, fit_terms(terms, datetime.now(UTC))))
+    begin = _Beginning(by, entry, fit_terms(terms, datetime.now(UTC)), stop.fence if fence is None else fence)
+    row = _create_numbered(prepared, begin)
+    transaction.on_commit(lambda: hold_if_stopped(row))
+    return _announce(prepared, row)
+
+
+@dataclass(frozen=True, slots=True)
+class _Beginning:
+    """By whom, where and on which terms a run begins, and the site's fence when it was asked for."""
+
+    by: str
+    entry: int
+    terms: Terms
+    fence: int
 
 
 def _announce(prepared: Prepared, row: Run) -> RunView:
@@ -43,18 +63,18 @@ def _announce(prepared: Prepared, row: Run) -> RunView:
     return view
 
 
-def _create_numbered(prepared: Prepared, by: str, entry: int, terms: Terms) -> Run:
+def _create_numbered(prepared: Prepared, begin: _Beginning) -> Run:
     """Write the row; when another run took the number at the same time, try the next."""
     for _ in range(5):
         try:
             with transaction.atomic():
-                return _create(prepared, by, entry, terms)
+                return _create(prepared, begin)
         except IntegrityError:
             continue
     raise NotPossibleNow("Many runs are being started at once. Try again in a moment.")
 
 
-def _create(prepared: Prepared, by: str, entry: int, terms: Terms) -> Run:
+def _create(prepared: Prepared, begin: _Beginning) -> Run:
     site = registry.get_site_id(site=prepared.site)
     last = Run.objects.filter(site_id=site).aggregate(last=Max("number"))["last"] or 0
     return Run.objects.create(
@@ -67,11 +87,12 @@ def _create(prepared: Prepared, by: str, entry: int, terms: Terms) -> Run:
         document=prepared.document,
         compiled=prepared.compiled,
         plan=prepared.plan,
-        entry=entry,
-        started_by=by,
-        priority=PRIORITIES[terms.priority],
-        not_before=terms.not_before,
-        deadline=terms.deadline,
+        entry=begin.entry,
+        started_by=begin.by,
+        priority=PRIORITIES[begin.terms.priority],
+        not_before=begin.terms.not_before,
+        deadline=begin.terms.deadline,
+        fence=begin.fence,
         created_at=datetime.now(UTC),
     )
 
@@ -86,12 +107,18 @@ def resume_run(*, run_id: UUID | str, by: str) -> RunView:
     """Let a paused run go on where it is.
 
     Raises:
-        NotPossibleNow: the run is over, or its site is stopped.
+        NotPossibleNow: the run is over, or its site is stopped, also if that happens at this moment.
     """
     row = _find_open(run_id)
-    if is_stopped(site=row.site.slug):
-        raise NotPossibleNow("The site is stopped. Reset the stop, then resume the run.")
-    return _order(row, ResumeAsked(by))
+    stop = get_stop(site=row.site.slug)
+    if stop.active:
+        raise NotPossibleNow(STOPPED)
+    with transaction.atomic():
+        Run.objects.filter(id=row.id, fence__lt=stop.fence).update(fence=stop.fence)
+        view = _order(row, ResumeAsked(by))
+    if hold_if_stopped(row):
+        raise NotPossibleNow(STOPPED)
+    return view
 
 
 def cancel_run(*, run_id: UUID | str, by: str) -> RunView:

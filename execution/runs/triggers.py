@@ -12,7 +12,7 @@ from django.db import transaction
 from editor.language import plan_from_json
 from editor.language.plan.instructions import EventEntry, Plan
 from execution.errors import NotPossibleNow, NotReady
-from execution.floor.stops import is_stopped
+from execution.floor.stops import get_stop
 from execution.machine.evaluation import EvaluationError, bound_roles, is_true
 from execution.machine.needs import Facts, needs_of
 from execution.models import ArmedProgram, Run
@@ -32,8 +32,10 @@ def list_armed(*, site: str) -> tuple[ArmedView, ...]:
     return tuple(view_armed(row) for row in rows)
 
 
-def arm_program(*, prepared: Prepared, by: str) -> ArmedView:
+def arm_program(*, prepared: Prepared, by: str, fence: int | None = None) -> ArmedView:
     """Let a program start by itself from now on, in the version that was prepared; what holds already does not count.
+
+    `fence` is the site's when that was asked for, if earlier: a stop since then disarms it, as `start_run` has it.
 
     Raises:
         NotReady: the program has no step that starts it.
@@ -43,7 +45,8 @@ def arm_program(*, prepared: Prepared, by: str) -> ArmedView:
     if not _starters(plan):
         detail = "Nothing starts this program by itself. Add a step “When …” that starts a run."
         raise NotReady(detail, {"why": "never_starts"})
-    if is_stopped(site=prepared.site):
+    stop = get_stop(site=prepared.site)
+    if stop.active:
         raise NotPossibleNow("The site is stopped. Reset the stop before you arm a program.", {"why": "stopped"})
     now = datetime.now(UTC)
     whole = {**asdict(prepared), "program": str(prepared.program)}
@@ -52,6 +55,7 @@ def arm_program(*, prepared: Prepared, by: str) -> ArmedView:
         "site_id": registry.get_site_id(site=prepared.site),
         "prepared": whole,
         "truths": truths,
+        "fence": stop.fence if fence is None else fence,
         "by": by,
         "at": now,
     }
@@ -93,10 +97,23 @@ def _look_at(row: ArmedProgram, now: datetime) -> bool:
         mine = ArmedProgram.objects.filter(program=row.program, epoch=row.epoch, at=row.at)
         if not mine.update(truths=truths, epoch=row.epoch + 1) or due is None:
             return False
-        if is_stopped(site=row.site.slug) or _is_under_way(row.program, now):
-            return False
-        prepared = Prepared(**{**row.prepared, "program": row.program})
-        start_run(prepared=prepared, by=row.by, entry=due.entry)
+        return _start(row, due, now)
+
+
+def _start(row: ArmedProgram, due: EventEntry, now: datetime) -> bool:
+    """Start a run at an entry; one that was armed while the stop was pressed is disarmed instead."""
+    stop = get_stop(site=row.site.slug)
+    if row.fence < stop.pressed:
+        ArmedProgram.objects.filter(program=row.program, at=row.at).delete()
+        _announce(row.site.slug)
+        return False
+    if stop.active or _is_under_way(row.program, now):
+        return False
+    prepared = Prepared(**{**row.prepared, "program": row.program})
+    try:
+        start_run(prepared=prepared, by=row.by, entry=due.entry, fence=row.fence)
+    except NotPossibleNow:  # the stop is pressed at this very moment, and disarms it
+        return False
     return True
 
 

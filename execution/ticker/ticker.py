@@ -15,6 +15,7 @@ from django.db.models import Q
 from execution import mailbox
 from execution.commands.manual_calls import expire_calls
 from execution.commands.outbox import drop_stale_controls, end_commands_of_those_out
+from execution.floor.stops import follow_stops
 from execution.lease import HeldLease
 from execution.machine.messages import TimerFired
 from execution.models import Run, Timer
@@ -95,6 +96,7 @@ def sweep(now: datetime) -> None:
     for run in pending.values_list("id", flat=True):
         mailbox.send_hint(mailbox.ADVANCE_RUN, str(run))
     call_late(now)
+    follow_stops()
     drop_stale_controls(now)
     end_commands_of_those_out(now)
     expire_calls(now=now)

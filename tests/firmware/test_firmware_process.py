@@ -25,6 +25,7 @@ from tests.firmware.rig import (
     start_firmware,
 )
 from tests.kit.files import ROOT
+from tests.kit.mqtt import sends_at_once
 from tests.kit.servers import run_mosquitto
 from tests.kit.waiting import wait_for
 from vipo_device.descriptions.reader import canonical_hash, read
@@ -52,6 +53,10 @@ def mixer(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Running]:
             yield running
         finally:
             running.end()
+
+
+def test_it_sends_each_message_at_once(mixer: Running) -> None:
+    assert sends_at_once(mixer.process.pid, mixer.bus.device_port) == [True]
 
 
 def test_it_joins_mixes_and_answers(mixer: Running) -> None:
@@ -118,6 +123,25 @@ def test_what_cannot_be_done_is_rejected_with_the_reason(mixer: Running) -> None
     mixer.ear.say(DOWN + "mixPaint", b"[1, 2]")
     mixer.tell("mixPaint", "c2", time=1)
     mixer.answer("c2", "DONE")
+
+
+def test_what_a_stop_has_overtaken_is_neither_done_nor_answered(mixer: Running) -> None:
+    def tell(command: str, fence: int) -> None:
+        mixer.ear.say(DOWN + "dispense", {"id": command, "v": {"object": "can", "value": 1}, "fence": fence})
+
+    now = 1_790_000_000_000
+    mixer.ear.say("vipo/v1/site/hall/stop", {"active": True, "at": None, "fence": now}, retain=True)
+    mixer.ear.say("vipo/v1/site/hall/stop", {"active": False, "at": None, "fence": now - 1}, retain=True)
+    tell("late", now - 1)
+    tell("ahead", now + 1)
+    mixer.tell("dispense", "c1", object="can", value=1)
+    assert mixer.answer("c1", "REJECTED").json["why"] == "the site is stopped"
+    mixer.ear.say("vipo/v1/site/hall/stop", {"active": False, "at": None, "fence": now + 1}, retain=True)
+    tell("late", now)
+    tell("ahead", now + 1)
+    mixer.answer("ahead", "ACCEPTED")
+    assert mixer.answers("late") == []
+    assert mixer.answers("ahead")[0] == "ACCEPTED"
 
 
 def test_a_stop_holds_the_work_until_it_is_released(mixer: Running) -> None:

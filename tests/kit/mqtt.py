@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import ctypes
 import json
+import os
+import socket
 import threading
 import time
 from collections.abc import Callable
+from contextlib import closing, suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from tests.kit.waiting import PATIENCE_S
@@ -73,6 +78,25 @@ class Ear:
         """Return what was heard on topics that end so."""
         with self._changed:
             return [h for h in self.heard if h.topic.endswith(kind)]
+
+
+PIDFD_GETFD = 438
+"""The number of Linux's call that copies another process's file; Python has no name for it."""
+
+
+def sends_at_once(pid: int, port: int) -> list[bool]:
+    """Tell of each TCP connection of a process from or to a port whether Nagle's algorithm is off."""
+    found = []
+    with closing(os.fdopen(os.pidfd_open(pid))) as process:
+        for file in Path(f"/proc/{pid}/fd").iterdir():
+            copied = ctypes.CDLL(None, use_errno=True).syscall(PIDFD_GETFD, process.fileno(), int(file.name), 0)
+            if copied < 0:
+                continue
+            with suppress(OSError), socket.socket(fileno=copied) as one:  # one that is no connection has no peer
+                is_tcp = one.family in (socket.AF_INET, socket.AF_INET6) and one.type == socket.SOCK_STREAM
+                if is_tcp and port in (one.getsockname()[1], one.getpeername()[1]):
+                    found.append(bool(one.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)))
+    return found
 
 
 @dataclass

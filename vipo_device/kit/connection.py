@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any
 
+from vipo_device.kit.fence import Fence
 from vipo_device.protocol.description import DeviceState
 from vipo_device.protocol.messages import (
     AckMessage,
@@ -78,6 +79,7 @@ class DeviceConnection:
         self._site, self._boot, self._hear = site, boot, hear
         self._client: MqttClient | None = None
         self._server = b""
+        self._fence = Fence()
         self._seq = 0
         self._reported: DeviceState | None = None
         self._reported_s = 0.0
@@ -151,10 +153,15 @@ class DeviceConnection:
         if retained or command is None:
             log.warning("%s: a message on %s is not a command; it was ignored.", self.id, topic)
             return
+        if not self._fence.takes_command(command):
+            log.warning("%s: %s (%s) came too late, after a stop; it was ignored.", self.id, command.method, command.id)
+            return
         self._hear(CommandReceived(self.id, command))
 
     def _hear_stop(self, _topic: str, payload: bytes, _retained: bool) -> None:
-        self._hear(StopChanged(self.id, read_stop(payload)))
+        stop = read_stop(payload)
+        if self._fence.takes_stop(stop):
+            self._hear(StopChanged(self.id, stop.active))
 
     def _hear_server(self, _topic: str, payload: bytes, retained: bool) -> None:
         """A server that was started anew may not know this device; the one that was there when it came in does."""

@@ -312,9 +312,10 @@ def ack_payload(ack: AckMessage) -> bytes:
     return _dump({"id": ack.command, "st": ack.status, "why": ack.why, "result": dict(ack.result)})
 
 
-def command_payload(command: str, arguments: Mapping[str, object], ttl_s: float) -> bytes:
-    """Write a command: `{"id", "v": {…}, "ttl_s"}`."""
-    return _dump({"id": command, "v": dict(arguments), "ttl_s": ttl_s})
+def command_payload(command: str, arguments: Mapping[str, object], ttl_s: float, fence: int = 0) -> bytes:
+    """Write a command: `{"id", "v": {…}, "ttl_s", "fence"?}`; there is no fence where a stop was never pressed."""
+    body = {"id": command, "v": dict(arguments), "ttl_s": ttl_s}
+    return _dump({**body, "fence": fence} if fence else body)
 
 
 def _dump(body: Mapping[str, Any]) -> bytes:
@@ -328,10 +329,19 @@ class DeviceCommand:
     id: str
     method: str
     arguments: Mapping[str, object]
+    fence: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class StopMessage:
+    """A site's stop as devices hear it; None as `fence` where none was said."""
+
+    active: bool
+    fence: int | None = None
 
 
 def read_command(method: str, payload: bytes) -> DeviceCommand | None:
-    """Read `{"id", "v", "ttl_s"}`; None when it is no command."""
+    """Read `{"id", "v", "ttl_s", "fence"?}`; None when it is no command."""
     try:
         body = parse_json(payload)
     except BadMessage:
@@ -339,15 +349,22 @@ def read_command(method: str, payload: bytes) -> DeviceCommand | None:
     command, arguments = (body.get("id"), body.get("v", {})) if isinstance(body, dict) else (None, None)
     if not isinstance(command, str) or not 0 < len(command) <= 64 or not is_device_id(method):
         return None
-    return DeviceCommand(command, method, arguments) if isinstance(arguments, dict) else None
+    return DeviceCommand(command, method, arguments, _fence(body)) if isinstance(arguments, dict) else None
 
 
-def read_stop(payload: bytes) -> bool:
+def read_stop(payload: bytes) -> StopMessage:
     """Read a site's stop; what cannot be read stops, what is empty does not."""
     if not payload:
-        return False
+        return StopMessage(active=False)
     try:
         body = json.loads(payload)
     except (ValueError, RecursionError):
-        return True
-    return not (isinstance(body, dict) and body.get("active") is False)
+        return StopMessage(active=True)
+    if not isinstance(body, dict):
+        return StopMessage(active=True)
+    return StopMessage(body.get("active") is not False, _fence(body))
+
+
+def _fence(body: Mapping[str, Any]) -> int | None:
+    said = body.get("fence")
+    return said if isinstance(said, int) and not isinstance(said, bool) and 0 <= said <= MAX_WHOLE else None

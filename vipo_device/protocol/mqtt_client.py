@@ -7,10 +7,12 @@ connection; the client then speaks 3.1.1 for the rest of its life. Callbacks run
 from __future__ import annotations
 
 import logging
+import socket
 import ssl
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -72,6 +74,12 @@ def tls_context(authority: str = "") -> ssl.SSLContext:
         raise MqttError(
             f"The certificate authority {authority!r} cannot be read: {error}. Check VIPO_MQTT_CA."
         ) from None
+
+
+def send_at_once(_client: paho.Client, _data: Any, opened: Any) -> None:
+    """Switch Nagle's algorithm off: a message would wait up to 40 ms for a delayed acknowledgement."""
+    with suppress(OSError):  # a broker behind something that is not TCP has no such wait
+        opened.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
 
 class MqttClient:
@@ -221,6 +229,7 @@ class MqttClient:
         if self._will is not None:
             topic, payload, qos, retain = self._will
             client.will_set(topic, payload, qos, retain)
+        client.on_socket_open = send_at_once
         client.on_connect = self._connected
         client.on_connect_fail = self._missed
         client.on_disconnect = self._disconnected

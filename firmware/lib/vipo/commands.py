@@ -21,7 +21,7 @@ class BadCommand(Exception):
 
 
 def read_command(payload, whole=True):
-    """Return (id, arguments, ttl_s) of a message; one that is not whole was too long. Raises BadCommand."""
+    """Return (id, arguments, ttl_s, fence) of a message; one that is not whole was too long. Raises BadCommand."""
     if not whole:
         raise BadCommand("the message is too long for this device", first_id(bytes(payload)))
     message = read_object(payload)
@@ -34,7 +34,13 @@ def read_command(payload, whole=True):
         raise BadCommand("v must be an object with at most %d arguments" % MOST_ARGUMENTS, command)
     if isinstance(ttl_s, bool) or not isinstance(ttl_s, (int, float)):
         raise BadCommand("ttl_s must be a number", command)
-    return command, values, ttl_s
+    return command, values, ttl_s, fence_of(message)
+
+
+def fence_of(message):
+    """Return the fence of a message, which each stop raises, or None."""
+    fence = message.get("fence")
+    return fence if isinstance(fence, int) and not isinstance(fence, bool) and fence >= 0 else None
 
 
 def first_id(payload):

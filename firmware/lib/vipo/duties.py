@@ -3,11 +3,13 @@
 import asyncio
 
 from vipo import light as lights
-from vipo.commands import Answers, BadCommand, make_answer, read_command, read_object
+from vipo.commands import Answers, BadCommand, fence_of, make_answer, read_command, read_object
 from vipo.declare import check_arguments
 from vipo.entrance import is_key
 from vipo.portable import show_error
 from vipo.work import Cancelled, Failure, Work
+
+CONTROLS = ("pause", "resume", "cancel")
 
 
 class Duties:
@@ -19,7 +21,8 @@ class Duties:
         self.say = self.changed = None
         self.work = None
         self.connected = True
-        self._stops = []
+        self._stops = {}
+        self._fence = 0
         self._output = output or (lambda on: None)
         self._answers = Answers(ledger.answers)
         self._running = None
@@ -27,28 +30,50 @@ class Duties:
     @property
     def stopped(self):
         """Tell whether any site that this machine listens to is stopped."""
-        return bool(self._stops)
+        return any(active for active, _ in self._stops.values())
 
     def stop(self, site, payload):
-        """Hold or release everything for a site; a stop that cannot be read holds, one that was taken away does not."""
+        """Hold or release everything for a site; a stop that cannot be read holds, one that was taken away does not.
+
+        One that is older than the site's last, which its fence tells, is left out.
+        """
+        before = self._stops.get(site, (False, 0))[1]
+        active, fence = True, None
         try:
-            active = (payload is None or len(payload) > 0) and read_object(payload).get("active") is not False
+            message = read_object(payload) if payload is None or len(payload) else {"active": False}
+            active, fence = message.get("active") is not False, fence_of(message)
         except BadCommand:
-            active = True
-        self._stops = [known for known in self._stops if known != site] + ([site] if active else [])
-        self.shine()
+            pass  # it holds
+        if fence is None or fence >= before:
+            self._stops[site] = (active, before if fence is None else fence)
+            self._fence = max(self._fence, fence or 0)
+            self.shine()
+
+    def _overtaken(self, method, fence):
+        """Tell whether a stop has overtaken a command, or a reset that is not here yet lies before it.
+
+        Neither is answered: the server sends again what still holds. Who hears several sites cannot tell whose it is.
+        """
+        if fence is None or len(self._stops) > 1:
+            return False
+        if fence < self._fence:
+            return True
+        self._fence = fence
+        return method not in CONTROLS and any(active and fence > at for active, at in self._stops.values())
 
     def told(self, method, payload, whole=True):
         """Take in a command; of one that is not whole only the beginning is there."""
         try:
-            command, values, ttl_s = read_command(payload, whole)
+            command, values, ttl_s, fence = read_command(payload, whole)
         except BadCommand as error:
             self._refuse(error)
+            return
+        if self._overtaken(method, fence):
             return
         known = self._answers.find(command)
         if known:
             self.say(known)
-        elif method in ("pause", "resume", "cancel"):
+        elif method in CONTROLS:
             self._steer(command, method, values.get("command"))
         elif method == "credential":
             self._take_key(command, values.get("credential"))

@@ -85,7 +85,7 @@ class Agent:
     def run(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set; then halt the robot and say goodbye. Raises CannotStart."""
         self._link.told = lambda told: self._put(lambda: self.core.command(told, time.monotonic()))
-        self._link.stopped = lambda active: self._put(lambda: self.core.hold(active, time.monotonic()))
+        self._link.stopped = lambda stop: self._put(lambda: self.core.hold(stop, time.monotonic()))
         self._link.came_in = lambda: self._put(self._introduce)
         self._save()
         self._navigation.start(self)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from math import atan2, hypot
 from typing import Any, Iterable, NamedTuple, Tuple, Union
 
-from vipo_agent.messages import MAX_WHY, Told, is_number, read_path
+from vipo_agent.messages import MAX_WHY, Stop, Told, is_number, read_path
 
 CONTROLS = ("pause", "resume", "cancel")
 OPEN = ("ACCEPTED", "RUNNING")
@@ -104,7 +104,8 @@ class Core:
         self._facts = facts
         self._tasks: list[Task] = []
         self._pauses: list[str] = []
-        self._held = False
+        self._stop = Stop(False)
+        self._fence = 0
         self._goal: Go | None = None
         self._number = 0
         self._failures = 0
@@ -129,7 +130,9 @@ class Core:
         return {**state, "props": props}
 
     def command(self, told: Told, now_s: float) -> None:
-        """Take in a command; one that is known is answered again."""
+        """Take in a command; one that is known is answered again, and none that a stop has overtaken."""
+        if not self._is_current(told):
+            return
         known = self._answers.find(told.command)
         if known is not None:
             self.out.append(known)
@@ -144,10 +147,26 @@ class Core:
                 self._say(task.command, "ACCEPTED")
         self.settle(now_s)
 
-    def hold(self, active: bool, now_s: float) -> None:
-        """Take in the site's stop."""
-        self._held = active
+    def hold(self, stop: Stop, now_s: float) -> None:
+        """Take in the site's stop; one that is older than the last is left out."""
+        if stop.fence is not None and stop.fence < (self._stop.fence or 0):
+            return
+        self._stop = Stop(stop.active, self._stop.fence if stop.fence is None else stop.fence)
+        self._fence = max(self._fence, self._stop.fence or 0)
         self.settle(now_s)
+
+    def _is_current(self, told: Told) -> bool:
+        """Tell whether a command is to be heard.
+
+        One from before a stop is not, nor one that is newer than the stop that holds the robot: the reset is on its
+        way. The server sends again what still holds.
+        """
+        if told.fence is None:
+            return True
+        if told.fence < self._fence:
+            return False
+        self._fence = told.fence
+        return told.method in CONTROLS or not self._stop.active or told.fence <= (self._stop.fence or 0)
 
     def moved(self, pose: Pose, now_s: float) -> None:
         """Take in where the robot is."""
@@ -191,7 +210,7 @@ class Core:
 
     def _is_frozen(self) -> bool:
         ids = [task.command for task in self._tasks]
-        return self._held or any(not kept or kept in ids for kept in self._pauses)
+        return self._stop.active or any(not kept or kept in ids for kept in self._pauses)
 
     def _halt(self) -> None:
         if self._goal is not None:
@@ -257,7 +276,7 @@ class Core:
         return True
 
     def _read(self, told: Told) -> Task | str:
-        if self._held:
+        if self._stop.active:
             return "The site is stopped."
         if told.method == "move":
             return self._read_move(told)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import socket
 import ssl
 import time
 from typing import Any, Callable
@@ -10,7 +11,7 @@ from typing import Any, Callable
 import paho.mqtt.client as mqtt
 
 from vipo_agent.config import Config
-from vipo_agent.messages import Told, read_command, read_stop, write
+from vipo_agent.messages import Stop, Told, read_command, read_stop, write
 
 log = logging.getLogger("vipo_agent")
 KEEPALIVE_S = 15
@@ -25,7 +26,7 @@ class Link:
 
     def __init__(self, config: Config, boot: int) -> None:
         self.told: Callable[[Told], None] = _ignore
-        self.stopped: Callable[[bool], None] = _ignore
+        self.stopped: Callable[[Stop], None] = _ignore
         self.came_in: Callable[[], None] = lambda: None
         self._config, self._boot = config, boot
         self._server = b""
@@ -112,7 +113,13 @@ def make_client(config: Config, name: str, key: str) -> Any:
     client.username_pw_set(name, key)
     if config.ca:
         client.tls_set_context(ssl.create_default_context(cafile=config.ca))
+    client.on_socket_open = _send_at_once
     return client
+
+
+def _send_at_once(_client: Any, _data: Any, opened: Any) -> None:
+    """Switch Nagle's algorithm off: with it an answer waits up to 40 ms for the broker's delayed acknowledgement."""
+    opened.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
 
 def version_of_callbacks() -> Any:

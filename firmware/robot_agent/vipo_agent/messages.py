@@ -12,15 +12,24 @@ MAX_BYTES = 16 * 1024
 MAX_WHY = 256
 PART_BYTES = 9000
 LARGEST = 1e300
+MAX_FENCE = 2**53
 METHOD = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 
 
 class Told(NamedTuple):
-    """A command: its id, the method, and the arguments by name."""
+    """A command: its id, the method, the arguments by name, and the fence under which it was sent, if there is one."""
 
     command: str
     method: str
     arguments: dict[str, Any]
+    fence: int | None = None
+
+
+class Stop(NamedTuple):
+    """A site's stop, and the fence that it raised, if there is one."""
+
+    active: bool
+    fence: int | None = None
 
 
 class Grid(NamedTuple):
@@ -34,22 +43,27 @@ class Grid(NamedTuple):
 
 
 def read_command(method: str, payload: bytes) -> Told | None:
-    """Read `{"id", "v", "ttl_s"}`; None when it is no command."""
+    """Read `{"id", "v", "ttl_s", "fence"?}`; None when it is no command."""
     body = read_object(payload)
     if body is None or METHOD.fullmatch(method) is None:
         return None
     command, arguments = body.get("id"), body.get("v", {})
     if not isinstance(command, str) or not 0 < len(command) <= 64 or not isinstance(arguments, dict):
         return None
-    return Told(command, method, arguments)
+    return Told(command, method, arguments, _fence(body))
 
 
-def read_stop(payload: bytes) -> bool:
+def read_stop(payload: bytes) -> Stop:
     """Read a site's stop; what cannot be read stops, what is empty does not."""
     if not payload:
-        return False
+        return Stop(False)
     body = read_object(payload)
-    return body is None or body.get("active") is not False
+    return Stop(True) if body is None else Stop(body.get("active") is not False, _fence(body))
+
+
+def _fence(body: dict[str, Any]) -> int | None:
+    said = body.get("fence")
+    return said if isinstance(said, int) and not isinstance(said, bool) and 0 <= said <= MAX_FENCE else None
 
 
 def read_object(payload: bytes) -> dict[str, Any] | None:

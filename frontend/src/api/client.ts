@@ -39,10 +39,13 @@ function csrfToken(): string {
   return cookie ? decodeURIComponent(cookie.slice("csrftoken=".length)) : token;
 }
 
-async function send(method: string, path: string, body?: BodyInit, type?: string, tag?: string): Promise<Response> {
-  const headers = new Headers({ Accept: "application/json" });
-  if (tag) headers.set("If-Match", tag);
-  if (type) headers.set("Content-Type", type);
+async function send(
+  method: string,
+  path: string,
+  body?: BodyInit,
+  more: Readonly<Record<string, string>> = {},
+): Promise<Response> {
+  const headers = new Headers({ Accept: "application/json", ...more });
   if (method !== "GET") headers.set("X-CSRFToken", csrfToken());
   let response: Response;
   try {
@@ -71,9 +74,16 @@ async function receive<T>(response: Response): Promise<T> {
   return (text ? JSON.parse(text) : undefined) as T;
 }
 
+const JSON_TYPE = { "Content-Type": "application/json" };
+
 async function sendJson<T>(method: string, path: string, body?: unknown): Promise<T> {
   const payload = body === undefined ? undefined : JSON.stringify(body);
-  return receive<T>(await send(method, path, payload, payload && "application/json"));
+  return receive<T>(await send(method, path, payload, payload ? JSON_TYPE : {}));
+}
+
+/** Ask for something that the server does once for this key, however often it is asked. */
+async function postOnce<T>(path: string, body: unknown, key: string): Promise<T> {
+  return receive<T>(await send("POST", path, JSON.stringify(body), { ...JSON_TYPE, "Idempotency-Key": key }));
 }
 
 /** Where the next part of a list is, as its header `Link` says. */
@@ -96,7 +106,7 @@ async function receiveAll<T>(path: string): Promise<T[]> {
 /** Put something in the place of what is there, if nobody changes that meanwhile. */
 async function replace(path: string, body: unknown): Promise<void> {
   const known = await send("GET", path);
-  await send("PUT", path, JSON.stringify(body), "application/json", known.headers.get("ETag") ?? "");
+  await send("PUT", path, JSON.stringify(body), { ...JSON_TYPE, "If-Match": known.headers.get("ETag") ?? "" });
 }
 
 /** Paths begin after `/api`. Every call throws ApiProblem on a refusal. */
@@ -104,6 +114,7 @@ export const api = {
   get: <T>(path: string) => sendJson<T>("GET", path),
   all: receiveAll,
   post: <T = void>(path: string, body?: unknown) => sendJson<T>("POST", path, body),
+  postOnce,
   patch: <T = void>(path: string, body: unknown) => sendJson<T>("PATCH", path, body),
   replace,
   delete: <T = void>(path: string) => sendJson<T>("DELETE", path),

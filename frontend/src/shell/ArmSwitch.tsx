@@ -3,7 +3,8 @@ import { Switch } from "@mantine/core";
 import { notifications } from "@mantine/notifications";
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { useTranslation } from "react-i18next";
-import { api, ApiProblem } from "@/api/client";
+import { ApiProblem } from "@/api/client";
+import { useOnce } from "@/api/once";
 import { keys, useArmed } from "@/api/queries";
 import type { ArmedProgram, Role } from "@/api/types";
 
@@ -19,10 +20,11 @@ export function ArmSwitch({ site, program, role, stored }: ArmSwitchProps) {
   const { t } = useTranslation();
   const queries = useQueryClient();
   const armed = useArmed(site).data?.find((each) => each.program === program.id);
+  const begin = useOnce();
   const arm = useMutation({
     mutationFn: async (on: boolean) => {
       if (on) await stored?.();
-      return api.post<ArmedProgram[]>(`/programs/${program.id}/arm`, { on });
+      return begin<ArmedProgram[]>(`/programs/${program.id}/arm`, { on });
     },
     onSuccess: (all) => queries.setQueryData(keys.armed(site), all),
     onError: (error) =>

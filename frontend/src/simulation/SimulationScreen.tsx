@@ -4,7 +4,8 @@ import { ArrowLeft, RefreshCw } from "lucide-react";
 import { useEffect, useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Link, useNavigate, useParams } from "react-router-dom";
-import { api, ApiProblem } from "@/api/client";
+import { ApiProblem } from "@/api/client";
+import { useOnce } from "@/api/once";
 import { missing } from "@/api/failed";
 import { keys, useDevices, useProgram, useRehearsal, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
@@ -132,9 +133,9 @@ function markersOf(result: RehearsalResult, nameOf: (device: string) => string):
 function useStartRehearsal(program: string) {
   const navigate = useNavigate();
   const [problem, setProblem] = useState<string>();
+  const begin = useOnce();
   const start = () =>
-    api
-      .post<{ id: string }>(`/programs/${program}/rehearsals`)
+    begin<{ id: string }>(`/programs/${program}/rehearsals`, {})
       .then(({ id }) => {
         setProblem(undefined);
         void navigate(`/programs/${program}/simulate/${id}`, { replace: true });

@@ -29,7 +29,9 @@ def run_plain_broker(folder: Path) -> Iterator[int]:
     """Run the vehicles' broker, which lets anybody in; returns its port."""
     port = free_port()
     root = "user root\n" if os.geteuid() == 0 else ""
-    (folder / "vehicles.conf").write_text(f"listener {port} 127.0.0.1\nallow_anonymous true\n{root}")
+    (folder / "vehicles.conf").write_text(
+        f"listener {port} 127.0.0.1\nallow_anonymous true\nset_tcp_nodelay true\n{root}"
+    )
     log = folder / "vehicles.log"
     with log.open("ab") as out:
         program = find_program("mosquitto", "/usr/sbin/mosquitto")

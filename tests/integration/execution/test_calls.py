@@ -118,14 +118,14 @@ def test_a_device_that_cannot_act_now_is_not_asked(factory, changes, told):
     assert Command.objects.count() == 0
 
 
-def test_nothing_is_called_while_the_site_is_stopped_and_a_stop_holds_what_is_under_way(factory):
+def test_nothing_is_called_while_the_site_is_stopped_and_a_stop_ends_what_is_under_way(factory):
     made = call(time=2)
     factory.work()
     factory.send()
     services.press_stop(site=SITE, by="Ada")
     factory.work()
-    held = Command.objects.get(method="pause")
-    assert (held.device, held.arguments) == ("paintMixer01", {"command": str(made.id)})
+    told = Command.objects.filter(method__in=["pause", "cancel"])
+    assert {(c.device, c.arguments["command"]) for c in told} == {("paintMixer01", str(made.id))}
     answer = ask(sign_in_member("operator", SITE), path=f"/api/sites/{SITE}/devices/curingOven01/call")
     assert answer.status_code == 422
     body = {"method": "curePaint", "args": {"time": 2}}
@@ -133,7 +133,7 @@ def test_nothing_is_called_while_the_site_is_stopped_and_a_stop_holds_what_is_un
     assert (answer.status_code, answer.json()["detail"]) == (409, "The site is stopped. Reset the stop first.")
     services.reset_stop(site=SITE, by="Ada")
     factory.go(lambda: state(made).is_over, dt_s=10.0)
-    assert state(made).status == "done"
+    assert state(made).status == "cancelled"
 
 
 def test_a_device_does_one_thing_at_a_time(factory):

@@ -60,7 +60,7 @@ def test_a_device_hears_its_own_sites_stop_and_nobodys_name(bus: Bus, gateway: G
     for device, site in (("mixer01", SITE), ("yard.mixer01", "yard")):
         ((topic, payload),) = set(heard_stops(bus, device))
         body = json.loads(payload)
-        assert (topic, body["active"], sorted(body)) == (f"vipo/v1/site/{site}/stop", True, ["active", "at"])
+        assert (topic, body["active"], sorted(body)) == (f"vipo/v1/site/{site}/stop", True, ["active", "at", "fence"])
 
 
 def test_a_join_key_enrols_at_its_own_site_only(bus: Bus, gateway: Gateway, yard: str) -> None:

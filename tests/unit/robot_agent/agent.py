@@ -11,7 +11,7 @@ from vipo_agent.config import BadConfig, Config, make_config
 from vipo_agent.core import Ack, Answers, Core, Facts, Go, Halt
 from vipo_agent.description import describe
 from vipo_agent.link import Link
-from vipo_agent.messages import Grid, Told, write_grid
+from vipo_agent.messages import Grid, Stop, Told, read_command, read_stop, write_grid
 
 RobotGrid = Grid
 
@@ -30,8 +30,11 @@ __all__ = [
     "Link",
     "Navigation",
     "RobotGrid",
+    "Stop",
     "Told",
     "describe",
     "make_config",
+    "read_command",
+    "read_stop",
     "write_grid",
 ]

@@ -8,7 +8,20 @@ from typing import Any
 import pytest
 
 from registry.floorplan.map_message import join_parts, read_grid_part
-from tests.unit.robot_agent.agent import BadConfig, Core, Facts, Go, Halt, Told, describe, make_config, write_grid
+from tests.unit.robot_agent.agent import (
+    BadConfig,
+    Core,
+    Facts,
+    Go,
+    Halt,
+    Stop,
+    Told,
+    describe,
+    make_config,
+    read_command,
+    read_stop,
+    write_grid,
+)
 from tests.unit.robot_agent.agent import Grid as RobotGrid
 from vipo_device.descriptions.reader import read_description
 from vipo_device.protocol.messages import MAX_BYTES
@@ -94,11 +107,38 @@ def test_a_stop_halts_and_its_reset_drives_on() -> None:
     bench = Bench()
     bench.tell("move", "a", path=[[1, 0]])
     bench.out()
-    bench.core.hold(True, 0.0)
+    bench.core.hold(Stop(True), 0.0)
     bench.tell("move", "b", path=[[2, 0]])
     assert bench.out() == [Halt(), "b REJECTED The site is stopped."]
-    bench.core.hold(False, 0.0)
+    bench.core.hold(Stop(False), 0.0)
     assert bench.out() == [Go(2, 1.0, 0.0, 0.0, None)]
+
+
+def test_what_a_stop_has_overtaken_is_neither_done_nor_answered() -> None:
+    bench = Bench()
+    drive = {"path": [[1, 0]]}
+    bench.core.command(Told("a", "move", drive, 5), 0.0)
+    bench.core.hold(Stop(True, 7), 0.0)
+    bench.out()
+    bench.core.hold(Stop(False, 6), 0.0)
+    bench.core.command(Told("b", "move", drive, 6), 0.0)
+    bench.core.command(Told("r", "resume", {"command": "a"}, 6), 0.0)
+    bench.core.command(Told("c", "move", drive, 8), 0.0)
+    assert bench.out() == []
+    bench.core.command(Told("p", "pause", {"command": "a"}, 8), 0.0)
+    assert bench.out() == ["p DONE"]
+    bench.core.hold(Stop(False, 8), 0.0)
+    bench.core.command(Told("b", "move", drive, 6), 0.0)
+    assert bench.out() == []
+    bench.core.command(Told("c", "move", drive, 8), 0.0)
+    assert bench.out() == ["c ACCEPTED"]
+
+
+def test_a_fence_is_read_with_suspicion() -> None:
+    for said, fence in (("7", 7), ('"7"', None), ("true", None), ("-1", None), ("7.5", None), ("1e400", None)):
+        payload = f'{{"id": "a", "v": {{}}, "active": false, "fence": {said}}}'.encode()
+        assert read_command("move", payload) == Told("a", "move", {}, fence)
+        assert read_stop(payload) == Stop(False, fence)
 
 
 def test_to_cancel_a_later_piece_lets_the_robot_drive_to_the_end_of_the_one_before() -> None:

@@ -5,6 +5,7 @@ import { Box, CircleAlert, Play, Redo2, TriangleAlert, Undo2 } from "lucide-reac
 import { useEffect, useState } from "react";
 import { useNavigate } from "react-router-dom";
 import { api } from "@/api/client";
+import { useOnce } from "@/api/once";
 import { keys } from "@/api/queries";
 import type { Program, Rehearsal } from "@/api/types";
 import { problemText } from "@/shell/LoadProblem";
@@ -180,10 +181,11 @@ function Problems() {
 function SimulateButton() {
   const { t, program, shared, canRun } = useOpenProgram();
   const navigate = useNavigate();
+  const begin = useOnce();
   const rehearse = useMutation({
     mutationFn: async () => {
       await shared.stored();
-      return api.post<Rehearsal>(`/programs/${program.id}/rehearsals`, {});
+      return begin<Rehearsal>(`/programs/${program.id}/rehearsals`, {});
     },
     onSuccess: (rehearsal) => void navigate(`/programs/${program.id}/simulate/${rehearsal.id}`),
     onError: (error) => say(problemText(error, error.message)),

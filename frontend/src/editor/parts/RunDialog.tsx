@@ -4,7 +4,7 @@ import { useMutation } from "@tanstack/react-query";
 import { Bot, CircleCheck, OctagonAlert, TriangleAlert } from "lucide-react";
 import { type ReactNode, useState } from "react";
 import { useNavigate } from "react-router-dom";
-import { api } from "@/api/client";
+import { useOnce } from "@/api/once";
 import type { Run } from "@/api/types";
 import { ArmSwitch } from "@/shell/ArmSwitch";
 import { useOpenProgram } from "../state/context";
@@ -66,10 +66,11 @@ function Content({ onClose }: { onClose: () => void }) {
 function useStartRun(parameters: Given | null, terms: Record<string, string> | null, onStarted: () => void) {
   const { program, shared } = useOpenProgram();
   const navigate = useNavigate();
+  const begin = useOnce();
   return useMutation({
     mutationFn: async () => {
       await shared.stored();
-      return api.post<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {}, ...terms });
+      return begin<Run>(`/programs/${program.id}/runs`, { parameters: parameters ?? {}, ...terms });
     },
     onSuccess: (started) => {
       onStarted();

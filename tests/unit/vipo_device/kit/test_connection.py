@@ -69,6 +69,20 @@ def test_commands_and_stops_are_passed_on_and_nothing_else() -> None:
     bench.connection.disconnect()
 
 
+def test_what_a_stop_has_overtaken_is_not_passed_on() -> None:
+    bench = Bench()
+    stop, cure = "vipo/v1/site/hall/stop", "vipo/v1/dev/oven/down/cure"
+    assert bench.hear(stop, {"active": True, "fence": 7}) == [StopChanged("oven", active=True)]
+    assert bench.hear(stop, {"active": False, "fence": 6}) == []
+    assert bench.hear(cure, {"id": "c1", "v": {}, "fence": 6}) == []
+    assert bench.hear(stop, {"active": False, "fence": 8}) == [StopChanged("oven", active=False)]
+    assert bench.hear(cure, {"id": "c1", "v": {}, "fence": 6}) == []
+    assert bench.hear(cure, {"id": "c2", "v": {}, "fence": 8}) == [
+        CommandReceived("oven", DeviceCommand("c2", "cure", {}, 8))
+    ]
+    bench.connection.disconnect()
+
+
 def test_a_device_introduces_itself_to_a_server_that_was_started_anew() -> None:
     bench = Bench()
     status, due = "vipo/v1/srv/status", [IntroductionDue("oven")]

@@ -5,6 +5,7 @@ import { Play, Square } from "lucide-react";
 import { type FormEvent, useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api } from "@/api/client";
+import { useOnce } from "@/api/once";
 import { useDevices, useSiteMap } from "@/api/queries";
 import type { Device, DeviceMethod, MethodCall, MethodParameter, Site } from "@/api/types";
 import { useReturnFocus } from "@/design/useReturnFocus";
@@ -167,9 +168,9 @@ export interface Order {
 
 /** `call` is what was asked for last, as it is now; null before. */
 export function useCall(slug: string, device: string) {
+  const begin = useOnce();
   const start = useMutation({
-    mutationFn: (order: Order) =>
-      api.post<MethodCall>(`/sites/${slug}/devices/${encodeURIComponent(device)}/call`, order),
+    mutationFn: (order: Order) => begin<MethodCall>(`/sites/${slug}/devices/${encodeURIComponent(device)}/call`, order),
   });
   const path = start.data ? `/sites/${slug}/calls/${start.data.id}` : null;
   const followed = useQuery({
