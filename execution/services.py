@@ -19,6 +19,7 @@ from execution.errors import (
 from execution.floor.map_change import change_map
 from execution.floor.routes_for_drawing import plan_routes
 from execution.floor.stops import StopView, is_stopped, list_stops, press_stop, reset_stop
+from execution.operations.overview import Overview, QueueView, list_leases, read_overview, read_task_queues
 from execution.rehearsals.rehearsals import get_rehearsal, start_rehearsal
 from execution.runs.programs import Prepared
 from execution.runs.questions import answer_question, list_questions, site_of_question
@@ -60,8 +61,10 @@ __all__ = [
     "NotPossibleNow",
     "NotReady",
     "OutgoingCommand",
+    "Overview",
     "Prepared",
     "QuestionView",
+    "QueueView",
     "RehearsalView",
     "RouteView",
     "RunEventView",
@@ -89,6 +92,7 @@ __all__ = [
     "is_stopped",
     "list_armed",
     "list_events",
+    "list_leases",
     "list_questions",
     "list_runs",
     "list_stops",
@@ -96,6 +100,8 @@ __all__ = [
     "pause_run",
     "plan_routes",
     "press_stop",
+    "read_overview",
+    "read_task_queues",
     "record_ack",
     "resend_commands",
     "reset_stop",

@@ -21,6 +21,7 @@ from editor.rooms.socket import ProgramSocket, close_hub  # noqa: E402
 from registry.api.site_socket import SiteSocket  # noqa: E402
 from vipo_site.http.ending import keep_rooms_at_end  # noqa: E402
 from vipo_site.http.entrance import BehindProxies, OwnPagesOnly  # noqa: E402
+from vipo_site.http.heartbeat import beat_while_serving  # noqa: E402
 from vipo_site.http.middleware import add_headers  # noqa: E402
 
 
@@ -36,6 +37,7 @@ if not settings.VIPO_DEMO:
     call_command("end_demo")
 
 keep_rooms_at_end(close_hub)
+beat_while_serving()
 routes = ProtocolTypeRouter(
     {
         "http": http,

@@ -273,10 +273,13 @@ def start_parts(options: argparse.Namespace, state: Path) -> list[Part]:
 
     from execution.gateway.gateway import Gateway
     from execution.services import run_ticker
+    from registry.services import Heart
 
     parts = [start_broker(), start_worker()]
-    parts.append(start_loop("gateway", lambda stopping: Gateway(settings).run_forever(stopping)))
-    parts.append(start_loop("ticker", lambda stopping: run_ticker(stopping=stopping)))
+    gateway, ticker = Heart("gateway", settings.VIPO_GATEWAY), Heart("ticker")
+    parts += [Part(name, heart.start().stop) for name, heart in (("gateway", gateway), ("ticker", ticker))]
+    parts.append(start_loop("gateway", lambda stopping: Gateway(settings, gateway).run_forever(stopping)))
+    parts.append(start_loop("ticker", lambda stopping: run_ticker(stopping=stopping, heart=ticker)))
     return parts + start_children(state, options.speed)
 
 
