@@ -85,7 +85,7 @@ def test_a_hostile_name_stays_one_label_and_what_another_version_told_is_left_ou
     )
     found = read()
     assert found["vipo_mqtt_messages_in_total"] == {of("gateway", hostile, message="ack"): 1}
-    assert all(dict(key)["code"] != "x" for key in found["vipo_findings"])
+    assert "vipo_findings" not in found
 
 
 def test_strangers_cannot_make_series() -> None:
