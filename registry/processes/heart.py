@@ -32,6 +32,8 @@ LOOP_LIMIT_S = 30.0
 UNSURE_S = 1.0
 """An answer that took longer says nothing exact of how far clocks are apart."""
 GOODBYE_S = 3.0
+_telling = threading.Lock()
+"""Held by the heart that tells what this process has counted: nothing is told twice."""
 ProcessKind = Literal["web", "gateway", "worker", "ticker", "twin"]
 
 
@@ -46,8 +48,9 @@ def installed_version() -> str:
 class Heart:
     """Beats for one part of this process, from `start` until `stop`.
 
-    `clock` is the process's own, `counters` what it tells of its work, `pulse` the file that a container's check of
-    health looks at (vipo_device/kit/pulse.py), empty for none.
+    `clock` is the process's own, `pulse` the file that a container's check of health looks at
+    (vipo_device/kit/pulse.py), empty for none. Where several parts share a process, as in the demo, the one that began
+    first tells what the process has counted.
     """
 
     def __init__(
@@ -57,12 +60,11 @@ class Heart:
         *,
         pulse: str = "",
         clock: Callable[[], datetime] = lambda: datetime.now(UTC),
-        counters: Callable[[], Mapping[str, Any]] = counters_to_json,
     ) -> None:
         machine = socket.gethostname()
         self._row = Heartbeat(kind=kind, name=(name or f"{kind}-{machine}")[:120], machine=machine[:120])
         self._row.process, self._row.version = os.getpid(), installed_version()
-        self._pulse, self._clock, self._counters = Pulse(pulse), clock, counters
+        self._pulse, self._clock, self._tells = Pulse(pulse), clock, False
         self._activity = ""
         self._turned_s = time.monotonic()
         self._beats = 0
@@ -78,6 +80,7 @@ class Heart:
     def start(self) -> Heart:
         """Begin to beat."""
         self._turned_s = time.monotonic()
+        self._tells = _telling.acquire(blocking=False)
         self._thread = threading.Thread(target=self._run, name=f"heart-{self._row.kind}", daemon=True)
         self._thread.start()
         return self
@@ -87,6 +90,12 @@ class Heart:
         self._stopping.set()
         if self._thread is not None:
             self._thread.join(GOODBYE_S)
+        if self._tells:
+            self._tells = False
+            _telling.release()
+
+    def _counters(self) -> Mapping[str, Any]:
+        return counters_to_json() if self._tells else {}
 
     def _run(self) -> None:
         try:

@@ -166,10 +166,15 @@ def prepare_database() -> None:
 
 def start_worker() -> Part:
     """Run Celery's worker in a thread; its messages stay in this process."""
-    from vipo_site.celery import app
+    from vipo_site.celery import app, begin_to_beat, say_goodbye
 
     worker: Any = app.WorkController(
-        pool_cls="threads", concurrency=4, without_mingle=True, without_gossip=True, without_heartbeat=True
+        pool_cls="threads",
+        concurrency=4,
+        without_mingle=True,
+        without_gossip=True,
+        without_heartbeat=True,
+        ready_callback=begin_to_beat,
     )
     thread = threading.Thread(target=worker.start, name="worker", daemon=True)
     thread.start()
@@ -177,6 +182,7 @@ def start_worker() -> Part:
     def stop() -> None:
         worker.stop()
         thread.join(4)
+        say_goodbye()
 
     return Part("worker", stop)
 

@@ -11,16 +11,16 @@ export function seesOperations(role: Role | undefined): boolean {
 /** A finding as a sentence in the language of the screen; one that this page does not know yet as the server says it. */
 export function findingWords(finding: Finding): string {
   const { kind, name, machine, seconds } = finding.args as Record<string, string | number | undefined>;
-  const key = `operations.finding.${finding.code}`;
-  if (!i18next.exists(key)) return finding.text;
   const apart = typeof seconds === "number" ? seconds : 0;
+  const way = apart < 0 ? "_behind" : "_ahead";
+  const key = `operations.finding.${finding.code}${finding.code === "clock_apart" ? way : ""}`;
+  if (!i18next.exists(key)) return finding.text;
   return i18next.t(key, {
     kind: kind ? i18next.t(`operations.kind.${kind}`) : "",
     name,
     machine,
     ago: formatSpan(apart),
     seconds: withUnit(formatNumber(Math.abs(apart), 1), "s"),
-    context: finding.code === "clock_apart" ? (apart < 0 ? "behind" : "ahead") : undefined,
   });
 }
 
