@@ -106,7 +106,7 @@ function OperationsOfSite({ slug }: { slug: string }) {
         {!problem && role !== "viewer" && operations.isPending ? <TableSkeleton /> : null}
         <Age at={operations.dataUpdatedAt} />
         {found?.length ? <FindingList findings={found} /> : null}
-        {operations.data ? <Waiting operations={operations.data} /> : null}
+        {operations.data ? <Waiting slug={slug} operations={operations.data} /> : null}
         {operations.data ? <OverdueTable slug={slug} operations={operations.data} /> : null}
         {processes.data ? <ProcessTable processes={processes.data.processes} /> : null}
         {processes.data ? (

@@ -1,5 +1,6 @@
 /** What waits at the site, as figures: how many, and for how long the first of them has. */
 import { useTranslation } from "react-i18next";
+import { Link } from "react-router-dom";
 import type { Operations, Queue } from "@/api/types";
 import { formatNumber, formatSpan } from "@/i18n/format";
 import styles from "./operations.module.css";
@@ -24,16 +25,16 @@ function Figure({ queue }: { queue: Queue }) {
   );
 }
 
-export function Waiting({ operations }: { operations: Operations }) {
+export function Waiting({ slug, operations }: { slug: string; operations: Operations }) {
   const { t } = useTranslation();
   const runs = Object.entries(operations.runs).map(([state, count]) => `${t(`operations.run.${state}`)} ${count}`);
   return (
     <section aria-labelledby="operations-here">
       <div className={styles.sectionHead}>
         <h2 id="operations-here">{t("operations.here")}</h2>
-        <p>
+        <Link to={`/sites/${slug}/runs`} className={styles.runs}>
           {t("operations.runs")}: {runs.join(" · ")}
-        </p>
+        </Link>
       </div>
       <dl className={styles.figures}>
         {operations.queues.map((queue) => (
