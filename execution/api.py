@@ -11,6 +11,7 @@ from ninja.responses import Status
 
 from execution import services
 from execution.errors import NotFound, NoWay
+from execution.operations.routes import router as operations_router
 from execution.runs.programs import prepare, site_of_program
 from execution.shapes import (
     ActionInput,
@@ -51,6 +52,7 @@ from registry.shapes import LOCATION, Stop, link_to_next, signed_in
 from vipo_device.descriptions.thing_description import DEVICE_URN
 
 router = Router(tags=["execution"])
+router.add_router("", operations_router)
 ABSENT = {
     "program": "There is no such program. It may have been deleted.",
     "question": "There is no such question. Its run may have been deleted.",

@@ -19,11 +19,14 @@ from kombu.exceptions import OperationalError
 
 from execution.floor_protocol import ToFloor, ToRun, floor_message_from_json, run_message_from_json, to_json
 from execution.models import FloorState, InboxEvent, Run
+from vipo_device.kit.log_ids import bound_ids
 
 log = logging.getLogger(__name__)
 ADVANCE_RUN = "execution.tasks.advance_run"
 ADVANCE_SITE = "execution.tasks.advance_site"
 REHEARSE = "execution.tasks.rehearse"
+REQUEST_HEADER = "vipo_request"
+"""Where a task's message carries the id of the HTTP request that it comes from, for the log."""
 MOST_AT_ONCE = 500
 Message = TypeVar("Message", ToFloor, ToRun)
 
@@ -127,7 +130,8 @@ def hint_watching(site: str = "") -> None:
 def send_hint(task: str, name: str) -> None:
     """Send a task's message; when the broker is away the ticker finds the work later."""
     try:
-        current_app.send_task(task, args=[name], retry=False)
+        request = bound_ids().get("request", "")
+        current_app.send_task(task, args=[name], retry=False, headers={REQUEST_HEADER: request} if request else None)
     except (OperationalError, OSError) as error:
         log.warning("A hint to %s was not sent; the ticker will find the work: %s", task, error)
 

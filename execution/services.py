@@ -18,8 +18,13 @@ from execution.errors import (
 )
 from execution.floor.map_change import change_map
 from execution.floor.routes_for_drawing import plan_routes
+<<<<<<< HEAD
 from execution.floor.stop_publisher import close_publisher, open_publisher
 from execution.floor.stops import StopView, follow_stops, get_stop, is_stopped, list_stops, press_stop, reset_stop
+=======
+from execution.floor.stops import StopView, is_stopped, list_stops, press_stop, reset_stop
+from execution.operations.overview import Overview, QueueView, list_leases, read_overview, read_task_queues
+>>>>>>> seen
 from execution.rehearsals.rehearsals import get_rehearsal, start_rehearsal
 from execution.runs.programs import Prepared
 from execution.runs.questions import answer_question, list_questions, site_of_question
@@ -61,8 +66,10 @@ __all__ = [
     "NotPossibleNow",
     "NotReady",
     "OutgoingCommand",
+    "Overview",
     "Prepared",
     "QuestionView",
+    "QueueView",
     "RehearsalView",
     "RouteView",
     "RunEventView",
@@ -93,6 +100,7 @@ __all__ = [
     "is_stopped",
     "list_armed",
     "list_events",
+    "list_leases",
     "list_questions",
     "list_runs",
     "list_stops",
@@ -101,6 +109,8 @@ __all__ = [
     "pause_run",
     "plan_routes",
     "press_stop",
+    "read_overview",
+    "read_task_queues",
     "record_ack",
     "release_commands",
     "resend_commands",

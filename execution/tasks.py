@@ -2,33 +2,49 @@
 
 from __future__ import annotations
 
-from celery import shared_task
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from celery import current_task, shared_task
 
 from execution.errors import StepConflict
 from execution.floor.advance import advance_site as step_site
+from execution.mailbox import REQUEST_HEADER
 from execution.rehearsals.rehearsals import carry_out
 from execution.runs.advance import advance_run as step_run
+from vipo_device.kit.log_ids import LogId, bind_ids
+
+
+@contextmanager
+def _at(name: LogId, value: str) -> Iterator[None]:
+    """Let what is logged meanwhile say what it belongs to."""
+    request = (current_task.request.get("headers") or {}).get(REQUEST_HEADER, "") if current_task else ""
+    with bind_ids({name: value, "request": request}):
+        yield
 
 
 @shared_task(name="execution.tasks.advance_run", ignore_result=True)  # type: ignore[untyped-decorator]
 def advance_run(run_id: str) -> bool:
     """Bring a run up to date."""
-    try:
-        return step_run(run_id)
-    except StepConflict:
-        return False
+    with _at("run", run_id):
+        try:
+            return step_run(run_id)
+        except StepConflict:
+            return False
 
 
 @shared_task(name="execution.tasks.advance_site", ignore_result=True)  # type: ignore[untyped-decorator]
 def advance_site(slug: str) -> bool:
     """Bring a site's floor up to date."""
-    try:
-        return step_site(slug)
-    except StepConflict:
-        return False
+    with _at("site", slug):
+        try:
+            return step_site(slug)
+        except StepConflict:
+            return False
 
 
 @shared_task(name="execution.tasks.rehearse", ignore_result=True)  # type: ignore[untyped-decorator]
 def rehearse(rehearsal_id: str) -> bool:
     """Carry out a rehearsal in a process of its own."""
-    return carry_out(rehearsal_id)
+    with _at("run", rehearsal_id):
+        return carry_out(rehearsal_id)

@@ -4,6 +4,7 @@ from registry.alerts.alerts import Raised, end_alert, end_alerts, raise_alert, r
 from registry.alerts.buffer import flush_alerts, note_alert, note_mended
 from registry.alerts.causes import AlertCode
 from registry.alerts.inbox import (
+    count_open_alerts,
     find_alert,
     list_alerts,
     list_open_alerts,
@@ -115,6 +116,10 @@ from registry.people.tokens import (
     prune_tokens,
 )
 from registry.people.watch import Seat, watch_of_this_loop
+from registry.processes.counters import BOUNDS_S, MEASURES, Measure, count, counters_to_json, time_spent, watch_amount
+from registry.processes.findings import Finding, find_trouble
+from registry.processes.heart import Heart
+from registry.processes.heartbeats import ProcessView, list_processes, prune_processes, read_time
 from registry.sites.quota import set_site_quota
 from registry.sites.sites import (
     create_site,
@@ -133,9 +138,11 @@ from registry.sites.views import PlaceView, SiteView, StopView, site_to_json
 from registry.sparql.queries import QueryAnswer, run_query
 
 __all__ = [
+    "BOUNDS_S",
     "DEMO_SITE",
     "EVERY_SITE",
     "FIRST",
+    "MEASURES",
     "Access",
     "AlertCode",
     "AlertView",
@@ -146,11 +153,14 @@ __all__ = [
     "DescriptionMessage",
     "DeviceEventView",
     "DeviceView",
+    "Finding",
+    "Heart",
     "Listed",
     "Login",
     "MapChanged",
     "MapVersionView",
     "MapView",
+    "Measure",
     "Message",
     "NoMap",
     "NoRobotMap",
@@ -167,6 +177,7 @@ __all__ = [
     "PointView",
     "PositionView",
     "Principal",
+    "ProcessView",
     "QueryAnswer",
     "Raised",
     "ReadingsView",
@@ -193,7 +204,10 @@ __all__ = [
     "close_account",
     "compare_robot_map",
     "confirm_topic",
+    "count",
     "count_dropped",
+    "count_open_alerts",
+    "counters_to_json",
     "create_site",
     "create_site_from_map",
     "create_token",
@@ -212,6 +226,7 @@ __all__ = [
     "find_ended",
     "find_member",
     "find_out",
+    "find_trouble",
     "find_unchanged",
     "flush_alerts",
     "flush_samples",
@@ -248,6 +263,7 @@ __all__ = [
     "list_placed",
     "list_places",
     "list_positions",
+    "list_processes",
     "list_sites",
     "list_slugs",
     "list_tokens",
@@ -260,6 +276,7 @@ __all__ = [
     "note_samples",
     "prune_alerts",
     "prune_keyed_requests",
+    "prune_processes",
     "prune_samples",
     "prune_tokens",
     "publish",
@@ -268,6 +285,7 @@ __all__ = [
     "raise_alerts",
     "read_demo_descriptions",
     "read_history",
+    "read_time",
     "read_told",
     "readmit_device",
     "reconcile_accounts",
@@ -294,11 +312,13 @@ __all__ = [
     "show_enrolment_key",
     "site_to_json",
     "take_part",
+    "time_spent",
     "update_device",
     "use_robot_map",
     "wait_account_change",
     "wait_wake",
     "wake",
+    "watch_amount",
     "watch_devices",
     "watch_of_this_loop",
     "withdraw_topic",

@@ -43,7 +43,10 @@ DELIVERY_S = 60.0
 
 @dataclass(frozen=True, slots=True)
 class TwinPlan:
-    """Which site, which of its devices speak, which of them are pending yet, how fast, and where memory is kept."""
+    """Which site, which of its devices speak, which of them are pending yet, how fast, and where memory is kept.
+
+    `refresh` reads the site anew, `beat` is called each time that the twin's loop comes round.
+    """
 
     facts: SiteFacts
     speaking: frozenset[str]
@@ -52,6 +55,7 @@ class TwinPlan:
     speed: float = 1.0
     driver: DriverName = "physics"
     refresh: Callable[[], SiteFacts] | None = None
+    beat: Callable[[], None] = lambda: None
 
 
 class Twin:
@@ -89,6 +93,7 @@ class Twin:
     def _live(self, stopping: threading.Event) -> None:
         now = saved = refreshed = time.monotonic()
         while not stopping.is_set():
+            self._plan.beat()
             self._take_in()
             last, now = now, time.monotonic()
             self._pass_time(now - last, now)

@@ -22,6 +22,7 @@ from execution.services import open_publisher  # noqa: E402
 from registry.api.site_socket import SiteSocket  # noqa: E402
 from vipo_site.http.ending import keep_rooms_at_end  # noqa: E402
 from vipo_site.http.entrance import BehindProxies, OwnPagesOnly  # noqa: E402
+from vipo_site.http.heartbeat import beat_while_serving  # noqa: E402
 from vipo_site.http.middleware import add_headers  # noqa: E402
 
 
@@ -40,6 +41,7 @@ keep_rooms_at_end(close_hub)
 if settings.SERVED:
     # Beside the gateways, a stop's second way to the devices; where all is one process it would be the same one.
     open_publisher(mqtt=settings.VIPO_MQTT)
+beat_while_serving()
 routes = ProtocolTypeRouter(
     {
         "http": http,

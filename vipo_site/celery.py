@@ -4,10 +4,10 @@ import os
 from typing import Any
 
 from celery import Celery
-from celery.signals import worker_ready
+from celery.signals import task_postrun, worker_ready, worker_shutdown
 from django.conf import settings
 
-from vipo_device.kit.pulse import EVERY_S, Pulse
+from vipo_device.kit.pulse import EVERY_S
 
 os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
 app = Celery("vipo")
@@ -15,7 +15,29 @@ app.config_from_object("django.conf:settings", namespace="CELERY")
 app.autodiscover_tasks()
 
 
+_hearts: list[Any] = []
+
+
 @worker_ready.connect  # type: ignore[untyped-decorator]
-def show_pulse(sender: Any, **_more: Any) -> None:
+def begin_to_beat(sender: Any, **_more: Any) -> None:
     """Beat from the loop that takes tasks in."""
-    sender.timer.call_repeatedly(EVERY_S, Pulse(settings.VIPO_PULSE).beat)
+    from registry.services import Heart
+
+    heart = Heart("worker", pulse=settings.VIPO_PULSE).start()
+    _hearts.append(heart)
+    sender.timer.call_repeatedly(EVERY_S, heart.beat)
+
+
+@worker_shutdown.connect  # type: ignore[untyped-decorator]
+def say_goodbye(**_more: Any) -> None:
+    """End the beats in order."""
+    while _hearts:
+        _hearts.pop().stop()
+
+
+@task_postrun.connect  # type: ignore[untyped-decorator]
+def count_task(sender: Any, state: str | None = None, **_more: Any) -> None:
+    """Count what this worker has finished."""
+    from registry.services import count
+
+    count(name="tasks", labels=(sender.name, state or "unknown"))

@@ -15,6 +15,8 @@ LEAST_SECRET = 12
 LEAST_DIFFERENT = 5
 WIDEST_PROXIES = {4: 8, 6: 32}
 """The shortest prefix of a network of proxies; whoever names a wider one has named strangers."""
+LOG_LEVELS = ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")
+LOG_FORMS = ("json", "text")
 
 Network = IPv4Network | IPv6Network
 
@@ -123,6 +125,20 @@ def has_demo(hosts: list[str]) -> bool:
             "for localhost and 127.0.0.1 alone. Set VIPO_DEMO=0; `vipo account` makes accounts for people."
         )
     return True
+
+
+def log_words() -> tuple[str, str]:
+    """Return from which level on is logged, and in which form, from VIPO_LOG: `INFO`, `json`, or both with a comma."""
+    level, form = "WARNING", "text"
+    for word in filter(None, (part.strip() for part in os.environ.get("VIPO_LOG", "").split(","))):
+        if word in LOG_FORMS:
+            form = word
+        elif word in LOG_LEVELS:
+            level = word
+        else:
+            known = ", ".join((*LOG_LEVELS, *LOG_FORMS))
+            raise ImproperlyConfigured(f"VIPO_LOG has {word[:20]!r}; it names a level, a form or both, of {known}.")
+    return level, form
 
 
 def open_state(folder: Path) -> None:

@@ -15,11 +15,13 @@ from vipo_site.environment import (
     is_https,
     is_local,
     local_secret,
+    log_words,
     named_proxies,
     open_state,
     private_database,
     required,
     required_secret,
+    secret,
     served_hosts,
     with_password,
 )
@@ -70,6 +72,7 @@ INSTALLED_APPS = [
     "vipo_site",
 ]
 MIDDLEWARE = [
+    "vipo_site.http.observation.Observed",
     "django.middleware.security.SecurityMiddleware",
     "vipo_site.http.middleware.SecurityHeaders",
     "vipo_site.http.middleware.Compress",
@@ -217,10 +220,18 @@ STATIC_ROOT = VIPO_STATE_DIR / "static"
 DATA_UPLOAD_MAX_MEMORY_SIZE = 4 * 1024 * 1024
 FILE_UPLOAD_MAX_MEMORY_SIZE = 16 * 1024 * 1024
 
+VIPO_METRICS_TOKEN = required_secret("VIPO_METRICS_TOKEN") if secret("VIPO_METRICS_TOKEN") else ""
+"""Who shows it may read /metrics; without one only this machine may."""
+
+_LOG_LEVEL, _LOG_FORM = log_words()
+_LINES = {
+    "json": {"()": "vipo_site.logs.JsonLines", "process": VIPO_PROCESS},
+    "text": {"()": "vipo_site.logs.TextLines"},
+}
 LOGGING = {
     "version": 1,
     "disable_existing_loggers": False,
-    "formatters": {"line": {"format": "%(asctime)s %(levelname)s %(name)s: %(message)s"}},
+    "formatters": {"line": _LINES[_LOG_FORM]},
     "handlers": {"stderr": {"class": "logging.StreamHandler", "formatter": "line"}},
-    "root": {"handlers": ["stderr"], "level": os.environ.get("VIPO_LOG", "WARNING")},
+    "root": {"handlers": ["stderr"], "level": _LOG_LEVEL},
 }

@@ -9,6 +9,7 @@ from django.urls import path, re_path
 from django.views.decorators.csrf import ensure_csrf_cookie
 
 from vipo_site.http.api import api, problem
+from vipo_site.http.metrics import metrics
 from vipo_site.http.thing_directory import directory_urls
 
 
@@ -42,6 +43,7 @@ handler400, handler500 = "vipo_site.http.middleware.tell_unreadable", "vipo_site
 urlpatterns = [
     path("api/", api.urls),
     path("health", health),
+    path("metrics", metrics),
     *directory_urls(),
     re_path(r"^(?:api|ws)/.*$", no_such_call),
     re_path(r"^(?!static/|assets/).*$", page),

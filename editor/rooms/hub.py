@@ -57,6 +57,8 @@ class Hub:
         self._stop_listening: Callable[[], None] | None = None
         self._is_closed = False
         self._allowances: dict[int, Allowance] = {}
+        registry.watch_amount(name="rooms", read=lambda: len(self._open))
+        registry.watch_amount(name="program_sockets", read=lambda: self._places.taken)
         self._places = Places(in_all=MOST_CONNECTIONS, of_site=MOST_CONNECTIONS, of_person=MOST_OF_PERSON)
 
     async def enter(self, program_id: str, member: Member) -> Room:

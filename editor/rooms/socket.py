@@ -17,7 +17,7 @@ from editor.rooms.member import Close, Member
 from editor.rooms.refusals import INTERRUPTED
 from editor.rooms.room import Room
 from editor.rooms.threads import in_database
-from registry.services import Seat, session_of_socket, watch_of_this_loop
+from registry.services import Seat, session_of_socket, time_spent, watch_of_this_loop
 
 
 class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
@@ -62,12 +62,12 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
         return permission
 
     async def _enter(self, permission: Permission) -> None:
-        self._waiting = asyncio.Event()
+        self._waiting, self._woken_s = asyncio.Event(), 0.0
         self.hub = hub_of_this_loop()
         member = Member(
             permission.person,
             can_write=permission.can_write,
-            wake=self._waiting.set,
+            wake=self._wake,
             is_sure=self._is_sure,
         )
         program = str(self.scope["url_route"]["kwargs"]["program"])
@@ -75,6 +75,11 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
         self.member = member
         self._review()
         self._sender = asyncio.create_task(self._send_all(member))
+
+    def _wake(self) -> None:
+        if not self._waiting.is_set():
+            self._woken_s = time.monotonic()
+            self._waiting.set()
 
     def _is_sure(self) -> bool:
         return self.seat is not None and self.seat.is_fresh
@@ -103,8 +108,10 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
         while member.closing is None:
             await self._waiting.wait()
             self._waiting.clear()
+            woken_s = self._woken_s
             while member.outbox:
                 await self.send(bytes_data=member.outbox.popleft())
+            time_spent(name="room_send_seconds", seconds=time.monotonic() - woken_s)
         self._leave()
         await self._refuse(member.closing)
 

@@ -64,6 +64,7 @@ def record_ack(
         else:
             row.send_after = at + timedelta(seconds=LAST_RETRY_S)
         row.save(update_fields=["status", "why", "sent_at", "ended_at", "send_after", "result"])
+        registry.count(name="command_answers", labels=(row.status,))
         if status == "DONE" and row.piece:
             _close_pieces_before(row, at)
         if status in FINAL and row.method not in CONTROLS:

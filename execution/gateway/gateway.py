@@ -26,7 +26,6 @@ from execution.gateway.queue import KNOWN_DEVICES, Complaints, Entry, Inbox, Tok
 from execution.gateway.stops import Stops
 from registry import services as registry
 from registry.services import Outage
-from vipo_device.kit.pulse import Pulse
 from vipo_device.protocol import messages
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.faults import facts_of, fault
@@ -45,16 +44,19 @@ MOST_AT_ONCE = 200
 COUNT_EVERY_S = 2.0
 TOO_MANY = "too many messages"
 MOST_CHARACTERS = 300
+KINDS = frozenset({"desc", "state", "ack", "presence", "map", ENROLMENT})
+REASONS = KINDS | {TOO_MANY}
+"""What is counted by name; whatever else a topic says is counted as `other`."""
 
 
 class Gateway:
     """One gateway; the embedded mode runs it in a thread, `manage.py gateway` in a process."""
 
-    def __init__(self, settings: Any) -> None:
+    def __init__(self, settings: Any, heart: registry.Heart | None = None) -> None:
         # The same name after a restart takes over the session of the one that died, with the answers kept in it.
         self._client = MqttClient.from_settings(settings.VIPO_MQTT, client_id=settings.VIPO_GATEWAY, keep_session=True)
         self._dashboards = Dashboards(self._client, settings)
-        self._pulse = Pulse(settings.VIPO_PULSE)
+        self._heart = heart
         self._inbox = Inbox()
         self._buckets: OrderedDict[str, TokenBucket] = OrderedDict()
         self.complaints = Complaints()
@@ -68,6 +70,7 @@ class Gateway:
 
     def run_forever(self, stopping: threading.Event) -> None:
         """Serve until `stopping` is set."""
+        registry.watch_amount(name="gateway_inbox", read=self._inbox.__len__)
         self._client.subscribe_handled(EVERYTHING, 1, self._arrived)
         self._client.subscribe_handled(ENROLMENTS, 1, self._arrived)
         self._stops.listen()
@@ -82,7 +85,7 @@ class Gateway:
             thread.start()
         try:
             while not stopping.is_set():
-                self._pulse.beat()
+                self._beat()
                 entries = self._inbox.get_all(0.2, MOST_AT_ONCE)
                 self._renew_connection()
                 self._ingester.ingest_all(entries, stopping)
@@ -98,6 +101,10 @@ class Gateway:
             registry.flush_samples(all_of_it=True)
             connection.close()
 
+    def _beat(self) -> None:
+        if self._heart is not None:
+            self._heart.beat("works" if self._client.connected else "broker_away")
+
     def _renew_connection(self) -> None:
         """Give up a connection from before an outage; the other thread may have noticed it first."""
         if self._outages_seen != self._outage.count:
@@ -107,9 +114,11 @@ class Gateway:
     def _arrived(self, message: Message) -> None:
         """Sort a message into the inbox; runs on the network thread and must not wait."""
         found = messages.read_up_topic(message.topic)
+        _count("mqtt_messages_in", found[1] if found else ENROLMENT, KINDS)
         enrolment = messages.read_join_topic(message.topic)
         if found is None and enrolment is None:
             self.complaints.counts["topic"] += 1
+            _count("mqtt_messages_refused", "topic", REASONS)
             message.acknowledge()
             return
         device, kind = found or (enrolment[1] if enrolment else "", ENROLMENT)
@@ -119,6 +128,7 @@ class Gateway:
             message.acknowledge()
         elif not self._inbox.put(Entry(message, device, kind)):
             self.complaints.counts["inbox full"] += 1
+            _count("mqtt_messages_refused", TOO_MANY, REASONS)
 
     def _bucket(self, device: str) -> TokenBucket:
         bucket = self._buckets.pop(device, None) or new_bucket(device)
@@ -130,6 +140,7 @@ class Gateway:
     def _note(self, device: str, reason: str, facts: Mapping[str, Any]) -> None:
         """Count a message that was not taken; the worker writes it into the device's history."""
         note_complaint(device, reason, facts)
+        _count("mqtt_messages_refused", reason.partition(":")[0], REASONS)
         others = self.complaints.count(device, reason, time.monotonic())
         if others is not None:
             line = with_others(reason, others)
@@ -178,8 +189,18 @@ class Gateway:
             self._stops.publish()
         commands = claim_commands(limit=CLAIM_LIMIT)
         self._outage.end()
+<<<<<<< HEAD
         freeze_point("gateway_after_claim", armed=bool(commands))
         self._publish(commands)
+=======
+        for command in commands:
+            self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
+        if commands:
+            mark_commands_sent(ids=[command.id for command in commands])
+            registry.count(name="mqtt_messages_out", labels=("command",), by=len(commands))
+        if time.monotonic() - self._stops_at >= STOPS_EVERY_S:
+            self._publish_stops()
+>>>>>>> seen
         return len(commands) == CLAIM_LIMIT
 
     def _publish(self, commands: Sequence[OutgoingCommand]) -> None:
@@ -211,6 +232,23 @@ class Gateway:
         birth = {"s": "online", "at": datetime.now(UTC).isoformat(timespec="milliseconds")}
         self._client.publish(SERVER_STATUS, json.dumps(birth).encode(), retain=True)
         _reconcile_accounts()
+
+<<<<<<< HEAD
+=======
+    def _publish_stops(self) -> None:
+        for stop in list_stops():
+            body = {"active": stop.active, "at": stop.at.isoformat() if stop.at else None}
+            payload = json.dumps(body).encode()
+            if self._stops.get(stop.site) != payload:
+                self._client.publish(f"vipo/v1/site/{stop.site}/stop", payload, retain=True)
+                self._stops[stop.site] = payload
+                registry.count(name="mqtt_messages_out", labels=("stop",))
+        self._stops_at = time.monotonic()
+
+>>>>>>> seen
+
+def _count(name: str, kind: str, known: frozenset[str]) -> None:
+    registry.count(name=name, labels=(kind if kind in known else "other",))
 
 
 def note_complaint(device: str, reason: str, facts: Mapping[str, Any] | None = None) -> None:

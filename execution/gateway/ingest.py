@@ -17,6 +17,7 @@ from execution.commands import outbox
 from execution.gateway.queue import Entry
 from registry import services as registry
 from registry.services import Outage
+from vipo_device.kit.log_ids import bind_ids
 from vipo_device.protocol import messages
 from vipo_device.protocol.errors import VipoError
 from vipo_device.protocol.mqtt_client import Message
@@ -122,6 +123,10 @@ class Ingester:
 
     def _handle(self, entry: Entry, stopping: threading.Event) -> None:
         """Take one message in; wait for a database that is away, and give up on what it will never take."""
+        with bind_ids({"device": entry.device}):
+            self._handle_bound(entry, stopping)
+
+    def _handle_bound(self, entry: Entry, stopping: threading.Event) -> None:
         tries = 0
         while not entry.outdated and not stopping.is_set():
             try:

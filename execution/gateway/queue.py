@@ -66,6 +66,9 @@ class Inbox:
         self._limit = limit
         self._changed = threading.Condition()
 
+    def __len__(self) -> int:
+        return len(self._entries)
+
     def put(self, entry: Entry) -> bool:
         """Add a message; False when the inbox is full."""
         with self._changed:

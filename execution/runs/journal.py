@@ -30,6 +30,7 @@ from execution.views import event_to_json, run_to_json, view_event, view_run
 from registry import services as registry
 
 TOLD_AT_LEAST = 100
+WHAT_BECAME = {r.StepEntered: "begun", r.StepLeft: "done", r.StepFailed: "not_done"}
 ANSWERS = {"DONE": "is done", "FAILED": "failed", "REJECTED": "refused", "CANCELED": "was called off"}
 ENDS = {
     "finished": "The run is finished.",
@@ -77,6 +78,7 @@ class Journal:
 
     def mark(self, action: r.StepEntered | r.StepLeft | r.StepFailed) -> None:
         """Mark a step as the machine says."""
+        registry.count(name="run_steps", labels=(WHAT_BECAME[type(action)],))
         match action:
             case r.StepEntered(step=step):
                 count = self.steps.get(step, {}).get("count", 0) + 1

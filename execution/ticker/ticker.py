@@ -8,7 +8,6 @@ import socket
 import threading
 from datetime import UTC, datetime, timedelta
 
-from django.conf import settings
 from django.db import DatabaseError, connection, transaction
 from django.db.models import Q
 
@@ -24,7 +23,6 @@ from execution.runs.terms import call_late
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
 from registry import services as registry
-from vipo_device.kit.pulse import Pulse
 
 TICK_SITES_S = 0.5
 SWEEP_S = 1.0
@@ -67,6 +65,7 @@ class Ticker:
             registry.prune_keyed_requests(now=now)
             registry.drop_expired(now=now)
             registry.forget_attempts(now=now)
+            registry.prune_processes()
         return True
 
     def _is_due(self, what: str, every_s: float, now: datetime) -> bool:
@@ -116,11 +115,12 @@ TICK_S = 0.1
 IDLE_S = 1.0
 
 
-def run_ticker(*, stopping: threading.Event) -> None:
-    """Tick until `stopping` is set; a database that is away is waited for."""
-    pulse = Pulse(settings.VIPO_PULSE)
+def run_ticker(*, stopping: threading.Event, heart: registry.Heart | None = None) -> None:
+    """Tick until `stopping` is set; a database that is away is waited for. Each tick is told to the `heart`."""
+    leads = False
     while not stopping.is_set():
-        pulse.beat()
+        if heart is not None:
+            heart.beat("leads" if leads else "stands_by")
         try:
             leads = tick(datetime.now(UTC))
         except DatabaseError as error:

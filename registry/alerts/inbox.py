@@ -56,6 +56,11 @@ def list_alerts(
     return take_part(rows=rows, by="-last_at", part=part, view=view_of)
 
 
+def count_open_alerts(*, site: str, role: str) -> int:
+    """Return how many of the site's alerts that concern this role are not over."""
+    return readable(role).filter(device__site__slug=site, over_at=None).count()
+
+
 def find_alert(*, alert_id: int) -> AlertView:
     """Return one alert. Raises NoSuchAlert."""
     row = readable("admin").filter(pk=alert_id).first()

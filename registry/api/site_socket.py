@@ -15,10 +15,12 @@ from registry.bounds.places import Claim, Places
 from registry.live.fanout import Message, subscribe
 from registry.people.sessions import session_of_socket
 from registry.people.watch import Seat, watch_of_this_loop
+from registry.processes.counters import watch_amount
 
 SIGNED_OUT, NOT_ALLOWED, NOT_FOUND, TOO_MANY, COME_AGAIN = 4401, 4403, 4404, 4429, 4503
 _places = Places(in_all=5_000, of_site=500, of_person=30)
 """Sockets of this process."""
+watch_amount(name="site_sockets", read=lambda: _places.taken)
 BREATH_S = 0.1
 BEAT_S = 5.0
 BEAT = json.dumps({"type": "beat"})

@@ -1,4 +1,4 @@
-"""The tables of the registry: people, sites, maps, devices and alerts."""
+"""The tables of the registry: people, sites, maps, devices, alerts and processes."""
 
 from registry.models.alerts import DeviceAlert as DeviceAlert
 from registry.models.devices import Device as Device
@@ -16,6 +16,7 @@ from registry.models.people import OpenSession as OpenSession
 from registry.models.people import SignInFailure as SignInFailure
 from registry.models.people import User as User
 from registry.models.people import UserManager as UserManager
+from registry.models.processes import Heartbeat as Heartbeat
 from registry.models.requests import KeyedRequest as KeyedRequest
 from registry.models.sites import Membership as Membership
 from registry.models.sites import Site as Site

@@ -48,14 +48,14 @@ _NAMES = {
         watch_things show_thing read_expression show_values show_value watch_value await_next_value query_action""",
     Right("viewer", "operate"): "press_stop",
     Right("operator", "operate"): """mark_seen mark_all_seen call_method cancel_call reset_stop invoke_action
-        cancel_action""",
+        cancel_action show_operations list_findings""",
     Right("operator", "run"): """start_rehearsal start_run pause_run resume_run cancel_run answer_question
         arm_program""",
     Right("author", "run"): """delete_program rename_program draw_script pin_version save_function
         create_program put_document put_script""",
     Right("admin", "admin"): """edit_device approve_device reject_device retire_device readmit_device
         rotate_credential revoke_credential confirm_topic withdraw_topic renew_enrolment_key reserve_device
-        use_robot_map restore_map patch_thing""",
+        use_robot_map restore_map patch_thing list_processes""",
 }
 RIGHTS = {name: right for right, names in _NAMES.items() for name in names.split()}
 """What each operation asks; whoever adds an operation adds it here."""

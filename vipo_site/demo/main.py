@@ -166,10 +166,15 @@ def prepare_database() -> None:
 
 def start_worker() -> Part:
     """Run Celery's worker in a thread; its messages stay in this process."""
-    from vipo_site.celery import app
+    from vipo_site.celery import app, begin_to_beat, say_goodbye
 
     worker: Any = app.WorkController(
-        pool_cls="threads", concurrency=4, without_mingle=True, without_gossip=True, without_heartbeat=True
+        pool_cls="threads",
+        concurrency=4,
+        without_mingle=True,
+        without_gossip=True,
+        without_heartbeat=True,
+        ready_callback=begin_to_beat,
     )
     thread = threading.Thread(target=worker.start, name="worker", daemon=True)
     thread.start()
@@ -177,6 +182,7 @@ def start_worker() -> Part:
     def stop() -> None:
         worker.stop()
         thread.join(4)
+        say_goodbye()
 
     return Part("worker", stop)
 
@@ -273,10 +279,13 @@ def start_parts(options: argparse.Namespace, state: Path) -> list[Part]:
 
     from execution.gateway.gateway import Gateway
     from execution.services import run_ticker
+    from registry.services import Heart
 
     parts = [start_broker(), start_worker()]
-    parts.append(start_loop("gateway", lambda stopping: Gateway(settings).run_forever(stopping)))
-    parts.append(start_loop("ticker", lambda stopping: run_ticker(stopping=stopping)))
+    gateway, ticker = Heart("gateway", settings.VIPO_GATEWAY), Heart("ticker")
+    parts += [Part(name, heart.start().stop) for name, heart in (("gateway", gateway), ("ticker", ticker))]
+    parts.append(start_loop("gateway", lambda stopping: Gateway(settings, gateway).run_forever(stopping)))
+    parts.append(start_loop("ticker", lambda stopping: run_ticker(stopping=stopping, heart=ticker)))
     return parts + start_children(state, options.speed)
 
 

@@ -10,6 +10,7 @@ from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from execution.gateway.gateway import Gateway
+from registry.services import Heart
 
 
 class Command(BaseCommand):
@@ -22,4 +23,8 @@ class Command(BaseCommand):
         stopping = threading.Event()
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: stopping.set())
-        Gateway(settings).run_forever(stopping)
+        heart = Heart("gateway", settings.VIPO_GATEWAY, pulse=settings.VIPO_PULSE).start()
+        try:
+            Gateway(settings, heart).run_forever(stopping)
+        finally:
+            heart.stop()

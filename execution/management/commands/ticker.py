@@ -6,9 +6,11 @@ import signal
 import threading
 from typing import Any
 
+from django.conf import settings
 from django.core.management.base import BaseCommand
 
 from execution.ticker.ticker import run_ticker
+from registry.services import Heart
 
 
 class Command(BaseCommand):
@@ -21,4 +23,8 @@ class Command(BaseCommand):
         stopping = threading.Event()
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, lambda *_: stopping.set())
-        run_ticker(stopping=stopping)
+        heart = Heart("ticker", pulse=settings.VIPO_PULSE).start()
+        try:
+            run_ticker(stopping=stopping, heart=heart)
+        finally:
+            heart.stop()

@@ -4,9 +4,12 @@ import { api, ApiProblem, rememberCsrf } from "./client";
 import type {
   ArmedProgram,
   Device,
+  Finding,
   LibraryFunction,
   Me,
+  Operations,
   OwnSession,
+  Processes,
   Program,
   ProgramDocument,
   Question,
@@ -43,6 +46,9 @@ export const keys = {
   library: (q: string) => ["library", q] as const,
   libraryFunction: (id: string) => ["library-function", id] as const,
   rehearsal: (id: string) => ["rehearsal", id] as const,
+  findings: (slug: string) => ["findings", slug] as const,
+  operations: (slug: string) => ["operations", slug] as const,
+  processes: (slug: string) => ["processes", slug] as const,
 };
 
 const EVENTS_AT_ONCE = 1000;
@@ -107,6 +113,19 @@ function useGet<T>(key: readonly unknown[], path: string | null) {
 /** The same for a list that the server gives in parts. */
 function useAll<T>(key: readonly unknown[], path: string | null) {
   return useQuery({ queryKey: key, queryFn: path === null ? skipToken : () => api.all<T>(path) });
+}
+
+/**
+ * What tells whether parts of VIPO are dead is asked for anew, over and over: the live news come through such parts.
+ * What was known last stays while no answer comes; the screen says how old it is.
+ */
+function useWatch<T>(key: readonly unknown[], path: string | null, everyMs: number) {
+  return useQuery({
+    queryKey: key,
+    queryFn: path === null ? skipToken : () => api.get<T>(path),
+    refetchInterval: everyMs,
+    staleTime: 0,
+  });
 }
 
 type Maybe = string | undefined;
@@ -189,4 +208,22 @@ export const useRehearsal = (id: Maybe) =>
   useGet<Rehearsal>(
     keys.rehearsal(id ?? ""),
     at(id, (r) => `/rehearsals/${r}`),
+  );
+export const useFindings = (slug: Maybe) =>
+  useWatch<Finding[]>(
+    keys.findings(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/findings`),
+    5_000,
+  );
+export const useOperations = (slug: Maybe) =>
+  useWatch<Operations>(
+    keys.operations(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/operations`),
+    2_000,
+  );
+export const useProcesses = (slug: Maybe) =>
+  useWatch<Processes>(
+    keys.processes(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/processes`),
+    2_000,
   );

@@ -716,6 +716,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/sites/{site}/findings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Findings
+         * @description Return what is wrong with VIPO's processes now: what stops work, and for admins also which process it is.
+         */
+        get: operations["list_findings"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/operations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Show Operations
+         * @description Return what waits at a site, and which commands are overdue.
+         */
+        get: operations["show_operations"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/processes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Processes
+         * @description Return VIPO's processes as they beat, and what waits at all sites; for admins, who see other sites' numbers.
+         */
+        get: operations["list_processes"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/sites/{site}/questions": {
         parameters: {
             query?: never;
@@ -2322,6 +2382,17 @@ export interface components {
             field: string;
             message: string;
         };
+        /** @description Something that is wrong with VIPO's own processes now; `text` is the English sentence of code and `args`. */
+        FindingShape: {
+            args: {
+                [key: string]: unknown;
+            };
+            /** @enum {string} */
+            code: "no_gateway" | "no_worker" | "no_ticker" | "process_silent" | "clock_apart";
+            /** @enum {string} */
+            severity: "warning" | "error";
+            text: string;
+        };
         /** @description A change that mends a problem: `field` of the step becomes `value`. */
         FixShape: {
             field: string;
@@ -2357,6 +2428,12 @@ export interface components {
             name: string;
             /** Format: uuid */
             program: string;
+        };
+        /** @description Who does a job that only one process may do; `held_s` is how much longer it is theirs, below 0 afterwards. */
+        LeaseShape: {
+            held_s: number;
+            holder: string;
+            job: string;
         };
         /** @description Which functions are asked for: those whose name or description has all words of `q`, of one site if named. */
         LibraryAsked: {
@@ -2540,11 +2617,33 @@ export interface components {
             args: components["schemas"]["Value"][];
             op: string;
         };
+        /** @description What waits at a site now: `overdue` has those that have waited longest, `overdue_count` says how many are. */
+        OperationsShape: {
+            open_alerts: number;
+            overdue: components["schemas"]["OverdueShape"][];
+            overdue_count: number;
+            queues: components["schemas"]["QueueShape"][];
+            runs: {
+                [key: string]: number;
+            };
+        };
         /** @description Where the grid's bottom left corner is, in metres and radians. */
         Origin: {
             x: number;
             y: number;
             yaw: number;
+        };
+        /** @description A command to which its device has said nothing for `waits_s`; without `run` it is a person's call. */
+        OverdueShape: {
+            device: string;
+            id: string;
+            method: string;
+            number: number | null;
+            run: string | null;
+            /** @enum {string} */
+            status: "pending" | "sent";
+            tries: number;
+            waits_s: number;
         };
         /**
          * @description One of the asker's sessions; `here` marks the one that asks. `browser` and `system` may be empty.
@@ -2675,6 +2774,29 @@ export interface components {
             title: string;
             type: string;
         };
+        /** @description A process of VIPO as its last heartbeat told, `age_s` seconds ago; `clock_apart_s` is its clock's distance. */
+        ProcessShape: {
+            /** @enum {string} */
+            activity: "" | "works" | "broker_away" | "leads" | "stands_by";
+            age_s: number;
+            clock_apart_s: number | null;
+            id: string;
+            /** @enum {string} */
+            kind: "web" | "gateway" | "worker" | "ticker" | "twin";
+            machine: string;
+            name: string;
+            process: number;
+            since: string;
+            /** @enum {string} */
+            state: "beats" | "silent" | "ended";
+            version: string;
+        };
+        /** @description All processes, who leads, and what waits at all sites together. */
+        ProcessesShape: {
+            leases: components["schemas"]["LeaseShape"][];
+            processes: components["schemas"]["ProcessShape"][];
+            queues: components["schemas"]["QueueShape"][];
+        };
         /** @description A name for a program. */
         ProgramName: {
             name: string;
@@ -2748,6 +2870,12 @@ export interface components {
             step: string;
             text: string;
             value: boolean | number | string | null;
+        };
+        /** @description How many wait in a queue, and for how many seconds the first of them has; null for nobody, and where unknown. */
+        QueueShape: {
+            name: string;
+            oldest_s: number | null;
+            waiting: number;
         };
         /** @description Something that the real run would meet, too. */
         RehearsalError: {
@@ -5099,6 +5227,123 @@ export interface operations {
             403: components["responses"]["Refused403"];
             404: components["responses"]["Refused404"];
             409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_findings: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FindingShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    show_operations: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OperationsShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_processes: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProcessesShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
             422: components["responses"]["Refused422"];
             429: components["responses"]["Refused429"];
             500: components["responses"]["Refused500"];

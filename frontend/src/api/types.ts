@@ -52,6 +52,13 @@ export type NewToken = Schemas["NewToken"];
 export type MadeToken = Schemas["MadeToken"];
 
 export type Alert = Schemas["AlertShape"];
+export type Finding = Schemas["FindingShape"];
+export type Operations = Schemas["OperationsShape"];
+export type OverdueCommand = Schemas["OverdueShape"];
+export type Queue = Schemas["QueueShape"];
+export type Processes = Schemas["ProcessesShape"];
+export type VipoProcess = Schemas["ProcessShape"];
+export type Lease = Schemas["LeaseShape"];
 export type AlertSeverity = Alert["severity"];
 
 export type Program = Schemas["ProgramShape"];

@@ -24,6 +24,7 @@ const ROUTES: readonly [path: string, file: string][] = [
   ["/sites/:slug/runs", "pages/runs/RunsPage"],
   ["/sites/:slug/map", "pages/map/MapPage"],
   ["/sites/:slug/tokens", "pages/tokens/TokensPage"],
+  ["/sites/:slug/operations", "pages/operations/OperationsPage"],
   ["/programs/:id", "editor/EditorScreen"],
   ["/programs/:id/simulate/:rehearsal?", "simulation/SimulationScreen"],
   ["/runs/:id", "run/RunScreen"],

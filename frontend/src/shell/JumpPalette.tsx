@@ -4,20 +4,24 @@ import { Search } from "lucide-react";
 import { type KeyboardEvent, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useNavigate } from "react-router-dom";
-import { useDevices, usePrograms } from "@/api/queries";
+import { useDevices, usePrograms, useSite } from "@/api/queries";
+import { seesOperations } from "./findings/findings";
 import styles from "./jump.module.css";
 
-const PAGES = ["programs", "devices", "library", "runs", "map"] as const;
+type PageName = "programs" | "devices" | "library" | "runs" | "map" | "operations";
+const PAGES: PageName[] = ["programs", "devices", "library", "runs", "map"];
+const OPERATIONS: PageName[] = ["operations"];
 
 function useTargets(slug: string | undefined): JumpTarget[] {
   const { t } = useTranslation();
   const programs = usePrograms(slug).data ?? [];
   const devices = useDevices(slug).data ?? [];
+  const role = useSite(slug).data?.role;
   const at = `/sites/${slug ?? ""}`;
   return [
     { kind: "page", name: t("shell.nav.home"), to: "/" },
     { kind: "page", name: t("shell.account.settings"), to: "/account" },
-    ...(slug ? PAGES : []).map((page) => ({
+    ...(slug ? PAGES : []).concat(slug && seesOperations(role) ? OPERATIONS : []).map((page) => ({
       kind: "page" as const,
       name: t(`shell.nav.${page}`),
       to: `${at}/${page}`,

@@ -4,6 +4,7 @@ import { useSiteLive } from "@/live/site";
 import { AlertsBell } from "./alerts/AlertsBell";
 import { ConnectionStrip } from "./ConnectionStrip";
 import { useCurrentSite } from "./currentSite";
+import { FindingsStrip } from "./findings/FindingsStrip";
 import { QuestionsBell } from "./questions/QuestionsBell";
 import { SideBar } from "./SideBar";
 import { StopAllButton } from "./stop/StopAllButton";
@@ -39,6 +40,7 @@ export function PageShell({ title, chips, actions, detail, children }: PageShell
           {slug ? <StopAllButton slug={slug} /> : null}
         </div>
         {slug ? <ConnectionStrip slug={slug} /> : null}
+        {slug ? <FindingsStrip slug={slug} /> : null}
       </header>
       <main className={styles.page}>{children}</main>
       {detail ? <div className={styles.detail}>{detail}</div> : null}

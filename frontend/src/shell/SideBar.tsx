@@ -1,12 +1,14 @@
 /** The side bar of the management pages: site, pages, account. */
-import { History, LayoutGrid, Library, Map, Cpu, Workflow, type LucideIcon } from "lucide-react";
+import { Activity, History, LayoutGrid, Library, Map, Cpu, Workflow, type LucideIcon } from "lucide-react";
 import { useTranslation } from "react-i18next";
 import { Link, NavLink } from "react-router-dom";
 import { usePrograms } from "@/api/queries";
+import type { Role } from "@/api/types";
 import { Chip } from "@/design/Chip";
 import { Logo } from "@/design/Logo";
 import { AccountBar } from "./AccountBar";
 import { useCurrentSite } from "./currentSite";
+import { seesOperations } from "./findings/findings";
 import { JumpButton } from "./JumpButton";
 import { SiteSwitch } from "./SiteSwitch";
 import styles from "./sidebar.module.css";
@@ -33,7 +35,7 @@ function Entry({ to, icon: Icon, label, count, news, end }: EntryProps) {
   );
 }
 
-function SiteEntries({ slug, pending }: { slug: string; pending: number }) {
+function SiteEntries({ slug, pending, role }: { slug: string; pending: number; role: Role | undefined }) {
   const { t } = useTranslation();
   const programs = usePrograms(slug).data?.length;
   const at = (page: string) => `/sites/${slug}/${page}`;
@@ -49,6 +51,7 @@ function SiteEntries({ slug, pending }: { slug: string; pending: number }) {
       <Entry to={at("library")} icon={Library} label={t("shell.nav.library")} />
       <Entry to={at("runs")} icon={History} label={t("shell.nav.runs")} />
       <Entry to={at("map")} icon={Map} label={t("shell.nav.map")} />
+      {seesOperations(role) ? <Entry to={at("operations")} icon={Activity} label={t("shell.nav.operations")} /> : null}
     </>
   );
 }
@@ -67,7 +70,7 @@ export function SideBar() {
       <nav aria-label={t("shell.nav.pages")}>
         <ul className={styles.entries}>
           <Entry to="/" end icon={LayoutGrid} label={t("shell.nav.home")} />
-          {slug ? <SiteEntries slug={slug} pending={site?.pending ?? 0} /> : null}
+          {slug ? <SiteEntries slug={slug} pending={site?.pending ?? 0} role={site?.role} /> : null}
         </ul>
       </nav>
       <AccountBar role={site?.role} slug={slug} />

@@ -5,6 +5,7 @@ import { Link } from "react-router-dom";
 import { Logo } from "@/design/Logo";
 import { ConnectionStrip } from "./ConnectionStrip";
 import { AlertsBell } from "./alerts/AlertsBell";
+import { FindingsStrip } from "./findings/FindingsStrip";
 import { QuestionsBell } from "./questions/QuestionsBell";
 import { StopAllButton } from "./stop/StopAllButton";
 import styles from "./shell.module.css";
@@ -46,6 +47,7 @@ export function TopBar({ site, crumbs, chips, children, presence, actions }: Top
         {site ? <StopAllButton slug={site} /> : null}
       </div>
       {site ? <ConnectionStrip slug={site} /> : null}
+      {site ? <FindingsStrip slug={site} /> : null}
     </header>
   );
 }

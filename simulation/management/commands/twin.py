@@ -12,12 +12,12 @@ from typing import Any
 from django.conf import settings
 from django.core.management.base import BaseCommand, CommandError
 
+from registry.services import Heart
 from simulation.site_facts import SiteFacts, read_site_facts
 from simulation.twin import Twin, TwinPlan
 from vipo_device.kit.connection import ConnectionMaker
 from vipo_device.kit.enrolment import device_connections
 from vipo_device.kit.keyring import RotatingKeyRing
-from vipo_device.kit.pulse import Pulse
 from vipo_device.kit.shutdown import stop_on_signals
 from vipo_device.protocol.errors import VipoError
 
@@ -45,13 +45,16 @@ class Command(BaseCommand):
         if not 0.1 <= options["speed"] <= 100:
             raise CommandError(f"--speed {options['speed']:g} is outside 0.1 to 100; 1 is real time.")
         stopping = stop_on_signals(STOP_LIMIT_S)
+        heart = Heart("twin", f"twin-{options['site']}", pulse=settings.VIPO_PULSE).start()
         try:
-            make_twin(options).run(stopping)
+            make_twin(options, heart).run(stopping)
         except VipoError as error:
             raise CommandError(error.detail) from error
+        finally:
+            heart.stop()
 
 
-def make_twin(options: dict[str, Any]) -> Twin:
+def make_twin(options: dict[str, Any], heart: Heart) -> Twin:
     """Return the twin that the command line asks for."""
     site: str = options["site"]
     facts = read_site_facts(site)
@@ -68,14 +71,10 @@ def make_twin(options: dict[str, Any]) -> Twin:
         pending=frozenset(d.description.id for d in facts.devices) - passwords.keys(),
         speed=options["speed"],
         driver=options["driver"],
-        refresh=partial(_look_again, site, Pulse(settings.VIPO_PULSE)),
+        refresh=partial(read_site_facts, site),
+        beat=heart.beat,
     )
     return Twin(plan, connections(site, enrolment_key, folder / "secrets"))
-
-
-def _look_again(site: str, pulse: Pulse) -> SiteFacts:
-    pulse.beat()
-    return read_site_facts(site)
 
 
 def choose_devices(facts: SiteFacts, only: str, left_out: str) -> frozenset[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -187,6 +188,31 @@ def test_planned_runs_begin_once_at_their_time_though_workers_die_while_they_wai
             assert told == ["started_planned", "deadline_passed", "finished"], codes
         shown = {run["id"]: run["priority"] for run in client.get(f"{SITE}/runs").json()}
         assert [shown[run] for run in runs] == ["low", "high", "normal", "high"]
+
+
+def test_one_web_process_tells_of_all_and_of_a_gateway_that_freezes_and_comes_back(served: Served) -> None:
+    def of(name: str) -> set[str]:
+        told = httpx.get(f"http://127.0.0.1:{served.web_ports[1]}/metrics", timeout=10).text.splitlines()
+        return {line for line in told if line.startswith(name)}
+
+    def beating() -> list[str]:
+        lines = [line for line in of("vipo_process_beat_age_seconds") if 'state="beats"' in line]
+        return sorted({line.split('"')[1] for line in lines})
+
+    served.wait("every kind", lambda: beating() == ["gateway", "ticker", "twin", "web", "worker"], 60)
+    served.wait("its work", lambda: any("advance_run" in line and "SUCCESS" in line for line in of("vipo_tasks_total")))
+    served.wait("its answers", lambda: any('status="done"' in line for line in of("vipo_command_answers_total")))
+    assert of("vipo_findings{") == set()
+    frozen = next(process for name, process in served.processes.items() if name.startswith("gateway"))
+    frozen.send_signal(signal.SIGSTOP)
+    try:
+        served.wait("silence", lambda: any('code="no_gateway"' in line for line in of("vipo_findings{")), 60)
+        with served.signed_in("admin") as client:
+            codes = [each["code"] for each in client.get(f"{SITE}/findings").json()]
+        assert codes == ["no_gateway", "process_silent"]
+    finally:
+        frozen.send_signal(signal.SIGCONT)
+    served.wait("its next beat", lambda: not of("vipo_findings{"), 60)
 
 
 def test_every_process_ends_when_it_is_asked(served: Served) -> None:

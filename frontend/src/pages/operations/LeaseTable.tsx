@@ -1,0 +1,24 @@
+/** Who does the jobs that only one process may do. */
+import { useTranslation } from "react-i18next";
+import type { Lease } from "@/api/types";
+import { formatSpan } from "@/i18n/format";
+import pages from "../pages.module.css";
+import { Section } from "./Section";
+import styles from "./operations.module.css";
+
+const COLUMNS = ["job", "holder", "held"];
+
+export function LeaseTable({ leases }: { leases: readonly Lease[] }) {
+  const { t } = useTranslation();
+  return (
+    <Section title={t("operations.leases")} columns={COLUMNS}>
+      {leases.map((lease) => (
+        <tr key={lease.job}>
+          <td className={pages.strong}>{t(`operations.job.${lease.job}`, { defaultValue: lease.job })}</td>
+          <td className={styles.holder}>{lease.holder}</td>
+          <td className={pages.nowrap}>{lease.held_s > 0 ? formatSpan(lease.held_s) : t("operations.leaseFree")}</td>
+        </tr>
+      ))}
+    </Section>
+  );
+}

@@ -1,0 +1,165 @@
+"""What operators and admins are told of queues, overdue commands and processes, and with how many questions."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+from typing import Any
+from uuid import uuid4
+
+import pytest
+from celery import current_app
+from django.db import connection
+from django.test import Client
+from django.test.utils import CaptureQueriesContext
+from django.utils import timezone
+
+from execution import services
+from execution.models import Command, InboxEvent, Lease, Rehearsal, Run
+from registry import services as registry
+from registry.models import Heartbeat, Site
+from tests.kit.sign_in import signed_in
+
+pytestmark = pytest.mark.django_db
+
+
+def make_command(site: str, seconds: float, **more: Any) -> Command:
+    at = timezone.now() - timedelta(seconds=seconds)
+    told = {"device": "mixer1", "method": "mix", "status": "sent", "position": Command.objects.count(), **more}
+    return Command.objects.create(id=uuid4(), site=Site.objects.get(slug=site), send_after=at, created_at=at, **told)
+
+
+def make_run(site: str, number: int = 1, **more: Any) -> Run:
+    at = timezone.now()
+    return Run.objects.create(
+        site=Site.objects.get(slug=site), number=number, program=uuid4(), program_name="Mix", created_at=at, **more
+    )
+
+
+def make_process(kind: str, name: str = "p1", *, seconds: float = 0, **more: Any) -> None:
+    at = timezone.now() - timedelta(seconds=seconds)
+    Heartbeat.objects.create(kind=kind, name=name, machine="m1", process=7, version="1", since=at, at=at, **more)
+
+
+def ask(client: Client, what: str, site: str = "hall") -> Any:
+    answer = client.get(f"/api/sites/{site}/{what}")
+    assert answer.status_code == 200, answer.content
+    return answer.json()
+
+
+def waiting(body: Any) -> dict[str, int]:
+    return {queue["name"]: queue["waiting"] for queue in body["queues"] if queue["waiting"]}
+
+
+@pytest.fixture
+def other(hall: str) -> str:
+    registry.create_site(name="Shed", slug="shed")
+    return "shed"
+
+
+def test_an_operator_sees_what_waits_at_the_own_site_alone(other: str) -> None:
+    run = make_run("hall", status="running")
+    foreign = make_run(other, status="paused")
+    at = timezone.now() - timedelta(seconds=30)
+    for target in (f"run:{run.pk}", "site:hall", f"run:{foreign.pk}", "site:shed"):
+        InboxEvent.objects.create(target=target, key=target, payload={}, created_at=at)
+    InboxEvent.objects.create(target="site:hall", key="old", payload={}, created_at=at, taken_at=at)
+    make_command("hall", 2, status="pending")
+    make_command("hall", 3, status="running")
+    make_command(other, 60)
+    for site in ("hall", other):
+        Rehearsal.objects.create(site=Site.objects.get(slug=site), program=uuid4(), created_at=at)
+    told = ask(signed_in("operator"), "operations")
+    assert waiting(told) == {"inbox": 2, "outbox": 1, "under_way": 1, "rehearsals": 1}
+    assert told["runs"] == {"pending": 0, "running": 1, "paused": 0}
+    assert (told["overdue_count"], told["overdue"], told["open_alerts"]) == (0, [], 0)
+    (inbox,) = [queue for queue in told["queues"] if queue["name"] == "inbox"]
+    assert 29 < inbox["oldest_s"] < 40
+    everywhere = ask(signed_in("admin"), "processes")
+    assert waiting(everywhere) == {"inbox": 4, "outbox": 1, "unanswered": 1, "under_way": 1, "rehearsals": 2}
+
+
+def test_commands_are_overdue_after_ten_seconds_of_silence_the_oldest_first(hall: str) -> None:
+    run = make_run(hall, number=7, status="running")
+    make_command(hall, 9)
+    make_command(hall, 90, status="accepted")
+    of_run, by_hand = make_command(hall, 12, run=run.pk, tries=3), make_command(hall, 40, status="pending")
+    told = ask(signed_in("operator"), "operations")
+    found = [(each["id"], each["number"], each["status"], each["tries"]) for each in told["overdue"]]
+    assert found == [(str(by_hand.pk), None, "pending", 0), (str(of_run.pk), 7, "sent", 3)]
+    assert told["overdue"][1]["run"] == str(run.pk)
+    for _ in range(30):
+        make_command(hall, 20)
+    told = ask(signed_in("operator"), "operations")
+    assert (told["overdue_count"], len(told["overdue"])) == (32, 20)
+
+
+def test_operators_are_told_what_stops_work_and_admins_which_process_it_is(hall: str) -> None:
+    make_process("gateway", seconds=30)
+    make_process("worker", clock_apart_s=-60.0)
+    make_process("ticker", activity="leads")
+    operator, admin = (ask(signed_in(role), "findings") for role in ("operator", "admin"))
+    assert operator == [
+        {"code": "no_gateway", "severity": "error", "args": {},
+         "text": "No gateway works: commands and what devices say wait."},
+    ]  # fmt: skip
+    assert [each["code"] for each in admin] == ["no_gateway", "clock_apart", "process_silent"]
+    assert admin[1]["args"] == {"kind": "worker", "name": "p1", "machine": "m1", "seconds": -60.0}
+    Heartbeat.objects.filter(kind="gateway").delete()
+    make_process("gateway")
+    assert ask(signed_in("operator"), "findings") == []
+
+
+def test_an_admin_sees_each_process_and_who_leads(hall: str) -> None:
+    make_process("ticker", "t1", activity="leads", clock_apart_s=0.01)
+    make_process("web", "w1", seconds=20)
+    make_process("gateway", "g1", seconds=60, ended_at=timezone.now())
+    Lease.objects.create(name="ticker", holder="m1:7", until=timezone.now() + timedelta(seconds=4))
+    told = ask(signed_in("admin"), "processes")
+    assert [(each["kind"], each["state"], each["activity"]) for each in told["processes"]] == [
+        ("gateway", "ended", ""),
+        ("ticker", "beats", "leads"),
+        ("web", "silent", ""),
+    ]
+    assert 20 <= told["processes"][2]["age_s"] < 30
+    ((job, holder, held_s),) = [each.values() for each in told["leases"]]
+    assert (job, holder, 2 < held_s <= 4) == ("ticker", "m1:7", True)
+
+
+@pytest.mark.parametrize("what", ["operations", "findings", "processes"])
+def test_a_hundred_sites_and_a_thousand_commands_cost_no_question_more(hall: str, what: str) -> None:
+    client = signed_in("admin")
+
+    def questions() -> int:
+        with CaptureQueriesContext(connection) as asked:
+            ask(client, what)
+        return len(asked)
+
+    ask(client, what)
+    make_command(hall, 60, run=make_run(hall).pk)
+    make_process("web")
+    few = questions()
+    for number in range(100):
+        registry.create_site(name=f"Site {number}", slug=f"site-{number}")
+    for number in range(500):
+        make_process("worker", f"w{number}")
+    for number in range(200):
+        make_command(hall, 60, run=make_run(hall, number=number + 2).pk)
+    assert questions() <= few + 1  # how many are overdue is counted once there are more than are shown
+
+
+def test_tasks_that_wait_are_counted_in_the_tasks_own_broker(hall: str) -> None:
+    before = services.read_task_queues()["celery"]
+    current_app.send_task("execution.tasks.advance_site", args=["nowhere"])
+    assert services.read_task_queues()["celery"] == before + 1
+    with current_app.connection_for_write() as link:
+        link.default_channel.queue_purge("celery")
+    assert services.read_task_queues() == {"celery": 0}
+
+
+def test_every_answer_has_the_id_of_its_request_and_no_other_text(hall: str) -> None:
+    client = signed_in("viewer")
+    assert client.get("/api/me", headers={"X-Request-ID": "line-7.a_B"}).headers["X-Request-ID"] == "line-7.a_B"
+    for odd in ("", "a b", "x" * 65, "a\tb", "<script>", "é"):
+        given = client.get("/api/me", headers={"X-Request-ID": odd}).headers["X-Request-ID"]
+        assert given != odd
+        assert len(given) == 32

@@ -1,0 +1,35 @@
+"""The heart of a web process: it beats while Daphne's loop goes round, and measures how long that lets a call wait."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Any
+
+from registry.services import Heart, time_spent
+
+TURN_S = 1.0
+
+
+def beat_while_serving() -> None:
+    """Begin to beat when Daphne serves, and say goodbye when it ends; another server than Daphne has no reactor."""
+    if "twisted.internet.reactor" in sys.modules:
+        from twisted.internet import reactor
+
+        reactor.callWhenRunning(_begin, reactor)
+
+
+def _begin(reactor: Any) -> None:
+    from twisted.internet.threads import deferToThread
+
+    heart = Heart("web").start()
+    reactor.addSystemEventTrigger("before", "shutdown", deferToThread, heart.stop)
+    _turn(reactor, heart, time.monotonic())
+
+
+def _turn(reactor: Any, heart: Heart, due_s: float) -> None:
+    """Note that the loop has come round, and how late."""
+    now_s = time.monotonic()
+    time_spent(name="loop_lag_seconds", seconds=max(0.0, now_s - due_s))
+    heart.beat("works")
+    reactor.callLater(TURN_S, _turn, reactor, heart, now_s + TURN_S)
