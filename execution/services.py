@@ -19,7 +19,12 @@ from execution.errors import (
 from execution.floor.map_change import change_map
 from execution.floor.routes_for_drawing import plan_routes
 from execution.floor.stops import StopView, is_stopped, list_stops, press_stop, reset_stop
-from execution.rehearsals.rehearsals import get_rehearsal, start_rehearsal
+from execution.rehearsals.rehearsals import (
+    cancel_rehearsal,
+    get_rehearsal,
+    list_open_rehearsals,
+    start_rehearsal,
+)
 from execution.runs.programs import Prepared
 from execution.runs.questions import answer_question, list_questions, site_of_question
 from execution.runs.runs import (
@@ -76,6 +81,7 @@ __all__ = [
     "call_method",
     "call_to_json",
     "cancel_call",
+    "cancel_rehearsal",
     "cancel_run",
     "change_map",
     "claim_commands",
@@ -89,6 +95,7 @@ __all__ = [
     "is_stopped",
     "list_armed",
     "list_events",
+    "list_open_rehearsals",
     "list_questions",
     "list_runs",
     "list_stops",

@@ -191,12 +191,13 @@ def test_planned_runs_begin_once_at_their_time_though_workers_die_while_they_wai
 
 def test_every_process_ends_when_it_is_asked(served: Served) -> None:
     codes = served.stop_all()
-    assert set(codes) == {"web-1", "web-2", "worker-1", "worker-2", "gateway", "ticker", "twin"}
-    assert {name: codes[name] for name in ("gateway", "ticker", "twin", "worker-1")} == {
+    assert set(codes) == {"web-1", "web-2", "worker-1", "worker-2", "rehearsals", "gateway", "ticker", "twin"}
+    assert {name: codes[name] for name in ("gateway", "ticker", "twin", "worker-1", "rehearsals")} == {
         "gateway": 0,
         "ticker": 0,
         "twin": 0,
         "worker-1": 0,
+        "rehearsals": 0,
     }
 
 
