@@ -11,6 +11,7 @@ import type {
   ProgramDocument,
   Question,
   Rehearsal,
+  RehearsalSummary,
   Run,
   RunEvent,
   RunSummary,
@@ -43,6 +44,7 @@ export const keys = {
   library: (q: string) => ["library", q] as const,
   libraryFunction: (id: string) => ["library-function", id] as const,
   rehearsal: (id: string) => ["rehearsal", id] as const,
+  rehearsals: (slug: string) => ["rehearsals", slug] as const,
 };
 
 const EVENTS_AT_ONCE = 1000;
@@ -189,4 +191,10 @@ export const useRehearsal = (id: Maybe) =>
   useGet<Rehearsal>(
     keys.rehearsal(id ?? ""),
     at(id, (r) => `/rehearsals/${r}`),
+  );
+/** Those of a site that are not over. */
+export const useRehearsals = (slug: Maybe) =>
+  useGet<RehearsalSummary[]>(
+    keys.rehearsals(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/rehearsals`),
   );
