@@ -29,7 +29,9 @@ export function WaitingPane({ rehearsal, loading, refusal, site, program, onAgai
   const over = refusal !== undefined || (rehearsal ? isOver(rehearsal.status) : !loading);
   return (
     <section className={`${screen.pane} ${screen.waiting}`}>
-      <h2 role="status">{t(titleOf(shown, refusal, loading))}</h2>
+      <div role="status">
+        <h2>{t(titleOf(shown, refusal, loading))}</h2>
+      </div>
       {refusal === undefined ? null : <p role="alert">{refusal}</p>}
       {shown ? <Standing rehearsal={shown} site={site} /> : null}
       {over && site?.role !== "viewer" ? (

@@ -20,8 +20,8 @@ from tests.kit.programs import SITE
 from tests.kit.waiting import wait_for
 
 SHORT = Plan((Instruction(Wait(Constant(5)), "w"), Instruction(End())))
-ENDLESS = Plan((Instruction(Wait(Constant(1)), "w"), Instruction(Jump(0))))
-"""In physics: it takes minutes by the clock to come to the limit of virtual time."""
+ENDLESS = Plan((Instruction(Wait(Constant(0.02)), "w"), Instruction(Jump(0))))
+"""It takes a minute by the clock at least to come to the limit of what a rehearsal does."""
 
 
 def queue(plan: Plan, person: int | None = 1, *, by: str = "Ada", driver: str = "physics", site: str = SITE) -> str:
