@@ -138,7 +138,7 @@ def cancel_rehearsal(*, rehearsal_id: UUID | str, by: str) -> RehearsalView:
     """
     still_open = Rehearsal.objects.filter(id=rehearsal_id, status__in=Rehearsal.OPEN)
     cancelled = still_open.update(
-        status=Rehearsal.Status.CANCELLED, reason=f"{by} cancelled it"[:500], ended_at=Now(), claim=None
+        status=Rehearsal.Status.CANCELLED, reason=f"{by} cancelled the rehearsal.", ended_at=Now(), claim=None
     )
     row = _find(Rehearsal.objects.defer(*HEAVY), rehearsal_id)
     if cancelled:

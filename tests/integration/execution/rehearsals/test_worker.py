@@ -74,7 +74,7 @@ def test_a_cancelled_rehearsal_ends_within_a_second_wherever_it_is_cancelled(fac
     wait_for("its child", lambda: children and row(rehearsal).course)
     began = time.monotonic()
     view = services.cancel_rehearsal(rehearsal_id=rehearsal, by="Bob")
-    assert (view.status, view.cause) == ("cancelled", {"code": "cancelled_by", "args": {"by": "Bob"}})
+    assert (view.status, view.cause) == ("cancelled", {"code": "rehearsal_cancelled", "args": {"by": "Bob"}})
     wait_for("the end of its child", lambda: not is_alive(children[0].pid), 10)
     assert time.monotonic() - began < 1.0
     thread.join(10)
@@ -92,7 +92,7 @@ def test_cancelling_twice_is_once_and_what_is_over_stays_over(factory):
     first, second = queue(SHORT, driver="kinematic"), queue(SHORT, driver="kinematic")
     services.cancel_rehearsal(rehearsal_id=first, by="Bob")
     again = services.cancel_rehearsal(rehearsal_id=first, by="Eve")
-    assert (again.status, again.reason) == ("cancelled", "Bob cancelled it")
+    assert (again.status, again.reason) == ("cancelled", "Bob cancelled the rehearsal.")
     worker.carry_out_waiting()
     with pytest.raises(NotPossibleNow) as refused:
         services.cancel_rehearsal(rehearsal_id=second, by="Bob")
