@@ -12,6 +12,7 @@ import django
 NAMES = (
     "language",
     "rehearsal",
+    "beside_rehearsals",
     "traffic",
     "rooms",
     "compiled_frames",

@@ -26,6 +26,7 @@ from execution.shapes import (
     ChangedMap,
     QuestionShape,
     RehearsalShape,
+    RehearsalSummaryShape,
     RestoreMap,
     RouteShape,
     RunEventShape,
@@ -44,6 +45,7 @@ from execution.views import (
     rehearsal_to_json,
     route_to_json,
     run_to_json,
+    whole_rehearsal_to_json,
     whole_run_to_json,
 )
 from registry import services as registry
@@ -65,13 +67,13 @@ def _require(request: HttpRequest, site: str, role: str, scope: str = "") -> Non
     require(request.user, site, role, scope)
 
 
-def _require_here(request: HttpRequest, site: str, role: str, what: str) -> None:
+def _require_here(request: HttpRequest, site: str, role: str, what: str, scope: str = "") -> None:
     """Let members through who may; a stranger gets the very answer that they get for what does not exist.
 
     Tokens do this by `run`.
     """
     try:
-        _require(request, site, role, "read" if role == "viewer" else "run")
+        _require(request, site, role, scope or ("read" if role == "viewer" else "run"))
     except NotAMember as error:
         raise NotFound(ABSENT[what]) from error
 
@@ -82,12 +84,15 @@ def _who(request: HttpRequest) -> str:
 
 @router.post("/programs/{uuid:program}/rehearsals", response={202: RehearsalShape})
 def start_rehearsal(request: HttpRequest, program: UUID, body: StartRehearsal | None = None) -> dict[str, Any]:
-    """Queue a rehearsal of a program as it is drawn now."""
+    """Queue a rehearsal of a program as it is drawn now; refused while the asker or the site has as many as may be."""
     _require_here(request, site_of_program(program_id=program), "operator", "program")
     body = body or StartRehearsal()
     prepared = prepare(program_id=program, user=request.user, parameters=body.parameters)
-    started = services.start_rehearsal(prepared=prepared, by=_who(request), seed=body.seed, driver=body.driver)
-    return rehearsal_to_json(started)
+    person = signed_in(request).pk
+    started = services.start_rehearsal(
+        prepared=prepared, by=_who(request), person=person, seed=body.seed, driver=body.driver
+    )
+    return whole_rehearsal_to_json(started, person)
 
 
 @router.get("/rehearsals/{uuid:rehearsal}", response=RehearsalShape)
@@ -95,7 +100,24 @@ def get_rehearsal(request: HttpRequest, rehearsal: UUID) -> dict[str, Any]:
     """Return a rehearsal with its result."""
     view = services.get_rehearsal(rehearsal_id=rehearsal)
     _require_here(request, view.site, "viewer", "rehearsal")
-    return rehearsal_to_json(view)
+    return whole_rehearsal_to_json(view, signed_in(request).pk)
+
+
+@router.get("/sites/{slug:site}/rehearsals", response=list[RehearsalSummaryShape])
+def list_rehearsals(request: HttpRequest, site: str) -> list[dict[str, Any]]:
+    """Return the site's rehearsals that are not over: those under way, then those that wait, in their order."""
+    _require(request, site, "viewer")
+    person = signed_in(request).pk
+    return [rehearsal_to_json(view, person) for view in services.list_open_rehearsals(site=site)]
+
+
+@router.post("/rehearsals/{uuid:rehearsal}/cancel", response=RehearsalSummaryShape)
+def cancel_rehearsal(request: HttpRequest, rehearsal: UUID) -> dict[str, Any]:
+    """End a rehearsal that waits or is under way; for who has started it, and for operators."""
+    view, person = services.get_rehearsal(rehearsal_id=rehearsal), signed_in(request).pk
+    least = "viewer" if view.person == person else "operator"
+    _require_here(request, view.site, least, "rehearsal", scope="run")
+    return rehearsal_to_json(services.cancel_rehearsal(rehearsal_id=rehearsal, by=_who(request)), person)
 
 
 @router.post("/programs/{uuid:program}/runs", response={202: RunSummaryShape})

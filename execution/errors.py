@@ -10,6 +10,7 @@ ExecutionError
  ├── BadArguments: a method does not take these arguments
  ├── ActionFailed: a device did not do what it was told
  ├── TooManyWaiting: as many wait for results as may
+ ├── TooManyRehearsals: as many rehearsals wait or are under way as may
  └── NoWay: there is no route
 """
 
@@ -85,6 +86,14 @@ class TooManyWaiting(ExecutionError):
 
     code = "too_many_waiting"
     status = 429
+
+
+class TooManyRehearsals(ExecutionError):
+    """A person or a site has as many rehearsals that wait or are under way as it may; none was queued."""
+
+    code = "too_many_rehearsals"
+    status = 429
+    retry_after_s = 30
 
 
 class StepConflict(ExecutionError):

@@ -75,6 +75,12 @@ SENTENCES: Mapping[str, str] = {
     "zero_divisor": "A number is divided by zero.",
     "no_number": "{value} stands where a number is needed.",
     "too_large": "A number has grown beyond all measure.",
+    "rehearsal_cancelled": "{by} cancelled the rehearsal.",
+    "rehearsal_died": "The process that rehearsed it has died. Start it again.",
+    "rehearsal_frozen": "The process that rehearsed it gave no sign for {seconds} s and was ended. Start it again.",
+    "rehearsal_late": "It was ended after {minutes} min, at {reached} s of simulated time; it may never end.",
+    "rehearsal_memory": "It needs more than {megabytes} MB of memory. Rehearse a smaller part of the program.",
+    "rehearsal_broke_off": "The rehearsal broke off: {words}",
 }
 
 

@@ -18,14 +18,15 @@ from execution.errors import (
 )
 from execution.floor.map_change import change_map
 from execution.floor.routes_for_drawing import plan_routes
-<<<<<<< HEAD
 from execution.floor.stop_publisher import close_publisher, open_publisher
 from execution.floor.stops import StopView, follow_stops, get_stop, is_stopped, list_stops, press_stop, reset_stop
-=======
-from execution.floor.stops import StopView, is_stopped, list_stops, press_stop, reset_stop
 from execution.operations.overview import Overview, QueueView, list_leases, read_overview, read_task_queues
->>>>>>> seen
-from execution.rehearsals.rehearsals import get_rehearsal, start_rehearsal
+from execution.rehearsals.rehearsals import (
+    cancel_rehearsal,
+    get_rehearsal,
+    list_open_rehearsals,
+    start_rehearsal,
+)
 from execution.runs.programs import Prepared
 from execution.runs.questions import answer_question, list_questions, site_of_question
 from execution.runs.runs import (
@@ -84,6 +85,7 @@ __all__ = [
     "call_method",
     "call_to_json",
     "cancel_call",
+    "cancel_rehearsal",
     "cancel_run",
     "change_map",
     "claim_commands",
@@ -101,6 +103,7 @@ __all__ = [
     "list_armed",
     "list_events",
     "list_leases",
+    "list_open_rehearsals",
     "list_questions",
     "list_runs",
     "list_stops",

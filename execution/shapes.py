@@ -354,18 +354,49 @@ class RehearsalResultShape(Schema):
 RehearsalResult = Annotated[dict[str, Any] | None, Unchecked(RehearsalResultShape | None)]
 
 
-class RehearsalShape(Schema):
-    """A rehearsal with its result, once there is one; `progress` goes from 0 to 1."""
+class CourseShape(Schema):
+    """How far a rehearsal is: its virtual time, the step it is at, and how many steps were done once.
+
+    `share` is of these steps; without `end_known` the program repeats some, and they do not tell when it ends.
+    """
+
+    virtual_s: float
+    step: str
+    steps_done: int
+    steps: int
+    share: float
+    end_known: bool
+
+
+class RehearsalSummaryShape(Schema):
+    """A rehearsal without its program; `progress` goes from 0 to 1, `tries` is how often it was begun.
+
+    `place` counts from 1 in the queue of all sites, while it waits; `mine` tells whether the asker has started it.
+    """
 
     id: str
     program: str
-    status: Literal["queued", "running", "done", "failed"]
+    program_name: str
+    status: Literal["queued", "running", "done", "failed", "cancelled"]
     progress: float
+    course: CourseShape | None
+    place: int | None
+    tries: int
     reason: str
+    cause: Cause | None
+    started_by: str
+    mine: bool
+    created_at: str
+    began_at: str | None
+    ended_at: str | None
+
+
+class RehearsalShape(RehearsalSummaryShape):
+    """A rehearsal with its result, once there is one."""
+
     result: RehearsalResult
     document: Document
     compiled: Compiled
-    created_at: str
 
 
 class UseRobotMap(Asked):

@@ -1,16 +1,18 @@
-"""Celery tasks: short, harmless when they run twice, and never waiting for a robot."""
+"""Celery tasks: harmless when they run twice, never waiting for a robot, and short, save rehearsals."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from celery import current_task, shared_task
+from celery.signals import worker_shutting_down
 
 from execution.errors import StepConflict
 from execution.floor.advance import advance_site as step_site
 from execution.mailbox import REQUEST_HEADER
-from execution.rehearsals.rehearsals import carry_out
+from execution.rehearsals import worker
 from execution.runs.advance import advance_run as step_run
 from vipo_device.kit.log_ids import LogId, bind_ids
 
@@ -44,7 +46,12 @@ def advance_site(slug: str) -> bool:
 
 
 @shared_task(name="execution.tasks.rehearse", ignore_result=True)  # type: ignore[untyped-decorator]
-def rehearse(rehearsal_id: str) -> bool:
-    """Carry out a rehearsal in a process of its own."""
-    with _at("run", rehearsal_id):
-        return carry_out(rehearsal_id)
+def rehearse(_hint: str) -> int:
+    """Carry out the rehearsals that wait, each in a process of its own; which one is next the database knows."""
+    return worker.carry_out_waiting()
+
+
+@worker_shutting_down.connect  # type: ignore[untyped-decorator]
+def give_rehearsals_back(**_told: Any) -> None:
+    """Let what is rehearsed here go back into the queue: nobody waits ten minutes for a process to end."""
+    worker.stopping.set()

@@ -10,9 +10,20 @@ from django.conf import settings
 from vipo_device.kit.pulse import EVERY_S
 
 os.environ.setdefault("DJANGO_SETTINGS_MODULE", "vipo_site.settings")
-app = Celery("vipo")
-app.config_from_object("django.conf:settings", namespace="CELERY")
-app.autodiscover_tasks()
+
+
+def make_app(*, is_current: bool = False) -> Celery:
+    """Return an application with the settings and all tasks; by the current one of a process tasks are sent.
+
+    Importing this makes it; others are for a second worker in the same process.
+    """
+    made = Celery("vipo", set_as_current=is_current)
+    made.config_from_object("django.conf:settings", namespace="CELERY")
+    made.autodiscover_tasks()
+    return made
+
+
+app = make_app(is_current=True)
 
 
 _hearts: list[Any] = []

@@ -141,6 +141,14 @@ def log_words() -> tuple[str, str]:
     return level, form
 
 
+def whole_number(name: str, default: int, least: int = 1) -> int:
+    """Return a setting that counts something; nonsense and what is below the least stop the start."""
+    value = os.environ.get(name, "") or str(default)
+    if not value.isdecimal() or int(value) < least:
+        raise ImproperlyConfigured(f"{name} is {value[:20]!r}; set it to a whole number of at least {least}.")
+    return int(value)
+
+
 def open_state(folder: Path) -> None:
     """Make the folder of VIPO's files, or take from others the right to look into it."""
     folder.mkdir(parents=True, exist_ok=True, mode=0o700)

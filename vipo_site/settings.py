@@ -23,6 +23,7 @@ from vipo_site.environment import (
     required_secret,
     secret,
     served_hosts,
+    whole_number,
     with_password,
 )
 
@@ -201,12 +202,28 @@ VIPO_OFFLINE_ALERT_S = float(os.environ.get("VIPO_OFFLINE_ALERT_S", "600"))
 VIPO_PULSE = os.environ.get("VIPO_PULSE", "")
 """The file that a process without pages touches while it works, for a health check; none if empty."""
 VIPO_SPEED = float(os.environ.get("VIPO_SPEED", "1"))
+VIPO_REHEARSALS_AT_ONCE = whole_number("VIPO_REHEARSALS_AT_ONCE", os.cpu_count() or 1)
+"""So many rehearsals are under way on a machine at a time, over all workers there."""
+VIPO_REHEARSALS_OF_PERSON = whole_number("VIPO_REHEARSALS_OF_PERSON", 5)
+VIPO_REHEARSALS_OF_SITE = whole_number("VIPO_REHEARSALS_OF_SITE", 20)
+"""So many of one person, and of a site, may wait or be under way."""
+VIPO_REHEARSAL_LIMIT_S = whole_number("VIPO_REHEARSAL_LIMIT_S", 600)
+"""After so many seconds by the clock a rehearsal is ended."""
+VIPO_REHEARSAL_MEMORY_MB = whole_number("VIPO_REHEARSAL_MEMORY_MB", 2048, least=512)
+"""So much memory the process of a rehearsal may ask for."""
 VIPO_DEMO = has_demo(ALLOWED_HOSTS)
 VIPO_DEMO_SIGN_IN = VIPO_DEMO and not SERVED
 """Whether the sign-in page offers the demo's accounts, which tells their passwords to who asks."""
 
 CELERY_BROKER_URL = VIPO_REDIS_URL or "memory://localhost/"
 CELERY_BROKER_TRANSPORT_OPTIONS: dict[str, object] = {} if SERVED else {"polling_interval": 0.005}
+CELERY_TASK_DEFAULT_QUEUE = "upkeep"
+CELERY_TASK_ROUTES = {
+    **{f"execution.tasks.{name}": {"queue": "runs"} for name in ("advance_run", "advance_site", "drive_site")},
+    "execution.tasks.rehearse": {"queue": "rehearsals"},
+}
+"""Runs have workers that do nothing else. Those of rehearsals have threads to spare, which do the upkeep."""
+CELERY_WORKER_CONCURRENCY = VIPO_REHEARSALS_AT_ONCE + 2
 CELERY_TASK_IGNORE_RESULT = True
 CELERY_TASK_ACKS_LATE = False
 CELERY_WORKER_HIJACK_ROOT_LOGGER = False

@@ -189,18 +189,8 @@ class Gateway:
             self._stops.publish()
         commands = claim_commands(limit=CLAIM_LIMIT)
         self._outage.end()
-<<<<<<< HEAD
         freeze_point("gateway_after_claim", armed=bool(commands))
         self._publish(commands)
-=======
-        for command in commands:
-            self._client.publish(command.topic, command.payload, expiry_s=command.ttl_s)
-        if commands:
-            mark_commands_sent(ids=[command.id for command in commands])
-            registry.count(name="mqtt_messages_out", labels=("command",), by=len(commands))
-        if time.monotonic() - self._stops_at >= STOPS_EVERY_S:
-            self._publish_stops()
->>>>>>> seen
         return len(commands) == CLAIM_LIMIT
 
     def _publish(self, commands: Sequence[OutgoingCommand]) -> None:
@@ -215,6 +205,7 @@ class Gateway:
                 sent.append(command.id)
         if sent:
             mark_commands_sent(ids=sent)
+            registry.count(name="mqtt_messages_out", labels=("command",), by=len(sent))
         if late:
             count = release_commands(commands=late)
             log.warning(
@@ -233,19 +224,6 @@ class Gateway:
         self._client.publish(SERVER_STATUS, json.dumps(birth).encode(), retain=True)
         _reconcile_accounts()
 
-<<<<<<< HEAD
-=======
-    def _publish_stops(self) -> None:
-        for stop in list_stops():
-            body = {"active": stop.active, "at": stop.at.isoformat() if stop.at else None}
-            payload = json.dumps(body).encode()
-            if self._stops.get(stop.site) != payload:
-                self._client.publish(f"vipo/v1/site/{stop.site}/stop", payload, retain=True)
-                self._stops[stop.site] = payload
-                registry.count(name="mqtt_messages_out", labels=("stop",))
-        self._stops_at = time.monotonic()
-
->>>>>>> seen
 
 def _count(name: str, kind: str, known: frozenset[str]) -> None:
     registry.count(name=name, labels=(kind if kind in known else "other",))

@@ -7,6 +7,7 @@ import threading
 from execution.clock import steady_s
 from execution.floor.stop_publisher import FRESH_S, stop_topic
 from execution.floor.stops import catch_up_stop, list_stops, stop_payload
+from registry import services as registry
 from vipo_device.protocol.messages import read_stop
 from vipo_device.protocol.mqtt_client import MqttClient
 
@@ -48,6 +49,7 @@ class Stops:
             if (all_of_them or held != payload) and steady_s() - read_s <= FRESH_S:
                 self._client.publish(stop_topic(stop.site), payload, retain=True)
                 self._held[stop.site] = payload
+                registry.count(name="mqtt_messages_out", labels=("stop",))
 
     def _hear(self, topic: str, payload: bytes, _retained: bool) -> None:
         """Take in what the broker holds now; runs on the network thread."""

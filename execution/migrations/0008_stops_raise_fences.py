@@ -6,7 +6,7 @@ from django.db import migrations, models
 
 class Migration(migrations.Migration):
     dependencies = [
-        ("execution", "0006_terms_of_runs"),
+        ("execution", "0007_rehearsal_queue"),
         ("registry", "0017_open_sessions"),
     ]
 

@@ -1,14 +1,20 @@
 """`python -m execution.rehearsals.child_process`: one rehearsal in a process of its own, without Django.
 
-It reads a job as JSON from standard input and writes lines of JSON: `{"progress": 0.3}` now and then, at the end
-`{"result": {…}}` or `{"error": "…"}`.
+It reads a job as JSON from standard input and writes lines of JSON: `{"course": {…}}` (`Course`) four times a second,
+at the end `{"result": {…}}` or `{"error": "…"}`. Of a job's `limits` it holds itself to `wall_s` by the clock and to
+`memory_bytes`; `parent` is the process without which nobody wants the result.
 """
 
 from __future__ import annotations
 
 import base64
+import ctypes
 import json
+import os
+import resource
+import signal
 import sys
+import time
 import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -16,10 +22,16 @@ from typing import Any
 
 from editor.language import plan_from_json
 from editor.language.site.surroundings import PlaceFacts
+from execution.rehearsals.course import Course
 from execution.rehearsals.rehearsal import Conditions, rehearse
 from registry.floorplan.plan import Grid
 from simulation.world import Scene
 from vipo_device.protocol.description import Description, Pose, description_from_json, description_to_json
+
+TELL_EVERY_S = 0.25
+BEHIND_THE_RUNS = 15
+"""How much the kernel prefers everything else: a rehearsal takes what runs leave."""
+PR_SET_PDEATHSIG = 1
 
 
 def scene_to_json(scene: Scene, places: Sequence[PlaceFacts]) -> dict[str, Any]:
@@ -53,17 +65,49 @@ def scene_from_json(data: Mapping[str, Any]) -> tuple[Scene, tuple[PlaceFacts, .
     return scene, tuple(PlaceFacts(**place) for place in data["places"])
 
 
+class _Teller:
+    """Writes how far the rehearsal is, and tells when its time by the clock is over."""
+
+    def __init__(self, limits: Mapping[str, Any]) -> None:
+        self._wall_s: float | None = limits.get("wall_s")
+        self._parent: int | None = limits.get("parent")
+        self._began = time.monotonic()
+        self._told_at = 0.0
+
+    def __call__(self, course: Course) -> float | None:
+        now = time.monotonic()
+        if now - self._told_at >= TELL_EVERY_S:
+            self._told_at = now
+            if self._parent is not None and os.getppid() != self._parent:
+                os._exit(1)  # the one who waits for the result has died
+            _write({"course": asdict(course) | {"share": course.share}})
+        is_over = self._wall_s is not None and now - self._began >= self._wall_s
+        return self._wall_s if is_over else None
+
+
 def run_job(job: Mapping[str, Any]) -> dict[str, Any]:
-    """Carry a job out, writing progress lines; returns the result."""
+    """Carry a job out, writing how far it is; returns the result."""
+    limits = job.get("limits", {})
+    _hold_to(limits)
+    teller = _Teller(limits)
     scene, places = scene_from_json(job["scene"])
     conditions = Conditions(job.get("driver", "physics"), job.get("parameters", {}))
-    return rehearse(
-        plan_from_json(job["plan"]),
-        scene,
-        places=places,
-        conditions=conditions,
-        on_progress=lambda share: _write({"progress": share}),
-    )
+    return rehearse(plan_from_json(job["plan"]), scene, places=places, conditions=conditions, follow=teller)
+
+
+def _hold_to(limits: Mapping[str, Any]) -> None:
+    """Give way to everything else, take no more memory than allowed, and end with the parent, also one that is killed.
+
+    Linux sends the signal when the parent ends; elsewhere the process notices at its next word.
+    """
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    if "memory_bytes" in limits:
+        resource.setrlimit(resource.RLIMIT_AS, (limits["memory_bytes"], limits["memory_bytes"]))
+    if "parent" in limits:
+        os.nice(BEHIND_THE_RUNS)
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the parent, and that this process
+        if sys.platform == "linux":
+            ctypes.CDLL(None, use_errno=True).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def _write(line: Mapping[str, Any]) -> None:
@@ -75,6 +119,9 @@ def main() -> int:
     """Read a job, write its lines; 0 when there is a result."""
     try:
         result = run_job(json.loads(sys.stdin.read()))
+    except MemoryError:
+        os.write(1, b'{"memory": true}\n')
+        return 1
     except Exception as error:  # noqa: BLE001 - the edge of the process: the one who waits is told what went wrong
         _write({"error": f"The rehearsal broke off: {error or type(error).__name__}"})
         return 1

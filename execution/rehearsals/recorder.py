@@ -133,6 +133,10 @@ class Recorder:
         self.errors.append({"t": round(t_s, 2), "step": step, "kind": kind, "message": message, **said})
         self._say(t_s, step, "", message, code, **args)
 
+    def step_now(self) -> str:
+        """Return the step that was begun last of those under way; between two the one before."""
+        return next(reversed(self._open_steps), self.steps[-1]["step"] if self.steps else "")
+
     def note_answer(self, t_s: float, step: str, answer: Scalar) -> None:
         """Take down what the rehearsal has answered in people's stead."""
         shown = in_words(answer) or "nothing"

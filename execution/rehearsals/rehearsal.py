@@ -17,6 +17,7 @@ from execution.floor_protocol import AskingRun, to_floor, to_machine, to_run
 from execution.machine import machine
 from execution.machine import messages as r
 from execution.machine.needs import Facts, clock_fact, needs_of, position_facts
+from execution.rehearsals.course import Course, has_known_end
 from execution.rehearsals.recorder import Recorder
 from execution.traffic import floor
 from execution.traffic import messages as m
@@ -34,14 +35,14 @@ THINKING_S = 0.1
 RESTING_S = 0.5
 LIMIT_S = 4 * 3600.0
 ACTION_LIMIT = 200_000
-PROGRESS_EVERY_S = 5.0
 DAY_BEGINS_S = 8 * 3600.0
 """A rehearsal begins at eight in the morning."""
 REPLY_S = 1.0
 """How long a question is open before the rehearsal answers it."""
 LOOK_ROUND_S = 1.0
 """How often a program is told the time and where robots are, if it asks for them."""
-Progress = Callable[[float], None]
+Follow = Callable[[Course], float | None]
+"""Told at every step how far a rehearsal is; answers with the seconds that it was given, once they are over."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,18 +60,18 @@ def rehearse(
     *,
     places: Iterable[PlaceFacts] = (),
     conditions: Conditions | None = None,
-    on_progress: Progress | None = None,
+    follow: Follow | None = None,
 ) -> dict[str, Any]:
     """Carry the plan out in a world made from the scene; returns the result (`RehearsalResultShape`).
 
     The scene's seed decides all chance. What goes wrong is in `errors`; a program that does not end is stopped after
-    `conditions.limit_s` of virtual time.
+    `conditions.limit_s` of virtual time, or when `follow` says that its time is over.
     """
     conditions = conditions or Conditions()
     world = make_world(scene=scene, driver=conditions.driver)
     try:
         layout = make_layout(scene.grid, scene.devices, places)
-        return _Rehearsal(plan, layout, world, conditions.limit_s, on_progress).run(conditions.parameters)
+        return _Rehearsal(plan, layout, world, conditions.limit_s, follow).run(conditions.parameters)
     finally:
         world.close()
 
@@ -78,7 +79,7 @@ def rehearse(
 class _Rehearsal:
     """One rehearsal under way."""
 
-    def __init__(self, plan: Plan, layout: Layout, world: World, limit_s: float, on_progress: Progress | None) -> None:
+    def __init__(self, plan: Plan, layout: Layout, world: World, limit_s: float, follow: Follow | None) -> None:
         self.plan, self.layout, self.world, self.limit_s = plan, layout, world, limit_s
         self.recorder = Recorder(layout, world.readings())
         self.needs = needs_of(plan)
@@ -92,7 +93,8 @@ class _Rehearsal:
         self.dropped_timers: set[int] = set()
         self.finished: r.Finished | None = None
         self.actions = 0
-        self.on_progress = on_progress or (lambda share: None)
+        self.follow = follow or (lambda course: None)
+        self.end_known = has_known_end(plan)
         self.steps = {instruction.step for instruction in plan.instructions if instruction.step} or {""}
         self.left: set[str] = set()
 
@@ -104,7 +106,7 @@ class _Rehearsal:
         self._do_run(actions)
         self._settle()
         self.recorder.look(0.0, 0.0, self.world.robots(), self.world.busy())
-        thought_at = told_at = 0.0
+        thought_at = 0.0
         while self.finished is None:
             happened = self._advance()
             now = self.world.time_s
@@ -112,11 +114,7 @@ class _Rehearsal:
                 self._report_poses()
                 self._settle()
                 thought_at = now
-            if now - told_at >= PROGRESS_EVERY_S:
-                told_at = now
-                self.on_progress(round(0.99 * len(self.left) / len(self.steps), 3))
             self._check_limits(now)
-        self.on_progress(1.0)
         return self.recorder.result(self.world.time_s, ok=self.finished.status == "finished")
 
     def _advance(self) -> bool:
@@ -238,18 +236,35 @@ class _Rehearsal:
         if action.status == "failed" and not self.recorder.errors:
             self.recorder.error(now, "", "failed", action.reason, "step_failed", why=action.reason)
 
+    def _course(self) -> Course:
+        steps = len(self.steps)
+        return Course(round(self.world.time_s, 2), self.recorder.step_now(), len(self.left), steps, self.end_known)
+
     def _check_limits(self, now: float) -> None:
         """Stop what would go on for ever."""
-        if self.finished is None and now >= self.limit_s:
+        given_s = self.follow(self._course())
+        if self.finished is not None:
+            return
+        if now >= self.limit_s:
             hours = round(self.limit_s / 3600, 3)
-            self._give_up(now, f"{hours:g} h of simulated time", "too_long", hours=hours)
-        elif self.finished is None and self.actions > ACTION_LIMIT:
-            self._give_up(now, f"{ACTION_LIMIT} actions", "too_much", actions=ACTION_LIMIT)
+            self._give_up(now, f"after {hours:g} h of simulated time", "too_long", hours=hours)
+        elif self.actions > ACTION_LIMIT:
+            self._give_up(now, f"after {ACTION_LIMIT} actions", "too_much", actions=ACTION_LIMIT)
+        elif given_s is not None:
+            minutes, reached = round(given_s / 60, 1), clock_of(now)
+            limit = f"after {minutes:g} min, at {reached} of simulated time"
+            self._give_up(now, limit, "too_slow", minutes=minutes, reached=reached)
 
     def _give_up(self, now: float, limit: str, code: str, **args: Scalar) -> None:
-        why = f"The program was stopped after {limit}; it may never end."
-        self.recorder.error(now, "", "timed_out", why, code, **args)
+        why = f"The program was stopped {limit}; it may never end."
+        self.recorder.error(now, self.recorder.step_now(), "timed_out", why, code, **args)
         self.finished = r.Finished("failed", why)
+
+
+def clock_of(seconds: float) -> str:
+    """Return a duration as hours, minutes and seconds, such as 2:05:09."""
+    whole = int(seconds)
+    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
 
 
 def pretend_answer(spec: AnswerSpec) -> Scalar:

@@ -1,49 +1,96 @@
-"""Rehearsals as rows: queued by a person, carried out by a worker in a child process, watched in the browser."""
+"""Rehearsals as rows: queued by a person, cancelled by them or an operator, watched in the browser.
+
+Which one is next, and how many a person or a site may have, is decided on rows under one lock; the queue of Celery has
+hints only. `worker` carries them out.
+"""
 
 from __future__ import annotations
 
-import json
-import subprocess
-import sys
-from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime, timedelta
-from pathlib import Path
 from typing import Any
 from uuid import UUID
 
+from django.conf import settings
 from django.db import transaction
+from django.db.models import Max, QuerySet
+from django.db.models.functions import Now
 
 from execution import mailbox
-from execution.errors import NotFound
+from execution.errors import NotFound, NotPossibleNow, TooManyRehearsals
 from execution.floor.advance import place_facts
-from execution.models import Rehearsal
+from execution.models import Lease, Rehearsal
 from execution.rehearsals.child_process import scene_to_json
+from execution.rehearsals.queue_order import Entry, order_fairly
 from execution.runs.programs import Prepared
 from execution.views import RehearsalView, view_rehearsal
 from registry import services as registry
 from simulation.world import Scene
 
-ROOT = Path(__file__).resolve().parents[2]
-LOST_AFTER = timedelta(seconds=5)
-DEAD_AFTER = timedelta(seconds=60)
-DIED = "The process that rehearsed it has died. Start it again."
+QUEUE = "rehearsals"
+RUNNING = Rehearsal.Status.RUNNING
+REMEMBERED = timedelta(hours=1)
+"""How long it counts, among equals, that somebody's rehearsal was begun."""
+HEAVY = ("job", "document", "compiled", "result")
 
 
-def start_rehearsal(*, prepared: Prepared, by: str, seed: int = 0, driver: str = "physics") -> RehearsalView:
-    """Queue a rehearsal of a program that was checked, in the site as it stands now."""
+def start_rehearsal(
+    *, prepared: Prepared, by: str, person: int | None = None, seed: int = 0, driver: str = "physics"
+) -> RehearsalView:
+    """Queue a rehearsal of a program that was checked, in the site as it stands now; `person` is whose it is.
+
+    Raises:
+        TooManyRehearsals: the person or the site has as many as may wait or be under way.
+    """
+    site = registry.get_site_id(site=prepared.site)
+    _refuse_too_many(site, person)  # before the scene is made: who asks too often costs little
     job = {"plan": prepared.plan, "scene": _scene(prepared.site, seed), "driver": driver,
            "parameters": dict(prepared.parameters)}  # fmt: skip
-    row = Rehearsal.objects.create(
-        site_id=registry.get_site_id(site=prepared.site),
-        program=prepared.program,
-        job=job,
-        document=prepared.document,
-        compiled=prepared.compiled,
-        started_by=by,
-        created_at=datetime.now(UTC),
-    )
+    with transaction.atomic():
+        lock_queue()
+        _refuse_too_many(site, person)
+        row = Rehearsal.objects.create(
+            site_id=site, program=prepared.program, program_name=prepared.name, job=job, document=prepared.document,
+            compiled=prepared.compiled, started_by=by, person=person, created_at=datetime.now(UTC),
+        )  # fmt: skip
     transaction.on_commit(lambda: mailbox.send_hint(mailbox.REHEARSE, str(row.id)))
-    return view_rehearsal(row)
+    return view_rehearsal(row, order_of_queue())
+
+
+def _refuse_too_many(site: int, person: int | None) -> None:
+    under_way = Rehearsal.objects.filter(status__in=Rehearsal.OPEN)
+    of_person = under_way.filter(person=person).count() if person is not None else 0
+    most = settings.VIPO_REHEARSALS_OF_PERSON
+    if of_person >= most:
+        raise TooManyRehearsals(
+            f"{of_person} rehearsals of yours wait or are under way; you may have {most} at a time. "
+            "Wait until one is over, or cancel one.",
+            {"why": "person", "number": of_person, "most": most},
+        )
+    of_site, most = under_way.filter(site_id=site).count(), settings.VIPO_REHEARSALS_OF_SITE
+    if of_site >= most:
+        raise TooManyRehearsals(
+            f"{of_site} rehearsals of this site wait or are under way; it may have {most} at a time. "
+            "Wait until one is over, or ask who has several to cancel one.",
+            {"why": "site", "number": of_site, "most": most},
+        )
+
+
+def lock_queue() -> None:
+    """Let no other process take from the queue or add to it until this transaction is over."""
+    Lease.objects.get_or_create(name=QUEUE, defaults={"holder": "", "until": datetime.now(UTC)})
+    Lease.objects.select_for_update().get(name=QUEUE)
+
+
+def order_of_queue() -> tuple[UUID, ...]:
+    """Return those that wait, of all sites, in the order in which they will be taken as things stand."""
+    rows = Rehearsal.objects.filter(status__in=Rehearsal.OPEN)
+    found = rows.only("site_id", "person", "created_at", "status")
+    recent = Rehearsal.objects.filter(began_at__gt=Now() - REMEMBERED)
+    begun = recent.values_list("site_id", "person").annotate(at=Max("began_at"))
+    return order_fairly(
+        [Entry(row.id, row.site_id, row.person, row.created_at, row.status == RUNNING) for row in found],
+        {(site, person): at for site, person, at in begun},
+    )
 
 
 def _scene(site: str, seed: int) -> dict[str, Any]:
@@ -68,74 +115,54 @@ def get_rehearsal(*, rehearsal_id: UUID | str) -> RehearsalView:
     Raises:
         NotFound: there is none.
     """
-    row = Rehearsal.objects.select_related("site").defer("job").filter(id=rehearsal_id).first()
+    return _view(_find(Rehearsal.objects.defer("job"), rehearsal_id))
+
+
+def list_open_rehearsals(*, site: str) -> list[RehearsalView]:
+    """Return the site's rehearsals that are under way, and then those that wait, in their order; without documents."""
+    rows = Rehearsal.objects.filter(site__slug=site, status__in=Rehearsal.OPEN).select_related("site").defer(*HEAVY)
+    order = order_of_queue()
+    places = {rehearsal: place for place, rehearsal in enumerate(order, 1)}
+    return [
+        view_rehearsal(row, order, whole=False)
+        for row in sorted(rows, key=lambda row: (places.get(row.id, 0), row.created_at))
+    ]
+
+
+def cancel_rehearsal(*, rehearsal_id: UUID | str, by: str) -> RehearsalView:
+    """End a rehearsal that waits or is under way; the worker that has it notices within a second.
+
+    Raises:
+        NotFound: there is none.
+        NotPossibleNow: it is over. One that was cancelled already stays as it is.
+    """
+    still_open = Rehearsal.objects.filter(id=rehearsal_id, status__in=Rehearsal.OPEN)
+    cancelled = still_open.update(
+        status=Rehearsal.Status.CANCELLED, reason=f"{by} cancelled the rehearsal.", ended_at=Now(), claim=None
+    )
+    row = _find(Rehearsal.objects.defer(*HEAVY), rehearsal_id)
+    if cancelled:
+        publish_rehearsal(row)
+    elif row.status != Rehearsal.Status.CANCELLED:
+        raise NotPossibleNow("The rehearsal is over already.", {"why": "rehearsal_over"})
+    return _view(row, whole=False)
+
+
+def _find(rows: QuerySet[Rehearsal], rehearsal_id: UUID | str) -> Rehearsal:
+    row = rows.select_related("site").filter(id=rehearsal_id).first()
     if row is None:
         raise NotFound("There is no such rehearsal. It may have been deleted with its program.")
-    return view_rehearsal(row)
+    return row
 
 
-def carry_out(rehearsal_id: str) -> bool:
-    """Run a queued rehearsal's child process to its end; False when it is not queued any more."""
-    now = datetime.now(UTC)
-    queued = Rehearsal.objects.filter(id=rehearsal_id, status=Rehearsal.Status.QUEUED)
-    if not queued.update(status=Rehearsal.Status.RUNNING, beat_at=now):
-        return False
-    row = Rehearsal.objects.select_related("site").get(id=rehearsal_id)
-    _publish(row)
-    try:
-        for line in _run_child(row.job):
-            _take_line(row, line)
-    finally:
-        if row.status == Rehearsal.Status.RUNNING:
-            _end(row, "failed", reason=DIED)
-    return True
+def _view(row: Rehearsal, *, whole: bool = True) -> RehearsalView:
+    return view_rehearsal(row, order_of_queue() if row.status == Rehearsal.Status.QUEUED else (), whole=whole)
 
 
-def sweep_rehearsals(now: datetime) -> None:
-    """Find rehearsals whose hint was lost, and those whose worker has died."""
-    queued = Rehearsal.objects.filter(status=Rehearsal.Status.QUEUED, created_at__lt=now - LOST_AFTER)
-    for rehearsal in queued.values_list("id", flat=True):
-        mailbox.send_hint(mailbox.REHEARSE, str(rehearsal))
-    dead = Rehearsal.objects.filter(status=Rehearsal.Status.RUNNING, beat_at__lt=now - DEAD_AFTER)
-    for row in dead.select_related("site"):
-        still_dead = Rehearsal.objects.filter(id=row.id, status=Rehearsal.Status.RUNNING)
-        still_dead.update(status=Rehearsal.Status.FAILED, reason=DIED)
-        row.status = Rehearsal.Status.FAILED
-        _publish(row)
-
-
-def _run_child(job: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-    command = [sys.executable, "-m", "execution.rehearsals.child_process"]
-    with subprocess.Popen(  # noqa: S603 - our own module, with our own interpreter
-        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=ROOT
-    ) as child:
-        assert child.stdin is not None
-        assert child.stdout is not None
-        child.stdin.write(json.dumps(job))
-        child.stdin.close()
-        for line in child.stdout:
-            if line.startswith("{"):
-                yield json.loads(line)
-
-
-def _take_line(row: Rehearsal, line: Mapping[str, Any]) -> None:
-    if "progress" in line:
-        row.progress, row.beat_at = line["progress"], datetime.now(UTC)
-        row.save(update_fields=["progress", "beat_at"])
-        _publish(row)
-    elif "result" in line:
-        row.progress, row.result = 1.0, line["result"]
-        _end(row, "done")
-    else:
-        _end(row, "failed", reason=str(line.get("error", ""))[:500])
-
-
-def _end(row: Rehearsal, status: str, reason: str = "") -> None:
-    row.status, row.reason = status, reason
-    row.save(update_fields=["status", "reason", "progress", "result"])
-    _publish(row)
-
-
-def _publish(row: Rehearsal) -> None:
-    message = {"type": "rehearsal", "id": str(row.id), "status": row.status, "progress": row.progress}
+def publish_rehearsal(row: Rehearsal) -> None:
+    """Tell the site's screens how a rehearsal stands."""
+    message = {
+        "type": "rehearsal", "id": str(row.id), "status": row.status, "progress": row.progress,
+        "course": row.course or None, "tries": row.tries,
+    }  # fmt: skip
     registry.publish(row.site.slug, message)

@@ -18,7 +18,7 @@ from execution.floor.stops import follow_stops
 from execution.lease import HeldLease
 from execution.machine.messages import TimerFired
 from execution.models import Run, Timer
-from execution.rehearsals.rehearsals import sweep_rehearsals
+from execution.rehearsals.worker import sweep_rehearsals
 from execution.runs.terms import call_late
 from execution.runs.triggers import start_armed
 from execution.ticker.alerts import watch_alerts
@@ -99,7 +99,7 @@ def sweep(now: datetime) -> None:
     drop_stale_controls(now)
     end_commands_of_those_out(now)
     expire_calls(now=now)
-    sweep_rehearsals(now)
+    sweep_rehearsals()
 
 
 _ticker = Ticker()

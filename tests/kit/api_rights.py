@@ -39,18 +39,18 @@ _NAMES = {
     Right("person", "read"): "list_sites search_library",
     Right("viewer", "session"): "list_tokens show_token create_token revoke_token",
     Right("viewer", "read"): """show_function show_function_version show_program show_compiled show_document
-        show_script show_version list_versions wait_until_stored get_rehearsal get_run list_events list_armed
-        get_call list_questions plan_route plan_routes list_runs show_site list_alerts look_at_description list_devices
-        export_devices show_device list_device_events show_property_history show_robot_map download_robot_pgm
-        download_robot_yaml
+        show_script show_version list_versions wait_until_stored get_rehearsal list_rehearsals get_run list_events
+        list_armed get_call list_questions plan_route plan_routes list_runs show_site list_alerts look_at_description
+        list_devices export_devices show_device list_device_events show_property_history show_robot_map
+        download_robot_pgm download_robot_yaml
         show_robot_cells show_difference show_rdf show_map download_pgm download_yaml show_cells list_map_versions
         current probe sample current_of_device probe_device sample_of_device list_programs ask post_query list_things
         watch_things show_thing read_expression show_values show_value watch_value await_next_value query_action""",
     Right("viewer", "operate"): "press_stop",
     Right("operator", "operate"): """mark_seen mark_all_seen call_method cancel_call reset_stop invoke_action
         cancel_action show_operations list_findings""",
-    Right("operator", "run"): """start_rehearsal start_run pause_run resume_run cancel_run answer_question
-        arm_program""",
+    Right("operator", "run"): """start_rehearsal cancel_rehearsal start_run pause_run resume_run cancel_run
+        answer_question arm_program""",
     Right("author", "run"): """delete_program rename_program draw_script pin_version save_function
         create_program put_document put_script""",
     Right("admin", "admin"): """edit_device approve_device reject_device retire_device readmit_device

@@ -22,7 +22,9 @@ from tests.kit.waiting import PATIENCE_S, wait_for
 
 SPEED = 6
 WEB = ["-m", "daphne", "-b", "127.0.0.1", "--websocket-max-message-size", "16777216"]
-WORKER = ["-m", "celery", "-A", "vipo_site", "worker", "--pool", "threads", "--concurrency", "4", "--loglevel", "INFO"]
+_CELERY = ["-m", "celery", "-A", "vipo_site", "worker", "--pool", "threads", "--loglevel", "INFO"]
+WORKER = [*_CELERY, "-Q", "runs", "--concurrency", "4"]
+REHEARSALS = [*_CELERY, "-Q", "rehearsals,upkeep"]
 
 
 @dataclass
@@ -143,6 +145,7 @@ def running_served(folder: Path, database_url: str, redis_url: str) -> Iterator[
             served.start(f"web-{number}", *WEB, "-p", str(port), "vipo_site.asgi:application")
         for name in ("worker-1", "worker-2"):
             served.start(name, *WORKER, "-n", f"{name}@%h")
+        served.start("rehearsals", *REHEARSALS, "-n", "rehearsals@%h")
         for name in ("gateway", "ticker"):
             served.start(name, "manage.py", name)
         served.start("twin", "manage.py", "twin", "--site", "painting-factory", "--speed", str(SPEED))

@@ -1,7 +1,8 @@
 """The embedded mode: everything in one process group, on a bare machine, with nothing but Python.
 
-The main thread runs Daphne; the broker, the Celery worker, the gateway and the ticker are threads; the pretend world
-(PyBullet) and the firmware (MicroPython) are child processes, started again when they die.
+The main thread runs Daphne; the broker, the Celery workers of runs and of rehearsals, the gateway and the ticker are
+threads; the pretend world (PyBullet) and the firmware (MicroPython) are child processes, started again when they die,
+and so is each rehearsal.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from celery.signals import worker_shutting_down
 from daphne.server import Server  # installs Twisted's asyncio reactor, so it comes before anything that uses one
 from django.core.exceptions import ImproperlyConfigured
 
@@ -164,27 +166,45 @@ def prepare_database() -> None:
     editor.seed_programs(site="painting-factory")
 
 
-def start_worker() -> Part:
-    """Run Celery's worker in a thread; its messages stay in this process."""
-    from vipo_site.celery import app, begin_to_beat, say_goodbye
+def start_workers() -> list[Part]:
+    """Run Celery's workers in a thread each; their messages stay in this process."""
+    from django.conf import settings
+
+    from vipo_site.celery import app, make_app
+
+    # An application for each, since what a worker listens to is kept with its application.
+    rehearsing = make_app()
+    rehearsing.conf.broker_transport_options = {"polling_interval": 0.1}
+    return [
+        _start_worker("runs", app, "runs", 4),
+        _start_worker("rehearsals", rehearsing, "rehearsals,upkeep", settings.CELERY_WORKER_CONCURRENCY),
+    ]
+
+
+def _start_worker(name: str, app: Any, queues: str, threads: int) -> Part:
+    """Run one worker with so many threads."""
+    from vipo_site.celery import begin_to_beat, say_goodbye
 
     worker: Any = app.WorkController(
+        queues=queues,
+        hostname=f"{name}@demo",
         pool_cls="threads",
-        concurrency=4,
+        concurrency=threads,
         without_mingle=True,
         without_gossip=True,
         without_heartbeat=True,
         ready_callback=begin_to_beat,
     )
-    thread = threading.Thread(target=worker.start, name="worker", daemon=True)
+    thread = threading.Thread(target=worker.start, name=name, daemon=True)
     thread.start()
 
     def stop() -> None:
+        worker_shutting_down.send(sender=name)
         worker.stop()
         thread.join(4)
         say_goodbye()
 
-    return Part("worker", stop)
+    return Part(name, stop)
 
 
 def start_loop(name: str, run: Callable[[threading.Event], None]) -> Part:
@@ -281,7 +301,7 @@ def start_parts(options: argparse.Namespace, state: Path) -> list[Part]:
     from execution.services import run_ticker
     from registry.services import Heart
 
-    parts = [start_broker(), start_worker()]
+    parts = [start_broker(), *start_workers()]
     gateway, ticker = Heart("gateway", settings.VIPO_GATEWAY), Heart("ticker")
     parts += [Part(name, heart.start().stop) for name, heart in (("gateway", gateway), ("ticker", ticker))]
     parts.append(start_loop("gateway", lambda stopping: Gateway(settings, gateway).run_forever(stopping)))

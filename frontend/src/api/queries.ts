@@ -14,6 +14,7 @@ import type {
   ProgramDocument,
   Question,
   Rehearsal,
+  RehearsalSummary,
   Run,
   RunEvent,
   RunSummary,
@@ -49,6 +50,7 @@ export const keys = {
   findings: (slug: string) => ["findings", slug] as const,
   operations: (slug: string) => ["operations", slug] as const,
   processes: (slug: string) => ["processes", slug] as const,
+  rehearsals: (slug: string) => ["rehearsals", slug] as const,
 };
 
 const EVENTS_AT_ONCE = 1000;
@@ -226,4 +228,10 @@ export const useProcesses = (slug: Maybe) =>
     keys.processes(slug ?? ""),
     at(slug, (s) => `/sites/${s}/processes`),
     2_000,
+  );
+/** Those of a site that are not over. */
+export const useRehearsals = (slug: Maybe) =>
+  useGet<RehearsalSummary[]>(
+    keys.rehearsals(slug ?? ""),
+    at(slug, (s) => `/sites/${s}/rehearsals`),
   );

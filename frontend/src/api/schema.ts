@@ -309,7 +309,7 @@ export interface paths {
         put?: never;
         /**
          * Start Rehearsal
-         * @description Queue a rehearsal of a program as it is drawn now.
+         * @description Queue a rehearsal of a program as it is drawn now; refused while the asker or the site has as many as may be.
          */
         post: operations["start_rehearsal"];
         delete?: never;
@@ -466,6 +466,26 @@ export interface paths {
         get: operations["get_rehearsal"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/rehearsals/{rehearsal}/cancel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Cancel Rehearsal
+         * @description End a rehearsal that waits or is under way; for who has started it, and for operators.
+         */
+        post: operations["cancel_rehearsal"];
         delete?: never;
         options?: never;
         head?: never;
@@ -788,6 +808,26 @@ export interface paths {
          * @description Return the site's open questions, or all of one run.
          */
         get: operations["list_questions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sites/{site}/rehearsals": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Rehearsals
+         * @description Return the site's rehearsals that are not over: those under way, then those that wait, in their order.
+         */
+        get: operations["list_rehearsals"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2168,6 +2208,19 @@ export interface components {
             revision: number;
             script: string;
         };
+        /**
+         * @description How far a rehearsal is: its virtual time, the step it is at, and how many steps were done once.
+         *
+         *     `share` is of these steps; without `end_known` the program repeats some, and they do not tell when it ends.
+         */
+        CourseShape: {
+            end_known: boolean;
+            share: number;
+            step: string;
+            steps: number;
+            steps_done: number;
+            virtual_s: number;
+        };
         /** @description Which items, and of when: texts, since what cannot be read is answered with an MTConnect error. */
         CurrentAsked: {
             at?: string | null;
@@ -2928,18 +2981,50 @@ export interface components {
             steps: components["schemas"]["RehearsedStep"][];
             waits: components["schemas"]["WaitShape"][];
         };
-        /** @description A rehearsal with its result, once there is one; `progress` goes from 0 to 1. */
+        /** @description A rehearsal with its result, once there is one. */
         RehearsalShape: {
+            began_at: string | null;
+            cause: components["schemas"]["Cause"] | null;
             compiled: components["schemas"]["CompiledShape"];
+            course: components["schemas"]["CourseShape"] | null;
             created_at: string;
             document: components["schemas"]["DocumentShape"];
+            ended_at: string | null;
             id: string;
+            mine: boolean;
+            place: number | null;
             program: string;
+            program_name: string;
             progress: number;
             reason: string;
             result: components["schemas"]["RehearsalResultShape"] | null;
+            started_by: string;
             /** @enum {string} */
-            status: "queued" | "running" | "done" | "failed";
+            status: "queued" | "running" | "done" | "failed" | "cancelled";
+            tries: number;
+        };
+        /**
+         * @description A rehearsal without its program; `progress` goes from 0 to 1, `tries` is how often it was begun.
+         *
+         *     `place` counts from 1 in the queue of all sites, while it waits; `mine` tells whether the asker has started it.
+         */
+        RehearsalSummaryShape: {
+            began_at: string | null;
+            cause: components["schemas"]["Cause"] | null;
+            course: components["schemas"]["CourseShape"] | null;
+            created_at: string;
+            ended_at: string | null;
+            id: string;
+            mine: boolean;
+            place: number | null;
+            program: string;
+            program_name: string;
+            progress: number;
+            reason: string;
+            started_by: string;
+            /** @enum {string} */
+            status: "queued" | "running" | "done" | "failed" | "cancelled";
+            tries: number;
         };
         /** @description One time that a step was carried out. */
         RehearsedStep: {
@@ -4692,6 +4777,49 @@ export interface operations {
             };
         };
     };
+    cancel_rehearsal: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description Of requests with the same key one is carried out; the others are given its answer. */
+                "Idempotency-Key"?: string;
+            };
+            path: {
+                rehearsal: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RehearsalSummaryShape"];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            409: components["responses"]["Refused409"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     get_run: {
         parameters: {
             query?: never;
@@ -5379,6 +5507,45 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["QuestionShape"][];
+                };
+            };
+            400: components["responses"]["Refused400"];
+            401: components["responses"]["Refused401"];
+            403: components["responses"]["Refused403"];
+            404: components["responses"]["Refused404"];
+            422: components["responses"]["Refused422"];
+            429: components["responses"]["Refused429"];
+            500: components["responses"]["Refused500"];
+            503: components["responses"]["Refused503"];
+            /** @description A refusal */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_rehearsals: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                site: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description OK */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RehearsalSummaryShape"][];
                 };
             };
             400: components["responses"]["Refused400"];

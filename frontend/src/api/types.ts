@@ -80,7 +80,9 @@ export type AnswerSpec = Schemas["AnswerShape"];
 export type ArmedProgram = Schemas["ArmedShape"];
 
 export type Rehearsal = Schemas["RehearsalShape"];
+export type RehearsalSummary = Schemas["RehearsalSummaryShape"];
 export type RehearsalStatus = Rehearsal["status"];
+export type RehearsalCourse = Schemas["CourseShape"];
 export type RehearsalResult = Schemas["RehearsalResultShape"];
 export type RehearsalError = Schemas["RehearsalError"];
 export type NearMiss = Schemas["Encounter"];

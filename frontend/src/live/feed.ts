@@ -9,6 +9,7 @@ import type {
   Program,
   Question,
   Rehearsal,
+  RehearsalSummary,
   Run,
   RunEvent,
   RunSummary,
@@ -17,7 +18,17 @@ import type {
 } from "@/api/types";
 import { applyAlert } from "./alerts";
 import { LiveCaches } from "./caches";
-import { applyChanges, applyChecked, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
+import {
+  applyChanges,
+  applyChecked,
+  applyQuestion,
+  applyRehearsal,
+  applyRun,
+  applyRunEvent,
+  isOver,
+  isUrgent,
+  joinChanges,
+} from "./messages";
 import type { DeviceChange, LiveMessage } from "./messages";
 import { recordDevice } from "./readings";
 import { useLiveStore } from "./store";
@@ -173,9 +184,11 @@ export class SiteFeed {
 
   #rehearsal(message: Extract<LiveMessage, { type: "rehearsal" }>): void {
     const key = keys.rehearsal(message.id);
-    const { status, progress } = message;
-    this.#caches.write<Rehearsal>(key, (old) => ({ ...old, status, progress }));
-    if (status === "done" || status === "failed") this.#caches.refresh(key);
+    this.#caches.write<Rehearsal>(key, (old) => applyRehearsal(old, message));
+    if (isOver(message.status)) this.#caches.refresh(key);
+    this.#caches.write<RehearsalSummary[]>(keys.rehearsals(this.slug), (all) =>
+      all.map((each) => (each.id === message.id ? applyRehearsal(each, message) : each)),
+    );
   }
 
   #stop(stop: SiteStop): void {

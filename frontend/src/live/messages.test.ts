@@ -1,6 +1,15 @@
 import { expect, test } from "vitest";
 import type { Question, Device, RunEvent, RunSummary } from "@/api/types";
-import { applyChanges, applyChecked, applyQuestion, applyRun, applyRunEvent, isUrgent, joinChanges } from "./messages";
+import {
+  applyChanges,
+  applyChecked,
+  applyQuestion,
+  applyRehearsal,
+  applyRun,
+  applyRunEvent,
+  isUrgent,
+  joinChanges,
+} from "./messages";
 
 const mixer = { id: "mixer", name: "Paint Mixer", status: "idle", doing: "", carrying: {} } as unknown as Device;
 const robot = { id: "robot", name: "TurtleBot", status: "busy", doing: "", carrying: { box: 1 } } as unknown as Device;
@@ -79,4 +88,19 @@ test("a check changes the counts of its program in the list and nothing else", (
     programs[1],
   ]);
   expect(applyChecked(programs, { program: "gone", revision: 7, errors: 3, warnings: 1 })).toEqual(programs);
+});
+
+test("how far a rehearsal is never jumps back, except where it is begun anew", () => {
+  const told = (progress: number, tries = 1, status: "running" | "queued" = "running") => ({
+    id: "r",
+    status,
+    progress,
+    course: null,
+    tries,
+  });
+  const shown = { ...told(0.5), name: "Task" };
+  expect(applyRehearsal(shown, told(0.6)).progress).toBe(0.6);
+  expect(applyRehearsal(shown, told(0.4))).toBe(shown);
+  expect(applyRehearsal(shown, told(0, 1, "queued"))).toEqual({ ...shown, status: "queued", progress: 0 });
+  expect(applyRehearsal(shown, told(0.1, 2)).progress).toBe(0.1);
 });

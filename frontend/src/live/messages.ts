@@ -5,6 +5,7 @@ import type {
   Device,
   Point,
   Question,
+  RehearsalCourse,
   RehearsalStatus,
   RunEvent,
   RunSummary,
@@ -44,11 +45,33 @@ export type LiveMessage =
   | { type: "alert"; alert: Alert }
   | { type: "alerts" }
   | { type: "armed"; programs: ArmedProgram[] }
-  | { type: "rehearsal"; id: string; status: RehearsalStatus; progress: number }
+  | ({ type: "rehearsal" } & RehearsalNews)
   | ({ type: "stop" } & SiteStop)
   | { type: "traffic"; robots: Record<string, RobotTraffic> }
   | { type: "programs" }
   | ({ type: "checked" } & CheckedProgram);
+
+/** How a rehearsal stands now. */
+export interface RehearsalNews {
+  id: string;
+  status: RehearsalStatus;
+  progress: number;
+  course: RehearsalCourse | null;
+  /** How often it was begun. */
+  tries: number;
+}
+
+/** Whether nothing more comes of a rehearsal. */
+export function isOver(status: RehearsalStatus): boolean {
+  return status !== "queued" && status !== "running";
+}
+
+/** A rehearsal with what was told of it; what was overtaken on its way does not turn it back. */
+export function applyRehearsal<R extends Omit<RehearsalNews, "id">>(rehearsal: R, news: RehearsalNews): R {
+  const { status, progress, course, tries } = news;
+  const overtaken = tries === rehearsal.tries && status === rehearsal.status && progress < rehearsal.progress;
+  return overtaken ? rehearsal : { ...rehearsal, status, progress, course, tries };
+}
 
 /** What lists show of a program that was checked. */
 export interface CheckedProgram {

@@ -1,13 +1,10 @@
 import { Button } from "@mantine/core";
-import { useQueryClient } from "@tanstack/react-query";
 import { ArrowLeft, RefreshCw } from "lucide-react";
-import { useEffect, useMemo, useState } from "react";
+import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { Link, useNavigate, useParams } from "react-router-dom";
-import { ApiProblem } from "@/api/client";
-import { useOnce } from "@/api/once";
+import { Link, useParams } from "react-router-dom";
 import { missing } from "@/api/failed";
-import { keys, useDevices, useProgram, useRehearsal, useSite, useSiteMap } from "@/api/queries";
+import { useDevices, useProgram, useSite, useSiteMap } from "@/api/queries";
 import type { Device, Program, Rehearsal, RehearsalResult } from "@/api/types";
 import { Crumb, TopBar } from "@/shell/TopBar";
 import { waitWords } from "@/i18n/waits";
@@ -19,57 +16,10 @@ import styles from "./SimulationScreen.module.css";
 import { neighbour, segmentsOf, stepStarts } from "./timeline";
 import { Transport, type Marker } from "./Transport";
 import { useMoment } from "./useMoment";
+import { useFreshRehearsal, useStartRehearsal } from "./useRehearsals";
+import { WaitingPane } from "./waiting/WaitingPane";
 
-const POLL_MS = 1000;
 const NO_DEVICES: Device[] = [];
-
-/** Ask for the rehearsal again until it is over; the live socket is faster, this holds when it is away. */
-function useFreshRehearsal(id: string | undefined) {
-  const query = useRehearsal(id);
-  const queries = useQueryClient();
-  const status = query.data?.status;
-  useEffect(() => {
-    if (!id || status === "done" || status === "failed") return;
-    const timer = setInterval(() => void queries.invalidateQueries({ queryKey: keys.rehearsal(id) }), POLL_MS);
-    return () => clearInterval(timer);
-  }, [id, status, queries]);
-  return query;
-}
-
-interface WaitingProps {
-  rehearsal?: Rehearsal;
-  /** It is not known yet how the rehearsal stands. */
-  loading: boolean;
-  problem?: string;
-  onAgain: () => void;
-}
-
-function Waiting({ rehearsal, loading, problem, onAgain }: WaitingProps) {
-  const { t } = useTranslation();
-  const failed = problem !== undefined || rehearsal?.status === "failed";
-  return (
-    <section className={`${styles.pane} ${styles.waiting}`} aria-live="polite">
-      <h2>
-        {t(failed ? "simulation.failedTitle" : rehearsal || loading ? "simulation.running" : "simulation.noRehearsal")}
-      </h2>
-      {failed && <p role="alert">{problem ?? rehearsal?.result?.errors[0]?.message}</p>}
-      {!failed && rehearsal && (
-        <>
-          <progress
-            className={styles.progress}
-            max={1}
-            value={rehearsal.progress}
-            aria-label={t("simulation.running")}
-          />
-          <p>{t("simulation.runningHint")}</p>
-        </>
-      )}
-      {(failed || (!rehearsal && !loading)) && (
-        <Button onClick={onAgain}>{t(failed ? "simulation.again" : "simulation.start")}</Button>
-      )}
-    </section>
-  );
-}
 
 function Recording(props: { rehearsal: Rehearsal; result: RehearsalResult; devices: Device[]; program: Program }) {
   const { t } = useTranslation();
@@ -130,23 +80,6 @@ function markersOf(result: RehearsalResult, nameOf: (device: string) => string):
   }));
 }
 
-function useStartRehearsal(program: string) {
-  const navigate = useNavigate();
-  const [problem, setProblem] = useState<string>();
-  const begin = useOnce();
-  const start = () =>
-    begin<{ id: string }>(`/programs/${program}/rehearsals`, {})
-      .then(({ id }) => {
-        setProblem(undefined);
-        void navigate(`/programs/${program}/simulate/${id}`, { replace: true });
-      })
-      .catch((error: unknown) => {
-        if (!(error instanceof ApiProblem)) throw error;
-        setProblem(error.detail);
-      });
-  return { start: () => void start(), problem };
-}
-
 /** A program's rehearsal: the map and the 3D view at the same moment, the result, and the recording's transport. */
 export function SimulationScreen() {
   const { t } = useTranslation();
@@ -185,10 +118,17 @@ export function SimulationScreen() {
         }
       />
       <main className={styles.body}>
-        {data && result && program ? (
+        {data && result && program && !problem ? (
           <Recording key={data.id} rehearsal={data} result={result} devices={devices} program={program} />
         ) : (
-          <Waiting rehearsal={data} loading={rehearsal.isLoading} problem={refusal} onAgain={start} />
+          <WaitingPane
+            rehearsal={data}
+            loading={rehearsal.isLoading}
+            refusal={refusal}
+            site={site}
+            program={program}
+            onAgain={start}
+          />
         )}
       </main>
     </div>

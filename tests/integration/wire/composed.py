@@ -30,7 +30,19 @@ from tests.kit.servers import Postgres, find_plugin, find_program, run_postgres
 from tests.kit.waiting import wait_for
 
 PLACES = {"redis": 6, "mosquitto": 7, "proxy": 10, "web-1": 11, "web-2": 12, "stranger": 99}
-STARTED = ("redis", "setup", "accounts", "mosquitto", "web-1", "web-2", "proxy", "gateway", "worker-1", "ticker")
+STARTED = (
+    "redis",
+    "setup",
+    "accounts",
+    "mosquitto",
+    "web-1",
+    "web-2",
+    "proxy",
+    "gateway",
+    "worker-1",
+    "rehearsals",
+    "ticker",
+)
 FOLDERS = {"/state": "state", "/mosquitto/": "broker/", "/data": "redis"}
 PROGRAMS = {"python": [], "celery": ["-m", "celery"], "daphne": ["-m", "daphne"]}
 FIRST_NAME = "vipo.example"

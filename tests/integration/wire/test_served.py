@@ -32,6 +32,10 @@ services.create_program(site="painting-factory", name="Task", document=document)
 wait = {"kind": "wait", "place": ["program", "body", "V"], "pos": [1, -1], "params": {"seconds": %d}}
 document = {**document, "steps": {"wait": wait}}
 services.create_program(site="painting-factory", name="Wait", document=document)
+repeat = {"kind": "repeat", "place": ["program", "body", "V"], "pos": [1, -1], "params": {"times": 100000}}
+again = {"kind": "wait", "place": ["repeat", "body", "V"], "pos": [1, -1], "params": {"seconds": 0.02}}
+document = {**document, "steps": {"repeat": repeat, "again": again}}
+services.create_program(site="painting-factory", name="Endless", document=document)
 """
 WAIT_S = 6
 OVER = {"finished", "failed", "cancelled"}
@@ -122,6 +126,31 @@ def test_a_pick_and_drop_runs_to_its_end_with_two_workers(served: Served) -> Non
         assert stock(after, "itemInventory01") < stock(before, "itemInventory01")
     logs = [served.log(f"worker-{n}").read_text() for n in (1, 2)]
     assert all("advance_site" in log or "advance_run" in log for log in logs), "one worker had nothing to do"
+
+
+def rehearse_endlessly(clients: list[httpx.Client], times: int) -> list[str]:
+    """Queue so many rehearsals of a program that does not end, for each of these people; return their ids."""
+    programs = clients[0].get(f"{SITE}/programs").json()
+    endless = next(program for program in programs if program["name"] == "Endless")
+    answers = [client.post(f"/api/programs/{endless['id']}/rehearsals", json={}) for client in clients * times]
+    assert [answer.status_code for answer in answers] == [202] * len(answers), answers[0].text
+    return [answer.json()["id"] for answer in answers]
+
+
+def test_a_run_goes_on_beside_eight_rehearsals_that_never_end_and_they_end_when_cancelled(served: Served) -> None:
+    with served.signed_in("author", 0) as author, served.signed_in("admin", 1) as admin:
+        rehearsals = rehearse_endlessly([author, admin], 4)
+        served.wait("one under way", lambda: author.get(f"{SITE}/rehearsals").json()[0]["course"])
+        run = start_task(served, author)
+        done = served.wait("the end of the run", lambda: over(admin, run), 180)
+        assert (done["status"], done["reason"]) == ("finished", ""), served.story()
+        left = [each["status"] for each in author.get(f"{SITE}/rehearsals").json()]
+        assert {"running", "queued"} == set(left), "the run did not wait for them"
+        for rehearsal in rehearsals:
+            admin.post(f"/api/rehearsals/{rehearsal}/cancel")
+        assert author.get(f"{SITE}/rehearsals").json() == []
+    logs = [served.log(f"worker-{n}").read_text() for n in (1, 2)]
+    assert [log for log in logs if "execution.tasks.rehearse" in log.partition("ready.")[2]] == []
 
 
 @pytest.mark.parametrize("sse", [False, True])
@@ -217,12 +246,13 @@ def test_one_web_process_tells_of_all_and_of_a_gateway_that_freezes_and_comes_ba
 
 def test_every_process_ends_when_it_is_asked(served: Served) -> None:
     codes = served.stop_all()
-    assert set(codes) == {"web-1", "web-2", "worker-1", "worker-2", "gateway", "ticker", "twin"}
-    assert {name: codes[name] for name in ("gateway", "ticker", "twin", "worker-1")} == {
+    assert set(codes) == {"web-1", "web-2", "worker-1", "worker-2", "rehearsals", "gateway", "ticker", "twin"}
+    assert {name: codes[name] for name in ("gateway", "ticker", "twin", "worker-1", "rehearsals")} == {
         "gateway": 0,
         "ticker": 0,
         "twin": 0,
         "worker-1": 0,
+        "rehearsals": 0,
     }
 
 

@@ -123,6 +123,11 @@ UNSAFE = {
     "VIPO_DEMO": ["1"],
     "VIPO_MQTT_TLS": ["0"],
     "VIPO_PROCESS": ["webb"],
+    "VIPO_REHEARSALS_AT_ONCE": ["0", "-1", "two", "1.5"],
+    "VIPO_REHEARSALS_OF_PERSON": ["0"],
+    "VIPO_REHEARSALS_OF_SITE": ["0"],
+    "VIPO_REHEARSAL_LIMIT_S": ["0", "ten"],
+    "VIPO_REHEARSAL_MEMORY_MB": ["511"],
 }
 
 

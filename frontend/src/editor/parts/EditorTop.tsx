@@ -4,7 +4,7 @@ import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { Box, CircleAlert, Play, Redo2, TriangleAlert, Undo2 } from "lucide-react";
 import { useEffect, useState } from "react";
 import { useNavigate } from "react-router-dom";
-import { api } from "@/api/client";
+import { ApiProblem } from "@/api/client";
 import { useOnce } from "@/api/once";
 import { keys } from "@/api/queries";
 import type { Program, Rehearsal } from "@/api/types";
@@ -188,7 +188,12 @@ function SimulateButton() {
       return begin<Rehearsal>(`/programs/${program.id}/rehearsals`, {});
     },
     onSuccess: (rehearsal) => void navigate(`/programs/${program.id}/simulate/${rehearsal.id}`),
-    onError: (error) => say(problemText(error, error.message)),
+    onError: (error) => {
+      const full = error instanceof ApiProblem && error.code === "too_many_rehearsals";
+      // There people see what waits, and can cancel some of it.
+      if (full) void navigate(`/programs/${program.id}/simulate`, { state: { refusal: error.detail } });
+      else say(problemText(error, error.message));
+    },
   });
   return (
     <Button
