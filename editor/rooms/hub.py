@@ -24,10 +24,12 @@ from editor.documents.store import flush_before_reading
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import Program
 from editor.programs.checking import DeviceWatch
+from editor.rooms.inbox import Inbox
 from editor.rooms.member import Allowance, Close, Member, Person
+from editor.rooms.opening import open_room
 from editor.rooms.refusals import INTERRUPTED
 from editor.rooms.room import Room
-from editor.rooms.runner import OpenRoom, Shared, open_room
+from editor.rooms.runner import OpenRoom, Shared
 from editor.rooms.stream import Note, RoomStream, StreamLost, make_stream
 from editor.rooms.threads import in_database
 from registry import services as registry
@@ -38,6 +40,7 @@ CLOSE_EMPTY_AFTER_S = 5.0
 FLUSH_LIMIT_S = 5.0
 END_LIMIT_S = 5.0
 TELL_LIMIT_S = 5.0
+FINISH_LIMIT_S = 30.0
 MOST_CONNECTIONS, MOST_OF_PERSON = 5_000, 40
 _HEARD = {"device", "device_removed", "map", "programs", "library", "hello"}
 
@@ -57,6 +60,7 @@ class Hub:
         self._stop_listening: Callable[[], None] | None = None
         self._is_closed = False
         self._allowances: dict[int, Allowance] = {}
+        self._turns = asyncio.Lock()
         self._places = Places(in_all=MOST_CONNECTIONS, of_site=MOST_CONNECTIONS, of_person=MOST_OF_PERSON)
 
     async def enter(self, program_id: str, member: Member) -> Room:
@@ -105,6 +109,19 @@ class Hub:
         opened = await open_room(program_id, uuid.uuid4().hex, self._shared, self._drop)
         self._open[program_id] = opened
         return opened
+
+    def inbox(self, room: Room, member: Member) -> Inbox:
+        """Return what a connection's messages are given to."""
+        return Inbox(room, member, self._shared.compilers.cut, self._turns)
+
+    def leave_later(self, leave: Callable[[], None], inbox: Inbox) -> None:
+        """Let a connection go that has been cut off, once what it sent before has been acted on."""
+
+        async def finish() -> None:
+            await inbox.finish(FINISH_LIMIT_S)
+            leave()
+
+        self._start(finish)
 
     def leave(self, room: Room, member: Member) -> None:
         """Let a connection go; a room that stays empty is closed."""

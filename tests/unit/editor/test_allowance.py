@@ -36,8 +36,9 @@ def test_who_is_closed_for_abuse_again_and_again_is_held_off_longer_and_then_for
 
 @pytest.mark.parametrize("can_write", [True, False])
 def test_an_update_is_paid_for_by_who_sent_it(can_write: bool) -> None:
-    client = Client(room(), can_write=can_write)
+    client = Client(room(), can_write=can_write, number=7)
     client.read()
+    client.send(yjs_protocol.encode_update(client.edit("s1", 1)))
     gone = b"\x00\x01\x07" + encode_integer(200_000) + b"\x00\x01" * 200_000
     client.send(yjs_protocol.encode_update(gone))
     client.send(yjs_protocol.encode_update(gone))

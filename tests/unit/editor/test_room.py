@@ -148,7 +148,9 @@ def test_what_fails_half_way_leaves_no_trace() -> None:
 
 def is_refused(client: Client, update: bytes) -> bool:
     try:
-        client.room.receive(Member(client.person, can_write=True, wake=nobody), yjs_protocol.encode_step_2(update), 0.0)
+        client.room.receiver.receive(
+            Member(client.person, can_write=True, wake=nobody), yjs_protocol.encode_step_2(update), 0.0
+        )
     except Close as close:
         return close.code == Close.MALFORMED
     return False
