@@ -24,6 +24,7 @@ from editor.documents.store import flush_before_reading
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import Program
 from editor.programs.checking import DeviceWatch
+from editor.rooms.hold_off import HoldOffs, make_hold_offs
 from editor.rooms.inbox import Inbox
 from editor.rooms.member import Allowance, Close, Member, Person
 from editor.rooms.opening import open_room
@@ -48,7 +49,7 @@ _HEARD = {"device", "device_removed", "map", "programs", "library", "hello"}
 class Hub:
     """The rooms of one process, which all live in one event loop."""
 
-    def __init__(self, stream: RoomStream) -> None:
+    def __init__(self, stream: RoomStream, hold_offs: HoldOffs) -> None:
         self.loop = asyncio.get_running_loop()
         self.stream = stream
         self._shared = Shared(stream, Compilers())
@@ -61,13 +62,14 @@ class Hub:
         self._is_closed = False
         self._allowances: dict[int, Allowance] = {}
         self._turns = asyncio.Lock()
+        self._hold_offs = hold_offs
         self._places = Places(in_all=MOST_CONNECTIONS, of_site=MOST_CONNECTIONS, of_person=MOST_OF_PERSON)
 
     async def enter(self, program_id: str, member: Member) -> Room:
         """Let a connection into a program's room, opening it if it is not open. Raises Close."""
         if self._is_closed:
             raise Close(Close.COME_AGAIN, INTERRUPTED)
-        self._hold_off(member)
+        await self._hold_off(member)
         if not self._places.take(Claim(member.person.id)):
             raise Close(Close.ABUSE, f"You have {MOST_OF_PERSON} programs open. Close other copies of the page.")
         member.allowance.connections += 1
@@ -78,12 +80,13 @@ class Hub:
             self._places.give_back(Claim(member.person.id))
             raise
 
-    def _hold_off(self, member: Member) -> None:
+    async def _hold_off(self, member: Member) -> None:
         """Give a connection what its person has left; keep them out for a while after abuse. Raises Close."""
         now_s = time.monotonic()
         self._allowances = {person: each for person, each in self._allowances.items() if not each.is_like_new(now_s)}
         member.allowance = self._allowances.setdefault(member.person.id, member.allowance)
-        if wait_s := math.ceil(member.allowance.held_off_s(now_s)):
+        elsewhere_s = await self._hold_offs.left_s(member.person.id)
+        if wait_s := math.ceil(max(elsewhere_s, member.allowance.held_off_s(now_s))):
             raise Close(
                 Close.ABUSE, f"A page of yours has sent too much. Close the others, and try again in {wait_s} s."
             )
@@ -112,7 +115,12 @@ class Hub:
 
     def inbox(self, room: Room, member: Member) -> Inbox:
         """Return what a connection's messages are given to."""
-        return Inbox(room, member, self._shared.compilers.cut, self._turns)
+
+        def note_close(close: Close) -> None:
+            if points := member.allowance.note_close(close.code, time.monotonic()):
+                self._start(self._hold_offs.note, member.person.id, points)
+
+        return Inbox(room, member, self._shared.compilers.cut, self._turns, note_close)
 
     def leave_later(self, leave: Callable[[], None], inbox: Inbox) -> None:
         """Let a connection go that has been cut off, once what it sent before has been acted on."""
@@ -167,6 +175,7 @@ class Hub:
         await asyncio.gather(*(each.stop() for each in opened), *self._ending.values(), return_exceptions=True)
         await self._shared.compilers.close()
         await self.stream.close()
+        await self._hold_offs.close()
 
     def _start(self, act: Callable[..., Coroutine[Any, Any, None]], *args: Any) -> asyncio.Task[None]:
         task: asyncio.Task[None] = self.loop.create_task(act(*args))
@@ -222,7 +231,7 @@ def hub_of_this_loop() -> Hub:
     loop = asyncio.get_running_loop()
     if loop not in _hubs:
         flush_before_reading(flush_program)
-        _hubs[loop] = Hub(make_stream(settings.VIPO_STREAM_URL))
+        _hubs[loop] = Hub(make_stream(settings.VIPO_STREAM_URL), make_hold_offs(settings.VIPO_STREAM_URL))
     return _hubs[loop]
 
 

@@ -31,12 +31,15 @@ Cut = Callable[[Cutting], Awaitable[CutUpdate]]
 class Inbox:
     """The messages of one connection. `turns` is one lock for all of a process."""
 
-    def __init__(self, room: Room, member: Member, cut: Cut, turns: asyncio.Lock) -> None:
-        """`cut` cuts an update in another process; it raises BadFrame, CutFailed."""
+    def __init__(
+        self, room: Room, member: Member, cut: Cut, turns: asyncio.Lock, note_close: Callable[[Close], None]
+    ) -> None:
+        """`cut` cuts an update in another process; it raises BadFrame, CutFailed. `note_close` is told of each end."""
         self._room = room
         self._member = member
         self._cut = cut
         self._turns = turns
+        self._note_close = note_close
         self._waiting: deque[bytes] = deque()
         self._working: asyncio.Task[None] | None = None
 
@@ -63,8 +66,7 @@ class Inbox:
         return self._working is not None
 
     def _end(self, close: Close) -> None:
-        if close.code == Close.ABUSE:
-            self._member.allowance.note_abuse(time.monotonic())
+        self._note_close(close)
         self._member.close(close)
 
     def _step(self, acting: Acting, cut: CutUpdate | None) -> tuple[Cutting | None, bool]:

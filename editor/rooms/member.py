@@ -44,6 +44,16 @@ class Close(Exception):
         self.reason = reason
 
 
+POINTS = {Close.ABUSE: 3, Close.MALFORMED: 1, Close.TOO_LARGE: 1}
+"""What a close for what somebody sent counts: once for abuse is as much as three times for another fault."""
+
+
+def held_off_for_s(points: int) -> float:
+    """Return for how long nobody is let in who was closed for so many points in a row."""
+    times = points // POINTS[Close.ABUSE]
+    return min(HELD_OFF_S * (1 << min(times - 1, 10)), MOST_HELD_OFF_S) if times else 0.0
+
+
 @dataclass(frozen=True, slots=True)
 class Person:
     """Who sits at the other end, from the session."""
@@ -108,8 +118,8 @@ class Allowance:
         """How many are open."""
         self.cutting = asyncio.Lock()
         """Held while an update of the person is cut: of each person one at a time."""
-        self._abuses = 0
-        self._abused_at = 0.0
+        self._points = 0
+        self._closed_at = 0.0
 
     def spend_parts(self, parts: int, now_s: float) -> None:
         """Count of how many parts the updates are that are read. Raises Close."""
@@ -130,20 +140,21 @@ class Allowance:
             raise Close(Close.ABUSE, "You send faster than it can be read. Close other copies of the page.")
         self._waiting_bytes += size
 
-    def note_abuse(self, now_s: float) -> None:
-        """Take in that a connection was closed for abuse."""
-        self._abuses = self._abuses + 1 if now_s - self._abused_at < FORGIVEN_AFTER_S else 1
-        self._abused_at = now_s
+    def note_close(self, code: int, now_s: float) -> int:
+        """Take in that a connection was closed for what it had sent; return of how many points that is."""
+        points = POINTS.get(code, 0)
+        if points:
+            self._points = self._points + points if now_s - self._closed_at < FORGIVEN_AFTER_S else points
+            self._closed_at = now_s
+        return points
 
     def held_off_s(self, now_s: float) -> float:
         """Return for how long no new connection is let in: the longer, the more often in a row."""
-        if not self._abuses:
-            return 0.0
-        return max(0.0, self._abused_at + min(HELD_OFF_S * (1 << min(self._abuses - 1, 10)), MOST_HELD_OFF_S) - now_s)
+        return max(0.0, self._closed_at + held_off_for_s(self._points) - now_s)
 
     def is_like_new(self, now_s: float) -> bool:
         """Tell whether there is nothing to remember of the person."""
-        is_forgiven = not self._abuses or now_s - self._abused_at >= FORGIVEN_AFTER_S
+        is_forgiven = not self._points or now_s - self._closed_at >= FORGIVEN_AFTER_S
         is_rested = self._parts.is_full(now_s) and self._work.is_full(now_s)
         return not self.connections and is_forgiven and is_rested
 

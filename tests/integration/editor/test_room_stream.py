@@ -83,3 +83,15 @@ async def test_a_redis_that_is_gone_is_said_to_be(tmp_path: Path) -> None:
         with pytest.raises(StreamLost, match="Redis does not answer"):
             await stream.read("room", BEGINNING, 0.1)
         await stream.close()
+
+
+async def test_within_a_process_a_room_keeps_no_more_bytes_than_its_bound_and_says_what_is_missing() -> None:
+    stream = MemoryStream(kept_bytes=1000)
+    await stream.append("room", "a", notes("x" * 600))
+    first = (await stream.read("room", BEGINNING, 0.1)).entries[-1].id
+    for text in ("y", "z"):
+        await stream.append("room", "a", notes(text * 600))
+    batch = await stream.read("room", first, 0.1)
+    assert (texts(batch), batch.gap) == (["z" * 600], True)
+    await stream.append("room", "a", notes("v" * 2000, "w" * 2000))
+    assert texts(await stream.read("room", batch.entries[-1].id, 0.1)) == ["v" * 2000, "w" * 2000]

@@ -25,13 +25,21 @@ def test_who_is_closed_for_abuse_again_and_again_is_held_off_longer_and_then_for
     assert allowance.held_off_s(0.0) == 0.0
     held = []
     for _ in range(7):
-        allowance.note_abuse(100.0)
+        allowance.note_close(Close.ABUSE, 100.0)
         held.append(allowance.held_off_s(100.0))
     assert held == [10, 20, 40, 80, 160, 300, 300]
     assert (allowance.held_off_s(399.0), allowance.held_off_s(400.0)) == (1.0, 0.0)
     assert (allowance.is_like_new(999.0), allowance.is_like_new(1000.0)) == (False, True)
-    allowance.note_abuse(1100.0)
+    allowance.note_close(Close.ABUSE, 1100.0)
     assert allowance.held_off_s(1100.0) == 10
+
+
+def test_who_is_closed_a_third_time_for_another_fault_is_held_off_too() -> None:
+    allowance, held = Allowance(), []
+    for code in (Close.MALFORMED, Close.TOO_LARGE, Close.COME_AGAIN, Close.SIGNED_OUT, Close.TOO_LARGE, Close.ABUSE):
+        allowance.note_close(code, 100.0)
+        held.append(allowance.held_off_s(100.0))
+    assert held == [0, 0, 0, 0, 10, 20]
 
 
 @pytest.mark.parametrize("can_write", [True, False])

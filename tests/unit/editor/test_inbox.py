@@ -33,7 +33,7 @@ def many(client: Client, count: int) -> bytes:
 
 def inbox(client: Client, turns: asyncio.Lock | None = None) -> Inbox:
     client.read()
-    return Inbox(client.room, client.member, cut_here, turns or asyncio.Lock())
+    return Inbox(client.room, client.member, cut_here, turns or asyncio.Lock(), lambda _: None)
 
 
 async def test_others_have_their_turns_between_the_pieces_of_a_large_message() -> None:
@@ -66,7 +66,7 @@ async def test_an_honest_member_is_acted_on_at_once_while_a_large_message_waits_
         return asked.cut()
 
     flooder.read()
-    entrance = Inbox(flooder.room, flooder.member, cut_later, asyncio.Lock())
+    entrance = Inbox(flooder.room, flooder.member, cut_later, asyncio.Lock(), lambda _: None)
     entrance.take(many(flooder, LARGE))
     inbox(honest).take(yjs_protocol.encode_update(honest.edit("s1", 1)))
     assert list(flooder.room.document.to_json()["steps"]) == ["s1"]
@@ -117,7 +117,7 @@ async def test_an_update_that_nobody_can_cut_ends_the_connection_and_changes_not
     async def fail(_: Cutting) -> CutUpdate:
         raise CutFailed
 
-    entrance = Inbox(client.room, client.member, fail, asyncio.Lock())
+    entrance = Inbox(client.room, client.member, fail, asyncio.Lock(), lambda _: None)
     entrance.take(many(client, LARGE))
     await entrance.finish(20)
     assert client.member.closing is not None
