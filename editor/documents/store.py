@@ -10,8 +10,8 @@ from uuid import UUID
 
 from django.db import transaction
 
-from editor.compiling.tasks import Folded, Folding
 from editor.documents.shared_document import BadUpdate, SharedDocument, clients_of, merge
+from editor.documents.tasks import Folded, Folding
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot
 

@@ -7,15 +7,16 @@ import time
 from collections.abc import Callable
 
 from editor.compiling.compilers import Compilers
-from editor.compiling.tasks import Opened, Opening
 from editor.documents.shared_document import SharedDocument
 from editor.documents.store import Stored, load_document
+from editor.documents.tasks import Opened, Opening
 from editor.errors import DocumentHole
 from editor.rooms.ledger import updates_of
 from editor.rooms.room import Room
 from editor.rooms.runner import LARGE_BYTES, OpenRoom, Shared
-from editor.rooms.stream import Entry, RoomStream
+from editor.rooms.stream import Entry
 from editor.rooms.threads import in_database
+from editor.rooms.told import read_tail
 
 HEARD_AT_ONCE, SLICES_AT_ONCE = 200, 5
 
@@ -27,7 +28,7 @@ async def open_room(program_id: str, origin: str, shared: Shared, on_end: Callab
     """
     stored = await in_database(load_document)(program_id)
     shared.compilers.prepare(program_id)
-    tail, after = await _read_tail(shared.stream, program_id, stored.stored_to)
+    tail, after = await read_tail(shared.stream, program_id, stored.stored_to)
     document, tail, is_changed = await _open_document(stored, tail, shared.compilers)
     room = Room(program_id, stored.site, origin, document)
     room.ledger.know_rows(range(1, stored.seq + 1))
@@ -40,16 +41,6 @@ async def open_room(program_id: str, origin: str, shared: Shared, on_end: Callab
     opened = OpenRoom(room, shared, after, stored, on_end)
     opened.start()
     return opened
-
-
-async def _read_tail(stream: RoomStream, program_id: str, stored_to: str) -> tuple[list[Entry], str]:
-    """Return what the stream has that may not be in the rows, and after which entry it is to be read."""
-    tail: list[Entry] = []
-    after = await stream.known(program_id, stored_to)
-    while entries := (await stream.read(program_id, after, 0.001)).entries:
-        tail += entries
-        after = entries[-1].id
-    return tail, after
 
 
 async def _open_document(

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections import deque
+from collections.abc import Callable, Generator, Iterable
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from editor.documents import yjs_encoding
 from editor.documents.knowledge import Knowledge
-from editor.documents.shared_document import EMPTY_UPDATE, ROOTS_AS_BYTES, BadUpdate, UpdateHole
+from editor.documents.shared_document import EMPTY_UPDATE, ROOTS_AS_BYTES, BadUpdate, SharedDocument, UpdateHole
 from editor.documents.slices import Cutting, CutUpdate
 from editor.documents.store import Change
 from editor.documents.yjs_updates import MOST_CLIENTS, MOST_CLIENTS_EVER, MOST_CLIENTS_OF_ALL, check_update
 from editor.rooms import yjs_protocol
-from editor.rooms.ledger import encode_change
+from editor.rooms.awareness import AwarenessBoard
+from editor.rooms.compiled_form import CompiledForm
+from editor.rooms.ledger import Ledger, encode_change
 from editor.rooms.member import KIB, MIB, Close, Member
 from editor.rooms.refusals import INTERRUPTED, TOO_LARGE, TOO_MANY_PAGES
-from editor.rooms.spreading import post_form
-
-if TYPE_CHECKING:
-    from editor.rooms.room import Room
+from editor.rooms.spreading import Spreading, post_form
+from editor.rooms.stream import Note
 
 MOST_DOCUMENT_BYTES = 8 * MIB
 MOST_STEPS = 5000
@@ -36,10 +37,29 @@ Acting = Generator[Cutting | None, CutUpdate | None, None]
 """The steps of acting on a frame; where an update is yielded, it is to be sent in pieces."""
 
 
+class Changed(Protocol):
+    """What of a room a message may change."""
+
+    document: SharedDocument
+    board: AwarenessBoard
+    ledger: Ledger
+    form: CompiledForm
+    spreading: Spreading
+    to_publish: deque[Note]
+    touched: bool
+    wake: Callable[[], None]
+
+    def spread_later(self, change: bytes, sender: Member | None = None) -> None:
+        """Take in a change that is to be sent to all but its sender."""
+
+    def tell_saved(self, members: Iterable[Member]) -> None:
+        """Tell connections how many of their frames are in the database."""
+
+
 class Receiver:
     """What receives the messages of a room's connections."""
 
-    def __init__(self, room: Room) -> None:
+    def __init__(self, room: Changed) -> None:
         """Begin with the document that the room has."""
         self._room = room
         self._bytes = len(room.document.encode())

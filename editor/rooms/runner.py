@@ -14,7 +14,6 @@ from django.db import DatabaseError
 from django.utils import timezone
 
 from editor.compiling.compilers import Compilers
-from editor.compiling.tasks import Comparing, Differences, Folded, Folding
 from editor.documents.shared_document import BadUpdate
 from editor.documents.store import (
     COMPACT_AFTER_ROWS,
@@ -26,6 +25,7 @@ from editor.documents.store import (
     last_row,
     load_document,
 )
+from editor.documents.tasks import Comparing, Differences, Folded, Folding
 from editor.documents.yjs_encoding import BadFrame
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.rooms.checks import Checks

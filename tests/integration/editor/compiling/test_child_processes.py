@@ -19,9 +19,9 @@ from pycrdt import Doc, Map
 
 from editor.compiling.compilers import CheckFailed, Compilers, Limits
 from editor.compiling.feeding import Wanted
-from editor.compiling.tasks import Opening
 from editor.compiling.workbench import Found
 from editor.documents.shared_document import SharedDocument, empty_document
+from editor.documents.tasks import Opening
 from editor.language import compile_document, compiled_to_json
 from editor.language.site.surroundings import Surroundings
 from tests.kit.files import ROOT

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Iterator
 
 import pytest
 
 from tests.integration.editor.node_clients import NodeClients, node_clients
 from tests.integration.editor.web_pairs import Pair, running_pair
+from tests.kit.files import ROOT
+from tests.kit.served import served_without_broker
 from tests.kit.servers import Postgres, Redis, run_postgres
+from tests.kit.web import environment
 
 PEOPLE = ("ada", "bob")
 
@@ -21,7 +26,12 @@ def postgres(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Postgres]:
 
 @pytest.fixture(scope="module")
 def pair(tmp_path_factory: pytest.TempPathFactory, postgres: Postgres, shared_redis: Redis) -> Iterator[Pair]:
-    with running_pair(tmp_path_factory.mktemp("pair"), postgres.url, shared_redis) as running:
+    folder = tmp_path_factory.mktemp("pair")
+    told = served_without_broker(folder, postgres.url, shared_redis.url)
+    extra = {name: value for name, value in told.items() if name.startswith("VIPO_")}
+    migrate = [sys.executable, "manage.py", "migrate", "--verbosity", "0"]
+    subprocess.run(migrate, check=True, cwd=ROOT, env=environment(folder, extra))
+    with running_pair(folder, postgres.url, shared_redis) as running:
         yield running
 
 
