@@ -44,8 +44,8 @@ class Close(Exception):
         self.reason = reason
 
 
-POINTS = {Close.ABUSE: 3, Close.MALFORMED: 1, Close.TOO_LARGE: 1}
-"""What a close for what somebody sent counts: once for abuse is as much as three times for another fault."""
+POINTS = {Close.ABUSE: 300, Close.MALFORMED: 1, Close.TOO_LARGE: 1}
+"""What a close for what somebody sent counts: for abuse as much as for coming back 300 times with another fault."""
 
 
 def held_off_for_s(points: int) -> float:
