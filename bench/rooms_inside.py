@@ -135,7 +135,7 @@ async def _edit(hub: Any, room: Any, members: list[Any], shared: Any) -> Json:
             frame = yjs_protocol.encode_update(shared.encode(before))
             making_s += time.process_time() - began
             member = members[number % EDITORS]
-            room.receive(member, frame, time.monotonic())
+            room.receiver.receive(member, frame, time.monotonic())
             for each in members:
                 frames += len(each.outbox)
                 each.outbox.clear()

@@ -1,7 +1,7 @@
 """What the other apps may ask of the editor; everything else in this app is its own affair."""
 
 from editor.documents.mending import Mending, mend_program, restore_rows, show_mending
-from editor.documents.store import get_document
+from editor.documents.store import Change, get_document
 from editor.errors import BadRequest, EditorError, NoSuchProgram
 from editor.programs.checking import build_surroundings
 from editor.programs.library import get_function, save_function, search_library
@@ -27,6 +27,7 @@ from editor.programs.views import AuthorView, LibraryView, ProgramView, VersionV
 __all__ = [
     "AuthorView",
     "BadRequest",
+    "Change",
     "DrawnScript",
     "EditorError",
     "ExpressionView",

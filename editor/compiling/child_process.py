@@ -17,7 +17,7 @@ import traceback
 from typing import Any, BinaryIO
 
 from editor.compiling.frames import BEAT, HEAD, decode_body, encode_frame
-from editor.compiling.workbench import Fault, Job, Opening, Workbench, open_document
+from editor.compiling.workbench import DocumentTask, Fault, Job, Workbench
 from registry.floorplan.plan import FloorPlan
 
 __all__ = ["FloorPlan"]  # read here, and not with the first job that brings one: it takes half a second
@@ -32,7 +32,7 @@ class Child:
     def __init__(self, reads: BinaryIO, writes: BinaryIO) -> None:
         """Begin to listen: who ends with the parent must hear of that while it checks."""
         self._reads, self._writes = reads, writes
-        self._jobs: queue.SimpleQueue[Job | Opening] = queue.SimpleQueue()
+        self._jobs: queue.SimpleQueue[Job | DocumentTask[Any]] = queue.SimpleQueue()
         self._writing = threading.Lock()
         self._busy = threading.Event()
         for act in (self._read, self._beat):
@@ -70,9 +70,9 @@ class Child:
                 os._exit(0)
 
 
-def _answer(bench: Workbench, job: Job | Opening) -> Any:
+def _answer(bench: Workbench, job: Job | DocumentTask[Any]) -> Any:
     try:
-        return open_document(job) if isinstance(job, Opening) else bench.check(job)
+        return bench.check(job) if isinstance(job, Job) else job.done()
     except Exception:  # noqa: BLE001 - the edge of the process: one program's fault must not end the others' checks
         return Fault(traceback.format_exc(limit=20))
 

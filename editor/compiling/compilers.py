@@ -11,12 +11,17 @@ import logging
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 from editor.compiling.feeding import Wanted
 from editor.compiling.lane import GaveWay, Lane, Lost, NotStarted, TookTooLong
-from editor.compiling.workbench import Found, Opened, Opening
+from editor.compiling.workbench import DocumentTask, Found
+from editor.documents.slices import Cutting, CutUpdate
+from editor.documents.tasks import CuttingTask, Refusal
+from editor.documents.yjs_encoding import BadFrame
 
 log = logging.getLogger(__name__)
+Said = TypeVar("Said")
 MOST_LANES = 4
 LIMIT_S = 20.0
 """So long a check may take; the first one of 5,000 steps takes about half a second."""
@@ -32,6 +37,10 @@ class CheckFailed(Exception):
     def __init__(self, code: str) -> None:
         super().__init__(code)
         self.code = code
+
+
+class CutFailed(Exception):
+    """An update could not be cut: the process ended over it, or it took too long."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +60,12 @@ class Compilers:
         self._limits = limits or Limits()
         self._lanes = [Lane(f"{number}") for number in range(self._limits.lanes)]
         self._slow = Lane("slow")
+        self._cutting = Lane("cutting")
         self._lane_of: dict[str, Lane] = {}
+
+    @property
+    def _all(self) -> tuple[Lane, ...]:
+        return (*self._lanes, self._slow, self._cutting)
 
     def prepare(self, program: str) -> None:
         """Start the process of a program that will be checked soon."""
@@ -84,20 +98,44 @@ class Compilers:
         self._lane_of[wanted.program] = self._slow
         raise CheckFailed("check_broke_off")
 
-    async def open(self, opening: Opening) -> Opened | None:
-        """Put a document together in a process that has nothing else to do; None where there is none, or it fails."""
-        lane = next((lane for lane in self._lanes if lane.pid is not None and not lane.is_busy), None)
-        if lane is None or not await lane.enter(self._limits.patience_s):
+    async def do(self, task: DocumentTask[Said]) -> Said | None:
+        """Have work on a document done in a process that has nothing else to do; None where that fails."""
+        free = [lane for lane in self._lanes if not lane.is_busy]
+        lane = next((lane for lane in free if lane.pid is not None), free[0] if free else self._slow)
+        if not await lane.enter(self._limits.patience_s):
             return None
-        opened = asyncio.create_task(self._open(lane, opening))
-        return await asyncio.shield(opened)
-
-    async def _open(self, lane: Lane, opening: Opening) -> Opened | None:
+        doing = asyncio.create_task(self._do(lane, task))
+        doing.add_done_callback(lambda task: task.cancelled() or task.exception())
         try:
-            return await lane.open(opening, self._limits.check_s)
+            said: Said = await asyncio.shield(doing)
         except (NotStarted, Lost, TookTooLong, GaveWay) as error:
-            log.warning("A document was not put together: %s", error)
+            log.warning("What is done with documents in a child process failed: %s", error)
             return None
+        return said
+
+    async def cut(self, cutting: Cutting) -> CutUpdate:
+        """Check and cut an update that somebody sent, in a process for that alone. Raises BadFrame, CutFailed."""
+        lane = self._cutting
+        for _ in range(_TRIALS):
+            await lane.enter(None)
+            try:
+                said = await asyncio.shield(asyncio.create_task(self._do(lane, CuttingTask(cutting))))
+            except NotStarted as error:
+                log.warning("The process that reads what is sent is started anew: %s", error)
+                continue
+            except (Lost, TookTooLong) as error:
+                log.warning("An update of %s bytes could not be cut: %s", len(cutting.update), error)
+                raise CutFailed from error
+            if isinstance(said, Refusal):
+                raise BadFrame(said.reason)
+            found: CutUpdate = said
+            return found
+        return await asyncio.to_thread(cutting.cut)
+
+    async def _do(self, lane: Lane, task: DocumentTask[Any]) -> Any:
+        """Have a task done by a process whose turn it is, and give the turn back."""
+        try:
+            return await lane.do(task, self._limits.check_s)
         finally:
             lane.leave()
 
@@ -145,8 +183,8 @@ class Compilers:
     @property
     def pids(self) -> list[int]:
         """The processes that run now."""
-        return [lane.pid for lane in (*self._lanes, self._slow) if lane.pid is not None]
+        return [lane.pid for lane in self._all if lane.pid is not None]
 
     async def close(self) -> None:
         """End all processes."""
-        await asyncio.gather(*(lane.close() for lane in (*self._lanes, self._slow)), return_exceptions=True)
+        await asyncio.gather(*(lane.close() for lane in self._all), return_exceptions=True)

@@ -16,7 +16,7 @@ from typing import Any
 
 from editor.compiling.feeding import Feeding, Wanted
 from editor.compiling.frames import HEAD, decode_body, encode_frame
-from editor.compiling.workbench import Fault, Found, Opened, Opening
+from editor.compiling.workbench import DocumentTask, Fault, Found
 
 log = logging.getLogger(__name__)
 ROOT = Path(__file__).resolve().parents[2]
@@ -123,12 +123,10 @@ class Lane:
         self._fed.take(wanted, document, job, found)
         return found
 
-    async def open(self, opening: Opening, limit_s: float) -> Opened:
-        """Have a document put together by who has the turn; raises as `check` does."""
+    async def do(self, task: DocumentTask[Any], limit_s: float) -> Any:
+        """Have a task done by who has the turn; raises as `check` does."""
         process = await self._running()
-        frame = await asyncio.to_thread(encode_frame, opening)
-        opened: Opened = await self._have_done(process, frame, limit_s)
-        return opened
+        return await self._have_done(process, await asyncio.to_thread(encode_frame, task), limit_s)
 
     async def _have_done(self, process: Process, frame: bytes, limit_s: float) -> Any:
         self._since, is_whole = time.monotonic(), False

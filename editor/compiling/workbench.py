@@ -10,7 +10,7 @@ import pickle
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 from editor.documents.shared_document import SharedDocument
 from editor.language import compiled_to_json
@@ -21,6 +21,7 @@ from editor.programs.compiled_patch import apply_patch, make_patch
 from editor.programs.summary import Summary, summary_of
 
 Form = Mapping[str, Any]
+Said = TypeVar("Said", covariant=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,22 +57,11 @@ class Found:
     took_s: float
 
 
-@dataclass(frozen=True, slots=True)
-class Opening:
-    """A document that is to be put together from updates; of the `appended` ones none may build on what is missing."""
+class DocumentTask(Protocol[Said]):
+    """Work on a document that has to do with no check."""
 
-    updates: tuple[bytes, ...]
-    appended: tuple[bytes, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Opened:
-    """A document put together: one update, its steps' hashes, and whether it was brought to today's format."""
-
-    update: bytes
-    hashes: dict[str, int]
-    migrated: bool
-    has_hole: bool
+    def done(self) -> Said:
+        """Do it, and return what there is to say."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,14 +108,6 @@ class Workbench:
         if job.new_floor is not None:
             self._floors[job.floor] = job.new_floor
         self._floors = {number: floor for number, floor in self._floors.items() if number in job.floors}
-
-
-def open_document(opening: Opening) -> Opened:
-    """Put a document together. Raises BadUpdate."""
-    document = SharedDocument(opening.updates)
-    has_hole = document.has_hole(opening.appended)
-    migrated = document.migrate()
-    return Opened(document.encode(), document.hashes(), migrated, has_hole)
 
 
 def _found(job: Job, known: _Known, floor: FloorFacts | None) -> Found:

@@ -23,6 +23,8 @@ class Knowledge:
     deletions: Mapping[int, Ranges]
     begins: Mapping[int, int] = field(default_factory=dict)
     """Of an update: the clock from which on it has all of each client up to `clocks`."""
+    needs: Mapping[int, int] = field(default_factory=dict)
+    """Of an update: on whose changes beyond `clocks` it builds, and the clock until which these must be known."""
 
     def covers(self, other: Knowledge) -> bool:
         """Tell whether everything that the other knows is known here, too."""

@@ -9,8 +9,8 @@ import base64
 import gzip
 import json
 import os
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -20,8 +20,8 @@ from django.contrib.auth import get_user_model
 from django.db import transaction
 from django.utils import timezone
 
-from editor.documents.shared_document import BadUpdate, SharedDocument
-from editor.documents.store import authors_of
+from editor.documents.shared_document import BadUpdate, SharedDocument, clients_of, read_update
+from editor.documents.store import Change, authors_of
 from editor.errors import BadRequest, NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot
 
@@ -41,7 +41,10 @@ class StoredRow:
 
 @dataclass(frozen=True, slots=True)
 class Mending:
-    """What of a program fits together, and which rows do not; `file` holds all rows where they were replaced."""
+    """What of a program fits together, and which rows do not; `file` holds all rows where they were replaced.
+
+    Of `told` changes that are in no row, `told_fitting` ones fit.
+    """
 
     program: UUID
     name: str
@@ -49,6 +52,8 @@ class Mending:
     functions: int
     rows: int
     left_out: tuple[StoredRow, ...]
+    told: int = 0
+    told_fitting: int = 0
     file: Path | None = None
 
 
@@ -58,24 +63,28 @@ class _Read:
     data: bytes
 
 
-def show_mending(*, program_id: UUID | str) -> Mending:
-    """Return what of a program's rows fits together; nothing is changed. Raises NoSuchProgram."""
+def show_mending(*, program_id: UUID | str, told: Sequence[Change] = ()) -> Mending:
+    """Return what of a program's rows fits together, with changes that were told and may be in no row yet.
+
+    Nothing is changed. Raises NoSuchProgram.
+    """
     with transaction.atomic():
-        return _mending(_locked(program_id))[0]
+        return _mending(_locked(program_id), told)[0]
 
 
-def mend_program(*, program_id: UUID | str, folder: Path) -> Mending:
+def mend_program(*, program_id: UUID | str, folder: Path, told: Sequence[Change] = ()) -> Mending:
     """Save all rows into a new file of the folder, then keep what fits together as the program.
 
-    Nothing is done to a program of which all fits. Raises NoSuchProgram, and OSError if the file cannot be written.
+    `told` are changes that may be in no row. Nothing is done to a program of which all fits.
+    Raises NoSuchProgram, and OSError if the file cannot be written.
     """
     with transaction.atomic():
         program = _locked(program_id)
-        mending, document = _mending(program)
+        mending, document = _mending(program, told)
         if not mending.left_out:
             return mending
         file = _save(program, folder)
-        authors = authors_of(program)
+        authors = authors_of(program) | _authors_of(told)
         program.updates.all().delete()
         program.snapshots.all().delete()
         program.last_seq += 1
@@ -113,9 +122,7 @@ def _note_change(program: Program) -> None:
 
 
 def _with_file(mending: Mending, file: Path) -> Mending:
-    return Mending(
-        mending.program, mending.name, mending.steps, mending.functions, mending.rows, mending.left_out, file
-    )
+    return replace(mending, file=file)
 
 
 def _locked(program_id: UUID | str) -> Program:
@@ -128,12 +135,30 @@ def _locked(program_id: UUID | str) -> Program:
     return program
 
 
-def _mending(program: Program) -> tuple[Mending, SharedDocument]:
+def _mending(program: Program, told: Sequence[Change] = ()) -> tuple[Mending, SharedDocument]:
     rows = list(_rows(program))
     document, left = _fitting(rows)
+    known = document.knowledge()
+    new = [change for change in told if not known.covers(read_update(change.update))]
+    numbers = {row.row.seq for row in left}
+    entries = [_Read(StoredRow(-number, False, "", program.edited_at, len(change.update)), change.update)
+               for number, change in enumerate(new, 1)]  # fmt: skip
+    if new:
+        document, left = _fitting([*left, *entries], document)
+    fitting = len(new) - sum(each.row.seq not in numbers for each in left)
     plain = document.to_json()
-    out = tuple(each.row for each in left)
-    return Mending(program.pk, program.name, len(plain["steps"]), len(plain["functions"]), len(rows), out), document
+    out = tuple(each.row for each in left if each.row.seq in numbers)
+    counts = len(plain["steps"]), len(plain["functions"]), len(rows)
+    return Mending(program.pk, program.name, *counts, out, len(new), fitting), document
+
+
+def _authors_of(told: Sequence[Change]) -> dict[str, int]:
+    return {
+        str(client): change.author
+        for change in told
+        if change.author is not None
+        for client in clients_of(change.update)
+    }
 
 
 def _rows(program: Program) -> Iterator[_Read]:
@@ -145,9 +170,9 @@ def _rows(program: Program) -> Iterator[_Read]:
         yield _Read(StoredRow(row.seq, False, author.email if author else "", row.at, len(data)), data)
 
 
-def _fitting(rows: Iterable[_Read]) -> tuple[SharedDocument, list[_Read]]:
-    """Return the document of all rows that fit, whatever their order, and those that do not."""
-    document, left, found = SharedDocument(), list(rows), True
+def _fitting(rows: Iterable[_Read], begin: SharedDocument | None = None) -> tuple[SharedDocument, list[_Read]]:
+    """Return the document, begun with that, of all rows that fit, whatever their order, and those that do not."""
+    document, left, found = begin or SharedDocument(), list(rows), True
     while found:
         tried, left, found = left, [], False
         for each in tried:

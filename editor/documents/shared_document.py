@@ -7,30 +7,36 @@ is merged into one update first, which is right; and an update that fails half-w
 from __future__ import annotations
 
 import hashlib
-import json
-import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import Any
 
 from pycrdt import Array, Doc, Map, Text, TransactionEvent, merge_updates
 
 from editor.documents.knowledge import Knowledge, read_deletions
-from editor.documents.yjs_encoding import BadFrame, Reader, decode_state_vector, is_within
-from editor.documents.yjs_updates import MOST_CLIENTS_OF_ALL, check_update
+from editor.documents.plain_form import digest_of as digest_of
+from editor.documents.plain_form import plain
+from editor.documents.slices import Slice
+from editor.documents.yjs_encoding import Reader, decode_state_vector, is_within
+from editor.documents.yjs_updates import ROOTS as ROOTS
+from editor.documents.yjs_updates import ROOTS_AS_BYTES as ROOTS_AS_BYTES
+from editor.documents.yjs_updates import clients_of as clients_of
+from editor.documents.yjs_updates import read_update as read_update
 from editor.language.document.format_migrations import FIRST_FORMAT, FORMAT, format_of, migrate
 from editor.language.reading.well_formed import well_formed
-from vipo_device.protocol.texts import cleaned, cleaned_json, find_unfit, normal
+from vipo_device.protocol.texts import cleaned_json, find_unfit
 
-ROOTS = ("meta", "steps", "functions", "roles", "parameters", "zones")
 _CONTENT = ROOTS[1:]
 EMPTY_UPDATE = b"\x00\x00"
 DEEPEST = 32
 """How deep shared parts may stand in each other: each way to read them goes down by calling itself."""
-_LOG_LIMIT_BYTES = 1024 * 1024
+_LOG_LIMIT_BYTES = 4 * 1024 * 1024
 _LOG_LIMIT_ENTRIES = 2000
 _SHARED = (Array, Map, Text)
 _MERGED_AT_ONCE, _HASH_DIGITS = 50, 48
-_SAFE_INTEGER = 2**53
+
+Entry = tuple[str, str]
+"""The name of a root, and of what stands in it."""
 
 
 class BadUpdate(ValueError):
@@ -56,10 +62,10 @@ class SharedDocument:
         self._count: int | None = None
         self._clocks: dict[int, int] | None = None
         """Of each client, or None while they are to be read again: who drew here in years may be thousands."""
-        self._hashes: dict[str, int] = {}
+        self._hashes: dict[Entry, int] = {}
         self._sum = 0
-        """The sum of the steps' hashes."""
-        self._unhashed: set[str] = set()
+        """The sum of the entries' hashes."""
+        self._unhashed: set[Entry] = set()
         self._deepest = 0
         self._document = self._restored()
 
@@ -68,12 +74,7 @@ class SharedDocument:
 
         Returns what it changed. Raises UpdateHole, which leaves the document as it was, and BadUpdate.
         """
-        clocks = self.clocks()
-        if not is_within(said.begins.items(), clocks):
-            raise UpdateHole("It begins after what is known of its client.")
-        known = {client: max(clocks.get(client, 0), said.clocks.get(client, 0)) for client in said.deletions}
-        if not is_within(Knowledge({}, said.deletions).ends().items(), known):
-            raise UpdateHole("It deletes what is not known.")
+        self.check_whole(said)
         changes = self._apply(update)
         if changes != [update]:
             self._clocks = None
@@ -82,6 +83,26 @@ class SharedDocument:
                 raise UpdateHole("It builds on what is not known.")
         self._note(changes)
         self._count_on(said, changes, update)
+        return changes
+
+    def check_whole(self, said: Knowledge) -> None:
+        """Raise UpdateHole where something is missing on which an update builds; `said` is how far it goes."""
+        clocks = self.clocks()
+        if not (is_within(said.begins.items(), clocks) and is_within(said.needs.items(), clocks)):
+            raise UpdateHole("It builds on what is not known.")
+        known = {client: max(clocks.get(client, 0), said.clocks.get(client, 0)) for client in said.deletions}
+        if not is_within(Knowledge({}, said.deletions).ends().items(), known):
+            raise UpdateHole("It deletes what is not known.")
+
+    def apply_slice(self, piece: Slice) -> list[bytes]:
+        """Apply a piece of an update that was found whole, after those before it; returns what it changed.
+
+        Raises BadUpdate.
+        """
+        changes = self._apply(piece.update)
+        self._note(changes)
+        if self._clocks is not None:
+            self._clocks |= {client: max(end, self._clocks.get(client, 0)) for client, end in piece.clocks.items()}
         return changes
 
     def apply(self, update: bytes) -> list[bytes]:
@@ -122,7 +143,12 @@ class SharedDocument:
         self._log.extend(changes)
         self._log_bytes += sum(map(len, changes))
         if self._log_bytes > _LOG_LIMIT_BYTES or len(self._log) > _LOG_LIMIT_ENTRIES:
-            self._base, self._log, self._log_bytes = self.encode(), [], 0
+            self.measure()
+
+    def measure(self) -> int:
+        """Return how many bytes all of the document is as one update."""
+        self._base, self._log, self._log_bytes = self.encode(), [], 0
+        return len(self._base)
 
     def _restored(self) -> Doc[Any]:
         try:
@@ -132,9 +158,10 @@ class SharedDocument:
         document.observe(self._on_change)
         steps = document.get("steps", type=Map)
         self._steps, self._changed, self._count, self._clocks = {}, set(steps.keys()), None, None
-        self._hashes, self._sum, self._unhashed = {}, 0, set(steps.keys())
-        others = [document.get(name, type=Map) for name in _CONTENT if name != "steps"]
-        watched = [(root, root.observe_deep(self._note_depth)) for root in others]
+        others = {name: document.get(name, type=Map) for name in ROOTS if name != "steps"}
+        watched = [(root, root.observe_deep(partial(self._on_others, name))) for name, root in others.items()]
+        self._hashes, self._sum = {}, 0
+        self._unhashed = {(name, key) for name, root in {"steps": steps, **others}.items() for key in root}
         self._watching = steps, steps.observe_deep(self._on_steps), watched  # it ends with the last reference to it
         return document
 
@@ -144,12 +171,17 @@ class SharedDocument:
     def _note_depth(self, events: list[Any]) -> None:
         self._deepest = max(self._deepest, *(len(event.path) for event in events))
 
+    def _on_others(self, root: str, events: list[Any]) -> None:
+        self._note_depth(events)
+        for event in events:
+            self._unhashed.update((root, str(key)) for key in event.path[:1] or event.keys)
+
     def _on_steps(self, events: list[Any]) -> None:
         self._note_depth(events)
         for event in events:
             names = event.path[:1] or event.keys
             self._changed.update(names)
-            self._unhashed.update(names)
+            self._unhashed.update(("steps", str(name)) for name in names)
             if not event.path:
                 self._count = None
 
@@ -207,7 +239,7 @@ class SharedDocument:
         return dict(self._steps)
 
     def _plain_others(self) -> dict[str, Any]:
-        return {name: _plain(self._document.get(name, type=Map).to_py() or {}) for name in ROOTS if name != "steps"}
+        return {name: plain(self._document.get(name, type=Map).to_py() or {}) for name in ROOTS if name != "steps"}
 
     def migrate(self) -> bool:
         """Bring the content to today's format, by the same update whoever does it; tell whether there was a need.
@@ -249,25 +281,31 @@ class SharedDocument:
     def digest(self) -> str:
         """Return a hash of the content: two documents that hold the same have the same.
 
-        Only steps that have changed since the last call are gone through.
+        Only entries of the roots that have changed since the last call are gone through.
         """
-        shared = self._document.get("steps", type=Map)
-        for name in self._unhashed:
-            is_there = name in shared and not find_unfit(name)
-            new = _hash_of(name, _plain_step(shared[name])) if is_there else 0
-            self._sum += new - self._hashes.pop(name, 0)
-            if new:
-                self._hashes[name] = new
-        self._unhashed.clear()
-        return digest_of({**self._plain_others(), "steps": f"{self._sum:x}"})
+        self.hash_some(len(self._unhashed))
+        return digest_of({"entries": f"{self._sum:x}"})
 
-    def hashes(self) -> dict[str, int]:
-        """Return the hashes of the steps, which `know_hashes` of a document of the same content takes."""
+    def hash_some(self, most: int) -> bool:
+        """Work out so many entries' hashes, so that `digest` has less to do; tell whether some are left."""
+        roots = {name: self._document.get(name, type=Map) for name in ROOTS}
+        for _ in range(min(most, len(self._unhashed))):
+            root, name = entry = self._unhashed.pop()
+            is_there = name in roots[root] and not find_unfit(name)
+            new = _hash_of(entry, _plain_step(roots[root][name])) if is_there else 0
+            self._sum += new - self._hashes.pop(entry, 0)
+            if new:
+                self._hashes[entry] = new
+        return bool(self._unhashed)
+
+    def hashes(self) -> dict[Entry, int]:
+        """Return the hashes of the entries, which `know_hashes` of a document of the same content takes."""
         self.digest()
         return self._hashes
 
-    def know_hashes(self, hashes: dict[str, int]) -> None:
-        """Take over the hashes of the steps, so that they are not worked out again."""
+    def know(self, update: bytes, hashes: dict[Entry, int]) -> None:
+        """Take over what is known of this very content: all of it as one update, and the hashes of its entries."""
+        self._base, self._log, self._log_bytes = update, [], 0
         self._hashes, self._sum = hashes, sum(hashes.values())
         self._unhashed.clear()
 
@@ -281,11 +319,12 @@ def _document_with(update: bytes, client_id: int | None = None) -> Doc[Any]:
 
 
 def _plain_step(value: Any) -> Any:
-    return _plain(value.to_py() if isinstance(value, _SHARED) else value)
+    return plain(value.to_py() if isinstance(value, _SHARED) else value)
 
 
-def _hash_of(name: str, step: Any) -> int:
-    return int(digest_of({name: step})[:_HASH_DIGITS], 16)
+def _hash_of(entry: Entry, value: Any) -> int:
+    root, name = entry
+    return int(digest_of({root: {name: value}})[:_HASH_DIGITS], 16)
 
 
 def _client_id(digest: str, state: bytes) -> int:
@@ -309,21 +348,8 @@ def _set_all(shared: Any, wanted: Mapping[str, Any]) -> None:
     for name in sorted({*shared.keys(), *wanted}):
         if name not in wanted:
             del shared[name]
-        elif name not in shared.keys() or _plain(shared[name]) != wanted[name]:  # noqa: SIM118 - a Yjs map, no dict
+        elif name not in shared.keys() or plain(shared[name]) != wanted[name]:  # noqa: SIM118 - a Yjs map, no dict
             shared[name] = wanted[name]
-
-
-def clients_of(update: bytes) -> Collection[int]:
-    """Return the Yjs clients whose changes an update brings."""
-    return read_update(update).clocks.keys()
-
-
-def read_update(update: bytes) -> Knowledge:
-    """Return how far a checked update goes; nothing of one that was written when other bounds held."""
-    try:
-        return check_update(update, {root.encode() for root in ROOTS}, MOST_CLIENTS_OF_ALL)
-    except BadFrame:
-        return Knowledge({}, {})
 
 
 def merge(updates: Iterable[bytes]) -> bytes:
@@ -341,12 +367,6 @@ def merge(updates: Iterable[bytes]) -> bytes:
 
 def _merged(updates: list[bytes]) -> bytes:
     return merge_updates(*updates) if len(updates) > 1 else updates[0]
-
-
-def digest_of(document: Mapping[str, Any]) -> str:
-    """Return a hash of a plain document's content."""
-    text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def empty_document() -> dict[str, Any]:
@@ -375,24 +395,3 @@ def encode_document(plain: Mapping[str, Any]) -> bytes:
             for key, value in plain[name].items():
                 roots[name][key] = value
     return document.get_update()
-
-
-def _plain(value: Any) -> Any:
-    """Return JSON with whole numbers as integers, as they were typed: Yjs knows only one kind of number."""
-    if isinstance(value, str):
-        return cleaned(value)
-    if isinstance(value, dict):
-        return {normal(key): _plain(item) for key, item in value.items() if not find_unfit(key)}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, float):
-        return _number(value)
-    if value is None or isinstance(value, bool | int):
-        return value
-    return None  # bytes and the like are not JSON: a value that is still to be entered
-
-
-def _number(value: float) -> float | int | None:
-    if not math.isfinite(value):
-        return None
-    return int(value) if value.is_integer() and abs(value) < _SAFE_INTEGER else value

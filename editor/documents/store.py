@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from itertools import groupby
 from typing import Any
 from uuid import UUID
 
 from django.db import transaction
 
 from editor.documents.shared_document import BadUpdate, SharedDocument, clients_of, merge
+from editor.documents.tasks import Folded, Folding
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import DocumentUpdate, Program, Snapshot
 
 COMPACT_AFTER_ROWS = 500
+MOST_ROW_BYTES = 128 * 1024
+"""Of changes that are gathered; one that is larger is a row by itself."""
 _MISSING = "A part of this program is missing in the database."
 _UNREADABLE = "A part of this program in the database cannot be read."
 _MENDED = "`vipo mend-program` shows what is left."
@@ -126,29 +128,36 @@ def last_row(program_id: str) -> int:
 
 
 def _gathered(changes: Sequence[Change]) -> list[Change]:
-    return [
-        Change(author, merge(change.update for change in each))
-        for author, each in groupby(changes, key=lambda change: change.author)
-    ]
+    """Return changes of one author that follow each other as one, up to a size: merging holds all threads up."""
+    gathered: list[list[Change]] = []
+    size = 0
+    for change in changes:
+        size += len(change.update)
+        if not gathered or gathered[-1][0].author != change.author or size > MOST_ROW_BYTES:
+            gathered.append([])
+            size = len(change.update)
+        gathered[-1].append(change)
+    return [Change(each[0].author, merge(change.update for change in each)) for each in gathered]
 
 
-def compact_document(program_id: str) -> None:
-    """Fold the rows into a snapshot; the rows go only when the snapshot was read back and holds the same.
+def compact_document(program_id: str, fold: Callable[[Folding], Folded] = Folding.done) -> None:
+    """Fold the rows into a snapshot; the rows go only when the snapshot holds the same and was read back.
 
-    Raises SnapshotDiffers, DocumentHole.
+    `fold` does the work, in another process. Raises SnapshotDiffers, DocumentHole, and what `fold` does.
     """
     with transaction.atomic():
         program = Program.objects.select_for_update().filter(pk=program_id).first()
         if program is None:
             return
         stored = load_document(program_id)
-        document = stored.open()
+        folded = fold(Folding(stored.updates, stored.appended))
+        if folded.has_hole:
+            raise DocumentHole(f"{_MISSING} {_MENDED}")
         written, _ = Snapshot.objects.update_or_create(
-            program=program, seq=stored.seq, defaults={"data": document.encode(), "authors": authors_of(program)}
+            program=program, seq=stored.seq, defaults={"data": folded.update, "authors": authors_of(program)}
         )
         written.refresh_from_db()
-        copy = SharedDocument([bytes(written.data)])
-        if copy.digest() != document.digest() or copy.knowledge() != document.knowledge():
+        if not folded.is_same or bytes(written.data) != folded.update:
             raise SnapshotDiffers(f"The snapshot of program {program_id} differs from its updates; they are kept.")
         program.updates.filter(seq__lte=stored.seq).delete()
         program.snapshots.filter(seq__lt=stored.seq).delete()

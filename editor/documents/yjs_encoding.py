@@ -99,10 +99,12 @@ class Reader:
             raise BadFrame("Something follows the end of the message.")
 
 
-def decode_state_vector(data: bytes) -> dict[int, int]:
-    """Decode a state vector: {client: clock}. Raises BadFrame."""
+def decode_state_vector(data: bytes, most_clients: int | None = None) -> dict[int, int]:
+    """Decode a state vector: {client: clock}. Raises BadFrame, FrameTooLarge for one of more clients."""
     reader = Reader(data)
     count = reader.integer()
+    if most_clients is not None and count > most_clients:
+        raise FrameTooLarge(f"The state vector has {count} clients; {most_clients} are taken.")
     if count > len(data):
         raise BadFrame("The state vector is shorter than it says.")
     clocks = {}

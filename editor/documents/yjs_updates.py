@@ -8,20 +8,28 @@ of Yjs' encoding once from its beginning to its end, keeps nothing, and refuses 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
 
 from editor.documents.knowledge import Knowledge, Ranges, joined_ranges
 from editor.documents.yjs_encoding import BadFrame, Reader
 
+ROOTS = ("meta", "steps", "functions", "roles", "parameters", "zones")
+"""The parts that a program has."""
+ROOTS_AS_BYTES = frozenset(root.encode() for root in ROOTS)
 MOST_CLIENTS, MOST_CLIENTS_OF_ALL = 200, 5_000
 """Whose changes one edit may bring, and whose all that somebody has; their deletions may be of everybody's."""
+MOST_CLIENTS_EVER = 20_000
+"""Who have ever changed a document: each page that was opened and drawn in is one."""
 MOST_PARTS = 500_000
 """Changes, values and deletions in one update: read in about two seconds. A full program of 5,000 steps has 200,000."""
+MOST_VALUES = 20_000
+"""In one change, which is applied in one go."""
 MOST_CLOCK = 2**31 - 1
 DEEPEST = 100
 """How deep a value may be nested, as in every JSON body."""
 MOST_NESTED = 16
 """How deep shared maps, arrays and texts may stand in each other; a program's stand in four."""
-KIND, _SKIPPED, _GONE = 0x1F, 10, 0
+KIND, SKIPPED, _GONE = 0x1F, 10, 0
 _HAS_ORIGIN, _HAS_RIGHT_ORIGIN, _HAS_KEY = 0x80, 0x40, 0x20
 _SHARED_TYPES = frozenset({0, 1, 2})
 """Array, map and text."""
@@ -32,10 +40,33 @@ Place = tuple[int, int]
 """A change by its client and clock."""
 
 
+@dataclass(frozen=True, slots=True)
+class ReadChange:
+    """A change of a client, of its clocks from `first` until before `end`: where its bytes begin and end.
+
+    `beside` are the changes that it stands beside or in.
+    """
+
+    client: int
+    first: int
+    end: int
+    at: int
+    until: int
+    beside: tuple[Place, ...]
+    is_skipped: bool
+
+
 class UpdateReader(Reader):
     """Reads an update, and counts of how many parts it is."""
 
     parts = 0
+    beside: tuple[Place, ...] = ()
+    """What the change that was read last stands beside or in."""
+
+    @property
+    def at(self) -> int:
+        """How many bytes have been read."""
+        return self._at
 
     def count(self, most: int = MOST_PARTS) -> int:
         """Read how many of something follow."""
@@ -51,34 +82,48 @@ def check_update(
     roots: Collection[bytes],
     most_clients: int = MOST_CLIENTS,
     spend: Callable[[int], None] | None = None,
+    note: Callable[[ReadChange], None] | None = None,
 ) -> Knowledge:
     """Return how far an update goes: the clock until which it has each client's changes, and what it deletes.
 
-    `spend` is told of how many parts it is. Raises BadFrame unless it is well-formed, of these roots and within the
-    bounds, and what `spend` raises.
+    `spend` is told of how many parts it is, `note` of each change. Raises BadFrame unless it is well-formed, of these
+    roots and within the bounds, and what `spend` raises.
     """
     reader = UpdateReader(update)
     depths: dict[Place, int] = {}
     ends: dict[int, int] = {}
     begins: dict[int, int] = {}
+    needs: dict[int, int] = {}
     for _ in range(reader.count(most_clients)):
         number, client, clock = reader.count(), reader.integer(), reader.integer()
-        begins[client] = max(clock, begins.get(client, 0))
+        if client in begins:
+            raise BadFrame("It names a client twice.")
+        begins[client] = clock
         for _ in range(number):
-            is_skipped = reader.peek() & KIND == _SKIPPED
+            is_skipped, first, begin = reader.peek() & KIND == SKIPPED, clock, reader.at
             clock = _checked(clock + _read_change(reader, (client, clock), depths, roots))
             if is_skipped:
                 begins[client] = clock
-        ends[client] = max(clock, ends.get(client, 0))
+            for other, other_clock in reader.beside:
+                needs[other] = max(needs.get(other, 0), other_clock + 1)
+            if note is not None:
+                note(ReadChange(client, first, clock, begin, reader.at, reader.beside, is_skipped))
+        ends[client] = clock
+    deletions = _read_deletions(reader)
+    reader.end()
+    if spend is not None:
+        spend(reader.parts)
+    beyond = {client: end for client, end in needs.items() if end > ends.get(client, 0)}
+    return Knowledge(ends, deletions, begins, beyond)
+
+
+def _read_deletions(reader: UpdateReader) -> dict[int, Ranges]:
     deletions: dict[int, Ranges] = {}
     for _ in range(reader.count()):  # a client that comes back sends all deletions there ever were, of everybody
         client = reader.integer()
         pairs = [(reader.integer(), reader.integer()) for _ in range(reader.count())]
         deletions[client] = joined_ranges((first, _checked(first + length)) for first, length in pairs)
-    reader.end()
-    if spend is not None:
-        spend(reader.parts)
-    return Knowledge(ends, deletions, begins)
+    return deletions
 
 
 def _checked(clock: int) -> int:
@@ -91,7 +136,8 @@ def _read_change(reader: UpdateReader, place: Place, depths: dict[Place, int], r
     """Read one change and return how many clocks it takes."""
     info = reader.byte()
     kind = info & KIND
-    if kind in (_GONE, _SKIPPED):
+    if kind in (_GONE, SKIPPED):
+        reader.beside = ()
         return reader.integer()
     depth = _read_parent(reader, info, depths, roots)
     if kind not in _CONTENTS:
@@ -105,6 +151,7 @@ def _read_change(reader: UpdateReader, place: Place, depths: dict[Place, int], r
 def _read_parent(reader: UpdateReader, info: int, depths: Mapping[Place, int], roots: Collection[bytes]) -> int:
     """Read where a change stands; return how many changes of this update it stands in."""
     beside = [(reader.integer(), reader.integer()) for side in (_HAS_ORIGIN, _HAS_RIGHT_ORIGIN) if info & side]
+    reader.beside = tuple(beside)
     if beside:
         return max(depths.get(place, 0) for place in beside)
     depth = 0
@@ -112,7 +159,9 @@ def _read_parent(reader: UpdateReader, info: int, depths: Mapping[Place, int], r
         if reader.sized(MOST_CLOCK) not in roots:
             raise BadFrame("It writes to a part that no program has.")
     else:
-        depth = depths.get((reader.integer(), reader.integer()), 0) + 1
+        parent = reader.integer(), reader.integer()
+        reader.beside = (parent,)
+        depth = depths.get(parent, 0) + 1
     if info & _HAS_KEY:
         reader.sized(MOST_CLOCK)
     if depth > MOST_NESTED:
@@ -147,9 +196,11 @@ def _read_texts(reader: UpdateReader) -> int:
 
 
 def _read_values(reader: UpdateReader) -> int:
-    number = reader.count()
+    number, before = reader.count(), reader.parts
     for _ in range(number):
         _read_value(reader)
+    if number + reader.parts - before > MOST_VALUES:
+        raise BadFrame(f"One change of it has more than {MOST_VALUES} values.")
     return number
 
 
@@ -190,3 +241,16 @@ _CONTENTS: Mapping[int, Callable[[UpdateReader], int]] = {
     8: _read_values,
 }
 """What reads each kind of content, and returns how many clocks it takes; documents within documents are not taken."""
+
+
+def clients_of(update: bytes) -> Collection[int]:
+    """Return the Yjs clients whose changes an update brings."""
+    return read_update(update).clocks.keys()
+
+
+def read_update(update: bytes) -> Knowledge:
+    """Return how far a checked update goes; nothing of one that was written when other bounds held."""
+    try:
+        return check_update(update, ROOTS_AS_BYTES, MOST_CLIENTS_OF_ALL)
+    except BadFrame:
+        return Knowledge({}, {})

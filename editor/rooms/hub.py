@@ -24,10 +24,13 @@ from editor.documents.store import flush_before_reading
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.models import Program
 from editor.programs.checking import DeviceWatch
+from editor.rooms.hold_off import HoldOffs, make_hold_offs
+from editor.rooms.inbox import Inbox
 from editor.rooms.member import Allowance, Close, Member, Person
+from editor.rooms.opening import open_room
 from editor.rooms.refusals import INTERRUPTED
 from editor.rooms.room import Room
-from editor.rooms.runner import OpenRoom, Shared, open_room
+from editor.rooms.runner import OpenRoom, Shared
 from editor.rooms.stream import Note, RoomStream, StreamLost, make_stream
 from editor.rooms.threads import in_database
 from registry import services as registry
@@ -38,6 +41,7 @@ CLOSE_EMPTY_AFTER_S = 5.0
 FLUSH_LIMIT_S = 5.0
 END_LIMIT_S = 5.0
 TELL_LIMIT_S = 5.0
+FINISH_LIMIT_S = 30.0
 MOST_CONNECTIONS, MOST_OF_PERSON = 5_000, 40
 _HEARD = {"device", "device_removed", "map", "programs", "library", "hello"}
 
@@ -45,7 +49,7 @@ _HEARD = {"device", "device_removed", "map", "programs", "library", "hello"}
 class Hub:
     """The rooms of one process, which all live in one event loop."""
 
-    def __init__(self, stream: RoomStream) -> None:
+    def __init__(self, stream: RoomStream, hold_offs: HoldOffs) -> None:
         self.loop = asyncio.get_running_loop()
         self.stream = stream
         self._shared = Shared(stream, Compilers())
@@ -59,13 +63,15 @@ class Hub:
         self._allowances: dict[int, Allowance] = {}
         registry.watch_amount(name="rooms", read=lambda: len(self._open))
         registry.watch_amount(name="program_sockets", read=lambda: self._places.taken)
+        self._turns = asyncio.Lock()
+        self._hold_offs = hold_offs
         self._places = Places(in_all=MOST_CONNECTIONS, of_site=MOST_CONNECTIONS, of_person=MOST_OF_PERSON)
 
     async def enter(self, program_id: str, member: Member) -> Room:
         """Let a connection into a program's room, opening it if it is not open. Raises Close."""
         if self._is_closed:
             raise Close(Close.COME_AGAIN, INTERRUPTED)
-        self._hold_off(member)
+        await self._hold_off(member)
         if not self._places.take(Claim(member.person.id)):
             raise Close(Close.ABUSE, f"You have {MOST_OF_PERSON} programs open. Close other copies of the page.")
         member.allowance.connections += 1
@@ -76,12 +82,13 @@ class Hub:
             self._places.give_back(Claim(member.person.id))
             raise
 
-    def _hold_off(self, member: Member) -> None:
+    async def _hold_off(self, member: Member) -> None:
         """Give a connection what its person has left; keep them out for a while after abuse. Raises Close."""
         now_s = time.monotonic()
         self._allowances = {person: each for person, each in self._allowances.items() if not each.is_like_new(now_s)}
         member.allowance = self._allowances.setdefault(member.person.id, member.allowance)
-        if wait_s := math.ceil(member.allowance.held_off_s(now_s)):
+        elsewhere_s = await self._hold_offs.left_s(member.person.id)
+        if wait_s := math.ceil(max(elsewhere_s, member.allowance.held_off_s(now_s))):
             raise Close(
                 Close.ABUSE, f"A page of yours has sent too much. Close the others, and try again in {wait_s} s."
             )
@@ -107,6 +114,24 @@ class Hub:
         opened = await open_room(program_id, uuid.uuid4().hex, self._shared, self._drop)
         self._open[program_id] = opened
         return opened
+
+    def inbox(self, room: Room, member: Member) -> Inbox:
+        """Return what a connection's messages are given to."""
+
+        def note_close(close: Close) -> None:
+            if points := member.allowance.note_close(close.code, time.monotonic()):
+                self._start(self._hold_offs.note, member.person.id, points)
+
+        return Inbox(room, member, self._shared.compilers.cut, self._turns, note_close)
+
+    def leave_later(self, leave: Callable[[], None], inbox: Inbox) -> None:
+        """Let a connection go that has been cut off, once what it sent before has been acted on."""
+
+        async def finish() -> None:
+            await inbox.finish(FINISH_LIMIT_S)
+            leave()
+
+        self._start(finish)
 
     def leave(self, room: Room, member: Member) -> None:
         """Let a connection go; a room that stays empty is closed."""
@@ -152,6 +177,7 @@ class Hub:
         await asyncio.gather(*(each.stop() for each in opened), *self._ending.values(), return_exceptions=True)
         await self._shared.compilers.close()
         await self.stream.close()
+        await self._hold_offs.close()
 
     def _start(self, act: Callable[..., Coroutine[Any, Any, None]], *args: Any) -> asyncio.Task[None]:
         task: asyncio.Task[None] = self.loop.create_task(act(*args))
@@ -207,7 +233,7 @@ def hub_of_this_loop() -> Hub:
     loop = asyncio.get_running_loop()
     if loop not in _hubs:
         flush_before_reading(flush_program)
-        _hubs[loop] = Hub(make_stream(settings.VIPO_STREAM_URL))
+        _hubs[loop] = Hub(make_stream(settings.VIPO_STREAM_URL), make_hold_offs(settings.VIPO_STREAM_URL))
     return _hubs[loop]
 
 

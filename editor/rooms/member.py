@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -17,6 +18,9 @@ AWARENESS_PER_S, BURST_AWARENESS = 90.0, 3000.0
 """Clients also repeat whatever others show, 30 times a second, and after a pause all that waited for them."""
 PARTS_PER_S, BURST_PARTS = 20_000.0, 500_000.0
 """Of changes, values and deletions: each is read and kept in about ten microseconds, on the event loop."""
+WORK_PER_S, BURST_WORK_S = 0.1, 0.5
+"""So long in each second the event loop works for one person, and so long at once; then their messages wait."""
+MOST_WAITING_BYTES = 24 * MIB
 HELD_OFF_S, MOST_HELD_OFF_S, FORGIVEN_AFTER_S = 10.0, 300.0, 900.0
 MOST_UNREAD_BYTES = 24 * MIB
 """Of what it asked for itself."""
@@ -38,6 +42,16 @@ class Close(Exception):
         super().__init__(reason)
         self.code = code
         self.reason = reason
+
+
+POINTS = {Close.ABUSE: 300, Close.MALFORMED: 1, Close.TOO_LARGE: 1}
+"""What a close for what somebody sent counts: for abuse as much as for coming back 300 times with another fault."""
+
+
+def held_off_for_s(points: int) -> float:
+    """Return for how long nobody is let in who was closed for so many points in a row."""
+    times = points // POINTS[Close.ABUSE]
+    return min(HELD_OFF_S * (1 << min(times - 1, 10)), MOST_HELD_OFF_S) if times else 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,10 +93,14 @@ class Budget:
     def spend(self, amount: float, now_s: float) -> bool:
         """Take from the bucket; tell whether there was enough."""
         if self.at is not None:
-            self.left = min(self.burst, self.left + (now_s - self.at) * self.per_s)
-        self.at = now_s
+            self.left = min(self.burst, self.left + max(0.0, now_s - self.at) * self.per_s)
+        self.at = now_s if self.at is None else max(now_s, self.at)
         self.left -= amount
         return self.left >= 0
+
+    def wait_s(self, now_s: float) -> float:
+        """Return for how long nothing will be in the bucket."""
+        return 0.0 if self.at is None else max(0.0, -self.left / self.per_s - max(0.0, now_s - self.at))
 
     def is_full(self, now_s: float) -> bool:
         """Tell whether nothing is missing in the bucket."""
@@ -94,31 +112,51 @@ class Allowance:
 
     def __init__(self) -> None:
         self._parts = Budget(PARTS_PER_S, BURST_PARTS)
+        self._work = Budget(WORK_PER_S, BURST_WORK_S)
+        self._waiting_bytes = 0
         self.connections = 0
         """How many are open."""
-        self._abuses = 0
-        self._abused_at = 0.0
+        self.cutting = asyncio.Lock()
+        """Held while an update of the person is cut: of each person one at a time."""
+        self._points = 0
+        self._closed_at = 0.0
 
     def spend_parts(self, parts: int, now_s: float) -> None:
         """Count of how many parts the updates are that are read. Raises Close."""
         if not self._parts.spend(parts, now_s):
             raise Close(Close.ABUSE, "You send more changes than a program has. Close other copies of the page.")
 
-    def note_abuse(self, now_s: float) -> None:
-        """Take in that a connection was closed for abuse."""
-        self._abuses = self._abuses + 1 if now_s - self._abused_at < FORGIVEN_AFTER_S else 1
-        self._abused_at = now_s
+    def spend_work(self, work_s: float, now_s: float) -> None:
+        """Count for how long this process has been at work for the person."""
+        self._work.spend(work_s, now_s)
+
+    def rest_s(self, now_s: float) -> float:
+        """Return for how long nothing more is done for the person, so that others have their turns."""
+        return self._work.wait_s(now_s)
+
+    def let_wait(self, size: int) -> None:
+        """Take in that a message of so many bytes waits; with a negative size, no more. Raises Close."""
+        if size > 0 and self._waiting_bytes + size > MOST_WAITING_BYTES:
+            raise Close(Close.ABUSE, "You send faster than it can be read. Close other copies of the page.")
+        self._waiting_bytes += size
+
+    def note_close(self, code: int, now_s: float) -> int:
+        """Take in that a connection was closed for what it had sent; return of how many points that is."""
+        points = POINTS.get(code, 0)
+        if points:
+            self._points = self._points + points if now_s - self._closed_at < FORGIVEN_AFTER_S else points
+            self._closed_at = now_s
+        return points
 
     def held_off_s(self, now_s: float) -> float:
         """Return for how long no new connection is let in: the longer, the more often in a row."""
-        if not self._abuses:
-            return 0.0
-        return max(0.0, self._abused_at + min(HELD_OFF_S * (1 << min(self._abuses - 1, 10)), MOST_HELD_OFF_S) - now_s)
+        return max(0.0, self._closed_at + held_off_for_s(self._points) - now_s)
 
     def is_like_new(self, now_s: float) -> bool:
         """Tell whether there is nothing to remember of the person."""
-        is_forgiven = not self._abuses or now_s - self._abused_at >= FORGIVEN_AFTER_S
-        return not self.connections and is_forgiven and self._parts.is_full(now_s)
+        is_forgiven = not self._points or now_s - self._closed_at >= FORGIVEN_AFTER_S
+        is_rested = self._parts.is_full(now_s) and self._work.is_full(now_s)
+        return not self.connections and is_forgiven and is_rested
 
 
 class Member:

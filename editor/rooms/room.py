@@ -6,30 +6,19 @@ from collections import deque
 from collections.abc import Callable, Iterable
 
 from editor.documents import yjs_encoding
-from editor.documents.knowledge import Knowledge
-from editor.documents.shared_document import EMPTY_UPDATE, ROOTS, BadUpdate, SharedDocument, UpdateHole, read_update
-from editor.documents.store import Change
-from editor.documents.yjs_updates import MOST_CLIENTS, MOST_CLIENTS_OF_ALL, check_update
+from editor.documents.shared_document import SharedDocument, UpdateHole, read_update
 from editor.rooms import yjs_protocol
 from editor.rooms.awareness import AwarenessBoard
 from editor.rooms.compiled_form import CompiledForm
-from editor.rooms.form_frames import post_form, spread_form
-from editor.rooms.ledger import Ledger, decode_change, decode_stored, encode_change, encode_stored
-from editor.rooms.member import MIB, Close, Member
-from editor.rooms.refusals import INTERRUPTED, TOO_LARGE, TOO_MANY_PAGES
-from editor.rooms.spreading import Spreading
+from editor.rooms.ledger import Ledger, decode_change, decode_stored, encode_stored
+from editor.rooms.member import Close, Member
+from editor.rooms.receiving import Receiver
+from editor.rooms.spreading import Spreading, spread_form
 from editor.rooms.stream import Entry, Note
 
 MOST_READERS, MOST_WRITERS = 300, 50
 """Apart, so that whoever may only look never keeps out who may draw."""
 MOST_OF_PERSON = 10
-MOST_DOCUMENT_BYTES = 8 * MIB
-MOST_STEPS = 5000
-COST_OF_A_HOLE = 50
-"""A message that builds on what is not known may cost building the document anew."""
-MOST_CLIENTS_EVER = 20_000
-"""Who have ever changed a document: each page that was opened and drawn in is one."""
-_ROOTS = frozenset(root.encode() for root in ROOTS)
 
 
 class Room:
@@ -53,9 +42,9 @@ class Room:
         self.form = CompiledForm()
         self.must_keep = False
         """Whether somebody waits until everything is in the database."""
-        self._spreading = Spreading(self.members, lambda: self.document.state())
-        self._bytes = len(document.encode())
+        self.spreading = Spreading(self.members, lambda: self.document.state())
         self.wake: Callable[[], None] = _nobody
+        self.receiver = Receiver(self)
 
     def join(self, member: Member) -> None:
         """Let a connection in: it is asked for what it has, and shown who is here. Raises Close."""
@@ -78,155 +67,14 @@ class Room:
             self.board.drop(member)
             self.wake()
 
-    def receive(self, member: Member, frame: bytes, now_s: float) -> None:
-        """Act on a client's frame, which is counted first. Raises Close."""
-        member.spend_bytes(len(frame), now_s)
-        if frame[:1] == bytes((yjs_protocol.AWARENESS,)):
-            member.spend_awareness(now_s)
-        else:
-            member.spend_frame(now_s)
-        try:
-            message = yjs_protocol.decode_frame(frame)
-        except yjs_encoding.FrameTooLarge as error:
-            raise Close(Close.TOO_LARGE, str(error)) from error
-        except yjs_encoding.BadFrame as error:
-            raise Close(Close.MALFORMED, str(error)) from error
-        if isinstance(message, yjs_protocol.Awareness):
-            self._receive_awareness(member, message, now_s)
-            return
-        if isinstance(message, yjs_protocol.QueryCompiled):
-            self._show_form(member, message.revision, now_s)
-            return
-        if isinstance(message, yjs_protocol.QuerySaved):
-            member.shows_saved = True
-            member.post(yjs_protocol.encode_saved(member.saved, member.refused))
-            return
-        try:
-            self._receive_sync(member, message, now_s)
-        except (BadUpdate, yjs_encoding.BadFrame) as error:
-            raise Close(Close.MALFORMED, f"The change is not one of a Yjs document: {error}") from error
-
-    def _show_form(self, member: Member, revision: int, now_s: float) -> None:
-        """Show the compiled form from now on: what is asked for again and again is counted as if it had been sent."""
-        member.shown = revision
-        if self.form.now is None:
-            self.touched = True
-            self.wake()
-        elif self.form.now["revision"] != revision:
-            member.spend_bytes(post_form(self.form, member, self._spreading), now_s)
-
-    def _receive_awareness(self, member: Member, message: yjs_protocol.Awareness, now_s: float) -> None:
-        if not message.entries or self.board.speaks_for_itself(member, message.entries):
-            member.spend_frame(now_s)
-            self.board.take(member, message.entries)
-            self.wake()
-
-    def _receive_sync(self, member: Member, message: yjs_protocol.Message, now_s: float) -> None:
-        match message:
-            case yjs_protocol.SyncStep1(state=state):
-                member.post(yjs_protocol.encode_step_2(self.document.encode(state)))
-            case yjs_protocol.SyncStep2(update=update):
-                self._receive_step_2(member, update, now_s)
-            case yjs_protocol.Update(update=update):
-                self._receive_update(member, update, now_s)
-            case yjs_protocol.QueryAwareness():
-                member.post(yjs_protocol.encode_awareness(self.board.everybody()))
-        if member.probe_is_due:
-            member.ask_for_state(self.document.state())
-
-    def _receive_update(self, member: Member, update: bytes, now_s: float) -> None:
-        member.frames += 1
-        if not member.can_write:
-            self._refuse(member, update, MOST_CLIENTS, now_s)
-        elif member.synced:
-            self._change(member, [update], MOST_CLIENTS, now_s)
-        else:
-            self._check(member, update, MOST_CLIENTS, now_s)
-            member.hold(update)
-
-    def _receive_step_2(self, member: Member, update: bytes, now_s: float) -> None:
-        member.frames += 1
-        member.note_answer()
-        if member.has_caught_up:
-            self._catch_up(member)
-        member.synced = True
-        held = member.take_held()
-        if member.can_write:
-            self._change(member, [update], MOST_CLIENTS_OF_ALL, now_s)
-            self._change(member, held, MOST_CLIENTS, now_s)
-        else:
-            self._refuse(member, update, MOST_CLIENTS_OF_ALL, now_s)
-
-    def _catch_up(self, member: Member) -> None:
-        """Tell a connection that was behind what it was not told meanwhile."""
-        state, member.behind = member.behind, None
-        self._spreading.tell(member, yjs_protocol.encode_update(self.document.encode(state)))
-        self._spreading.tell(member, yjs_protocol.encode_awareness(self.board.everybody()))
-        if member.shown is not None and self.form.now is not None and self.form.now["revision"] != member.shown:
-            post_form(self.form, member, self._spreading)
-
-    def _check(self, member: Member, update: bytes, most_clients: int, now_s: float) -> Knowledge:
-        """Read an update before the document does, at the cost of who sent it. Raises BadFrame, Close."""
-        return check_update(update, _ROOTS, most_clients, lambda parts: member.allowance.spend_parts(parts, now_s))
-
-    def _refuse(self, member: Member, update: bytes, most_clients: int, now_s: float) -> None:
-        """Take no change of who may only look; say so, if it would have changed something."""
-        if update != EMPTY_UPDATE and not self.document.knowledge().covers(
-            self._check(member, update, most_clients, now_s)
-        ):
-            member.refused += 1
-            if member.shows_saved:
-                member.post(yjs_protocol.encode_saved(member.saved, member.refused))
-
-    def _change(self, member: Member, updates: list[bytes], most_clients: int, now_s: float) -> None:
-        """Apply a client's changes, all or, from the first one that leaves a hole, none until it has said all."""
-        for number, update in enumerate(updates):
-            if update == EMPTY_UPDATE:
-                continue
-            if not member.is_sure():
-                raise Close(Close.COME_AGAIN, INTERRUPTED)
-            said = self._check(member, update, most_clients, now_s)
-            self._check_size(update, said)
-            try:
-                self._apply(member, update, said, now_s)
-            except UpdateHole:
-                for later in updates[number:]:
-                    member.hold(later)
-                member.spend_frame(now_s, COST_OF_A_HOLE)
-                member.synced = False
-                member.ask_for_state(self.document.state())
-                return
-        member.unsaved.append((member.frames, self.ledger.place))
-        self._tell_saved([member])
-
-    def _apply(self, member: Member, update: bytes, said: Knowledge, now_s: float) -> None:
-        steps = self.document.step_count()
-        for change in self.document.apply_whole(update, said):
-            waiting = self.ledger.add(Change(member.person.id, change), now_s)
-            self.to_publish.append(encode_change(waiting.number, waiting.change))
-            self._spread(change, member)
-            self.touched = True
-        if steps < self.document.step_count() > MOST_STEPS:
-            raise Close(Close.TOO_LARGE, TOO_LARGE)
-
-    def _check_size(self, update: bytes, said: Knowledge) -> None:
-        clocks = self.document.clocks()
-        if len(clocks) >= MOST_CLIENTS_EVER and not said.clocks.keys() <= clocks.keys():
-            raise Close(Close.TOO_LARGE, TOO_MANY_PAGES)
-        self._bytes += len(update)
-        if self._bytes > MOST_DOCUMENT_BYTES:
-            self._bytes = len(self.document.encode()) + len(update)
-        if self._bytes > MOST_DOCUMENT_BYTES:
-            self._bytes -= len(update)
-            raise Close(Close.TOO_LARGE, TOO_LARGE)
-
-    def _spread(self, change: bytes, sender: Member | None = None) -> None:
-        self._spreading.add(change, sender)
+    def spread_later(self, change: bytes, sender: Member | None = None) -> None:
+        """Take in a change that is to be sent to all but its sender."""
+        self.spreading.add(change, sender)
         self.wake()
 
     def spread(self) -> None:
         """Send what has changed since the last call."""
-        self._spreading.send()
+        self.spreading.send()
 
     def hear(self, entry: Entry, now_s: float = 0.0) -> None:
         """Take what a process has to say; of this one's own, only what holds for all from its entry on."""
@@ -260,7 +108,7 @@ class Room:
             self._miss(now_s)
         self.ledger.hear(entry.id, entry.origin, number, change, now_s)
         for each in changes:
-            self._spread(each)
+            self.spread_later(each)
 
     def _miss(self, now_s: float) -> None:
         """Ask for what is missing, and look for it in the rows: the stream was emptied."""
@@ -273,7 +121,7 @@ class Room:
         if entry.note.kind == "full":
             self._rebuild([entry.note.data])
         for change in changes:
-            self._spread(change)
+            self.spread_later(change)
         if changes:
             self.ledger.doubt(entry.id, now_s)
 
@@ -281,7 +129,7 @@ class Room:
         """Take in a check; check here when one's own edits are not in it, or one's own check did not hold."""
         holds = self.form.hear(entry)
         if holds:
-            spread_form(self.form, self.members, self._spreading)
+            spread_form(self.form, self.members, self.spreading)
         is_wanted = entry.origin == self.origin or any(member.shown is not None for member in self.members)
         if self.origin in self.form.not_shown() or (not holds and is_wanted):
             self.touched = True
@@ -337,7 +185,7 @@ class Room:
         self.form.forget()
         self._rebuild(updates)
         for update in updates:
-            self._spread(update)
+            self.spread_later(update)
         self.ledger.doubt("", now_s)
 
     def note_stored(self, numbers: dict[str, int], rows: range) -> None:
@@ -345,7 +193,7 @@ class Room:
         self.ledger.know_rows(rows)
         for origin, number in numbers.items():
             self.ledger.note_stored(origin, number)
-        self._tell_saved(self.members)
+        self.tell_saved(self.members)
 
     def say_stored(self, numbers: dict[str, int], rows: range) -> None:
         """Take in what this process has stored in these rows, and tell the others and the connections."""
@@ -356,9 +204,9 @@ class Room:
     def settle(self, doubts: int) -> None:
         """Take in that what was in doubt is in the database; tell the connections."""
         self.ledger.settle(doubts)
-        self._tell_saved(self.members)
+        self.tell_saved(self.members)
 
-    def _tell_saved(self, members: Iterable[Member]) -> None:
+    def tell_saved(self, members: Iterable[Member]) -> None:
         """Tell connections how many of their frames are in the database."""
         stored = self.ledger.stored_place
         for member in members:
@@ -377,7 +225,7 @@ class Room:
                 entries = [e for e in (*here, *elsewhere) if e.client not in member.clients]
                 if entries:
                     frame = yjs_protocol.encode_awareness(entries)
-                    self._spreading.tell(member, frame)
+                    self.spreading.tell(member, frame)
                     sent += len(frame)
         return sent
 

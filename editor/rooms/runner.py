@@ -14,8 +14,7 @@ from django.db import DatabaseError
 from django.utils import timezone
 
 from editor.compiling.compilers import Compilers
-from editor.compiling.workbench import Opened, Opening
-from editor.documents.shared_document import BadUpdate, SharedDocument
+from editor.documents.shared_document import BadUpdate
 from editor.documents.store import (
     COMPACT_AFTER_ROWS,
     Change,
@@ -26,10 +25,11 @@ from editor.documents.store import (
     last_row,
     load_document,
 )
+from editor.documents.tasks import Comparing, Differences, Folded, Folding
 from editor.documents.yjs_encoding import BadFrame
 from editor.errors import DocumentHole, NoSuchProgram
 from editor.rooms.checks import Checks
-from editor.rooms.ledger import last_numbers, updates_of
+from editor.rooms.ledger import last_numbers
 from editor.rooms.member import Close
 from editor.rooms.refusals import INTERRUPTED
 from editor.rooms.room import Room
@@ -49,8 +49,9 @@ COMPARE_EVERY_S = 30.0
 BEAT_EVERY_S = 10.0
 SILENT_AFTER_S = 75.0
 RETRY_AFTER_S = 1.0
-HEARD_AT_ONCE = 200
 LARGE_BYTES = 50_000
+PAUSE_EVERY_S = 0.005
+HASHED_AT_ONCE = 200
 
 
 _EVENTS = ("spread", "save", "keep", "publish", "awareness")
@@ -76,6 +77,7 @@ class OpenRoom:
         self._after = after
         self._compacted = stored.compacted
         self._compared_place = 0
+        self._paused_at = 0.0
         self._on_end = on_end
         self._lost_at: float | None = None
         self._ended = False
@@ -204,13 +206,22 @@ class OpenRoom:
                 if batch.gap:
                     await self._reload()
                 for entry in batch.entries:
+                    if entry.note.kind == "state" and entry.origin != self.room.origin:
+                        await self._hash()
                     self._after = entry.id
                     self._hear(entry)
+                    await self._pause()
             except StreamLost as error:
                 self._note_lost(error, "publish")
                 await asyncio.sleep(RETRY_AFTER_S / 4)
             except (BadUpdate, BadFrame, DatabaseError, DocumentHole, NoSuchProgram) as error:
                 self._end(error)
+
+    async def _pause(self) -> None:
+        """Let others have their turn after a while of hearing."""
+        if time.monotonic() - self._paused_at > PAUSE_EVERY_S:
+            await asyncio.sleep(0)
+            self._paused_at = time.monotonic()
 
     def _hear(self, entry: Entry) -> None:
         if entry.origin != self.room.origin:
@@ -269,9 +280,15 @@ class OpenRoom:
             is_due = time.monotonic() - told_at >= COMPARE_EVERY_S
             if is_due:
                 told_at = time.monotonic()
+                await self._hash()
                 self.room.say_state()
             if self.room.ledger.doubts or (is_due and self.room.ledger.place != self._compared_place):
                 await self._compare_with_database()
+
+    async def _hash(self) -> None:
+        """Work out what the document's digest needs, a little at a time."""
+        while self.room.document.hash_some(HASHED_AT_ONCE):  # noqa: ASYNC110 - it is this that does it
+            await asyncio.sleep(0.002)
 
     async def _look_for_rows(self) -> None:
         """Now and then see whether there are rows of which nobody has told."""
@@ -292,10 +309,11 @@ class OpenRoom:
             await asyncio.sleep(SAVE_EVERY_S)
         try:
             stored = await in_database(load_document)(room.program)
-            lacking_there, lacking_here = await asyncio.to_thread(_differences, here, stored)
-            if lacking_there:
+            found = await self._differences(Comparing(here, stored.updates, stored.appended))
+            if found.lacking_there:
                 log.warning("The database lacked a part of program %s, which the room has added.", room.program)
-                rows = await in_database(append_changes)(room.program, [Change(None, lacking_there)], timezone.now())
+                added = [Change(None, found.lacking_there)]
+                rows = await in_database(append_changes)(room.program, added, timezone.now())
                 room.say_stored({}, rows)
         except (DatabaseError, BadUpdate) as error:
             self._try_later(error)
@@ -303,89 +321,29 @@ class OpenRoom:
         except (DocumentHole, NoSuchProgram) as error:
             self._end(error)
             return
-        if lacking_here:
-            room.take_over([lacking_here], time.monotonic())
+        if found.has_hole:
+            self._end(DocumentHole(f"A part of program {room.program} is missing in the database."))
+            return
+        if found.lacking_here:
+            room.take_over([found.lacking_here], time.monotonic())
         room.ledger.know_rows(range(room.ledger.rows_to + 1, stored.seq + 1))
         room.settle(doubts)
         self._compared_place = place
 
+    async def _differences(self, comparing: Comparing) -> Differences:
+        """Compare in a child process if it is much, or if there is none on a thread. Raises BadUpdate."""
+        if len(comparing.here) > LARGE_BYTES and (found := await self._compilers.do(comparing)) is not None:
+            return found
+        return await asyncio.to_thread(comparing.done)
+
     async def _compact(self) -> None:
+        loop = asyncio.get_running_loop()
+
+        def fold(folding: Folding) -> Folded:
+            folded = asyncio.run_coroutine_threadsafe(self._compilers.do(folding), loop).result()
+            return folding.done() if folded is None else folded
+
         try:
-            await in_database(compact_document)(self.room.program)
-        except (DatabaseError, SnapshotDiffers, DocumentHole) as error:
+            await in_database(compact_document)(self.room.program, fold)
+        except (DatabaseError, SnapshotDiffers, DocumentHole, BadUpdate) as error:
             log.warning("Program %s was not compacted: %s", self.room.program, error)
-
-
-async def open_room(program_id: str, origin: str, shared: Shared, on_end: Callable[[OpenRoom], None]) -> OpenRoom:
-    """Load a program's document: the snapshot, the rows after it, what the stream has beyond them; in today's format.
-
-    `origin` names this process and this opening. Raises NoSuchProgram, StreamLost, BadUpdate, DocumentHole.
-    """
-    stored = await in_database(load_document)(program_id)
-    shared.compilers.prepare(program_id)
-    tail, after = await _read_tail(shared.stream, program_id, stored.stored_to)
-    document, tail, is_changed = await _open_document(stored, tail, shared.compilers)
-    room = Room(program_id, stored.site, origin, document)
-    room.ledger.know_rows(range(1, stored.seq + 1))
-    for at in range(0, len(tail), HEARD_AT_ONCE):
-        room.ledger.hear_all(tail[at : at + HEARD_AT_ONCE], time.monotonic())
-        await asyncio.sleep(0)  # others are served meanwhile
-    if is_changed:
-        room.ledger.doubt("", time.monotonic())
-    room.ledger.stored_to = room.ledger.stored_to or stored.stored_to
-    opened = OpenRoom(room, shared, after, stored, on_end)
-    opened.start()
-    return opened
-
-
-async def _read_tail(stream: RoomStream, program_id: str, stored_to: str) -> tuple[list[Entry], str]:
-    """Return what the stream has that may not be in the rows, and after which entry it is to be read."""
-    tail: list[Entry] = []
-    after = await stream.known(program_id, stored_to)
-    while entries := (await stream.read(program_id, after, 0.001)).entries:
-        tail += entries
-        after = entries[-1].id
-    return tail, after
-
-
-async def _open_document(
-    stored: Stored, tail: list[Entry], compilers: Compilers
-) -> tuple[SharedDocument, list[Entry], bool]:
-    """Return the document, the entries that are in it, and whether it is another than these and the rows say.
-
-    A large one is put together in a process beside, if there is one: that computes for a second and holds pycrdt's
-    lock, which stops the event loop also from a thread. Raises DocumentHole, BadUpdate, BadFrame.
-    """
-    updates = await asyncio.to_thread(updates_of, tail)
-    if sum(map(len, (*stored.updates, *updates))) > LARGE_BYTES:
-        opened = await compilers.open(Opening((*stored.updates, *updates), (*stored.appended, *updates)))
-        if opened is not None and not opened.has_hole:
-            return await asyncio.to_thread(_prepared, opened), tail, opened.migrated
-    return await asyncio.to_thread(_open_here, stored, tail)
-
-
-def _prepared(opened: Opened) -> SharedDocument:
-    document = SharedDocument([opened.update])
-    document.know_hashes(opened.hashes)
-    return document
-
-
-def _open_here(stored: Stored, tail: list[Entry]) -> tuple[SharedDocument, list[Entry], bool]:
-    """Put it together on a thread. What is left of a stream that was emptied may be of no use: others tell the rest."""
-    try:
-        document, is_changed = stored.open(updates_of(tail)), False
-    except DocumentHole:
-        document, tail, is_changed = stored.open(), [], True
-    is_changed |= document.migrate()
-    document.digest()  # so that the steps' hashes are there when the room tells the others, on the event loop
-    return document, tail, is_changed
-
-
-def _differences(here: bytes, stored: Stored) -> tuple[bytes, bytes]:
-    """Return what the database lacks of a document, and the document of the database; either may be empty."""
-    kept, document = stored.open(), SharedDocument([here])
-    known_there, known_here = kept.knowledge(), document.knowledge()
-    return (
-        b"" if known_there.covers(known_here) else document.encode(kept.state()),
-        b"" if known_here.covers(known_there) else kept.encode(document.state()),
-    )

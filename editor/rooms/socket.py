@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import time
 from contextlib import suppress
 from typing import Any
 
@@ -13,6 +12,7 @@ from django.db import Error
 from editor.rooms import yjs_protocol
 from editor.rooms.hub import Hub, Permission, find_permission, hub_of_this_loop, review
 from editor.rooms.hub import close_hub as close_hub
+from editor.rooms.inbox import Inbox
 from editor.rooms.member import Close, Member
 from editor.rooms.refusals import INTERRUPTED
 from editor.rooms.room import Room
@@ -27,6 +27,7 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
     member: Member | None = None
     seat: Seat | None = None
     hub: Hub
+    inbox: Inbox
     _sender: asyncio.Task[None] | None = None
 
     async def dispatch(self, message: dict[str, Any]) -> None:
@@ -72,6 +73,7 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
         )
         program = str(self.scope["url_route"]["kwargs"]["program"])
         self.room = await self.hub.enter(program, member)
+        self.inbox = self.hub.inbox(self.room, member)
         self.member = member
         self._review()
         self._sender = asyncio.create_task(self._send_all(member))
@@ -96,12 +98,7 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
         if bytes_data is None:
             self.member.close(Close(Close.MALFORMED, "The protocol has no text messages."))
             return
-        try:
-            self.room.receive(self.member, bytes_data, time.monotonic())
-        except Close as close:
-            if close.code == Close.ABUSE:
-                self.member.allowance.note_abuse(time.monotonic())
-            self.member.close(close)
+        self.inbox.take(bytes_data)
 
     async def _send_all(self, member: Member) -> None:
         """Send what is queued, until the connection is to be closed."""
@@ -121,8 +118,11 @@ class ProgramSocket(AsyncWebsocketConsumer):  # type: ignore[misc]
         await self.close(code=close.code, reason=close.reason)
 
     async def disconnect(self, code: int) -> None:
-        """Leave the room."""
-        self._leave()
+        """Leave the room, once what came before has been acted on."""
+        if self.room is not None and self.inbox.is_busy:
+            self.hub.leave_later(self._leave, self.inbox)
+        else:
+            self._leave()
         if self._sender is not None:
             self._sender.cancel()
             with suppress(asyncio.CancelledError):

@@ -7,10 +7,11 @@ difference to the document as it was then, follows in one piece.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from editor.documents.shared_document import merge
 from editor.rooms import yjs_protocol
+from editor.rooms.compiled_form import CompiledForm
 from editor.rooms.member import Member
 
 
@@ -49,3 +50,28 @@ class Spreading:
             member.ask_for_state(member.behind)
         elif member.probe_is_due:
             member.ask_for_state(self._state())
+
+
+def post_form(form: CompiledForm, member: Member, out: Spreading) -> int:
+    """Send a connection all of the form; return how many bytes that is."""
+    frame = yjs_protocol.encode_compiled(form.now)
+    _post(form, member, frame, out)
+    return len(frame)
+
+
+def spread_form(form: CompiledForm, members: Iterable[Member], out: Spreading) -> None:
+    """Send who looks at the form what is another in it, or all of it to who had another one before."""
+    change, whole = form.change or {}, b""
+    frame = yjs_protocol.encode_compiled(change) if "base" in change else b""
+    for member in members:
+        if member.shown is not None and member.shown == change.get("base"):
+            _post(form, member, frame, out)
+        elif member.shown is not None:
+            whole = whole or yjs_protocol.encode_compiled(form.now)
+            _post(form, member, whole, out)
+
+
+def _post(form: CompiledForm, member: Member, frame: bytes, out: Spreading) -> None:
+    if form.now is not None and member.behind is None:
+        member.shown = form.now["revision"]
+        out.tell(member, frame)

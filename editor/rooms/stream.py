@@ -26,6 +26,8 @@ FORMAT = 2
 """Of the notes. Processes of another version are not heard; what they save is found in the rows."""
 KEPT_ENTRIES = 10_000
 KEPT_SECONDS = 3600
+KEPT_BYTES = 8 * 1024 * 1024
+"""Of one room within one process: whoever reads there is never further behind, and the rows have the rest."""
 _READ_AT_ONCE = 500
 
 
@@ -82,13 +84,15 @@ class _Kept:
     grown: asyncio.Event
     last: tuple[int, int] = (0, 0)
     dropped: tuple[int, int] = (0, 0)
+    bytes: int = 0
 
 
 class MemoryStream:
     """Within one process and one event loop; a room of which nothing was said for an hour is forgotten, as in Redis."""
 
-    def __init__(self, kept: int = KEPT_ENTRIES, kept_s: float = KEPT_SECONDS) -> None:
+    def __init__(self, kept: int = KEPT_ENTRIES, kept_s: float = KEPT_SECONDS, kept_bytes: int = KEPT_BYTES) -> None:
         self._most = kept
+        self._most_bytes = kept_bytes
         self._kept_ms = int(kept_s * 1000)
         self._rooms: dict[str, _Kept] = {}
 
@@ -100,8 +104,11 @@ class MemoryStream:
             milliseconds, number = kept.last
             kept.last = (now_ms, 0) if now_ms > milliseconds else (milliseconds, number + 1)
             kept.entries.append(Entry("{}-{}".format(*kept.last), origin, note))
-        while len(kept.entries) > self._most:
-            kept.dropped = _order(kept.entries.popleft().id)
+            kept.bytes += len(note.data)
+        while len(kept.entries) > self._most or (kept.bytes > self._most_bytes and len(kept.entries) > len(notes)):
+            gone = kept.entries.popleft()
+            kept.bytes -= len(gone.note.data)
+            kept.dropped = _order(gone.id)
         kept.grown.set()
         kept.grown = asyncio.Event()
         for name in [name for name, each in self._rooms.items() if each.last[0] < now_ms - self._kept_ms]:

@@ -27,7 +27,9 @@ SYNC, AWARENESS, REFUSAL, QUERY_AWARENESS, SAVED, COMPILED = 0, 1, 2, 3, 100, 10
 STEP_1, STEP_2, UPDATE = 0, 1, 2
 
 MOST_FRAME_BYTES = 10 * 1024 * 1024
-MOST_STATE_VECTOR_BYTES = 512 * 1024
+MOST_STATE_VECTOR_BYTES, MOST_STATE_VECTOR_CLIENTS = 512 * 1024, 25_000
+"""A document has 20,000 at most; somebody may have some more who were never told."""
+MOST_AWARENESS_FRAME_BYTES = 2 * 1024 * 1024
 MOST_AWARENESS_BYTES = 4096
 MOST_AWARENESS_CLIENTS = 64
 
@@ -98,7 +100,7 @@ def decode_frame(data: bytes) -> Message:
     if kind == SYNC:
         message = _decode_sync(reader)
     elif kind == AWARENESS:
-        message = decode_awareness(reader.sized(MOST_FRAME_BYTES))
+        message = decode_awareness(reader.sized(MOST_AWARENESS_FRAME_BYTES))
     elif kind == QUERY_AWARENESS:
         message = QueryAwareness()
     elif kind == SAVED:
@@ -115,7 +117,7 @@ def _decode_sync(reader: Reader) -> Message:
     kind = reader.integer()
     if kind == STEP_1:
         state = reader.sized(MOST_STATE_VECTOR_BYTES)
-        decode_state_vector(state)
+        decode_state_vector(state, MOST_STATE_VECTOR_CLIENTS)
         return SyncStep1(state)
     if kind == STEP_2:
         return SyncStep2(reader.sized(MOST_FRAME_BYTES))

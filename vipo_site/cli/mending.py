@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from vipo_site.cli.terminal import CLEAN, FAULTY, complain, set_up, write, write_json, write_table
 
 if TYPE_CHECKING:
-    from editor.services import Mending
+    from editor.services import Change, Mending
 
 WHAT = "Show what is left of a program of which a part is missing in the database, and make that the program."
 COLUMNS = ("left out", "author", "bytes", "stored at")
@@ -37,13 +37,18 @@ def mend(options: argparse.Namespace) -> int:
     folder = options.folder or Path(settings.VIPO_STATE_DIR) / "mended"
     if bool(options.id) == bool(options.restore):
         return complain("Name a program by its id, or a file with --restore.")
+    is_all_read = True
     try:
         if options.restore:
             found = services.restore_rows(file=options.restore, folder=folder)
-        elif options.apply:
-            found = services.mend_program(program_id=options.id, folder=folder)
         else:
-            found = services.show_mending(program_id=options.id)
+            services.show_mending(program_id=options.id)  # so that an id that is none is told of first
+            told = _read_told(options.id)
+            if options.apply:
+                found = services.mend_program(program_id=options.id, folder=folder, told=told or ())
+            else:
+                found = services.show_mending(program_id=options.id, told=told or ())
+            is_all_read = told is not None
     except VipoError as error:
         return complain(error.detail)
     is_whole = not found.left_out or options.apply
@@ -51,12 +56,26 @@ def mend(options: argparse.Namespace) -> int:
         write_json(_to_json(found))
     else:
         _say(found, is_mended=options.apply)
+    if not is_all_read:
+        complain("Redis does not answer, so what was drawn in the last moments and is in no row yet is not in this.")
     return CLEAN if is_whole else FAULTY
+
+
+def _read_told(program: str) -> tuple[Change, ...] | None:
+    """Return what may be in no row yet; None where that cannot be asked."""
+    from editor.rooms.told import StreamLost, read_told
+
+    try:
+        return read_told(program_id=program)
+    except StreamLost:
+        return None
 
 
 def _say(found: Mending, *, is_mended: bool) -> None:
     of_rows = f"{found.rows - len(found.left_out)} of {found.rows} rows fit together"
     write(f"{found.name}: {of_rows}: {found.steps} steps, {found.functions} functions.")
+    if found.told:
+        write(f"{found.told_fitting} of {found.told} changes that are in no row yet fit together with them.")
     if found.left_out:
         rows = [(_name(each.seq, each.is_snapshot), each.author, str(each.size), f"{each.at:%Y-%m-%d %H:%M:%S}")
                 for each in found.left_out]  # fmt: skip
@@ -90,5 +109,7 @@ def _to_json(found: Mending) -> dict[str, object]:
         "functions": found.functions,
         "rows": found.rows,
         "left_out": out,
+        "told": found.told,
+        "told_fitting": found.told_fitting,
         "file": str(found.file) if found.file else None,
     }

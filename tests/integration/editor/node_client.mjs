@@ -82,6 +82,7 @@ const commands = {
     await until("closed", () => clients.get(name).closed);
     return { closed: clients.get(name).closed };
   },
+  closed_for_good: ({ name }) => ({ closed: clients.get(name).closed }),
   show({ name, state }) {
     clients.get(name).provider.awareness.setLocalState(state);
   },

@@ -7,8 +7,9 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
+from redis.asyncio import Redis as RedisClient
 
-from editor.rooms.stream import BEGINNING, Batch, MemoryStream, Note, RedisStream, RoomStream, StreamLost
+from editor.rooms.stream import BEGINNING, FORMAT, Batch, MemoryStream, Note, RedisStream, RoomStream, StreamLost
 from tests.kit.servers import Redis, run_redis
 
 
@@ -83,3 +84,25 @@ async def test_a_redis_that_is_gone_is_said_to_be(tmp_path: Path) -> None:
         with pytest.raises(StreamLost, match="Redis does not answer"):
             await stream.read("room", BEGINNING, 0.1)
         await stream.close()
+
+
+async def test_within_a_process_a_room_keeps_no_more_bytes_than_its_bound_and_says_what_is_missing() -> None:
+    stream = MemoryStream(kept_bytes=1000)
+    await stream.append("room", "a", notes("x" * 600))
+    first = (await stream.read("room", BEGINNING, 0.1)).entries[-1].id
+    for text in ("y", "z"):
+        await stream.append("room", "a", notes(text * 600))
+    batch = await stream.read("room", first, 0.1)
+    assert (texts(batch), batch.gap) == (["z" * 600], True)
+    await stream.append("room", "a", notes("v" * 2000, "w" * 2000))
+    assert texts(await stream.read("room", batch.entries[-1].id, 0.1)) == ["v" * 2000, "w" * 2000]
+
+
+async def test_what_a_process_of_another_version_tells_is_not_heard(shared_redis: Redis) -> None:
+    stream, redis = RedisStream(shared_redis.url), RedisClient.from_url(shared_redis.url)
+    for other in (FORMAT - 1, FORMAT + 1):
+        await redis.xadd(f"vipo:room:{other}:versions", {"o": "other", "k": "update", "d": b"not of this version"})
+    await stream.append("versions", "a", notes("1"))
+    assert texts(await stream.read("versions", BEGINNING, 0.1)) == ["1"]
+    await redis.aclose()
+    await stream.close()

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import asyncio
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import pytest
+from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed
 
+from editor.rooms.hold_off import RedisHoldOffs
 from tests.integration.editor.node_clients import node_clients
 from tests.integration.editor.web_pairs import Pair, running_pair
 from tests.kit.files import ROOT
-from tests.kit.servers import Redis
+from tests.kit.servers import Redis, free_port
 from tests.kit.web import Web, environment
 
 
@@ -167,3 +171,35 @@ def test_what_was_never_told_is_not_pinned_and_that_is_said(pair: Pair) -> None:
         refused = client.post(f"/programs/{program}/stored", json={"seen": seen})
         assert (refused.status_code, refused.json()["code"]) == (409, "not_stored")
         assert client.post(f"/programs/{program}/stored", json={"seen": "%%%"}).status_code == 422
+
+
+async def _close_of(web: Web, frames: int) -> tuple[int | None, bytes]:
+    """Send so many questions; return with what the connection was closed, and the last frame before."""
+    last = b""
+    async with connect(web.socket_url(), additional_headers=web.headers("admin"), max_size=None) as socket:
+        with suppress(ConnectionClosed):
+            for _ in range(frames):
+                await socket.send(b"\x03")
+            async with asyncio.timeout(20):
+                while True:
+                    frame = await socket.recv()
+                    last = frame if isinstance(frame, bytes) else b""
+        return socket.close_code, last
+
+
+@pytest.mark.servers
+async def test_who_was_closed_for_abuse_at_one_process_is_held_off_at_the_other_one_too(pair: Pair) -> None:
+    assert (await _close_of(pair.one, 2000))[0] == 4429
+    for web in (pair.two, pair.one, pair.two):
+        code, said = await _close_of(web, 0)
+        assert (code, b"try again in" in said) == (4429, True)
+    with node_clients(pair.two, pair.two.new_program()) as clients:
+        assert clients.open("ada", "author", pair.two)["closed"] is None
+
+
+@pytest.mark.servers
+async def test_without_redis_each_process_holds_off_by_itself() -> None:
+    nowhere = RedisHoldOffs(f"redis://127.0.0.1:{free_port()}/0")
+    await nowhere.note(1, 3)
+    assert await nowhere.left_s(1) == 0.0
+    await nowhere.close()

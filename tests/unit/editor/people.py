@@ -36,7 +36,7 @@ class Client:
         self.room.join(self.member)
 
     def send(self, frame: bytes, now_s: float = 0.0) -> None:
-        self.room.receive(self.member, frame, now_s)
+        self.room.receiver.receive(self.member, frame, now_s)
 
     def edit(self, step: str, x: float) -> bytes:
         """Change the client's own document; returns the update, which is not sent yet."""

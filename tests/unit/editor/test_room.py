@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import random
+from typing import Any
 
 import pytest
 
+from editor.documents.shared_document import SharedDocument
 from editor.rooms import yjs_protocol
 from editor.rooms.member import FRAMES_PER_S, Close, Member, Person
 from editor.rooms.room import MOST_OF_PERSON, MOST_READERS, MOST_WRITERS
+from editor.rooms.stream import Entry, Note
 from tests.unit.editor.people import Client, nobody, room
 
 
@@ -148,7 +151,9 @@ def test_what_fails_half_way_leaves_no_trace() -> None:
 
 def is_refused(client: Client, update: bytes) -> bool:
     try:
-        client.room.receive(Member(client.person, can_write=True, wake=nobody), yjs_protocol.encode_step_2(update), 0.0)
+        client.room.receiver.receive(
+            Member(client.person, can_write=True, wake=nobody), yjs_protocol.encode_step_2(update), 0.0
+        )
     except Close as close:
         return close.code == Close.MALFORMED
     return False
@@ -173,3 +178,26 @@ def test_a_connection_that_reads_a_lot_stays() -> None:
         keen.send(yjs_protocol.encode_step_1(b"\x00"))
         keen.read()
     assert keen.member.closing is None
+
+
+def test_a_process_of_another_version_has_another_digest_is_sent_the_document_and_changes_nothing() -> None:
+    here = Client(room())
+    here.read()
+    here.send(yjs_protocol.encode_update(here.edit("s1", 1)))
+    here.room.to_publish.clear()
+    before = here.room.document.encode()
+    for number in range(2):
+        here.room.hear(Entry(f"{number}-0", "older", Note("state", b"0" * 64 + here.room.document.state())))
+        note = here.room.to_publish.popleft()
+        assert (note.kind, SharedDocument([note.data]).to_json()) == ("full", here.room.document.to_json())
+        assert not here.room.to_publish
+    here.room.hear(Entry("9-0", "older", Note("full", before)))
+    assert here.room.document.encode() == before
+
+
+def test_a_note_that_only_a_newer_version_knows_is_passed_over() -> None:
+    here = Client(room())
+    here.read()
+    kind: Any = "of tomorrow"
+    here.room.hear(Entry("1-0", "newer", Note(kind, b"x")))
+    assert (list(here.room.to_publish), here.room.ledger.stored_to) == ([], "1-0")

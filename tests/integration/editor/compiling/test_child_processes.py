@@ -19,8 +19,9 @@ from pycrdt import Doc, Map
 
 from editor.compiling.compilers import CheckFailed, Compilers, Limits
 from editor.compiling.feeding import Wanted
-from editor.compiling.workbench import Found, Opening
+from editor.compiling.workbench import Found
 from editor.documents.shared_document import SharedDocument, empty_document
+from editor.documents.tasks import Opening
 from editor.language import compile_document, compiled_to_json
 from editor.language.site.surroundings import Surroundings
 from tests.kit.files import ROOT
@@ -182,19 +183,20 @@ async def test_a_document_is_put_together_beside_and_holds_the_same() -> None:
         pieces.append(program.document.encode(before))
     async with running(lanes=1) as compilers:
         opening = Opening(tuple(pieces), tuple(pieces[1:]))
-        assert await compilers.open(opening) is None  # no process yet: it is not waited for
-        await Edited("other").check(compilers)
-        opened = await compilers.open(opening)
+        opened = await compilers.do(opening)
         assert opened is not None
-        document = SharedDocument([opened.update])
-        document.know_hashes(opened.hashes)
+        document = SharedDocument()
+        for piece in opened.slices:
+            document.apply_slice(piece)
+        assert document.encode() == SharedDocument([opened.update]).encode()
+        document.know(opened.update, opened.hashes)
         assert (opened.has_hole, opened.migrated) == (False, False)
         assert document.digest() == SharedDocument(pieces).digest()
         first, second, third = _three_edits()
-        torn = await compilers.open(Opening((first, third), (third,)))
+        torn = await compilers.do(Opening((first, third), (third,)))
         assert torn is not None
         assert torn.has_hole
-        sound = await compilers.open(Opening((first, third, second), (third,)))
+        sound = await compilers.do(Opening((first, third, second), (third,)))
         assert sound is not None
         assert not sound.has_hole
 

@@ -10,6 +10,7 @@ from typing import Any
 from uuid import uuid4
 
 import pytest
+from asgiref.sync import async_to_sync
 from pycrdt import Doc, Map
 
 from editor import services
@@ -17,8 +18,11 @@ from editor.documents.shared_document import SharedDocument
 from editor.documents.store import Change, append_changes, load_document
 from editor.errors import DocumentHole
 from editor.models import DocumentUpdate, Snapshot
+from editor.rooms.ledger import encode_change
+from editor.rooms.stream import RedisStream
 from registry import services as registry
 from tests.kit.command_line import run_vipo
+from tests.kit.servers import Redis, free_port
 
 pytestmark = pytest.mark.django_db
 NOW = datetime(2026, 11, 23, tzinfo=UTC)
@@ -158,3 +162,72 @@ def test_a_hundred_rows_in_the_wrong_order_all_fit(broken: str, author: Any) -> 
     append_changes(broken, [Change(author.pk if n % 2 else None, part) for n, part in enumerate(reversed(parts))], NOW)
     assert [row.seq for row in services.show_mending(program_id=broken).left_out] == [3]
     assert SharedDocument(parts).has_hole(parts) is False
+
+
+def tell(url: str, program: str, changes: list[Change]) -> None:
+    """Put changes into the program's stream, as a web process does before they are rows."""
+
+    async def append() -> None:
+        stream = RedisStream(url)
+        await stream.append(program, "web", [encode_change(number, each) for number, each in enumerate(changes, 1)])
+        await stream.close()
+
+    async_to_sync(append)()
+
+
+def parts_of(count: int) -> list[bytes]:
+    """Return updates of one client, each of which builds on those before."""
+    document, parts = Doc(client_id=77), []
+    document.observe(lambda event: parts.append(event.update))
+    for number in range(count):
+        document.get("parameters", type=Map)[f"p{number}"] = {"name": f"p{number}", "type": "number"}
+    return parts
+
+
+@pytest.mark.servers
+def test_what_is_told_and_in_no_row_yet_is_shown_and_becomes_a_part_of_the_program(
+    author: Any, shared_redis: Redis, settings: Any, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    registry.create_site(slug="hall", name="Hall")
+    program = str(services.create_program(site="hall", name="Broken", user=author).id)
+    parts = parts_of(6)
+    append_changes(program, [Change(author.pk, parts[0])], NOW)
+    append_changes(program, [Change(author.pk, parts[2])], NOW)
+    settings.VIPO_STREAM_URL = shared_redis.url
+    tell(shared_redis.url, program, [Change(author.pk, parts[number]) for number in (0, 1, 3, 5)])
+    code, out, _ = run_vipo(capsys, "mend-program", program)
+    assert (code, out.splitlines()) == (
+        0,
+        [
+            "Broken: 3 of 3 rows fit together: 0 steps, 0 functions.",
+            "2 of 3 changes that are in no row yet fit together with them.",
+        ],
+    )
+
+
+@pytest.mark.servers
+def test_what_is_told_is_kept_where_a_program_is_mended(
+    broken: str, author: Any, shared_redis: Redis, settings: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    settings.VIPO_STREAM_URL = shared_redis.url
+    tell(shared_redis.url, broken, [Change(author.pk, part) for part in parts_of(2)])
+    code, out, _ = run_vipo(capsys, "mend-program", broken, "--apply", "--folder", str(tmp_path))
+    assert (code, out.splitlines()[:2]) == (
+        0,
+        [
+            "Broken: 2 of 3 rows fit together: 0 steps, 0 functions.",
+            "2 of 2 changes that are in no row yet fit together with them.",
+        ],
+    )
+    assert parameters_of(broken) == ["p0", "p1"]
+    assert Snapshot.objects.get(program=broken).authors["77"] == author.pk
+
+
+@pytest.mark.servers
+def test_without_redis_the_rows_are_shown_and_that_more_may_be_missing(
+    broken: str, settings: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    settings.VIPO_STREAM_URL = f"redis://127.0.0.1:{free_port()}/0"
+    code, out, err = run_vipo(capsys, "mend-program", broken)
+    assert (code, out.splitlines()[0]) == (1, "Broken: 2 of 3 rows fit together: 0 steps, 0 functions.")
+    assert "Redis does not answer" in err

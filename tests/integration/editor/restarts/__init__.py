@@ -1,0 +1,1 @@
+"""Databases that restart while people draw."""
