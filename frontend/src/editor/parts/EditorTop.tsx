@@ -4,7 +4,7 @@ import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { Box, CircleAlert, Play, Redo2, TriangleAlert, Undo2 } from "lucide-react";
 import { useEffect, useState } from "react";
 import { useNavigate } from "react-router-dom";
-import { ApiProblem } from "@/api/client";
+import { api, ApiProblem } from "@/api/client";
 import { useOnce } from "@/api/once";
 import { keys } from "@/api/queries";
 import type { Program, Rehearsal } from "@/api/types";
